@@ -1,0 +1,69 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Read-only float64 arrays with a checked shape, as held by every data class."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from forcetorque.errors import ShapeError
+
+FloatArray = npt.NDArray[np.float64]
+IntArray = npt.NDArray[np.int64]
+BoolArray = npt.NDArray[np.bool_]
+
+
+def read_only(values: Any, *, name: str, shape: tuple[int | None, ...]) -> FloatArray:
+    """Copy values to a float64 array that nobody can change afterwards.
+
+    Args:
+        values: Anything NumPy can turn into numbers.
+        name: Name of the argument, for the message.
+        shape: Expected shape; `None` accepts any length of that axis.
+
+    Returns:
+        A new read-only array of that shape.
+
+    Raises:
+        ShapeError: If the shape differs.
+    """
+    array = np.array(values, dtype=np.float64, order="C")
+    require_shape(array, name=name, shape=shape)
+    array.setflags(write=False)
+    return array
+
+
+def require_shape(array: npt.NDArray[Any], *, name: str, shape: tuple[int | None, ...]) -> None:
+    """Check the shape of an array; `None` accepts any length of that axis.
+
+    Args:
+        array: Array to check.
+        name: Name of the argument, for the message.
+        shape: Expected shape.
+
+    Raises:
+        ShapeError: If the shape differs.
+    """
+    fits = array.ndim == len(shape) and all(
+        expected is None or got == expected for got, expected in zip(array.shape, shape, strict=True)
+    )
+    if not fits:
+        wanted = "(" + ", ".join("n" if k is None else str(k) for k in shape) + ")"
+        raise ShapeError(f"{name}: expected an array of shape {wanted}, got {array.shape}")
+
+
+def require_last_axis(array: npt.NDArray[Any], *, name: str, length: int) -> None:
+    """Check that the components of an array lie along its last axis.
+
+    Args:
+        array: Array to check, any number of leading axes.
+        name: Name of the argument, for the message.
+        length: Expected length of the last axis.
+
+    Raises:
+        ShapeError: If the array is a scalar or its last axis has another length.
+    """
+    if array.ndim == 0 or array.shape[-1] != length:
+        raise ShapeError(f"{name}: expected shape (..., {length}), got {array.shape}")

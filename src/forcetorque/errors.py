@@ -1,0 +1,59 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""One error tree; every message says where, what was expected, what came and what to do."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from difflib import get_close_matches
+
+
+class ForceTorqueError(Exception):
+    """Base of everything this library raises on purpose."""
+
+
+class ShapeError(ForceTorqueError, ValueError):
+    """An array does not have the shape that the argument documents."""
+
+
+class FormatError(ForceTorqueError, ValueError):
+    """A file or a text is not what its format says."""
+
+
+class MissingFileError(ForceTorqueError, FileNotFoundError):
+    """A file or a folder that was named is not there."""
+
+
+class RobotError(ForceTorqueError, ValueError):
+    """A robot model is not a tree of links, or lacks what was asked of it."""
+
+
+class RecordingError(ForceTorqueError, ValueError):
+    """A recording lacks a stream, a column or an instant that is needed."""
+
+
+class ExperimentError(ForceTorqueError, ValueError):
+    """An experiment file contradicts itself or what it points to."""
+
+
+class FitError(ForceTorqueError, ValueError):
+    """Data do not determine what a fit was asked for."""
+
+
+class SerialNumberError(ForceTorqueError, ValueError):
+    """A calibration was offered to a sensor with another serial number."""
+
+
+def known_names(wanted: str, known: Iterable[str]) -> str:
+    """List the names that would have been accepted, the likeliest one first.
+
+    Args:
+        wanted: Name that was not found.
+        known: Names that exist.
+
+    Returns:
+        Text to append to a message: the closest name if there is one, then all of them, sorted.
+    """
+    names = sorted(known)
+    close = get_close_matches(wanted, names, n=1)
+    hint = f'did you mean "{close[0]}"? ' if close else ""
+    return f"{hint}known: {', '.join(names) if names else 'none'}"

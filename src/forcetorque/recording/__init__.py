@@ -1,0 +1,21 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What was measured: streams with their own clocks, intervals, findings; see docs/recording.md."""
+
+from forcetorque.recording.finding import Finding
+from forcetorque.recording.interval import Interval, Support, Use
+from forcetorque.recording.quantity import QUANTITIES, Labels, Quantity
+from forcetorque.recording.recording import Recording
+from forcetorque.recording.stream import Signal, Stream
+
+__all__ = [
+    "QUANTITIES",
+    "Finding",
+    "Interval",
+    "Labels",
+    "Quantity",
+    "Recording",
+    "Signal",
+    "Stream",
+    "Support",
+    "Use",
+]

@@ -1,0 +1,67 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Intervals: spans of a recording with a support frame and a use."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import StrEnum
+
+import numpy as np
+
+from forcetorque.arrays import FloatArray, read_only
+from forcetorque.errors import RecordingError
+
+
+class Use(StrEnum):
+    """What an interval is for."""
+
+    CALIBRATION = "calibration"
+    """Its samples are fitted."""
+    VALIDATION = "validation"
+    """Its samples judge a calibration and are never fitted."""
+    IGNORE = "ignore"
+    """Its samples are neither fitted nor judged, also where another interval covers them."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Support:
+    """A frame that stands still in the world while it is the only unknown contact."""
+
+    frame: str
+    """Link of the robot model."""
+    gravity_direction: FloatArray
+    """Unit vector along which things fall, in the axes of the frame; shape (3,)."""
+
+    def __post_init__(self) -> None:
+        direction = read_only(self.gravity_direction, name="gravity_direction", shape=(3,))
+        norm = float(np.linalg.norm(direction))
+        if not np.isfinite(norm) or norm == 0.0:
+            raise RecordingError(
+                f"support frame {self.frame!r}: expected a gravity_direction other than zero, got {direction.tolist()}"
+            )
+        object.__setattr__(self, "gravity_direction", read_only(direction / norm, name="gravity_direction", shape=(3,)))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Interval:
+    """A span of time, start included and end excluded."""
+
+    label: str
+    """Name of the interval, unique in its recording."""
+    start_ns: int
+    """First instant; ns on the recording's clock."""
+    end_ns: int
+    """First instant after it; ns on the recording's clock."""
+    use: Use
+    """What it is for."""
+    support: Support | None
+    """Support frame; None only where the use is `ignore`."""
+
+    def __post_init__(self) -> None:
+        if not self.start_ns < self.end_ns:
+            raise RecordingError(
+                f"interval {self.label!r}: expected an end after its start, "
+                f"got a length of {(self.end_ns - self.start_ns) * 1e-9:g} s"
+            )
+        if self.support is None and self.use is not Use.IGNORE:
+            raise RecordingError(f"interval {self.label!r}: its use is {self.use}, which needs a support frame")

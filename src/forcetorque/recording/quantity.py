@@ -1,0 +1,104 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The quantities that a stream may hold: their columns, units and meaning.
+
+This table is the single definition; docs/recording.md and `forcetorque schema recording` are made
+from it, readers fill it and everything later uses nothing else.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import StrEnum
+
+from forcetorque.spatial import WRENCH_COMPONENTS, WRENCH_UNITS
+
+
+class Labels(StrEnum):
+    """What names the columns of a quantity."""
+
+    FIXED = "fixed"
+    """The columns always have the same names."""
+    JOINTS = "joints"
+    """One column per joint, named as in the robot model."""
+    CHANNELS = "channels"
+    """One column per channel of the electronics, in the order of the electronics."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Quantity:
+    """One physical quantity of a recording."""
+
+    name: str
+    """Name of the signal in a stream."""
+    labels: Labels
+    """What names its columns."""
+    columns: tuple[str, ...] = ()
+    """Column names where they are fixed."""
+    units: tuple[str, ...] = ()
+    """Allowed units: one per column where the columns are fixed, else the choice that each column has."""
+    has_frame: bool = False
+    """Whether the values are along the axes of a frame, which must then be named."""
+    description: str
+    """Meaning, in one line."""
+
+
+_XYZ = ("x", "y", "z")
+
+QUANTITIES = {
+    quantity.name: quantity
+    for quantity in (
+        Quantity(
+            name="wrench",
+            labels=Labels.FIXED,
+            columns=WRENCH_COMPONENTS,
+            units=WRENCH_UNITS,
+            has_frame=True,
+            description="Reading of a force-torque sensor that was already turned into force, then moment.",
+        ),
+        Quantity(
+            name="raw",
+            labels=Labels.CHANNELS,
+            units=("counts",),
+            description="Reading of a force-torque sensor as its electronics deliver it.",
+        ),
+        Quantity(
+            name="position",
+            labels=Labels.JOINTS,
+            units=("rad", "m"),
+            description="Joint positions: rad for rotary joints, m for prismatic ones.",
+        ),
+        Quantity(
+            name="velocity", labels=Labels.JOINTS, units=("rad/s", "m/s"), description="Joint velocities as logged."
+        ),
+        Quantity(
+            name="acceleration",
+            labels=Labels.JOINTS,
+            units=("rad/s2", "m/s2"),
+            description="Joint accelerations as logged.",
+        ),
+        Quantity(
+            name="temperature",
+            labels=Labels.FIXED,
+            columns=("temperature",),
+            units=("degC",),
+            description="Temperature of a sensor.",
+        ),
+        Quantity(
+            name="proper_acceleration",
+            labels=Labels.FIXED,
+            columns=_XYZ,
+            units=("m/s2",) * 3,
+            has_frame=True,
+            description="Reading of an accelerometer: +9.8 m/s2 upwards at rest.",
+        ),
+        Quantity(
+            name="angular_velocity",
+            labels=Labels.FIXED,
+            columns=_XYZ,
+            units=("rad/s",) * 3,
+            has_frame=True,
+            description="Reading of a gyroscope.",
+        ),
+    )
+}
+"""Every quantity by name."""

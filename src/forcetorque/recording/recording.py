@@ -1,0 +1,111 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Recordings: streams with their own clocks, intervals and findings."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field, replace
+from types import MappingProxyType
+
+from forcetorque.errors import RecordingError, known_names
+from forcetorque.recording.finding import Finding
+from forcetorque.recording.interval import Interval
+from forcetorque.recording.stream import Signal, Stream
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Recording:
+    """Everything that was measured in one session, and which part of it is for what."""
+
+    streams: Mapping[str, Stream]
+    """Streams by name."""
+    intervals: tuple[Interval, ...] = ()
+    """Intervals with their support frame and use."""
+    findings: tuple[Finding, ...] = ()
+    """What is known to be wrong with it."""
+    origin: Mapping[str, str] = field(default_factory=dict)
+    """Where it comes from, as free text by key: format, path, robot."""
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "streams", MappingProxyType(dict(self.streams)))
+        object.__setattr__(self, "origin", MappingProxyType(dict(self.origin)))
+        for key, stream in self.streams.items():
+            if key != stream.name:
+                raise RecordingError(f"the key {key!r} holds the stream {stream.name!r}")
+        labels = [interval.label for interval in self.intervals]
+        for label in labels:
+            if labels.count(label) > 1:
+                raise RecordingError(f"{labels.count(label)} intervals are labelled {label!r}; give each its own label")
+
+    @property
+    def start_ns(self) -> int:
+        """Earliest stamp over all streams: second 0 of every interval.
+
+        Raises:
+            RecordingError: If no stream has a sample.
+        """
+        return self.span_ns[0]
+
+    @property
+    def span_ns(self) -> tuple[int, int]:
+        """Earliest and latest stamp over all streams.
+
+        Raises:
+            RecordingError: If no stream has a sample.
+        """
+        stamps = [stream.stamp_ns for stream in self.streams.values() if len(stream)]
+        if not stamps:
+            raise RecordingError("the recording holds no sample in any stream")
+        return min(int(s.min()) for s in stamps), max(int(s.max()) for s in stamps)
+
+    def stream(self, name: str) -> Stream:
+        """Give one stream.
+
+        Args:
+            name: Name of the stream.
+
+        Returns:
+            The stream.
+
+        Raises:
+            RecordingError: If there is none of that name.
+        """
+        if name not in self.streams:
+            raise RecordingError(f"the recording has no stream {name!r}; {known_names(name, self.streams)}")
+        return self.streams[name]
+
+    def joint_signals(self, quantity: str) -> dict[str, tuple[Stream, Signal]]:
+        """Find the stream and signal that hold each joint.
+
+        Args:
+            quantity: `position`, `velocity` or `acceleration`.
+
+        Returns:
+            Stream and signal by joint name.
+
+        Raises:
+            RecordingError: If two streams hold the same joint.
+        """
+        found: dict[str, tuple[Stream, Signal]] = {}
+        for stream in self.streams.values():
+            signal = stream.signals.get(quantity)
+            if signal is None:
+                continue
+            for joint in signal.columns:
+                if joint in found:
+                    raise RecordingError(
+                        f"joint {joint!r} is in the streams {found[joint][0].name!r} and {stream.name!r}; keep one"
+                    )
+                found[joint] = (stream, signal)
+        return found
+
+    def with_intervals(self, intervals: Iterable[Interval]) -> Recording:
+        """Give the same recording with other intervals.
+
+        Args:
+            intervals: Intervals that replace the present ones.
+
+        Returns:
+            A new recording that shares the streams.
+        """
+        return replace(self, intervals=tuple(intervals))

@@ -1,0 +1,28 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Frames, wrenches, twists, inertias and the one sign rule; see docs/conventions.md."""
+
+from forcetorque.spatial.inertia import Inertia
+from forcetorque.spatial.pose import invert_pose, make_pose, split_pose
+from forcetorque.spatial.rotation import rotation_about_z, rotation_from_rpy, rotation_with_z_along, skew
+from forcetorque.spatial.sign import MeasureDirection, reading_sign
+from forcetorque.spatial.twist import transform_twist, twist_matrix
+from forcetorque.spatial.wrench import WRENCH_COMPONENTS, WRENCH_UNITS, transform_wrench, wrench_matrix
+
+__all__ = [
+    "WRENCH_COMPONENTS",
+    "WRENCH_UNITS",
+    "Inertia",
+    "MeasureDirection",
+    "invert_pose",
+    "make_pose",
+    "reading_sign",
+    "rotation_about_z",
+    "rotation_from_rpy",
+    "rotation_with_z_along",
+    "skew",
+    "split_pose",
+    "transform_twist",
+    "transform_wrench",
+    "twist_matrix",
+    "wrench_matrix",
+]

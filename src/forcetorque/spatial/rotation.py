@@ -1,0 +1,90 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Rotation matrices: SciPy's where it has them, and the few it lacks."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from forcetorque.arrays import FloatArray, require_last_axis
+
+_EXACT_ZERO = 1e-15
+"""Entries below this are rounding of sin(pi), cos(pi/2): 1e-15 rad turns 1 kN by 1e-12 N."""
+
+
+def rotation_from_rpy(rpy: Any) -> FloatArray:
+    """Build rotation matrices from roll, pitch and yaw about the fixed x, y, z axes, as URDF does.
+
+    Args:
+        rpy: Roll, pitch, yaw; shape (..., 3); rad.
+
+    Returns:
+        `parent_R_child`; shape (..., 3, 3).
+
+    Raises:
+        ShapeError: If the last axis of `rpy` is not 3.
+    """
+    angles = np.asarray(rpy, dtype=np.float64)
+    require_last_axis(angles, name="rpy", length=3)
+    flat = Rotation.from_euler("xyz", angles.reshape(-1, 3)).as_matrix()
+    matrix: FloatArray = np.where(np.abs(flat) < _EXACT_ZERO, 0.0, flat).reshape(*angles.shape, 3)
+    return matrix
+
+
+def rotation_about_z(angle: FloatArray) -> FloatArray:
+    """Build rotation matrices about the z axis.
+
+    Args:
+        angle: Angles; shape (...); rad.
+
+    Returns:
+        Rotation matrices; shape (..., 3, 3).
+    """
+    cosine, sine = np.cos(angle), np.sin(angle)
+    matrix = np.zeros((*np.shape(angle), 3, 3))
+    matrix[..., 0, 0] = matrix[..., 1, 1] = cosine
+    matrix[..., 0, 1] = -sine
+    matrix[..., 1, 0] = sine
+    matrix[..., 2, 2] = 1.0
+    return matrix
+
+
+def rotation_with_z_along(axis: Any) -> FloatArray:
+    """Choose a rotation whose third column is the given direction.
+
+    A direction along a coordinate axis gives a signed permutation, so that no rounding enters.
+
+    Args:
+        axis: Direction, need not be of unit length; shape (3,).
+
+    Returns:
+        Rotation matrix `R` with `R @ [0, 0, 1]` along `axis`; shape (3, 3).
+    """
+    z = np.asarray(axis, dtype=np.float64) / np.linalg.norm(axis)
+    x = np.zeros(3)
+    x[(int(np.argmax(np.abs(z))) + 1) % 3] = 1.0
+    x -= z * (z @ x)
+    x /= np.linalg.norm(x)
+    return np.column_stack([x, np.cross(z, x), z])
+
+
+def skew(vector: Any) -> FloatArray:
+    """Build the matrices of the cross product: `skew(a) @ b == cross(a, b)`.
+
+    Args:
+        vector: Vectors; shape (..., 3).
+
+    Returns:
+        Skew-symmetric matrices; shape (..., 3, 3).
+
+    Raises:
+        ShapeError: If the last axis of `vector` is not 3.
+    """
+    a = np.asarray(vector, dtype=np.float64)
+    require_last_axis(a, name="vector", length=3)
+    matrix = np.zeros((*a.shape, 3))
+    matrix[..., 0, 1], matrix[..., 0, 2], matrix[..., 1, 2] = -a[..., 2], a[..., 1], -a[..., 0]
+    matrix[..., 1, 0], matrix[..., 2, 0], matrix[..., 2, 1] = a[..., 2], -a[..., 1], a[..., 0]
+    return matrix
