@@ -1,0 +1,25 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Robots: from URDF to bodies, joints and force-torque sensors, and their dynamics."""
+
+from forcetorque.robot.model import ForceTorqueSensor, Joint, JointType, Mimic, RobotModel, SensorFrame
+from forcetorque.robot.motion import JointMotion, RootMotion
+from forcetorque.robot.newton_euler import expected_wrenches
+from forcetorque.robot.requirements import required_joints
+from forcetorque.robot.tree import BodyTree, build_tree
+from forcetorque.robot.urdf import read_urdf
+
+__all__ = [
+    "BodyTree",
+    "ForceTorqueSensor",
+    "Joint",
+    "JointMotion",
+    "JointType",
+    "Mimic",
+    "RobotModel",
+    "RootMotion",
+    "SensorFrame",
+    "build_tree",
+    "expected_wrenches",
+    "read_urdf",
+    "required_joints",
+]

@@ -1,0 +1,224 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Robot models: a tree of links joined by joints, with force-torque sensors at fixed joints."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from enum import StrEnum
+from types import MappingProxyType
+
+from forcetorque.arrays import FloatArray, read_only
+from forcetorque.errors import RobotError, known_names
+from forcetorque.spatial import Inertia, MeasureDirection
+
+
+class JointType(StrEnum):
+    """Joint types that the dynamics know."""
+
+    FIXED = "fixed"
+    REVOLUTE = "revolute"
+    CONTINUOUS = "continuous"
+    PRISMATIC = "prismatic"
+
+    @property
+    def moves(self) -> bool:
+        """Whether the joint has a coordinate."""
+        return self is not JointType.FIXED
+
+    @property
+    def unit(self) -> str:
+        """Unit of the joint's coordinate: m for a prismatic joint, else rad."""
+        return "m" if self is JointType.PRISMATIC else "rad"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Mimic:
+    """A coordinate that follows another: `multiplier * q_leader + offset`."""
+
+    leader: str
+    """Joint that is followed."""
+    multiplier: float = 1.0
+    """Ratio of the coordinates."""
+    offset: float = 0.0
+    """Coordinate where the leader's is zero; rad or m."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Joint:
+    """A joint; at coordinate zero the child link's frame is at `parent_H_child`."""
+
+    name: str
+    """Name, unique in the robot."""
+    type: JointType
+    """Type of the joint."""
+    parent: str
+    """Parent link."""
+    child: str
+    """Child link."""
+    parent_H_child: FloatArray
+    """Pose of the child link in the parent link at coordinate zero; shape (4, 4); m."""
+    axis: FloatArray
+    """Unit axis in the child link's frame; shape (3,)."""
+    mimic: Mimic | None = None
+    """What the coordinate follows, if it is not free."""
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "parent_H_child", read_only(self.parent_H_child, name="parent_H_child", shape=(4, 4)))
+        object.__setattr__(self, "axis", read_only(self.axis, name="axis", shape=(3,)))
+
+
+class SensorFrame(StrEnum):
+    """Frame in whose axes, and about whose origin, a sensor reads."""
+
+    CHILD = "child"
+    """Frame of the child link. An `<origin>` of the sensor is then ignored."""
+    PARENT = "parent"
+    """Frame of the parent link. An `<origin>` of the sensor is then ignored."""
+    SENSOR = "sensor"
+    """Child link's frame moved by the sensor's `<origin>`."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class ForceTorqueSensor:
+    """A six-axis force-torque sensor at a fixed joint."""
+
+    name: str
+    """Name, unique in the robot."""
+    joint: str
+    """Fixed joint that it sits in."""
+    frame: SensorFrame
+    """Frame of its reading."""
+    direction: MeasureDirection
+    """Who acts on whom in its reading."""
+    child_H_sensor: FloatArray
+    """Pose of the `<origin>` in the child link, used where `frame` is `sensor`; shape (4, 4); m."""
+    aliases: tuple[str, ...] = ()
+    """Other names of the same sensor, such as that of its simulator's tag."""
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "child_H_sensor", read_only(self.child_H_sensor, name="child_H_sensor", shape=(4, 4)))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class RobotModel:
+    """A robot: links in a tree of joints, and its force-torque sensors."""
+
+    name: str
+    """Name of the robot."""
+    links: Mapping[str, Inertia]
+    """Inertia of every link, in and about the link's frame."""
+    joints: Mapping[str, Joint]
+    """Every joint by name."""
+    sensors: Mapping[str, ForceTorqueSensor]
+    """Every force-torque sensor by name."""
+
+    def __post_init__(self) -> None:
+        for field in ("links", "joints", "sensors"):
+            object.__setattr__(self, field, MappingProxyType(dict(getattr(self, field))))
+        _require_tree(self)
+
+    def sensor(self, name: str) -> ForceTorqueSensor:
+        """Find a force-torque sensor by its name or an alias.
+
+        Args:
+            name: Name of the sensor.
+
+        Returns:
+            The sensor.
+
+        Raises:
+            RobotError: If the robot has no such sensor.
+        """
+        for sensor in self.sensors.values():
+            if name == sensor.name or name in sensor.aliases:
+                return sensor
+        raise RobotError(
+            f"robot {self.name!r} has no force-torque sensor {name!r}; {known_names(name, self.sensors)}; "
+            "a sensor without a tag is declared by its fixed joint and measure_direction"
+        )
+
+    def with_sensor(
+        self,
+        name: str,
+        *,
+        joint: str,
+        direction: MeasureDirection,
+        frame: SensorFrame = SensorFrame.CHILD,
+    ) -> RobotModel:
+        """Declare a sensor at a fixed joint that carries no sensor tag.
+
+        Args:
+            name: Name of the new sensor.
+            joint: Fixed joint that it sits in.
+            direction: Who acts on whom in its reading; never guessed.
+            frame: `child` or `parent`: the link in whose frame it reads.
+
+        Returns:
+            The robot with one more sensor.
+
+        Raises:
+            RobotError: If the joint is unknown, moves, or has a sensor already, or the frame needs an origin.
+        """
+        if joint not in self.joints:
+            raise RobotError(f"robot {self.name!r} has no joint {joint!r}; {known_names(joint, self.joints)}")
+        if self.joints[joint].type.moves:
+            raise RobotError(f"sensor {name!r}: expected a fixed joint, {joint!r} is {self.joints[joint].type}")
+        holder = [s.name for s in self.sensors.values() if s.joint == joint]
+        if holder or name in self.sensors:
+            raise RobotError(
+                f"sensor {name!r} at {joint!r}: the robot has the sensor {(holder or [name])[0]!r} already"
+            )
+        if frame is SensorFrame.SENSOR:
+            raise RobotError(f"sensor {name!r}: without a tag there is no origin; the frame must be child or parent")
+        sensor = ForceTorqueSensor(
+            name=name, joint=joint, frame=frame, direction=direction, child_H_sensor=_identity_pose()
+        )
+        return replace(self, sensors={**self.sensors, name: sensor})
+
+
+def _identity_pose() -> FloatArray:
+    return read_only([[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]], name="pose", shape=(4, 4))
+
+
+def _require_tree(model: RobotModel) -> None:
+    """Check that joints join known links to one tree, and that sensors sit at joints.
+
+    A joint that mimics a missing one is refused only where its coordinate is needed: real models
+    carry such fingers.
+
+    Raises:
+        RobotError: If it is not so.
+    """
+    if not model.links:
+        raise RobotError(f"robot {model.name!r}: expected links, got none; expand xacro files first")
+    parent_joint: dict[str, Joint] = {}
+    for joint in model.joints.values():
+        for role, link in (("parent", joint.parent), ("child", joint.child)):
+            if link not in model.links:
+                raise RobotError(
+                    f"joint {joint.name!r}: its {role} link {link!r} is not in the robot; "
+                    f"{known_names(link, model.links)}"
+                )
+        if joint.child in parent_joint:
+            raise RobotError(
+                f"link {joint.child!r} is the child of the joints {parent_joint[joint.child].name!r} and "
+                f"{joint.name!r}; expected a tree without loops"
+            )
+        parent_joint[joint.child] = joint
+    roots = [link for link in model.links if link not in parent_joint]
+    if len(roots) != 1:
+        found = "none: the joints form a loop" if not roots else ", ".join(repr(r) for r in roots)
+        raise RobotError(f"robot {model.name!r}: expected one root link that is no joint's child, found {found}")
+    for link in model.links:
+        seen = [link]
+        while seen[-1] in parent_joint:
+            seen.append(parent_joint[seen[-1]].parent)
+            if len(seen) > len(model.links):
+                raise RobotError(f"robot {model.name!r}: the joints above link {link!r} form a loop; expected a tree")
+    for sensor in model.sensors.values():
+        if sensor.joint not in model.joints:
+            raise RobotError(
+                f"force-torque sensor {sensor.name!r}: its joint {sensor.joint!r} is not in the robot; "
+                f"{known_names(sensor.joint, model.joints)}"
+            )

@@ -1,0 +1,170 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Newton-Euler recursion over all samples at once: the readable reference.
+
+Outwards: angular velocity, angular acceleration and proper acceleration of every body, in its axes
+and at its origin. Net wrench of a body (thesis 2.2 with the corrected inertia): f = m a + ..., the
+wrench that all its neighbours and contacts together must apply. Inwards: `S` of a sensor is the sum
+of the net wrenches outboard of it, the wrench of the inboard on the outboard part. It holds where
+nothing outboard touches the world.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from forcetorque.arrays import FloatArray
+from forcetorque.errors import RobotError, ShapeError, known_names
+from forcetorque.robot.motion import JointMotion, RootMotion
+from forcetorque.robot.requirements import needed_bodies, required_joints
+from forcetorque.robot.tree import Body, BodyTree, Connection
+from forcetorque.spatial import invert_pose, rotation_about_z, transform_wrench
+
+_BLOCK = 4096
+"""Samples per pass: the working arrays of a block stay in the processor's cache."""
+
+
+@dataclass(slots=True)
+class _BodyState:
+    """Motion of one body, then the wrench it passes inwards; all arrays of shape (n, 3)."""
+
+    parent_R_body: FloatArray
+    parent_p_body: FloatArray
+    angular_velocity: FloatArray
+    angular_acceleration: FloatArray
+    proper_acceleration: FloatArray
+
+
+def expected_wrenches(
+    tree: BodyTree, joints: JointMotion, root: RootMotion, sensors: Sequence[str] | None = None
+) -> dict[str, FloatArray]:
+    """Compute what the sensors should read where the only unknown contact is inboard of them.
+
+    Args:
+        tree: Robot rooted at the link whose motion is known.
+        joints: Motion of at least the joints that the sensors need (`required_joints`).
+        root: Motion of the root link's frame; a `RootMotion.fixed` for a support at rest.
+        sensors: Names of the sensors; all of the tree if None.
+
+    Returns:
+        Expected reading of each sensor in its frame and direction; shape (n, 6); N, N m.
+
+    Raises:
+        RobotError: If a sensor is not in the tree, or a joint that it needs is not in `joints`.
+        ShapeError: If `root` has neither one sample nor as many as `joints`.
+    """
+    wanted = tuple(tree.cuts) if sensors is None else tuple(sensors)
+    for name in wanted:
+        missing = [joint for joint in required_joints(tree, name) if joint not in joints.names]
+        if missing:
+            raise RobotError(
+                f"sensor {name!r} seen from {tree.root_link!r} needs the joint(s) {', '.join(missing)}, "
+                f"which the motion lacks; {known_names(missing[0], joints.names)}"
+            )
+    samples = len(joints)
+    base = np.stack(
+        [
+            _broadcast(values, samples)
+            for values in (root.angular_velocity, root.angular_acceleration, root.proper_acceleration)
+        ]
+    )
+    expected = {name: np.empty((samples, 6)) for name in wanted}
+    for start in range(0, samples, _BLOCK):
+        block = slice(start, start + _BLOCK)
+        for name, values in _evaluate_block(tree, joints, base[:, block], wanted, block).items():
+            expected[name][block] = values
+    return expected
+
+
+def _broadcast(values: FloatArray, samples: int) -> FloatArray:
+    if values.ndim == 2 and len(values) != samples:
+        raise ShapeError(f"root motion: expected 1 or {samples} samples, got {len(values)}")
+    return np.broadcast_to(values, (samples, 3))
+
+
+def _evaluate_block(
+    tree: BodyTree, joints: JointMotion, base: FloatArray, sensors: Sequence[str], block: slice
+) -> dict[str, FloatArray]:
+    moving, weighing = needed_bodies(tree, sensors)
+    states: dict[int, _BodyState] = {}
+    wrenches: dict[int, FloatArray] = {}
+    for index, body in enumerate(tree.bodies):
+        if not moving[index]:
+            continue
+        states[index] = _root_state(base) if body.parent < 0 else _move(body, states[body.parent], joints, block)
+        if weighing[index]:
+            wrenches[index] = _net_wrench(body, states[index])
+    for index in reversed(range(len(tree.bodies))):
+        parent = tree.bodies[index].parent
+        if weighing[index] and parent >= 0 and weighing[parent]:
+            wrenches[parent] += _in_parent(states[index], wrenches[index])
+    zero = np.zeros((base.shape[1], 6))
+    readings = {}
+    for name in sensors:
+        cut = tree.cuts[name]
+        outboard = wrenches.get(cut.body, zero)
+        readings[name] = cut.sign * transform_wrench(invert_pose(cut.body_H_sensor), outboard)
+    return readings
+
+
+def _root_state(base: FloatArray) -> _BodyState:
+    angular_velocity, angular_acceleration, proper_acceleration = base
+    return _BodyState(np.eye(3), np.zeros(3), angular_velocity, angular_acceleration, proper_acceleration)
+
+
+def _move(body: Body, parent: _BodyState, joints: JointMotion, block: slice) -> _BodyState:
+    """Carry the parent's motion across a body's joint."""
+    if body.coordinate is None:  # a cut: the same rigid body
+        return _BodyState(
+            np.eye(3), np.zeros(3), parent.angular_velocity, parent.angular_acceleration, parent.proper_acceleration
+        )
+    column = joints.names.index(body.coordinate.joint)
+    q = body.coordinate.multiplier * joints.position[block, column] + body.coordinate.offset
+    dq = body.coordinate.multiplier * joints.velocity[block, column]
+    ddq = body.coordinate.multiplier * joints.acceleration[block, column]
+    z = np.array([0.0, 0.0, 1.0])
+    rotation, position = body.parent_R_joint, body.parent_p_joint
+    if body.connection is Connection.ROTARY:
+        rotation = rotation @ rotation_about_z(q)
+    else:
+        position = position + q[:, None] * rotation[:, 2]
+    omega_parent, alpha_parent = parent.angular_velocity, parent.angular_acceleration
+    at_joint = (
+        parent.proper_acceleration
+        + np.cross(alpha_parent, position)
+        + np.cross(omega_parent, np.cross(omega_parent, position))
+    )
+    omega, alpha, acceleration = (_into(rotation, v) for v in (omega_parent, alpha_parent, at_joint))
+    along, along_rate = dq[:, None] * z, ddq[:, None] * z
+    if body.connection is Connection.ROTARY:
+        alpha = alpha + np.cross(omega, along) + along_rate
+        omega = omega + along
+    else:
+        acceleration = acceleration + 2.0 * np.cross(omega, along) + along_rate
+    return _BodyState(rotation, position, omega, alpha, acceleration)
+
+
+def _into(parent_R_body: FloatArray, parent_vector: FloatArray) -> FloatArray:
+    vector: FloatArray = np.einsum("...ji,...j->...i", parent_R_body, parent_vector)
+    return vector
+
+
+def _net_wrench(body: Body, state: _BodyState) -> FloatArray:
+    """Force and moment about the body's origin that make the body move as it does; shape (n, 6)."""
+    omega, alpha = state.angular_velocity, state.angular_acceleration
+    moment, tensor = body.inertia.first_moment, body.inertia.second_moment
+    force = (
+        body.inertia.mass * state.proper_acceleration
+        + np.cross(alpha, moment)
+        + np.cross(omega, np.cross(omega, moment))
+    )
+    couple = alpha @ tensor + np.cross(omega, omega @ tensor) + np.cross(moment, state.proper_acceleration)
+    return np.concatenate([force, couple], axis=1)
+
+
+def _in_parent(state: _BodyState, wrench: FloatArray) -> FloatArray:
+    force: FloatArray = np.einsum("...ij,...j->...i", state.parent_R_body, wrench[:, :3])
+    couple = np.einsum("...ij,...j->...i", state.parent_R_body, wrench[:, 3:])
+    return np.concatenate([force, couple + np.cross(state.parent_p_body, force)], axis=1)

@@ -1,0 +1,216 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Body trees: a robot seen from one link, with fixed joints lumped and cuts at the sensors.
+
+Links that do not move against each other are one body. Every moving body's frame is its joint's
+frame turned so that the joint axis is z: the joint is `parent_R_joint @ Rz(q)` or a slide along z.
+A force-torque sensor cuts a body in two that share one frame, so a cut costs one more inertia and
+no kinematics. The tree may be rooted at any link, that of the support or that of an IMU.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from enum import StrEnum
+
+import numpy as np
+
+from forcetorque.arrays import FloatArray
+from forcetorque.errors import RobotError, known_names
+from forcetorque.robot.model import ForceTorqueSensor, Joint, JointType, RobotModel, SensorFrame
+from forcetorque.spatial import Inertia, invert_pose, make_pose, reading_sign, rotation_with_z_along, split_pose
+
+
+class Connection(StrEnum):
+    """How a body hangs on its parent."""
+
+    ROOT = "root"
+    CUT = "cut"
+    ROTARY = "rotary"
+    PRISMATIC = "prismatic"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Coordinate:
+    """Where a body's joint coordinate comes from: `multiplier * q[joint] + offset`."""
+
+    joint: str
+    """Joint whose measured position is used; the leader where the body's joint mimics."""
+    multiplier: float = 1.0
+    """Ratio to the measured position."""
+    offset: float = 0.0
+    """Value where the measured position is zero; rad or m."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Body:
+    """Links lumped to one rigid body."""
+
+    parent: int
+    """Index of the parent body, smaller than its own; -1 for the root."""
+    connection: Connection
+    """How it hangs on its parent."""
+    coordinate: Coordinate | None
+    """Coordinate of its joint; None for the root and for a cut."""
+    parent_R_joint: FloatArray
+    """Joint frame's axes in the parent body; shape (3, 3)."""
+    parent_p_joint: FloatArray
+    """Joint frame's origin in the parent body at coordinate zero; shape (3,); m."""
+    inertia: Inertia
+    """Inertia in and about the body's frame."""
+    links: tuple[str, ...]
+    """Links that it is made of."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class SensorCut:
+    """Where a force-torque sensor cuts the tree."""
+
+    body: int
+    """Body just outboard of the sensor."""
+    body_H_sensor: FloatArray
+    """Frame of the reading in that body; shape (4, 4); m."""
+    sign: float
+    """Factor from `S` (inboard on outboard) to the reading."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class BodyTree:
+    """A robot's bodies, parents before children."""
+
+    root_link: str
+    """Link whose frame is the root body's frame."""
+    bodies: tuple[Body, ...]
+    """Bodies, every parent before its children."""
+    frames: Mapping[str, tuple[int, FloatArray]]
+    """Body and `body_H_link` of every link."""
+    cuts: Mapping[str, SensorCut]
+    """Cut of every sensor, by the sensor's name."""
+
+
+def build_tree(model: RobotModel, root_link: str) -> BodyTree:
+    """Lump a robot to bodies as seen from one link.
+
+    Args:
+        model: The robot.
+        root_link: Link to start from.
+
+    Returns:
+        The tree, cut at every sensor that sits in a fixed joint.
+
+    Raises:
+        RobotError: If the robot has no such link.
+    """
+    if root_link not in model.links:
+        raise RobotError(f"robot {model.name!r} has no link {root_link!r}; {known_names(root_link, model.links)}")
+    builder = _Builder(model)
+    builder.add_root(root_link)
+    neighbours: dict[str, list[Joint]] = {link: [] for link in model.links}
+    for joint in model.joints.values():
+        neighbours[joint.parent].append(joint)
+        neighbours[joint.child].append(joint)
+    waiting = [root_link]
+    while waiting:
+        link = waiting.pop()
+        for joint in neighbours[link]:
+            other = joint.child if joint.parent == link else joint.parent
+            if other not in builder.frames:
+                builder.cross(joint, downwards=joint.parent == link)
+                waiting.append(other)
+    return builder.finish(root_link)
+
+
+class _Builder:
+    """Collects bodies while the links are walked; inertias are added up as links come in."""
+
+    def __init__(self, model: RobotModel) -> None:
+        self.model = model
+        self.cut_joints = {sensor.joint for sensor in model.sensors.values()}
+        self.frames: dict[str, tuple[int, FloatArray]] = {}
+        self.shells: list[Body] = []
+        self.inertias: list[Inertia] = []
+        self.links: list[list[str]] = []
+
+    def add_root(self, link: str) -> None:
+        self._place(link, self._new_body(-1, Connection.ROOT, None, np.eye(4)), np.eye(4))
+
+    def cross(self, joint: Joint, *, downwards: bool) -> None:
+        """Add the link on the other side of a joint."""
+        here, there = (joint.parent, joint.child) if downwards else (joint.child, joint.parent)
+        body, body_H_here = self.frames[here]
+        here_H_there = joint.parent_H_child if downwards else invert_pose(joint.parent_H_child)
+        if not joint.type.moves:
+            if joint.name in self.cut_joints:
+                body = self._new_body(body, Connection.CUT, None, np.eye(4))
+            self._place(there, body, body_H_here @ here_H_there)
+            return
+        # seen from the child the parent turns the other way, about the child frame's own origin
+        axis = joint.axis if downwards else -joint.axis
+        child_H_joint = make_pose(rotation_with_z_along(axis), np.zeros(3))
+        here_H_child = joint.parent_H_child if downwards else np.eye(4)
+        child_H_there = np.eye(4) if downwards else here_H_there
+        connection = Connection.PRISMATIC if joint.type is JointType.PRISMATIC else Connection.ROTARY
+        moved = self._new_body(body, connection, self._coordinate(joint), body_H_here @ here_H_child @ child_H_joint)
+        self._place(there, moved, invert_pose(child_H_joint) @ child_H_there)
+
+    def finish(self, root_link: str) -> BodyTree:
+        bodies = tuple(
+            replace(shell, inertia=inertia, links=tuple(links))
+            for shell, inertia, links in zip(self.shells, self.inertias, self.links, strict=True)
+        )
+        fixed = (s for s in self.model.sensors.values() if not self.model.joints[s.joint].type.moves)
+        cuts = {sensor.name: self._cut(sensor) for sensor in fixed}
+        return BodyTree(root_link=root_link, bodies=bodies, frames=self.frames, cuts=cuts)
+
+    def _new_body(
+        self, parent: int, connection: Connection, coordinate: Coordinate | None, parent_H_joint: FloatArray
+    ) -> int:
+        rotation, position = split_pose(parent_H_joint)
+        self.shells.append(
+            Body(
+                parent=parent,
+                connection=connection,
+                coordinate=coordinate,
+                parent_R_joint=rotation,
+                parent_p_joint=position,
+                inertia=Inertia.zero(),
+                links=(),
+            )
+        )
+        self.inertias.append(Inertia.zero())
+        self.links.append([])
+        return len(self.shells) - 1
+
+    def _place(self, link: str, body: int, body_H_link: FloatArray) -> None:
+        self.frames[link] = (body, body_H_link)
+        self.inertias[body] += self.model.links[link].expressed_in(body_H_link)
+        self.links[body].append(link)
+
+    def _coordinate(self, joint: Joint) -> Coordinate:
+        multiplier, offset, seen = 1.0, 0.0, [joint.name]
+        while joint.mimic is not None:
+            mimic = joint.mimic
+            offset += multiplier * mimic.offset
+            multiplier *= mimic.multiplier
+            if mimic.leader not in self.model.joints or mimic.leader in seen:
+                # a dangling or circular leader is an error only where the coordinate is asked for
+                return Coordinate(joint=mimic.leader, multiplier=multiplier, offset=offset)
+            seen.append(mimic.leader)
+            joint = self.model.joints[mimic.leader]
+        return Coordinate(joint=joint.name, multiplier=multiplier, offset=offset)
+
+    def _cut(self, sensor: ForceTorqueSensor) -> SensorCut:
+        joint = self.model.joints[sensor.joint]
+        child_body, body_H_child = self.frames[joint.child]
+        parent_body, body_H_parent = self.frames[joint.parent]
+        child_is_outboard = self.shells[child_body].parent == parent_body
+        frames = {
+            SensorFrame.CHILD: body_H_child,
+            SensorFrame.PARENT: body_H_parent,
+            SensorFrame.SENSOR: body_H_child @ sensor.child_H_sensor,
+        }
+        return SensorCut(
+            body=child_body if child_is_outboard else parent_body,
+            body_H_sensor=frames[sensor.frame],  # both halves of a cut share the body's frame
+            sign=reading_sign(sensor.direction, child_is_outboard=child_is_outboard),
+        )
