@@ -5,6 +5,8 @@ from forcetorque.recording.finding import Finding
 from forcetorque.recording.interval import Interval, Support, Use
 from forcetorque.recording.quantity import QUANTITIES, Labels, Quantity
 from forcetorque.recording.recording import Recording
+from forcetorque.recording.smoothing import SavitzkyGolay
+from forcetorque.recording.storage import read_recording, write_recording
 from forcetorque.recording.stream import Signal, Stream
 
 __all__ = [
@@ -14,8 +16,11 @@ __all__ = [
     "Labels",
     "Quantity",
     "Recording",
+    "SavitzkyGolay",
     "Signal",
     "Stream",
     "Support",
     "Use",
+    "read_recording",
+    "write_recording",
 ]

@@ -11,6 +11,9 @@ import numpy as np
 from forcetorque.arrays import FloatArray, read_only
 from forcetorque.errors import RecordingError
 
+_UNIT = 4.0 * float(np.finfo(np.float64).eps)
+"""A direction this close to unit length is left as it is, so that a stored one reads back bit by bit."""
+
 
 class Use(StrEnum):
     """What an interval is for."""
@@ -39,7 +42,9 @@ class Support:
             raise RecordingError(
                 f"support frame {self.frame!r}: expected a gravity_direction other than zero, got {direction.tolist()}"
             )
-        object.__setattr__(self, "gravity_direction", read_only(direction / norm, name="gravity_direction", shape=(3,)))
+        if abs(norm - 1.0) > _UNIT:
+            direction = read_only(direction / norm, name="gravity_direction", shape=(3,))
+        object.__setattr__(self, "gravity_direction", direction)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

@@ -1,0 +1,6 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What mechanics demands of the sensors of a recording."""
+
+from forcetorque.estimation.samples import Processing, SensorSamples, sensor_samples
+
+__all__ = ["Processing", "SensorSamples", "sensor_samples"]

@@ -1,0 +1,143 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Samples of one sensor over an interval: what it read and what mechanics demanded."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from forcetorque.arrays import FloatArray, IntArray, read_only
+from forcetorque.constants import STANDARD_GRAVITY
+from forcetorque.errors import RecordingError
+from forcetorque.recording import Interval, Recording, SavitzkyGolay, Signal, Stream, Use
+from forcetorque.recording.alignment import require_overlap, usable_samples
+from forcetorque.recording.joints import joint_motion_at
+from forcetorque.recording.smoothing import smooth
+from forcetorque.robot import RobotModel, RootMotion, build_tree, expected_wrenches, required_joints
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Processing:
+    """How logged samples become reading and reference."""
+
+    derivative_window: SavitzkyGolay = SavitzkyGolay(window_s=0.3, order=3)
+    """Filter that differentiates joint positions."""
+    logged_derivatives: bool = False
+    """Whether joint velocities and accelerations are taken from the log instead."""
+    reading_window: SavitzkyGolay | None = None
+    """Filter that smooths the sensor's reading inside each interval; None leaves it as logged."""
+    gravity: float = STANDARD_GRAVITY
+    """Magnitude of gravity; m/s2."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class SensorSamples:
+    """Reading and reference of one sensor at the same n instants."""
+
+    label: str
+    """Label of the interval."""
+    stamp_ns: IntArray
+    """Instants; shape (n,); ns."""
+    reading: Signal
+    """What the sensor read, `raw` or `wrench`; n samples."""
+    reference: FloatArray
+    """Expected wrench in the sensor's frame and direction; shape (n, 6); N, N m."""
+    dropped: int
+    """Samples of the interval left out: missing values, gaps in a joint, stamps that do not step forward."""
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "reference", read_only(self.reference, name="reference", shape=(None, 6)))
+
+    def __len__(self) -> int:
+        return len(self.stamp_ns)
+
+
+def sensor_samples(
+    recording: Recording,
+    model: RobotModel,
+    *,
+    sensor: str,
+    stream: str,
+    quantity: str,
+    interval: Interval,
+    processing: Processing,
+) -> SensorSamples:
+    """Pair the readings of a sensor in an interval with the wrenches expected from the robot model.
+
+    The support frame is taken to be fixed and the only link that touches the world.
+
+    Args:
+        recording: Streams of the sensor and of the joints, on one clock.
+        model: The robot.
+        sensor: Name of the sensor.
+        stream: Stream that holds its reading.
+        quantity: `raw` or `wrench`.
+        interval: Interval with a support frame.
+        processing: Filters and gravity.
+
+    Returns:
+        Samples of the interval that lie in no ignored interval and have a finite reading and reference.
+
+    Raises:
+        RecordingError: If the interval has no support or lies outside the log, a needed joint is in no
+            stream, streams do not overlap, or no sample is left.
+    """
+    if interval.support is None:
+        raise RecordingError(f"interval {interval.label!r}: expected a support frame, got none")
+    source = recording.stream(stream)
+    picked = _pick(recording, source, interval)
+    name = model.sensor(sensor).name
+    tree = build_tree(model, interval.support.frame)
+    joints = required_joints(tree, name)
+    holders = recording.joint_signals("position")
+    for holder in {holders[joint][0].name for joint in joints if joint in holders}:
+        require_overlap(source, recording.stream(holder))
+    at_ns = source.stamp_ns[picked]
+    motion = joint_motion_at(
+        recording,
+        joints,
+        at_ns,
+        window=processing.derivative_window,
+        logged_derivatives=processing.logged_derivatives,
+    )
+    root = RootMotion.fixed(interval.support.gravity_direction, gravity=processing.gravity)
+    reference = expected_wrenches(tree, motion, root, [name])[name]
+    reading = source.signal(quantity)
+    values = reading.values[picked]
+    if processing.reading_window is not None:  # after the cut, so that nothing leaks in from outside
+        values = smooth(at_ns, values, processing.reading_window)
+    complete = np.isfinite(reference).all(axis=1) & np.isfinite(values).all(axis=1)
+    if not complete.any():
+        raise RecordingError(
+            f"interval {interval.label!r}: none of {len(picked)} samples of {stream!r} has both a reading and the "
+            f"joint(s) {', '.join(joints)}; the streams have gaps or missing values all over it"
+        )
+    in_span = np.count_nonzero((source.stamp_ns >= interval.start_ns) & (source.stamp_ns < interval.end_ns))
+    return SensorSamples(
+        label=interval.label,
+        stamp_ns=at_ns[complete],
+        reading=replace(reading, values=values[complete]),
+        reference=reference[complete],
+        dropped=int(in_span - np.count_nonzero(complete)),
+    )
+
+
+def _pick(recording: Recording, source: Stream, interval: Interval) -> IntArray:
+    """Find the samples of an interval that are not to be ignored."""
+    start, end = recording.span_ns
+    if interval.start_ns < start or interval.end_ns > end + 1:
+        first, last = ((t - start) * 1e-9 for t in (interval.start_ns, interval.end_ns))
+        raise RecordingError(
+            f"interval {interval.label!r}: expected a span inside the log, 0 to {(end - start) * 1e-9:.3f} s, "
+            f"got {first:.3f} to {last:.3f} s"
+        )
+    usable = usable_samples(source.stamp_ns)
+    stamps = source.stamp_ns[usable]
+    inside = (stamps >= interval.start_ns) & (stamps < interval.end_ns)
+    for other in recording.intervals:
+        if other.use is Use.IGNORE:
+            inside &= (stamps < other.start_ns) | (stamps >= other.end_ns)
+    if not inside.any():
+        raise RecordingError(f"interval {interval.label!r}: stream {source.name!r} has no sample in it to use")
+    return usable[inside]

@@ -1,0 +1,119 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Alignment: values of one stream at the instants of another, never across gaps."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from forcetorque.arrays import FloatArray, IntArray
+from forcetorque.errors import RecordingError
+from forcetorque.recording.stream import Stream
+
+GAP_PERIODS = 5.0
+"""A pause of more than this many median sample periods is a gap."""
+
+
+def usable_samples(stamp_ns: IntArray) -> IntArray:
+    """Find the samples that step forward in time.
+
+    Loggers repeat a stamp or step back when a message is late; such samples have no place on the
+    clock and are left out.
+
+    Args:
+        stamp_ns: Stamps in the order of the log; shape (n,); ns.
+
+    Returns:
+        Indices of samples with increasing stamps; shape (m,).
+    """
+    if not len(stamp_ns):
+        return np.empty(0, dtype=np.int64)
+    latest_before = np.maximum.accumulate(stamp_ns)[:-1]
+    forward = np.concatenate([[True], stamp_ns[1:] > latest_before])
+    return np.flatnonzero(forward).astype(np.int64)
+
+
+def gap_limit_ns(stamp_ns: IntArray) -> int:
+    """Tell from which length on a pause in a stream is a gap.
+
+    Args:
+        stamp_ns: Increasing stamps; shape (n,); ns.
+
+    Returns:
+        `GAP_PERIODS` median periods; ns. Zero for fewer than two samples.
+    """
+    if len(stamp_ns) < 2:
+        return 0
+    return int(GAP_PERIODS * float(np.median(np.diff(stamp_ns))))
+
+
+def seconds_since(stamp_ns: IntArray, origin_ns: int) -> FloatArray:
+    """Turn stamps into seconds without losing nanoseconds to the size of the epoch.
+
+    Args:
+        stamp_ns: Stamps; shape (n,); ns.
+        origin_ns: Instant that becomes zero; ns.
+
+    Returns:
+        Seconds; shape (n,).
+    """
+    return np.asarray(stamp_ns - np.int64(origin_ns), dtype=np.float64) * 1e-9
+
+
+def interpolate(stream: Stream, values: FloatArray, at_ns: IntArray) -> FloatArray:
+    """Interpolate samples of a stream linearly at given instants.
+
+    Args:
+        stream: Stream that the values belong to.
+        values: Samples of the stream, or something computed from each; shape (n, k).
+        at_ns: Instants on the clock of the stream; shape (m,); ns.
+
+    Returns:
+        Values at the instants; shape (m, k). NaN before the first and after the last sample, inside
+        a gap, and where a neighbour is NaN.
+
+    Raises:
+        RecordingError: If the stream holds no two samples that step forward in time.
+    """
+    usable = usable_samples(stream.stamp_ns)
+    if len(usable) < 2:
+        raise RecordingError(f"stream {stream.name!r}: expected at least two samples to align, got {len(usable)}")
+    stamps, samples = stream.stamp_ns[usable], values[usable]
+    after = np.clip(np.searchsorted(stamps, at_ns, side="right"), 1, len(stamps) - 1)
+    before = after - 1
+    span = stamps[after] - stamps[before]
+    weight = (at_ns - stamps[before]) / span
+    outside = (at_ns < stamps[0]) | (at_ns > stamps[-1])
+    # an instant that is a sample's own has nothing to interpolate, also at the edge of a gap
+    exact_before, exact_after = at_ns == stamps[before], at_ns == stamps[after]
+    in_gap = (span > gap_limit_ns(stamps)) & ~exact_before & ~exact_after
+    result = (1.0 - weight)[:, None] * samples[before] + weight[:, None] * samples[after]
+    result[exact_before] = samples[before[exact_before]]
+    result[exact_after] = samples[after[exact_after]]
+    result[outside | in_gap] = np.nan
+    return result
+
+
+def require_overlap(first: Stream, second: Stream) -> None:
+    """Check that two streams can be aligned at all.
+
+    Args:
+        first: One stream.
+        second: The other.
+
+    Raises:
+        RecordingError: If they have different clocks, one is empty, or they share no time.
+    """
+    if first.clock != second.clock:
+        raise RecordingError(
+            f"streams {first.name!r} and {second.name!r} were stamped by the clocks {first.clock!r} and "
+            f"{second.clock!r}; bring them to one clock before they are combined"
+        )
+    for stream in (first, second):
+        if not len(stream):
+            raise RecordingError(f"stream {stream.name!r}: expected samples, got none")
+    apart = max(int(first.stamp_ns.min() - second.stamp_ns.max()), int(second.stamp_ns.min() - first.stamp_ns.max()))
+    if apart > 0:
+        raise RecordingError(
+            f"streams {first.name!r} and {second.name!r} do not overlap in time: {apart * 1e-9:.3f} s lie between "
+            "them; expected recordings of the same session on the same clock"
+        )

@@ -1,0 +1,210 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The project's own on-disk form: a folder with recording.json and one Parquet file per stream.
+
+Units and frames stand in the metadata of every Parquet field and again, for programs that drop
+those, in one JSON text per file under the key `forcetorque`. What is written reads back exactly.
+"""
+
+from __future__ import annotations
+
+import json
+import shutil
+from collections.abc import Mapping
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+from urllib.parse import quote
+from uuid import uuid4
+
+import numpy as np
+import pyarrow as pa
+import pyarrow.parquet as pq
+
+from forcetorque.arrays import IntArray
+from forcetorque.errors import FormatError, MissingFileError, RecordingError, ShapeError
+from forcetorque.recording.finding import Finding
+from forcetorque.recording.interval import Interval, Support, Use
+from forcetorque.recording.quantity import QUANTITIES
+from forcetorque.recording.recording import Recording
+from forcetorque.recording.stream import Signal, Stream
+
+INDEX_FILE = "recording.json"
+"""File that makes a folder a recording."""
+SCHEMA = "forcetorque/recording/1"
+"""Name and version of the form."""
+
+_METADATA_KEY = b"forcetorque"
+
+
+def write_recording(folder: Path | str, recording: Recording) -> None:
+    """Write a recording as a folder; readers see the old one or the new one, never a part.
+
+    Args:
+        folder: Folder to make; a recording that is there already is replaced.
+        recording: What to write.
+
+    Raises:
+        RecordingError: If the folder exists and is not a recording.
+        MissingFileError: If the folder that it is to be made in does not exist.
+    """
+    target = Path(folder).resolve()
+    if not target.parent.is_dir():
+        raise MissingFileError(f"{folder}: expected an existing folder to write to, got none; create {target.parent}")
+    if target.exists() and not (target / INDEX_FILE).is_file():
+        raise RecordingError(f"{folder}: exists and holds no {INDEX_FILE}; choose a new folder, nothing was written")
+    fresh = target.with_name(f".{uuid4().hex}.tmp")
+    fresh.mkdir()
+    try:
+        for stream in recording.streams.values():
+            _write_stream(fresh / _file_name(stream.name), stream)
+        (fresh / INDEX_FILE).write_text(json.dumps(_index(recording), indent=2) + "\n", encoding="utf-8")
+        replaced = target.with_name(f".{uuid4().hex}.old")
+        if target.exists():
+            target.rename(replaced)
+        fresh.rename(target)
+        shutil.rmtree(replaced, ignore_errors=True)
+    finally:
+        shutil.rmtree(fresh, ignore_errors=True)
+
+
+def read_recording(folder: Path | str) -> Recording:
+    """Read a recording that `write_recording` wrote.
+
+    Args:
+        folder: Folder of the recording.
+
+    Returns:
+        The recording, equal to the written one bit by bit.
+
+    Raises:
+        MissingFileError: If the folder, its index or a stream's file is not there.
+        FormatError: If a file does not have the documented form.
+    """
+    index_path = Path(folder) / INDEX_FILE
+    if not index_path.is_file():
+        raise MissingFileError(f"{index_path}: expected the index of a recording, there is no such file")
+    try:
+        index = json.loads(index_path.read_text(encoding="utf-8"))
+        if index["schema"] != SCHEMA:
+            raise FormatError(f"{index_path}: expected the schema {SCHEMA!r}, got {index['schema']!r}")
+        streams = {name: _read_stream(Path(folder) / file) for name, file in index["streams"].items()}
+        return Recording(
+            streams=streams,
+            intervals=tuple(_interval(entry) for entry in index["intervals"]),
+            findings=tuple(Finding(**entry) for entry in index["findings"]),
+            origin=index["origin"],
+        )
+    except (FormatError, MissingFileError):
+        raise
+    except (json.JSONDecodeError, UnicodeDecodeError) as error:
+        raise FormatError(f"{index_path}: expected JSON, got {error}") from error
+    except (KeyError, TypeError, AttributeError) as error:
+        raise FormatError(f"{index_path}: expected the form {SCHEMA}, got {error!r}") from error
+    except (RecordingError, ShapeError, ValueError) as error:
+        raise FormatError(f"{index_path}: {error}") from error
+
+
+def _file_name(stream: str) -> str:
+    return quote(stream, safe="") + ".parquet"
+
+
+def _index(recording: Recording) -> dict[str, Any]:
+    return {
+        "schema": SCHEMA,
+        "streams": {name: _file_name(name) for name in recording.streams},
+        "intervals": [
+            {
+                "label": interval.label,
+                "start_ns": interval.start_ns,
+                "end_ns": interval.end_ns,
+                "use": interval.use.value,
+                "support": None
+                if interval.support is None
+                else {
+                    "frame": interval.support.frame,
+                    "gravity_direction": interval.support.gravity_direction.tolist(),
+                },
+            }
+            for interval in recording.intervals
+        ],
+        "findings": [asdict(finding) for finding in recording.findings],
+        "origin": dict(recording.origin),
+    }
+
+
+def _interval(entry: Mapping[str, Any]) -> Interval:
+    support = entry["support"]
+    return Interval(
+        label=entry["label"],
+        start_ns=entry["start_ns"],
+        end_ns=entry["end_ns"],
+        use=Use(entry["use"]),
+        support=None if support is None else Support(**support),
+    )
+
+
+def _write_stream(path: Path, stream: Stream) -> None:
+    described = {
+        quantity: {"columns": list(s.columns), "units": list(s.units), "frame": s.frame}
+        for quantity, s in stream.signals.items()
+    }
+    fields, arrays = [pa.field("stamp_ns", pa.int64(), nullable=False)], [pa.array(stream.stamp_ns)]
+    if stream.sequence is not None:
+        fields.append(pa.field("sequence", pa.int64(), nullable=False))
+        arrays.append(pa.array(stream.sequence))
+    for quantity, signal in stream.signals.items():
+        width = signal.values.shape[1]
+        metadata = {key: json.dumps(value) for key, value in described[quantity].items()}
+        item = pa.list_(pa.field("element", pa.float64(), nullable=False), width)
+        fields.append(pa.field(quantity, item, nullable=False, metadata=metadata))
+        arrays.append(pa.FixedSizeListArray.from_arrays(pa.array(signal.values.ravel()), type=item))
+    header = {"schema": SCHEMA, "name": stream.name, "clock": stream.clock, "signals": described}
+    schema = pa.schema(fields, metadata={_METADATA_KEY: json.dumps(header).encode()})
+    table = pa.Table.from_arrays(arrays, schema=schema)
+    # float samples hardly repeat: splitting their bytes packs twice as well as a dictionary
+    pq.write_table(table, path, compression="zstd", use_dictionary=False, use_byte_stream_split=True)
+
+
+def _read_stream(path: Path) -> Stream:
+    if not path.is_file():
+        raise MissingFileError(f"{path}: expected the Parquet file of a stream, there is no such file")
+    try:
+        table = pq.read_table(path).combine_chunks()
+        header = json.loads(table.schema.metadata[_METADATA_KEY])
+        signals = {}
+        for quantity, described in header["signals"].items():
+            if quantity not in QUANTITIES:
+                raise FormatError(f"no quantity is called {quantity!r}; known: {', '.join(QUANTITIES)}")
+            values = _column(table, quantity).values.to_numpy(zero_copy_only=False)
+            signals[quantity] = Signal(
+                quantity=quantity,
+                values=values.reshape(len(table), len(described["columns"])),
+                columns=tuple(described["columns"]),
+                units=tuple(described["units"]),
+                frame=described["frame"],
+            )
+        return Stream(
+            name=header["name"],
+            clock=header["clock"],
+            stamp_ns=_integers(table, "stamp_ns"),
+            sequence=_integers(table, "sequence") if "sequence" in table.column_names else None,
+            signals=signals,
+        )
+    except FormatError as error:
+        raise FormatError(f"{path}: {error}") from error
+    except (pa.ArrowException, KeyError, TypeError, AttributeError, OSError) as error:
+        raise FormatError(f"{path}: expected a stream of the form {SCHEMA}, got {error!r}") from error
+    except (RecordingError, ShapeError, ValueError) as error:
+        raise FormatError(f"{path}: {error}") from error
+
+
+def _column(table: Any, name: str) -> Any:
+    chunks = table.column(name).chunks
+    column = chunks[0] if chunks else pa.array([], table.schema.field(name).type)
+    if column.null_count:
+        raise FormatError(f"column {name!r}: expected numbers, got {column.null_count} empty values; NaN marks a gap")
+    return column
+
+
+def _integers(table: Any, name: str) -> IntArray:
+    return np.asarray(_column(table, name).to_numpy(zero_copy_only=False), dtype=np.int64)
