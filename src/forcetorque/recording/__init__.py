@@ -5,6 +5,7 @@ from forcetorque.recording.finding import Finding
 from forcetorque.recording.interval import Interval, Support, Use
 from forcetorque.recording.quantity import QUANTITIES, Labels, Quantity
 from forcetorque.recording.recording import Recording
+from forcetorque.recording.schema import recording_schema
 from forcetorque.recording.smoothing import SavitzkyGolay
 from forcetorque.recording.storage import read_recording, write_recording
 from forcetorque.recording.stream import Signal, Stream
@@ -22,5 +23,6 @@ __all__ = [
     "Support",
     "Use",
     "read_recording",
+    "recording_schema",
     "write_recording",
 ]

@@ -125,6 +125,7 @@ def read_matrix_file(path: Path | str) -> MatrixFile:
 
     Raises:
         MissingFileError: If there is no such file.
+        FormatError: If the file does not have the form, with the line.
     """
     path = Path(path)
     if not path.is_file():

@@ -1,0 +1,44 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Arrays as fields of pydantic models: nested lists of finite numbers in a file, read-only in memory."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
+from pydantic_core import CoreSchema, core_schema
+
+from forcetorque.arrays import FloatArray, read_only
+
+
+@dataclass(frozen=True, slots=True)
+class ArrayField:
+    """Annotation of an array field: `Annotated[FloatArray, ArrayField((6, None))]`."""
+
+    shape: tuple[int | None, ...]
+    """Expected shape; `None` accepts any length of that axis."""
+
+    def _validate(self, values: Any) -> FloatArray:
+        try:
+            array = read_only(values, name="array", shape=self.shape)
+        except TypeError as error:
+            raise ValueError(f"expected nested lists of numbers, got {error}") from error
+        if not np.isfinite(array).all():
+            raise ValueError("expected finite numbers")
+        return array
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
+        return core_schema.no_info_plain_validator_function(
+            self._validate,
+            serialization=core_schema.plain_serializer_function_ser_schema(lambda array: array.tolist()),
+        )
+
+    def __get_pydantic_json_schema__(self, schema: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
+        described: dict[str, Any] = {"type": "number"}
+        for length in reversed(self.shape):
+            described = {"type": "array", "items": described}
+            if length is not None:
+                described |= {"minItems": length, "maxItems": length}
+        return described

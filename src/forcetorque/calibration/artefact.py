@@ -1,0 +1,254 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The `Calibration`: what a fit leaves on disk, tied to the serial number of one sensor."""
+
+from __future__ import annotations
+
+import json
+import math
+from pathlib import Path
+from typing import Annotated, Any, Final, Literal
+
+import numpy as np
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, PlainSerializer, ValidationError, WithJsonSchema
+
+from forcetorque.array_field import ArrayField
+from forcetorque.arrays import FloatArray, require_last_axis
+from forcetorque.atomic import write_bytes_atomically
+from forcetorque.calibration.secondary import secondary_matrix
+from forcetorque.errors import FormatError, MissingFileError, SerialNumberError, ShapeError
+from forcetorque.spatial import MeasureDirection
+
+SCHEMA: Final = "forcetorque/calibration/1"
+"""Name and version of the file's form."""
+
+
+def _lambda_from_file(value: Any) -> Any:
+    return math.inf if value == "infinite" else value
+
+
+Lambda = Annotated[
+    float,
+    BeforeValidator(_lambda_from_file),
+    Field(ge=0.0),
+    PlainSerializer(lambda value: "infinite" if math.isinf(value) else value, return_type=float | str),
+    WithJsonSchema({"anyOf": [{"type": "number", "minimum": 0}, {"const": "infinite"}]}),
+]
+"""Lambda in counts2; `infinite`, which JSON has no number for, means that the prior was kept."""
+
+
+class _Part(BaseModel):
+    model_config = ConfigDict(extra="forbid", frozen=True, arbitrary_types_allowed=True)
+
+
+class SensorIdentity(_Part):
+    """Which sensor, mounted where, read how."""
+
+    name: str
+    """Name in the robot model."""
+    serial: str = Field(min_length=1)
+    """Serial number."""
+    robot: str
+    """Name of the robot."""
+    frame: str
+    """Frame of the reading: child, parent or sensor frame of the robot model's tag."""
+    measure_direction: MeasureDirection
+    """Who acts on whom in the reading."""
+
+
+class Prior(_Part):
+    """The matrix that the fit was pulled towards."""
+
+    matrix: Annotated[FloatArray, ArrayField((6, None))]
+    """Prior matrix; shape (6, c); N/count, N m/count."""
+    offset: Annotated[FloatArray, ArrayField((6,))]
+    """Offset that the fitted data give with the prior matrix; shape (6,); N, N m."""
+    source: str
+    """File that it came from."""
+
+
+class Validity(_Part):
+    """Where the fit is supported by data."""
+
+    raw_minimum_counts: Annotated[FloatArray, ArrayField((None,))]
+    """Smallest fitted reading per channel; counts."""
+    raw_maximum_counts: Annotated[FloatArray, ArrayField((None,))]
+    """Largest fitted reading per channel; counts."""
+    reference_deviation: Annotated[FloatArray, ArrayField((6,))]
+    """Standard deviation of the reference wrench; N, N m."""
+    rank: int
+    """Number of raw directions that moved at all."""
+    condition: float | None
+    """Ratio of the largest to the smallest deviation over the raw directions; None if infinite."""
+    directions: Annotated[FloatArray, ArrayField((None, None))]
+    """Raw directions, strongest first, one per row; shape (c, c)."""
+    variance_counts2: Annotated[FloatArray, ArrayField((None,))]
+    """Variance of the raw reading along each direction; counts2."""
+    explained: Annotated[FloatArray, ArrayField((None,))]
+    """Share of each variance that the reference explains."""
+    excited: tuple[bool, ...]
+    """Whether the loads move the direction more than anything else does."""
+
+
+class Selection(_Part):
+    """How lambda came about."""
+
+    rule: str
+    """The rule, in words; `given` where the caller chose."""
+    lambda_counts2: tuple[Lambda, ...] = ()
+    """Candidates."""
+    held_out_rmse: tuple[float, ...] = ()
+    """Held-out error of every candidate; 1 N counted like 1 N m."""
+    worst_ratio_to_prior: tuple[float, ...] = ()
+    """Largest ratio over the blocks of held-out squared error to that of the prior."""
+
+
+class FittedInterval(_Part):
+    """A stretch of time that was fitted."""
+
+    label: str
+    """Label of the interval."""
+    start_ns: int
+    """Start; ns on the recording's clock."""
+    end_ns: int
+    """End; ns on the recording's clock."""
+
+
+class Provenance(_Part):
+    """What the fit was made from."""
+
+    code_version: str
+    """Version of this library."""
+    created: str
+    """Date and time of the fit, ISO 8601, UTC."""
+    experiment: str
+    """Name of the experiment."""
+    intervals: tuple[FittedInterval, ...]
+    """The fitted intervals."""
+    samples: int
+    """Number of fitted samples."""
+    dropped: int
+    """Samples of the intervals that were left out."""
+    inputs_sha256: dict[str, str]
+    """SHA-256 of every input file, by its path as the experiment file names it."""
+
+
+class Calibration(_Part):
+    """A fitted sensor: `wrench = matrix raw + offset`."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True, arbitrary_types_allowed=True, populate_by_name=True)
+
+    schema_name: Literal["forcetorque/calibration/1"] = Field(default=SCHEMA, alias="schema")
+    """Form of the file."""
+    sensor: SensorIdentity
+    """The sensor."""
+    matrix: Annotated[FloatArray, ArrayField((6, None))]
+    """Calibration matrix; shape (6, c); N/count, N m/count."""
+    offset: Annotated[FloatArray, ArrayField((6,))]
+    """Offset in wrench space; shape (6,); N, N m."""
+    matrix_standard_error: Annotated[FloatArray, ArrayField((6, None))] | None
+    """Standard error of the matrix by leaving out blocks; None where there was one block."""
+    offset_standard_error: Annotated[FloatArray, ArrayField((6,))] | None
+    """Standard error of the offset by leaving out blocks; N, N m."""
+    residual_rms: Annotated[FloatArray, ArrayField((6,))]
+    """Root mean square residual on the FITTED samples; N, N m."""
+    lambda_counts2: Lambda
+    """Lambda of the fit, convention of thesis (5.4)."""
+    prior: Prior | None
+    """Prior; None for the first calibration of a sensor."""
+    validity: Validity
+    """Where the fit is supported by data."""
+    selection: Selection
+    """How lambda came about."""
+    provenance: Provenance
+    """What the fit was made from."""
+
+    def apply(self, raw: Any, *, serial: str, allow_foreign: bool = False) -> FloatArray:
+        """Turn raw readings of the sensor into wrenches.
+
+        Args:
+            raw: Raw readings; shape (..., c); counts.
+            serial: Serial number of the sensor that gave them.
+            allow_foreign: Whether another sensor's readings are to be accepted.
+
+        Returns:
+            Wrenches in the sensor's frame; shape (..., 6); N, N m.
+
+        Raises:
+            SerialNumberError: If the readings are of another sensor and that was not allowed.
+            ShapeError: If the number of channels differs.
+        """
+        self.require_serial(serial, allow_foreign=allow_foreign)
+        counts = np.asarray(raw, dtype=np.float64)
+        require_last_axis(counts, name="raw", length=self.matrix.shape[1])
+        wrench: FloatArray = counts @ self.matrix.T + self.offset
+        return wrench
+
+    def require_serial(self, serial: str, *, allow_foreign: bool = False) -> None:
+        """Refuse a sensor that is not the calibrated one.
+
+        Args:
+            serial: Serial number of the sensor at hand.
+            allow_foreign: Whether another sensor is to be accepted.
+
+        Raises:
+            SerialNumberError: If it is another sensor and that was not allowed.
+        """
+        if serial != self.sensor.serial and not allow_foreign:
+            raise SerialNumberError(
+                f"calibration of sensor {self.sensor.serial!r}: expected readings of that sensor, got {serial!r}; "
+                "every sensor has its own matrix"
+            )
+
+    def secondary_matrix(self) -> FloatArray | None:
+        """Give the matrix that corrects a stream made with the prior (5.20).
+
+        Returns:
+            `C C_prior^-1`; shape (6, 6); None where there is no prior or it has not six channels.
+        """
+        if self.prior is None or self.matrix.shape != (6, 6):
+            return None
+        return secondary_matrix(self.matrix, self.prior.matrix)
+
+
+def write_calibration(path: Path | str, calibration: Calibration) -> None:
+    """Write a calibration as JSON; on any error the file keeps what it held before.
+
+    Args:
+        path: File to write or to replace, in an existing folder.
+        calibration: What to write.
+    """
+    text = json.dumps(calibration.model_dump(mode="json", by_alias=True), indent=2, allow_nan=False)
+    write_bytes_atomically(Path(path), (text + "\n").encode())
+
+
+def read_calibration(path: Path | str) -> Calibration:
+    """Read a calibration that `write_calibration` wrote.
+
+    Args:
+        path: JSON file.
+
+    Returns:
+        The calibration.
+
+    Raises:
+        MissingFileError: If there is no such file.
+        FormatError: If it is not JSON, or not a calibration of this schema version.
+    """
+    file = Path(path)
+    if not file.is_file():
+        raise MissingFileError(f"{file}: expected a calibration file, there is none; `forcetorque calibrate` makes one")
+    try:
+        content = json.loads(file.read_text(encoding="utf-8"))
+    except (json.JSONDecodeError, UnicodeDecodeError, RecursionError) as error:
+        raise FormatError(f"{file}: expected JSON, got {error}") from error
+    schema = content.get("schema") if isinstance(content, dict) else None
+    if schema != SCHEMA:
+        raise FormatError(f"{file}: expected the schema {SCHEMA!r}, got {schema!r}; fit again with this version")
+    try:
+        return Calibration.model_validate(content)
+    except ValidationError as error:
+        first = error.errors()[0]
+        where = ".".join(str(part) for part in first["loc"])
+        raise FormatError(f"{file}: {where}: {first['msg']}; the file was changed by hand or cut") from error
+    except ShapeError as error:
+        raise FormatError(f"{file}: {error}") from error

@@ -1,0 +1,189 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""`forcetorque calibrate`: from an experiment file to calibration files."""
+
+from __future__ import annotations
+
+import math
+from datetime import UTC, datetime
+from importlib.metadata import version
+from pathlib import Path
+from typing import Literal
+
+from pydantic import BaseModel, ConfigDict, Field
+from rich.table import Table
+
+from forcetorque.calibration import Calibration, write_calibration
+from forcetorque.cli.output import Format, console, print_result, start_logging, table
+from forcetorque.errors import ExperimentError, FitError
+from forcetorque.experiment import Experiment, ExperimentSensor, calibrate_sensor, load_experiment
+from forcetorque.spatial import WRENCH_COMPONENTS, WRENCH_UNITS
+
+
+class WrittenCalibration(BaseModel):
+    """One calibration and the file that holds it."""
+
+    file: str
+    """Path of the file."""
+    calibration: Calibration
+    """Its content."""
+    secondary_matrix: list[list[float]] | None
+    """`C C_prior^-1`, for a stream that is calibrated with the prior."""
+
+
+class CalibrateResult(BaseModel):
+    """What `forcetorque calibrate` found."""
+
+    model_config = ConfigDict(populate_by_name=True)
+
+    schema_name: Literal["forcetorque/calibrate/1"] = Field(default="forcetorque/calibrate/1", alias="schema")
+    """Form of the result."""
+    experiment: str
+    """Name of the experiment."""
+    calibrations: list[WrittenCalibration]
+    """One per sensor."""
+
+
+def run(
+    path: Path, *, output: Path, sensors: list[str] | None, regularisation: str | None, output_format: Format
+) -> None:
+    """Fit every sensor that was asked for, then write all files.
+
+    Args:
+        path: Experiment file.
+        output: A .json file for one sensor, else a folder.
+        sensors: Names of the sensors; all if None.
+        regularisation: Lambda, or `held-out`; None for what the experiment says.
+        output_format: Form of the result.
+    """
+    log = start_logging()
+    log.info("reading %s", path)
+    experiment = load_experiment(path)
+    for finding in experiment.recording.findings:
+        log.warning("%s: %s", finding.stream, finding.message)
+    chosen = [experiment.sensor(name) for name in sensors] if sensors else list(experiment.sensors)
+    files = _files(output, chosen)
+    given = _lambda(regularisation, experiment)
+    created = datetime.now(UTC).isoformat(timespec="seconds")
+    written = []
+    for sensor, file in zip(chosen, files, strict=True):
+        log.info("fitting %s (%s)", sensor.name, sensor.serial)
+        calibration = calibrate_sensor(
+            experiment, sensor, code_version=version("forcetorque"), created=created, regularisation=given
+        )
+        secondary = calibration.secondary_matrix()
+        written.append(
+            WrittenCalibration(
+                file=str(file),
+                calibration=calibration,
+                secondary_matrix=None if secondary is None else secondary.tolist(),
+            )
+        )
+    for entry, file in zip(written, files, strict=True):
+        file.parent.mkdir(parents=True, exist_ok=True)
+        write_calibration(file, entry.calibration)
+    result = CalibrateResult(experiment=experiment.name, calibrations=written)
+    rows = [row for entry in written for row in _rows(entry)]
+    print_result(result.model_dump(mode="json", by_alias=True), rows, output_format, show=lambda: _show(written))
+
+
+def _files(output: Path, sensors: list[ExperimentSensor]) -> list[Path]:
+    if output.suffix == ".json":
+        if len(sensors) != 1:
+            raise ExperimentError(
+                f"--output {output}: one file for {len(sensors)} sensors; name a folder, or one sensor with --sensor"
+            )
+        return [output]
+    return [output / f"{sensor.name}_{sensor.serial}.json" for sensor in sensors]
+
+
+def _lambda(text: str | None, experiment: Experiment) -> float | None:
+    if text is None:
+        return experiment.regularisation
+    if text == "held-out":
+        return None
+    try:
+        value = float(text)
+    except ValueError:
+        value = math.nan
+    if not value >= 0.0:
+        raise FitError(f"--lambda: expected a number of at least 0 counts2 or `held-out`, got {text!r}")
+    return value
+
+
+def _rows(entry: WrittenCalibration) -> list[dict[str, object]]:
+    calibration = entry.calibration
+    rows: list[dict[str, object]] = []
+    for k, component in enumerate(WRENCH_COMPONENTS):
+        row: dict[str, object] = {
+            "sensor": calibration.sensor.name,
+            "serial": calibration.sensor.serial,
+            "component": component,
+            "unit": WRENCH_UNITS[k],
+        }
+        row |= {f"c{j}_per_count": float(value) for j, value in enumerate(calibration.matrix[k])}
+        row |= {"offset": float(calibration.offset[k]), "residual_rms": float(calibration.residual_rms[k])}
+        rows.append(row | {"lambda_counts2": calibration.lambda_counts2, "samples": calibration.provenance.samples})
+    return rows
+
+
+def _show(written: list[WrittenCalibration]) -> None:
+    screen = console()
+    for entry in written:
+        calibration = entry.calibration
+        source = calibration.provenance
+        screen.print(
+            f"{calibration.sensor.name} ({calibration.sensor.serial}): {source.samples} samples of "
+            f"{', '.join(interval.label for interval in source.intervals)}, {source.dropped} left out; "
+            f"lambda {_lambda_text(calibration)}"
+        )
+        screen.print(_matrix_table(calibration))
+        screen.print(_excitation_table(calibration))
+        screen.print(f"written to {entry.file}", soft_wrap=True)
+
+
+def _matrix_table(calibration: Calibration) -> Table:
+    channels = [f"ch{j}" for j in range(calibration.matrix.shape[1])]
+    spread = calibration.offset_standard_error
+    made = table("per 1000 counts", *channels, "offset", "± by blocks", "residual RMS", title="matrix and offset")
+    for k, (component, unit) in enumerate(zip(WRENCH_COMPONENTS, WRENCH_UNITS, strict=True)):
+        made.add_row(
+            f"{component}, {unit}",
+            *(f"{1000 * value:.3f}" for value in calibration.matrix[k]),
+            f"{calibration.offset[k]:.3f}",
+            "-" if spread is None else f"{spread[k]:.3f}",
+            f"{calibration.residual_rms[k]:.3f}",
+        )
+    return made
+
+
+def _lambda_text(calibration: Calibration) -> str:
+    value = calibration.lambda_counts2
+    text = "infinite: the prior matrix was kept" if math.isinf(value) else f"{value:.4g} counts2"
+    return f"{text} ({'given' if calibration.selection.rule == 'given' else 'chosen on held-out blocks'})"
+
+
+def _excitation_table(calibration: Calibration) -> Table:
+    """Show each raw direction as the wrench that one standard deviation of it means."""
+    validity = calibration.validity
+    condition = "infinite" if validity.condition is None else f"{validity.condition:.3g}"
+    headings = [f"{component}, {unit}" for component, unit in zip(WRENCH_COMPONENTS, WRENCH_UNITS, strict=True)]
+    made = table(
+        "excited",
+        "explained by loads",
+        "counts",
+        *headings,
+        title=f"motion along each raw direction, one deviation: rank {validity.rank} of {len(validity.explained)}, "
+        f"condition {condition}",
+    )
+    for direction, variance, explained, excited in zip(
+        validity.directions, validity.variance_counts2, validity.explained, validity.excited, strict=True
+    ):
+        deviation = math.sqrt(variance)
+        wrench = calibration.matrix @ direction * deviation
+        made.add_row(
+            "yes" if excited else "NO",
+            f"{100 * explained:.0f} %",
+            f"{deviation:.1f}",
+            *(f"{value:+.3f}" for value in wrench),
+        )
+    return made

@@ -1,0 +1,99 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The parser of every command; scientific modules are imported when a command runs."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from forcetorque.cli.output import Format
+from forcetorque.errors import ForceTorqueError
+
+app = typer.Typer(
+    name="forcetorque",
+    help="Calibrate force-torque sensors where they are mounted, and say how far to trust them.",
+    no_args_is_help=True,
+    pretty_exceptions_enable=False,
+    rich_markup_mode=None,
+)
+
+ExperimentArgument = Annotated[Path, typer.Argument(help="Experiment file (TOML); see docs/recording.md.")]
+FormatOption = Annotated[Format, typer.Option("--format", help="Form of the result on standard output.")]
+SensorOption = Annotated[
+    list[str] | None, typer.Option("--sensor", help="Sensor of the experiment; repeat for more. Default: all.")
+]
+
+
+def main() -> None:
+    """Run the command line; a known error is one line on standard error and exit code 2."""
+    try:
+        app()
+    except (ForceTorqueError, OSError) as error:
+        sys.stderr.write("error: " + " ".join(str(error).split()) + "\n")
+        raise SystemExit(2) from None
+
+
+@app.callback(invoke_without_command=True)
+def _version(
+    version: Annotated[bool, typer.Option("--version", help="Print the version and stop.", is_eager=True)] = False,
+) -> None:
+    if version:
+        from importlib.metadata import version as installed_version
+
+        typer.echo(installed_version("forcetorque"))
+        raise typer.Exit
+
+
+@app.command("calibrate")
+def _calibrate(
+    experiment: ExperimentArgument,
+    output: Annotated[
+        Path, typer.Option("--output", "-o", help="A .json file for one sensor, or a folder for one file per sensor.")
+    ],
+    sensor: SensorOption = None,
+    regularisation: Annotated[
+        str | None,
+        typer.Option("--lambda", help="Lambda in counts2, or `held-out`. Default: what the experiment file says."),
+    ] = None,
+    output_format: FormatOption = Format.TABLE,
+) -> None:
+    """Fit the matrix and offset of each sensor on the calibration intervals.
+
+    Example: forcetorque calibrate experiment.toml -o right_leg.json
+    """
+    from forcetorque.cli.calibrate import run
+
+    run(experiment, output=output, sensors=sensor, regularisation=regularisation, output_format=output_format)
+
+
+@app.command("evaluate")
+def _evaluate(
+    experiment: ExperimentArgument,
+    calibration: Annotated[
+        list[Path], typer.Option("--calibration", "-c", help="Calibration file; repeat to compare several.")
+    ],
+    output_format: FormatOption = Format.TABLE,
+) -> None:
+    """Judge calibrations on the validation intervals, prior against new.
+
+    Example: forcetorque evaluate experiment.toml --calibration right_leg.json
+    """
+    from forcetorque.cli.evaluate import run
+
+    run(experiment, calibrations=calibration, output_format=output_format)
+
+
+@app.command("schema")
+def _schema(
+    name: Annotated[str, typer.Argument(help="experiment, recording, calibration, calibrate or evaluate.")],
+) -> None:
+    """Print the JSON schema of a file or of a command's result.
+
+    Example: forcetorque schema experiment
+    """
+    from forcetorque.cli.schema import run
+
+    run(name)

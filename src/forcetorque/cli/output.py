@@ -1,0 +1,97 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Where results and messages go: results to standard output, everything else to standard error."""
+
+from __future__ import annotations
+
+import csv
+import json
+import logging
+import sys
+from collections.abc import Callable, Mapping, Sequence
+from enum import StrEnum
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from rich.console import Console
+    from rich.table import Table
+
+_PIPE_WIDTH = 120
+"""Columns of a table that goes to a file or a pipe."""
+
+
+class Format(StrEnum):
+    """Form of a result on standard output."""
+
+    TABLE = "table"
+    JSON = "json"
+    CSV = "csv"
+
+
+def start_logging() -> logging.Logger:
+    """Send the library's and the command's messages to standard error.
+
+    Returns:
+        The logger of the command line.
+    """
+    logger = logging.getLogger("forcetorque")
+    if not logger.handlers:
+        handler = logging.StreamHandler(sys.stderr)
+        handler.setFormatter(logging.Formatter("%(levelname)s: %(message)s"))
+        logger.addHandler(handler)
+        logger.setLevel(logging.INFO)
+    return logger
+
+
+def console() -> Console:
+    """Give the console for tables: as wide as the terminal, or as the widest table where there is none.
+
+    Returns:
+        A console on standard output.
+    """
+    from rich.console import Console
+
+    return Console(highlight=False, soft_wrap=False, width=None if sys.stdout.isatty() else _PIPE_WIDTH)
+
+
+def table(*headings: str, title: str | None = None) -> Table:
+    """Start a table: text on the left, numbers to the right of it.
+
+    Args:
+        headings: Headings of the columns; the first holds text.
+        title: Line above it.
+
+    Returns:
+        A table without rows.
+    """
+    from rich import box
+    from rich.table import Table
+
+    made = Table(box=box.SIMPLE_HEAD, pad_edge=False, title=title, title_justify="left")
+    for k, heading in enumerate(headings):
+        made.add_column(heading, justify="left" if k == 0 else "right", overflow="fold")
+    return made
+
+
+def print_result(
+    result: Mapping[str, Any],
+    rows: Sequence[Mapping[str, Any]],
+    output_format: Format,
+    *,
+    show: Callable[[], None],
+) -> None:
+    """Print a result in the form that was asked for.
+
+    Args:
+        result: The whole result, with its schema.
+        rows: The same as flat rows with equal keys, for CSV.
+        output_format: Form.
+        show: Prints the result for people.
+    """
+    if output_format is Format.JSON:
+        sys.stdout.write(json.dumps(result, indent=2, allow_nan=False) + "\n")
+    elif output_format is Format.CSV:
+        writer = csv.DictWriter(sys.stdout, fieldnames=list(rows[0]), lineterminator="\n")
+        writer.writeheader()
+        writer.writerows(rows)
+    else:
+        show()

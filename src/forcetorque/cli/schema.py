@@ -1,0 +1,62 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""`forcetorque schema`: the form of files and results, as JSON."""
+
+from __future__ import annotations
+
+import json
+import sys
+from collections.abc import Callable
+from typing import Any
+
+from forcetorque.errors import ForceTorqueError, known_names
+
+
+def run(name: str) -> None:
+    """Print the schema of a file or a result.
+
+    Args:
+        name: What to describe.
+
+    Raises:
+        ForceTorqueError: If nothing is called so.
+    """
+    known: dict[str, Callable[[], dict[str, Any]]] = {
+        "experiment": _experiment,
+        "recording": _recording,
+        "calibration": _calibration,
+        "calibrate": _calibrate,
+        "evaluate": _evaluate,
+    }
+    if name not in known:
+        raise ForceTorqueError(f"no schema is called {name!r}; {known_names(name, known)}")
+    sys.stdout.write(json.dumps(known[name](), indent=2) + "\n")
+
+
+def _experiment() -> dict[str, Any]:
+    from forcetorque.experiment import ExperimentFile
+
+    return ExperimentFile.model_json_schema()
+
+
+def _recording() -> dict[str, Any]:
+    from forcetorque.recording import recording_schema
+
+    return recording_schema()
+
+
+def _calibration() -> dict[str, Any]:
+    from forcetorque.calibration import Calibration
+
+    return Calibration.model_json_schema()
+
+
+def _calibrate() -> dict[str, Any]:
+    from forcetorque.cli.calibrate import CalibrateResult
+
+    return CalibrateResult.model_json_schema()
+
+
+def _evaluate() -> dict[str, Any]:
+    from forcetorque.cli.evaluate import EvaluateResult
+
+    return EvaluateResult.model_json_schema()

@@ -1,0 +1,101 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Errors of a calibration against reference wrenches, per axis and by magnitude."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from forcetorque.arrays import FloatArray, read_only
+from forcetorque.errors import ShapeError
+
+_BLOCKS = 10
+"""Contiguous blocks from whose means the standard error comes: neighbouring samples repeat each other."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class WrenchErrors:
+    """Statistics of n errors, pooled before anything is averaged."""
+
+    count: int
+    """Number of samples."""
+    bias: FloatArray
+    """Mean error per component; shape (6,); N, N m."""
+    rmse: FloatArray
+    """Root mean square error per component; shape (6,); N, N m."""
+    largest: FloatArray
+    """Largest absolute error per component; shape (6,); N, N m."""
+    force_mean: float
+    """Mean norm of the force error; N."""
+    force_mean_error: float
+    """Standard error of that mean, from contiguous blocks; N."""
+    force_largest: float
+    """Largest norm of the force error; N."""
+    moment_mean: float
+    """Mean norm of the moment error; N m."""
+    moment_mean_error: float
+    """Standard error of that mean, from contiguous blocks; N m."""
+    moment_largest: float
+    """Largest norm of the moment error; N m."""
+
+    def __post_init__(self) -> None:
+        for field in ("bias", "rmse", "largest"):
+            object.__setattr__(self, field, read_only(getattr(self, field), name=field, shape=(6,)))
+
+
+def wrench_errors(measured: Any, reference: Any) -> WrenchErrors:
+    """Compare measured with reference wrenches.
+
+    Args:
+        measured: Wrenches of the sensor, in the order of time; shape (n, 6), n at least 1; N, N m.
+        reference: Wrenches that mechanics demands; shape (n, 6); N, N m.
+
+    Returns:
+        Statistics of measured minus reference.
+
+    Raises:
+        ShapeError: If the shapes are not these.
+    """
+    first, second = np.asarray(measured, dtype=np.float64), np.asarray(reference, dtype=np.float64)
+    if first.ndim != 2 or first.shape[1] != 6 or first.shape != second.shape or not len(first):
+        raise ShapeError(f"expected measured and reference of one shape (n, 6), got {first.shape} and {second.shape}")
+    error = first - second
+    force, moment = np.linalg.norm(error[:, :3], axis=1), np.linalg.norm(error[:, 3:], axis=1)
+    return WrenchErrors(
+        count=len(error),
+        bias=error.mean(axis=0),
+        rmse=np.sqrt((error**2).mean(axis=0)),
+        largest=np.abs(error).max(axis=0),
+        force_mean=float(force.mean()),
+        force_mean_error=_mean_error(force),
+        force_largest=float(force.max()),
+        moment_mean=float(moment.mean()),
+        moment_mean_error=_mean_error(moment),
+        moment_largest=float(moment.max()),
+    )
+
+
+def _mean_error(values: FloatArray) -> float:
+    """Standard error of a mean from the scatter of the means of contiguous blocks; NaN for one sample."""
+    blocks = np.array_split(values, min(_BLOCKS, len(values)))
+    if len(blocks) < 2:
+        return float("nan")
+    means = np.array([block.mean() for block in blocks])
+    return float(means.std(ddof=1) / np.sqrt(len(means)))
+
+
+def offset_removed(measured: Any, reference: Any) -> FloatArray:
+    """Re-estimate the offset on the judged samples themselves: what is left is the matrix's doing.
+
+    Args:
+        measured: Wrenches of the sensor; shape (n, 6); N, N m.
+        reference: Wrenches that mechanics demands; shape (n, 6); N, N m.
+
+    Returns:
+        Measured wrenches moved by one constant so that their mean error is zero; shape (n, 6).
+    """
+    first = np.asarray(measured, dtype=np.float64)
+    moved: FloatArray = first - (first - np.asarray(reference, dtype=np.float64)).mean(axis=0)
+    return moved

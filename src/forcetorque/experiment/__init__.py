@@ -1,0 +1,22 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The experiment file: from TOML to robot, recording, intervals and sensors, and on to a verdict."""
+
+from forcetorque.experiment.calibrate import calibrate_sensor
+from forcetorque.experiment.evaluate import Verdict, evaluate_sensor
+from forcetorque.experiment.load import Experiment, ExperimentSensor, load_experiment
+from forcetorque.experiment.parse import parse_experiment
+from forcetorque.experiment.samples import IntervalSamples, samples_of
+from forcetorque.experiment.schema import ExperimentFile
+
+__all__ = [
+    "Experiment",
+    "ExperimentFile",
+    "ExperimentSensor",
+    "IntervalSamples",
+    "Verdict",
+    "calibrate_sensor",
+    "evaluate_sensor",
+    "load_experiment",
+    "parse_experiment",
+    "samples_of",
+]

@@ -1,0 +1,112 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Calibrate a sensor of an experiment: from its samples to the artefact."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from forcetorque.calibration import (
+    RULE,
+    Calibration,
+    CalibrationFit,
+    DataSet,
+    FittedInterval,
+    Prior,
+    Provenance,
+    Selection,
+    SensorIdentity,
+    Validity,
+    calibrate,
+)
+from forcetorque.experiment.load import Experiment, ExperimentSensor
+from forcetorque.experiment.samples import IntervalSamples, samples_of
+from forcetorque.recording import Use
+
+
+def calibrate_sensor(
+    experiment: Experiment,
+    sensor: ExperimentSensor,
+    *,
+    code_version: str,
+    created: str,
+    regularisation: float | None = None,
+) -> Calibration:
+    """Fit a sensor on the calibration intervals of an experiment.
+
+    Args:
+        experiment: The experiment.
+        sensor: One of its sensors.
+        code_version: Version of this library, for the record.
+        created: Date and time, ISO 8601, for the record.
+        regularisation: Lambda; counts2; None to choose it on held-out blocks.
+
+    Returns:
+        The calibration, with everything that tells how far to trust it.
+    """
+    parts = samples_of(experiment, sensor, Use.CALIBRATION)
+    result = calibrate(
+        [DataSet(label=p.interval.label, raw=p.raw, reference=p.samples.reference) for p in parts],
+        sensor.prior,
+        regularisation=regularisation,
+    )
+    tag = experiment.model.sensor(sensor.name)
+    return Calibration(
+        sensor=SensorIdentity(
+            name=sensor.name,
+            serial=sensor.serial,
+            robot=experiment.model.name,
+            frame=tag.frame.value,
+            measure_direction=tag.direction,
+        ),
+        matrix=result.fit.matrix,
+        offset=result.fit.offset,
+        matrix_standard_error=result.matrix_standard_error,
+        offset_standard_error=result.offset_standard_error,
+        residual_rms=result.fit.residual,
+        lambda_counts2=result.fit.regularisation,
+        prior=None
+        if sensor.prior is None or result.prior_offset is None or sensor.prior_source is None
+        else Prior(matrix=sensor.prior, offset=result.prior_offset, source=sensor.prior_source),
+        validity=_validity(parts, result),
+        selection=_selection(result),
+        provenance=Provenance(
+            code_version=code_version,
+            created=created,
+            experiment=experiment.name,
+            intervals=tuple(
+                FittedInterval(label=p.interval.label, start_ns=p.interval.start_ns, end_ns=p.interval.end_ns)
+                for p in parts
+            ),
+            samples=sum(len(p.samples) for p in parts),
+            dropped=sum(p.samples.dropped for p in parts),
+            inputs_sha256=experiment.inputs_sha256,
+        ),
+    )
+
+
+def _validity(parts: list[IntervalSamples], result: CalibrationFit) -> Validity:
+    raw, excitation = np.concatenate([p.raw for p in parts]), result.fit.excitation
+    return Validity(
+        raw_minimum_counts=raw.min(axis=0),
+        raw_maximum_counts=raw.max(axis=0),
+        reference_deviation=excitation.reference_deviation,
+        rank=excitation.rank,
+        condition=excitation.condition if math.isfinite(excitation.condition) else None,
+        directions=excitation.directions,
+        variance_counts2=excitation.variance,
+        explained=excitation.explained,
+        excited=excitation.excited,
+    )
+
+
+def _selection(result: CalibrationFit) -> Selection:
+    if result.curve is None:
+        return Selection(rule="given")
+    return Selection(
+        rule=RULE,
+        lambda_counts2=tuple(float(v) for v in result.curve.regularisations),
+        held_out_rmse=tuple(float(v) for v in result.curve.held_out_error),
+        worst_ratio_to_prior=tuple(float(v) for v in result.curve.worst_ratio),
+    )

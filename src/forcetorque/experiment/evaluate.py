@@ -1,0 +1,94 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Judge calibrations of a sensor on the validation intervals of an experiment."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from forcetorque.arrays import FloatArray
+from forcetorque.calibration import Calibration
+from forcetorque.errors import ExperimentError
+from forcetorque.evaluation import WrenchErrors, offset_removed, wrench_errors
+from forcetorque.experiment.load import Experiment, ExperimentSensor
+from forcetorque.experiment.samples import samples_of
+from forcetorque.recording import Use
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Verdict:
+    """Errors of one candidate with one offset."""
+
+    sensor: str
+    """Sensor."""
+    serial: str
+    """Its serial number."""
+    candidate: str
+    """Name of the calibration, or the prior of one."""
+    offset: str
+    """`fitted`: that of the fitted data; `re-estimated`: on the judged samples."""
+    errors: WrenchErrors
+    """Errors over all judged samples."""
+
+
+def evaluate_sensor(
+    experiment: Experiment, sensor: ExperimentSensor, calibrations: Mapping[str, Calibration]
+) -> list[Verdict]:
+    """Judge calibrations, and the priors that they came from, on data that was not fitted.
+
+    Args:
+        experiment: The experiment.
+        sensor: One of its sensors.
+        calibrations: Calibrations of that sensor by name.
+
+    Returns:
+        For every candidate the errors with the offset of the fitted data and with the offset
+        re-estimated on the judged samples; a prior that several calibrations share comes once.
+
+    Raises:
+        SerialNumberError: If a calibration is of another sensor.
+        ExperimentError: If a judged interval was fitted.
+    """
+    for name, calibration in calibrations.items():
+        calibration.require_serial(sensor.serial)
+        _refuse_fitted(name, calibration, experiment)
+    parts = samples_of(experiment, sensor, Use.VALIDATION)
+    raw = np.concatenate([p.raw for p in parts])
+    reference = np.concatenate([p.samples.reference for p in parts])
+    verdicts = []
+    for candidate, matrix, offset in _candidates(calibrations):
+        measured = raw @ matrix.T + offset
+        for kind, values in (("fitted", measured), ("re-estimated", offset_removed(measured, reference))):
+            verdicts.append(
+                Verdict(
+                    sensor=sensor.name,
+                    serial=sensor.serial,
+                    candidate=candidate,
+                    offset=kind,
+                    errors=wrench_errors(values, reference),
+                )
+            )
+    return verdicts
+
+
+def _candidates(calibrations: Mapping[str, Calibration]) -> list[tuple[str, FloatArray, FloatArray]]:
+    priors: dict[bytes, tuple[str, FloatArray, FloatArray]] = {}
+    for name, calibration in calibrations.items():
+        if calibration.prior is not None:
+            prior = calibration.prior
+            label = "prior" if len(calibrations) == 1 else f"prior of {name}"
+            priors.setdefault(prior.matrix.tobytes() + prior.offset.tobytes(), (label, prior.matrix, prior.offset))
+    return [*priors.values(), *((name, c.matrix, c.offset) for name, c in calibrations.items())]
+
+
+def _refuse_fitted(name: str, calibration: Calibration, experiment: Experiment) -> None:
+    """Refuse a verdict on samples that the calibration has seen."""
+    for judged in experiment.intervals(Use.VALIDATION):
+        for fitted in calibration.provenance.intervals:
+            if judged.start_ns < fitted.end_ns and fitted.start_ns < judged.end_ns:
+                raise ExperimentError(
+                    f"calibration {name!r} was fitted on the interval {fitted.label!r}, which overlaps the judged "
+                    f"interval {judged.label!r}; judge it on data that it has not seen"
+                )

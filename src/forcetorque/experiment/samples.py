@@ -1,0 +1,59 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Samples of a sensor over the intervals of an experiment, with raw readings where only wrenches were logged."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from forcetorque.arrays import FloatArray
+from forcetorque.calibration import recover_raw
+from forcetorque.errors import ExperimentError
+from forcetorque.estimation import SensorSamples, sensor_samples
+from forcetorque.experiment.load import Experiment, ExperimentSensor
+from forcetorque.recording import Interval, Use
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class IntervalSamples:
+    """Samples of one sensor in one interval."""
+
+    interval: Interval
+    """The interval."""
+    samples: SensorSamples
+    """Reading and reference at the same instants."""
+    raw: FloatArray
+    """Raw readings, logged or recovered through the prior; shape (n, c); counts."""
+
+
+def samples_of(experiment: Experiment, sensor: ExperimentSensor, use: Use) -> list[IntervalSamples]:
+    """Collect the samples of a sensor in all intervals of one use.
+
+    Args:
+        experiment: The experiment.
+        sensor: One of its sensors.
+        use: Use of the intervals.
+
+    Returns:
+        Samples per interval, in the order of the file.
+
+    Raises:
+        ExperimentError: If the stream is calibrated and the sensor has no prior.
+    """
+    collected = []
+    for interval in experiment.intervals(use):
+        samples = sensor_samples(
+            experiment.recording,
+            experiment.model,
+            sensor=sensor.name,
+            stream=sensor.stream,
+            quantity=sensor.quantity,
+            interval=interval,
+            processing=experiment.processing,
+        )
+        raw = samples.reading.values
+        if sensor.quantity == "wrench":
+            if sensor.prior is None:
+                raise ExperimentError(f"sensor {sensor.name!r}: recovering raw counts needs the prior matrix")
+            raw = recover_raw(raw, sensor.prior)
+        collected.append(IntervalSamples(interval=interval, samples=samples, raw=raw))
+    return collected
