@@ -1,0 +1,40 @@
+# Everything here works on a fresh machine with make and Python 3.11 or later.
+PYTHON ?= python3
+DATA ?= ../shared/data
+VENV := .venv
+BIN := $(VENV)/bin
+
+.PHONY: demo test lint types bench clean
+
+demo: $(VENV)/run.stamp
+	$(BIN)/python examples/01_known_truth.py build/demo
+
+test: lint types
+	$(BIN)/pytest --data $(DATA)
+
+lint: $(VENV)/test.stamp
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+
+types: $(VENV)/test.stamp
+	$(BIN)/mypy
+
+bench: $(VENV)/test.stamp
+	$(BIN)/python -m benchmarks.yarp_readers --json build/benchmarks/yarp_readers.json
+
+# uv installs exactly what uv.lock says; it is itself installed here, so nothing is assumed
+$(BIN)/uv:
+	$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and "Python 3.11 or later is needed; make PYTHON=...")'
+	$(PYTHON) -m venv $(VENV)
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check "uv>=0.5"
+
+$(VENV)/run.stamp: $(BIN)/uv pyproject.toml uv.lock
+	$(BIN)/uv sync --quiet --locked --inexact
+	touch $@
+
+$(VENV)/test.stamp: $(BIN)/uv pyproject.toml uv.lock
+	$(BIN)/uv sync --quiet --locked --inexact --extra test
+	touch $@ $(VENV)/run.stamp
+
+clean:
+	rm -rf $(VENV) build

@@ -1,0 +1,123 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The choice of lambda on held-out blocks, and the uncertainty from leaving out blocks."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from forcetorque.calibration import DataSet, Moments, calibrate, choose_lambda
+from forcetorque.calibration.held_out import candidate_lambdas, jackknife_error
+from forcetorque.errors import FitError, ShapeError
+
+TRUTH = 0.02 * (np.eye(6) + 0.2 * np.random.default_rng(1).normal(size=(6, 6)))
+PRIOR = TRUTH * (1.0 + 0.1 * np.random.default_rng(2).normal(size=(6, 6)))
+
+
+def _blocks(*, matrix: np.ndarray, drift: float, seed: int = 3, count: int = 5, amplitude: float = 1000.0) -> list:
+    """Blocks around different postures; drift moves the reading of each block by a constant of its own."""
+    rng = np.random.default_rng(seed)
+    blocks = []
+    for _ in range(count):
+        raw = amplitude * rng.normal(size=6) + amplitude * rng.normal(size=(200, 6))
+        reference = raw @ matrix.T + drift * rng.normal(size=6) + 0.05 * rng.normal(size=(200, 6))
+        blocks.append((raw, reference))
+    return blocks
+
+
+def _moments(blocks: list) -> list[Moments]:
+    return [Moments.of(raw, reference) for raw, reference in blocks]
+
+
+def test_good_data_overrule_a_wrong_prior() -> None:
+    """With rich blocks and little noise the choice is a lambda that recovers the true matrix."""
+    blocks = _moments(_blocks(matrix=TRUTH, drift=0.0))
+    curve = choose_lambda(blocks, PRIOR)
+    fit = calibrate([DataSet(label="a", raw=r, reference=f) for r, f in _blocks(matrix=TRUTH, drift=0.0)], PRIOR)
+    assert math.isfinite(curve.chosen)
+    assert np.linalg.norm(fit.fit.matrix - TRUTH) < 0.02 * np.linalg.norm(PRIOR - TRUTH)
+
+
+def test_a_right_prior_is_kept_against_disturbed_data() -> None:
+    """Where the prior is the truth and blocks hardly move but drift, the choice stays with the prior."""
+    blocks = _moments(_blocks(matrix=TRUTH, drift=5.0, amplitude=30.0, seed=4))
+    curve = choose_lambda(blocks, TRUTH)
+    matrix_error = np.linalg.norm(
+        calibrate(
+            [
+                DataSet(label=str(k), raw=r, reference=f)
+                for k, (r, f) in enumerate(_blocks(matrix=TRUTH, drift=5.0, amplitude=30.0, seed=4))
+            ],
+            TRUTH,
+        ).fit.matrix
+        - TRUTH
+    )
+    assert curve.chosen > 1e3 * candidate_lambdas(blocks[0])[0]
+    assert matrix_error < 0.05 * np.linalg.norm(TRUTH)
+
+
+def test_no_block_gets_worse_than_with_the_prior() -> None:
+    """The chosen lambda harms no held-out block, which smaller ones do on disturbed data."""
+    blocks = _moments(_blocks(matrix=TRUTH, drift=3.0, amplitude=100.0, seed=6))
+    curve = choose_lambda(blocks, PRIOR)
+    chosen = int(np.flatnonzero(curve.regularisations == curve.chosen)[0])
+    assert curve.worst_ratio[chosen] <= 1.0
+    assert curve.worst_ratio.max() > 1.0
+    assert curve.regularisations[-1] == math.inf
+
+
+def test_the_choice_is_the_smallest_harmless_mean() -> None:
+    """The rule as stated, evaluated again from the curve."""
+    curve = choose_lambda(_moments(_blocks(matrix=TRUTH, drift=0.5, seed=7)), PRIOR)
+    harmless = curve.worst_ratio <= 1.0
+    best = curve.regularisations[harmless][np.argmin(curve.held_out_error[harmless])]
+    assert curve.chosen == best
+
+
+def test_lambda_follows_the_unit_of_counts() -> None:
+    """Counts in other units choose the same lambda in the new unit."""
+    blocks = _blocks(matrix=TRUTH, drift=0.5, seed=8)
+    one = choose_lambda(_moments(blocks), PRIOR).chosen
+    other = choose_lambda(_moments([(8.0 * r, f) for r, f in blocks]), PRIOR / 8.0).chosen
+    assert other == pytest.approx(64.0 * one, rel=1e-9)
+
+
+def test_jackknife_covers_the_truth() -> None:
+    """Over 60 simulated data sets, errors of the matrix are of the size that the jackknife says."""
+    ratios = []
+    for seed in range(60):
+        blocks = _moments(_blocks(matrix=TRUTH, drift=0.2, seed=100 + seed))
+        fit = calibrate(
+            [DataSet(label="a", raw=r, reference=f) for r, f in _blocks(matrix=TRUTH, drift=0.2, seed=100 + seed)],
+            None,
+            regularisation=0.0,
+        )
+        error, _ = jackknife_error(blocks, None, 0.0)
+        ratios.append(((fit.fit.matrix - TRUTH) ** 2).sum() / (error**2).sum())
+    # five blocks leave a factor of about two in the estimate of a variance
+    assert 0.3 < float(np.median(ratios)) < 3.0
+
+
+def test_one_block_has_no_choice_and_no_spread() -> None:
+    """A choice needs two blocks; a single sample cannot be divided."""
+    raw, reference = _blocks(matrix=TRUTH, drift=0.0)[0]
+    with pytest.raises(FitError, match="two blocks"):
+        choose_lambda([Moments.of(raw, reference)], PRIOR)
+    fit = calibrate([DataSet(label="a", raw=raw[:1], reference=reference[:1])], PRIOR, regularisation=1.0)
+    assert fit.matrix_standard_error is None
+
+
+def test_bad_requests_are_refused() -> None:
+    """No data, different channels, a choice without prior, and readings that never change."""
+    raw, reference = _blocks(matrix=TRUTH, drift=0.0)[0]
+    data = DataSet(label="a", raw=raw, reference=reference)
+    with pytest.raises(FitError, match="at least one"):
+        calibrate([], PRIOR)
+    with pytest.raises(FitError, match="without a prior"):
+        calibrate([data], None)
+    with pytest.raises(ShapeError, match="channels"):
+        calibrate([data, DataSet(label="b", raw=raw[:, :5], reference=reference)], PRIOR)
+    with pytest.raises(FitError, match="do not change"):
+        calibrate([DataSet(label="c", raw=np.ones((50, 6)), reference=reference[:50])], PRIOR)

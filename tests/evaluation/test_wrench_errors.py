@@ -1,0 +1,56 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Error statistics: pooled, per axis and by magnitude, with an honest standard error."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from forcetorque.errors import ShapeError
+from forcetorque.evaluation import offset_removed, wrench_errors
+
+
+def test_by_hand() -> None:
+    """Two samples whose statistics can be written down."""
+    measured = np.array([[3.0, 4.0, 0.0, 0.0, 0.0, 1.0], [0.0, 0.0, 0.0, 0.0, 0.0, -1.0]])
+    errors = wrench_errors(measured, np.zeros((2, 6)))
+    assert errors.count == 2
+    np.testing.assert_allclose(errors.bias, [1.5, 2.0, 0, 0, 0, 0])
+    np.testing.assert_allclose(errors.rmse, [np.sqrt(4.5), np.sqrt(8.0), 0, 0, 0, 1.0])
+    np.testing.assert_allclose(errors.largest, [3.0, 4.0, 0, 0, 0, 1.0])
+    assert (errors.force_mean, errors.force_largest) == (2.5, 5.0)
+    assert (errors.moment_mean, errors.moment_largest) == (1.0, 1.0)
+    # two blocks of one sample: means 5 and 0, standard deviation 5 / sqrt 2, over sqrt 2
+    assert errors.force_mean_error == pytest.approx(2.5)
+
+
+def test_the_standard_error_sees_slow_changes() -> None:
+    """A slow drift counts as few independent values: white noise of the same size has a far smaller error."""
+    rng = np.random.default_rng(1)
+    zero = np.zeros((1000, 6))
+    slow, white = zero.copy(), zero.copy()
+    slow[:, 0] = np.linspace(0.0, 4.0, 1000)
+    white[:, 0] = rng.permutation(slow[:, 0])
+    assert wrench_errors(slow, zero).force_mean_error > 5 * wrench_errors(white, zero).force_mean_error
+
+
+def test_removing_the_offset_leaves_no_bias() -> None:
+    """A re-estimated offset takes out exactly the mean error."""
+    rng = np.random.default_rng(2)
+    reference = rng.normal(size=(50, 6))
+    measured = reference + rng.normal(size=(50, 6)) + 7.0
+    moved = offset_removed(measured, reference)
+    np.testing.assert_allclose((moved - reference).mean(axis=0), 0.0, atol=1e-14)
+    np.testing.assert_allclose(moved - measured, np.tile((moved - measured)[0], (50, 1)), atol=1e-13)
+
+
+def test_a_single_sample_has_no_standard_error() -> None:
+    """One sample says nothing about its own scatter."""
+    assert np.isnan(wrench_errors(np.ones((1, 6)), np.zeros((1, 6))).force_mean_error)
+
+
+@pytest.mark.parametrize(("a", "b"), [((0, 6), (0, 6)), ((3, 6), (2, 6)), ((3, 5), (3, 5)), ((6,), (6,))])
+def test_shapes_are_checked(a: tuple[int, ...], b: tuple[int, ...]) -> None:
+    """No samples, or shapes that do not fit, are refused."""
+    with pytest.raises(ShapeError, match="expected"):
+        wrench_errors(np.zeros(a), np.zeros(b))

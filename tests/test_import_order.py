@@ -1,0 +1,95 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The packages import only from those before them, as the architecture has it."""
+
+from __future__ import annotations
+
+import ast
+from pathlib import Path
+
+import pytest
+
+import forcetorque
+
+ORDER = (
+    "spatial",
+    "robot",
+    "recording",
+    "sensor",
+    "estimation",
+    "skin",
+    "calibration",
+    "evaluation",
+    "study",
+    "simulation",
+    "exsitu",
+    "exchange",
+    "experiment",
+    "viewer",
+    "report",
+    "live",
+    "fleet",
+    "cli",
+)
+ROOT = Path(forcetorque.__file__).parent
+LEAVES = {path.stem for path in ROOT.glob("*.py")} - {"__init__", "__main__"}
+"""Single modules beside the packages, such as errors: anyone may import them, they import no package."""
+
+
+def _imports(path: Path) -> set[str]:
+    """Names of the library's packages and modules that a file imports."""
+    found = set()
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.ImportFrom) and node.module and node.module.split(".")[0] == "forcetorque":
+            parts = node.module.split(".")[1:]
+            found |= {parts[0]} if parts else {alias.name for alias in node.names}
+        elif isinstance(node, ast.Import):
+            found |= {a.name.split(".")[1] for a in node.names if a.name.startswith("forcetorque.")}
+    return found
+
+
+def _violations(package: str, imported: set[str]) -> set[str]:
+    allowed = set(ORDER[: ORDER.index(package) + 1]) | LEAVES
+    return imported - allowed
+
+
+FILES = sorted(path for path in ROOT.rglob("*.py") if path.parent != ROOT)
+
+
+def test_there_are_packages() -> None:
+    """The test below looks at something, and every package has its place in the order."""
+    assert len(FILES) > 30
+    assert {path.relative_to(ROOT).parts[0] for path in FILES} <= set(ORDER)
+
+
+@pytest.mark.parametrize("path", FILES, ids=lambda path: str(path.relative_to(ROOT)))
+def test_imports_go_to_earlier_packages(path: Path) -> None:
+    """A file imports its own package, earlier ones, and single modules."""
+    assert not _violations(path.relative_to(ROOT).parts[0], _imports(path))
+
+
+@pytest.mark.parametrize("path", sorted(ROOT.glob("*.py")), ids=lambda path: path.name)
+def test_single_modules_import_no_package(path: Path) -> None:
+    """Single modules are below every package; only the entry point knows the command line."""
+    allowed = LEAVES | ({"cli"} if path.stem == "__main__" else set())
+    assert _imports(path) <= allowed
+
+
+def test_a_later_package_is_noticed() -> None:
+    """Negative control: an import against the order is a violation."""
+    assert _violations("recording", {"spatial", "errors", "calibration"}) == {"calibration"}
+
+
+PRINTING = {"print", "input"}
+
+
+@pytest.mark.parametrize("path", FILES, ids=lambda path: str(path.relative_to(ROOT)))
+def test_nothing_below_report_prints_or_reads_the_clock(path: Path) -> None:
+    """Results and time stamps are the command line's business."""
+    package = path.relative_to(ROOT).parts[0]
+    if ORDER.index(package) >= ORDER.index("report"):
+        return
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.Call):
+            name = ast.unparse(node.func)
+            assert name not in PRINTING
+            assert not name.endswith(("datetime.now", "date.today", "time.time", "perf_counter"))
