@@ -141,7 +141,7 @@ def _show(result: EvaluateResult) -> None:
         made = table("candidate", "offset", *headings, "force, N", "moment, N m", title=title)
         for row in rows:
             made.add_row(
-                Path(row.candidate).name,
+                _short(row.candidate),
                 row.offset,
                 *(f"{value:.3f}" for value in row.rmse),
                 _with_error(row.force_error_mean_N, row.force_error_standard_error_N),
@@ -149,6 +149,12 @@ def _show(result: EvaluateResult) -> None:
             )
         screen.print(made)
     screen.print("per axis: RMSE; force and moment: mean norm of the error ± its standard error")
+
+
+def _short(candidate: str) -> str:
+    """Leave the folders of a calibration file out."""
+    words, _, file = candidate.rpartition(" ")
+    return " ".join([*words.split(), Path(file).name])
 
 
 def _with_error(value: float, error: float | None) -> str:

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray, IntArray, read_only
+from forcetorque.arrays import FloatArray, IntArray, read_only, require_shape
 from forcetorque.constants import STANDARD_GRAVITY
 from forcetorque.errors import RecordingError
 from forcetorque.recording import Interval, Recording, SavitzkyGolay, Signal, Stream, Use
@@ -25,8 +25,12 @@ class Processing:
     """Filter that differentiates joint positions."""
     logged_derivatives: bool = False
     """Whether joint velocities and accelerations are taken from the log instead."""
-    reading_window: SavitzkyGolay | None = None
-    """Filter that smooths the sensor's reading inside each interval; None leaves it as logged."""
+    smoothing: SavitzkyGolay | None = None
+    """Filter of reading and reference alike, inside each interval; None leaves both as they are.
+
+    The same linear filter on both keeps `reference = matrix reading + offset` exact, and takes out
+    vibration that joint encoders do not see.
+    """
     gravity: float = STANDARD_GRAVITY
     """Magnitude of gravity; m/s2."""
 
@@ -47,7 +51,11 @@ class SensorSamples:
     """Samples of the interval left out: missing values, gaps in a joint, stamps that do not step forward."""
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "reference", read_only(self.reference, name="reference", shape=(None, 6)))
+        stamps = np.array(self.stamp_ns, dtype=np.int64)
+        stamps.setflags(write=False)
+        object.__setattr__(self, "stamp_ns", stamps)
+        object.__setattr__(self, "reference", read_only(self.reference, name="reference", shape=(len(stamps), 6)))
+        require_shape(self.reading.values, name="reading", shape=(len(stamps), None))
 
     def __len__(self) -> int:
         return len(self.stamp_ns)
@@ -86,13 +94,14 @@ def sensor_samples(
     if interval.support is None:
         raise RecordingError(f"interval {interval.label!r}: expected a support frame, got none")
     source = recording.stream(stream)
-    picked = _pick(recording, source, interval)
+    picked, wanted = _pick(recording, source, interval)
     name = model.sensor(sensor).name
     tree = build_tree(model, interval.support.frame)
     joints = required_joints(tree, name)
-    holders = recording.joint_signals("position")
-    for holder in {holders[joint][0].name for joint in joints if joint in holders}:
-        require_overlap(source, recording.stream(holder))
+    for used in ("position", "velocity", "acceleration") if processing.logged_derivatives else ("position",):
+        holders = recording.joint_signals(used)
+        for holder in dict.fromkeys(holders[joint][0].name for joint in joints if joint in holders):
+            require_overlap(source, recording.stream(holder))
     at_ns = source.stamp_ns[picked]
     motion = joint_motion_at(
         recording,
@@ -105,26 +114,26 @@ def sensor_samples(
     reference = expected_wrenches(tree, motion, root, [name])[name]
     reading = source.signal(quantity)
     values = reading.values[picked]
-    if processing.reading_window is not None:  # after the cut, so that nothing leaks in from outside
-        values = smooth(at_ns, values, processing.reading_window)
+    if processing.smoothing is not None:  # after the cut, so that nothing leaks in from outside
+        values = smooth(at_ns, values, processing.smoothing)
+        reference = smooth(at_ns, reference, processing.smoothing)
     complete = np.isfinite(reference).all(axis=1) & np.isfinite(values).all(axis=1)
     if not complete.any():
         raise RecordingError(
             f"interval {interval.label!r}: none of {len(picked)} samples of {stream!r} has both a reading and the "
             f"joint(s) {', '.join(joints)}; the streams have gaps or missing values all over it"
         )
-    in_span = np.count_nonzero((source.stamp_ns >= interval.start_ns) & (source.stamp_ns < interval.end_ns))
     return SensorSamples(
         label=interval.label,
         stamp_ns=at_ns[complete],
         reading=replace(reading, values=values[complete]),
         reference=reference[complete],
-        dropped=int(in_span - np.count_nonzero(complete)),
+        dropped=wanted - int(np.count_nonzero(complete)),
     )
 
 
-def _pick(recording: Recording, source: Stream, interval: Interval) -> IntArray:
-    """Find the samples of an interval that are not to be ignored."""
+def _pick(recording: Recording, source: Stream, interval: Interval) -> tuple[IntArray, int]:
+    """Find the samples of an interval that are not to be ignored, and count those with a bad stamp too."""
     start, end = recording.span_ns
     if interval.start_ns < start or interval.end_ns > end + 1:
         first, last = ((t - start) * 1e-9 for t in (interval.start_ns, interval.end_ns))
@@ -132,12 +141,13 @@ def _pick(recording: Recording, source: Stream, interval: Interval) -> IntArray:
             f"interval {interval.label!r}: expected a span inside the log, 0 to {(end - start) * 1e-9:.3f} s, "
             f"got {first:.3f} to {last:.3f} s"
         )
-    usable = usable_samples(source.stamp_ns)
-    stamps = source.stamp_ns[usable]
+    stamps = source.stamp_ns
     inside = (stamps >= interval.start_ns) & (stamps < interval.end_ns)
     for other in recording.intervals:
         if other.use is Use.IGNORE:
             inside &= (stamps < other.start_ns) | (stamps >= other.end_ns)
-    if not inside.any():
+    usable = usable_samples(stamps)
+    picked = usable[inside[usable]]
+    if not len(picked):
         raise RecordingError(f"interval {interval.label!r}: stream {source.name!r} has no sample in it to use")
-    return usable[inside]
+    return picked, int(np.count_nonzero(inside))

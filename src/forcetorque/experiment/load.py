@@ -243,13 +243,13 @@ def _refuse_overlap(file: Path, intervals: list[Interval]) -> None:
 
 
 def _processing(parsed: schema.ExperimentFile) -> Processing:
-    derivatives, reading = parsed.processing.derivatives, parsed.processing.reading
+    derivatives, smoothing = parsed.processing.derivatives, parsed.processing.smoothing
     default = Processing()
     return Processing(
         derivative_window=default.derivative_window
         if derivatives == "logged"
         else SavitzkyGolay(window_s=derivatives.window_s, order=derivatives.order),
         logged_derivatives=derivatives == "logged",
-        reading_window=None if reading is None else SavitzkyGolay(window_s=reading.window_s, order=reading.order),
+        smoothing=None if smoothing is None else SavitzkyGolay(window_s=smoothing.window_s, order=smoothing.order),
         gravity=parsed.robot.gravity,
     )

@@ -166,8 +166,8 @@ class ProcessingTable(_Table):
 
     derivatives: Smoothing | Literal["logged"] = Smoothing(window_s=0.3, order=3)
     """Filter that differentiates joint positions, or `logged` to take velocity and acceleration from the log."""
-    reading: Smoothing | None = None
-    """Filter of the sensor's reading inside each interval; none if left out."""
+    smoothing: Smoothing | None = None
+    """Filter of reading and reference alike inside each interval, against vibration; none if left out."""
 
 
 def _lambda(value: Any) -> Any:

@@ -1,0 +1,61 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Judge every lambda on the validation intervals of an experiment, beside what the held-out rule saw.
+
+Usage: python examples/06_lambda_curve.py EXPERIMENT.toml
+
+The rule chooses lambda from the fitted data alone; this table shows afterwards what the choice was worth.
+"""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+import numpy as np
+
+from forcetorque.calibration import DataSet, calibrate
+from forcetorque.evaluation import offset_removed, wrench_errors
+from forcetorque.experiment import Experiment, ExperimentSensor, load_experiment, samples_of
+from forcetorque.recording import Use
+
+
+def show_curve(experiment: Experiment, sensor: ExperimentSensor) -> None:
+    """Print the held-out and the judged error of every candidate lambda of one sensor."""
+    fitted = [
+        DataSet(label=part.interval.label, raw=part.raw, reference=part.samples.reference)
+        for part in samples_of(experiment, sensor, Use.CALIBRATION)
+    ]
+    judged = samples_of(experiment, sensor, Use.VALIDATION)
+    raw = np.concatenate([part.raw for part in judged])
+    reference = np.concatenate([part.samples.reference for part in judged])
+    curve = calibrate(fitted, sensor.prior).curve
+    if curve is None:
+        raise SystemExit(f"{sensor.name}: no prior, so there is no lambda to choose")
+    print(f"{experiment.name}: {sensor.name} ({sensor.serial}), {len(raw)} judged samples")
+    print("  lambda      held-out RMSE  worst/prior   judged |force|, N       judged |moment|, N m")
+    print("  counts2                                  fitted  re-estimated    fitted  re-estimated")
+    for regularisation, held_out, ratio in zip(
+        curve.regularisations, curve.held_out_error, curve.worst_ratio, strict=True
+    ):
+        fit = calibrate(fitted, sensor.prior, regularisation=float(regularisation)).fit
+        measured = raw @ fit.matrix.T + fit.offset
+        own = wrench_errors(measured, reference)
+        moved = wrench_errors(offset_removed(measured, reference), reference)
+        mark = "  <- chosen" if regularisation == curve.chosen else ""
+        print(
+            f"  {regularisation:9.3g}  {held_out:12.3f}  {ratio:11.2f}  {own.force_mean:10.3f}  {moved.force_mean:12.3f}"
+            f"  {own.moment_mean:8.4f}  {moved.moment_mean:12.4f}{mark}"
+        )
+
+
+def main(path: Path) -> None:
+    """Show the curve of every sensor of an experiment."""
+    experiment = load_experiment(path)
+    for sensor in experiment.sensors:
+        show_curve(experiment, sensor)
+
+
+if __name__ == "__main__":
+    if len(sys.argv) != 2:
+        sys.exit(__doc__)
+    main(Path(sys.argv[1]))
