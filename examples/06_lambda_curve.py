@@ -32,8 +32,8 @@ def show_curve(experiment: Experiment, sensor: ExperimentSensor) -> None:
     if curve is None:
         raise SystemExit(f"{sensor.name}: no prior, so there is no lambda to choose")
     print(f"{experiment.name}: {sensor.name} ({sensor.serial}), {len(raw)} judged samples")
-    print("  lambda      held-out RMSE  worst/prior   judged |force|, N       judged |moment|, N m")
-    print("  counts2                                  fitted  re-estimated    fitted  re-estimated")
+    print("    lambda  held-out   worst /     judged force error, N  judged moment error, N m")
+    print("   counts2      RMSE     prior    offset as fitted, re-estimated on the judged samples")
     for regularisation, held_out, ratio in zip(
         curve.regularisations, curve.held_out_error, curve.worst_ratio, strict=True
     ):
@@ -42,10 +42,9 @@ def show_curve(experiment: Experiment, sensor: ExperimentSensor) -> None:
         own = wrench_errors(measured, reference)
         moved = wrench_errors(offset_removed(measured, reference), reference)
         mark = "  <- chosen" if regularisation == curve.chosen else ""
-        print(
-            f"  {regularisation:9.3g}  {held_out:12.3f}  {ratio:11.2f}  {own.force_mean:10.3f}  {moved.force_mean:12.3f}"
-            f"  {own.moment_mean:8.4f}  {moved.moment_mean:12.4f}{mark}"
-        )
+        judged_errors = (own.force_mean, moved.force_mean, own.moment_mean, moved.moment_mean)
+        columns = "".join(f"{value:10.3f}" for value in (held_out, ratio, *judged_errors))
+        print(f"{regularisation:10.3g}{columns}{mark}")
 
 
 def main(path: Path) -> None:

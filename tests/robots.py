@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from forcetorque.robot import JointMotion, RobotModel
+from forcetorque.robot import JointMotion, RobotModel, read_urdf
 
 PENDULUM_URDF = """
 <robot name="pendulum">
@@ -25,6 +25,58 @@ PENDULUM_URDF = """
 </robot>
 """
 """A bob of 2 kg, 0.5 m below a hinge about y, with a sensor 0.2 m below the hinge."""
+
+
+def robot_xml(*elements: str) -> str:
+    """URDF text of a robot of these elements."""
+    return "\n".join(["<robot name='robot'>", *elements, "</robot>"])
+
+
+def link_xml(
+    name: str, *, mass: float = 0.0, xyz: str = "0 0 0", rpy: str = "0 0 0", moments: str = "0 0 0 0 0 0"
+) -> str:
+    """URDF text of a link; the moments about the centre of mass are ixx ixy ixz iyy iyz izz."""
+    keys = ("ixx", "ixy", "ixz", "iyy", "iyz", "izz")
+    tensor = " ".join(f"{key}='{value}'" for key, value in zip(keys, moments.split(), strict=True))
+    return (
+        f"<link name='{name}'><inertial><origin xyz='{xyz}' rpy='{rpy}'/>"
+        f"<mass value='{mass!r}'/><inertia {tensor}/></inertial></link>"
+    )
+
+
+def joint_xml(
+    name: str,
+    parent: str,
+    child: str,
+    *,
+    type: str = "fixed",
+    xyz: str = "0 0 0",
+    rpy: str = "0 0 0",
+    axis: str = "0 0 1",
+    inside: str = "",
+) -> str:
+    """URDF text of a joint."""
+    return (
+        f"<joint name='{name}' type='{type}'><parent link='{parent}'/><child link='{child}'/>"
+        f"<origin xyz='{xyz}' rpy='{rpy}'/><axis xyz='{axis}'/>{inside}</joint>"
+    )
+
+
+def sensor_xml(
+    name: str, joint: str, *, frame: str = "child", direction: str = "child_to_parent", inside: str = ""
+) -> str:
+    """URDF text of a force-torque sensor in its plain form."""
+    return (
+        f"<sensor name='{name}' type='force_torque'><parent joint='{joint}'/>{inside}<force_torque>"
+        f"<frame>{frame}</frame><measure_direction>{direction}</measure_direction></force_torque></sensor>"
+    )
+
+
+def read_text(urdf: str, folder: Path) -> RobotModel:
+    """Read a robot from URDF text, by way of a file in a folder."""
+    file = folder / "robot.urdf"
+    file.write_text(urdf, encoding="utf-8")
+    return read_urdf(file)
 
 
 def icub(name: str) -> Path:

@@ -1,2 +1,59 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Calibrate force-torque sensors where they are mounted, and say how far to trust them."""
+"""Calibrate force-torque sensors where they are mounted, and say how far to trust them.
+
+The names here are what a first script needs; everything else is in the packages, which are the
+nouns of the equation in the README. They are imported when they are first used, so that
+`import forcetorque` and the command line's help cost no scientific library.
+"""
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from forcetorque.calibration import Calibration, DataSet, calibrate, read_calibration, write_calibration
+    from forcetorque.errors import ForceTorqueError
+    from forcetorque.evaluation import wrench_errors
+    from forcetorque.experiment import Experiment, calibrate_sensor, evaluate_sensor, load_experiment, samples_of
+    from forcetorque.recording import Recording, read_recording, write_recording
+    from forcetorque.robot import RobotModel, expected_wrenches, read_urdf
+
+_HOMES = {
+    "calibration": ("Calibration", "DataSet", "calibrate", "read_calibration", "write_calibration"),
+    "errors": ("ForceTorqueError",),
+    "evaluation": ("wrench_errors",),
+    "experiment": ("Experiment", "calibrate_sensor", "evaluate_sensor", "load_experiment", "samples_of"),
+    "recording": ("Recording", "read_recording", "write_recording"),
+    "robot": ("RobotModel", "expected_wrenches", "read_urdf"),
+}
+
+__all__ = [
+    "Calibration",
+    "DataSet",
+    "Experiment",
+    "ForceTorqueError",
+    "Recording",
+    "RobotModel",
+    "calibrate",
+    "calibrate_sensor",
+    "evaluate_sensor",
+    "expected_wrenches",
+    "load_experiment",
+    "read_calibration",
+    "read_recording",
+    "read_urdf",
+    "samples_of",
+    "wrench_errors",
+    "write_calibration",
+    "write_recording",
+]
+
+
+def __getattr__(name: str) -> Any:
+    for home, names in _HOMES.items():
+        if name in names:
+            return getattr(import_module(f"{__name__}.{home}"), name)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    return sorted(__all__)

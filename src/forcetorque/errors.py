@@ -53,7 +53,8 @@ def known_names(wanted: str, known: Iterable[str]) -> str:
     Returns:
         Text to append to a message: the closest name if there is one, then all of them, sorted.
     """
-    names = sorted(known)
+    # names come from files: one with a line break in it must not break the message in two
+    names = sorted(name if name.isprintable() else repr(name) for name in known)
     close = get_close_matches(wanted, names, n=1)
     hint = f'did you mean "{close[0]}"? ' if close else ""
     return f"{hint}known: {', '.join(names) if names else 'none'}"

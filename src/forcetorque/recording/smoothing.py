@@ -3,10 +3,10 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.signal import savgol_filter
 
 from forcetorque.arrays import FloatArray, IntArray
 from forcetorque.errors import RecordingError
@@ -23,9 +23,9 @@ class SavitzkyGolay:
     """Order of the polynomial."""
 
     def __post_init__(self) -> None:
-        if not self.window_s > 0.0 or self.order < 0:
+        if not 0.0 < self.window_s < math.inf or self.order < 0:
             raise RecordingError(
-                f"Savitzky-Golay: expected a window above 0 s and an order of at least 0, "
+                f"Savitzky-Golay: expected a finite window above 0 s and an order of at least 0, "
                 f"got {self.window_s:g} s and {self.order}"
             )
 
@@ -33,9 +33,10 @@ class SavitzkyGolay:
 def smooth(stamp_ns: IntArray, values: FloatArray, window: SavitzkyGolay, *, derivative: int = 0) -> FloatArray:
     """Smooth or differentiate samples in time.
 
-    Stamps jitter, so every stretch between gaps and NaN is brought to an even grid of its median
+    Stamps jitter, so every stretch between gaps is brought to an even grid of the stream's median
     period, filtered there, and read off at its own stamps. Ends of a stretch use the polynomial of
-    the last full window. A stretch shorter than the window gives NaN.
+    the last full window. A stretch shorter than the window gives NaN. A sample with a NaN in any
+    column gives NaN and counts as missing: too many in a row are a gap, fewer are bridged.
 
     Args:
         stamp_ns: Stamps in the order of the log; shape (n,); ns.
@@ -56,28 +57,29 @@ def smooth(stamp_ns: IntArray, values: FloatArray, window: SavitzkyGolay, *, der
     result = np.full(values.shape, np.nan)
     usable = usable_samples(stamp_ns)
     usable = usable[np.isfinite(values[usable]).all(axis=1)]
-    stamps = stamp_ns[usable]
-    breaks = np.flatnonzero(np.diff(stamps) > gap_limit_ns(stamps)) + 1
-    for stretch in np.split(usable, breaks):
-        if len(stretch) > 1:
-            result[stretch] = _smooth_stretch(stamp_ns[stretch], values[stretch], window, derivative)
-    return result
-
-
-def _smooth_stretch(stamp_ns: IntArray, values: FloatArray, window: SavitzkyGolay, derivative: int) -> FloatArray:
-    seconds = seconds_since(stamp_ns, int(stamp_ns[0]))
-    period = float(np.median(np.diff(seconds)))
+    if len(usable) < 2:
+        return result
+    steps = np.diff(stamp_ns[usable])
+    # of the whole stream: a short stretch has too few samples to tell it
+    period = float(np.median(steps)) * 1e-9
     length = 2 * int(round(0.5 * window.window_s / period)) + 1
     if length <= window.order:
         raise RecordingError(
             f"Savitzky-Golay: a window of {window.window_s:g} s holds {length} sample(s) of {period:.4g} s, "
             f"which cannot carry order {window.order}; lengthen the window"
         )
-    count = int(np.floor(seconds[-1] / period)) + 1
-    if count < length:
-        return np.full(values.shape, np.nan)
-    grid = np.linspace(0.0, seconds[-1], count)
-    step = float(grid[1])
+    for stretch in np.split(usable, np.flatnonzero(steps > gap_limit_ns(stamp_ns[usable])) + 1):
+        seconds = seconds_since(stamp_ns[stretch], int(stamp_ns[stretch[0]]))
+        count = round(float(seconds[-1]) / period) + 1
+        if count >= max(length, 2):
+            grid = np.linspace(0.0, seconds[-1], count)
+            result[stretch] = _smooth_on_grid(grid, seconds, values[stretch], length, window.order, derivative)
+    return result
+
+
+def _smooth_on_grid(
+    grid: FloatArray, seconds: FloatArray, values: FloatArray, length: int, order: int, derivative: int
+) -> FloatArray:
     even = np.column_stack([np.interp(grid, seconds, column) for column in values.T])
-    filtered = savgol_filter(even, length, window.order, deriv=derivative, delta=step, axis=0)
+    filtered = savgol_filter(even, length, order, deriv=derivative, delta=float(grid[1]), axis=0)
     return np.column_stack([np.interp(seconds, grid, column) for column in filtered.T])

@@ -97,6 +97,9 @@ class ForceTorqueSensor:
     """Other names of the same sensor, such as that of its simulator's tag."""
 
     def __post_init__(self) -> None:
+        # a bare word would fail every `is`, and so read as the other direction
+        object.__setattr__(self, "frame", SensorFrame(self.frame))
+        object.__setattr__(self, "direction", MeasureDirection(self.direction))
         object.__setattr__(self, "child_H_sensor", read_only(self.child_H_sensor, name="child_H_sensor", shape=(4, 4)))
 
 
@@ -165,11 +168,10 @@ class RobotModel:
         if self.joints[joint].type.moves:
             raise RobotError(f"sensor {name!r}: expected a fixed joint, {joint!r} is {self.joints[joint].type}")
         holder = [s.name for s in self.sensors.values() if s.joint == joint]
-        if holder or name in self.sensors:
-            raise RobotError(
-                f"sensor {name!r} at {joint!r}: the robot has the sensor {(holder or [name])[0]!r} already"
-            )
-        if frame is SensorFrame.SENSOR:
+        holder += [s.name for s in self.sensors.values() if name in (s.name, *s.aliases)]
+        if holder:
+            raise RobotError(f"sensor {name!r} at {joint!r}: the robot has the sensor {holder[0]!r} already")
+        if frame == SensorFrame.SENSOR:
             raise RobotError(f"sensor {name!r}: without a tag there is no origin; the frame must be child or parent")
         sensor = ForceTorqueSensor(
             name=name, joint=joint, frame=frame, direction=direction, child_H_sensor=_identity_pose()

@@ -13,6 +13,9 @@ from forcetorque.arrays import FloatArray, read_only
 from forcetorque.constants import STANDARD_GRAVITY
 from forcetorque.errors import ShapeError
 
+_UNIT = 1e-6
+"""A direction may be this far from unit length: it is a part of the weight far below what sensors resolve."""
+
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class JointMotion:
@@ -83,6 +86,13 @@ class RootMotion:
 
         Returns:
             The motion of a frame at rest.
+
+        Raises:
+            ShapeError: If the direction is not a unit vector.
         """
-        down = np.asarray(gravity_direction, dtype=np.float64)
+        down = read_only(gravity_direction, name="gravity_direction", shape=(3,))
+        if not abs(float(np.linalg.norm(down)) - 1.0) < _UNIT:
+            raise ShapeError(
+                f"gravity_direction: expected a unit vector, got {down.tolist()}; gravity is m/s2 beside it"
+            )
         return cls(proper_acceleration=-gravity * down, angular_velocity=np.zeros(3), angular_acceleration=np.zeros(3))

@@ -28,7 +28,7 @@ _BLOCK = 4096
 
 @dataclass(slots=True)
 class _BodyState:
-    """Motion of one body, then the wrench it passes inwards; all arrays of shape (n, 3)."""
+    """Where one body is in its parent, and its motion in its own axes at its origin; vectors of shape (n, 3)."""
 
     parent_R_body: FloatArray
     parent_p_body: FloatArray
@@ -60,7 +60,7 @@ def expected_wrenches(
         missing = [joint for joint in required_joints(tree, name) if joint not in joints.names]
         if missing:
             raise RobotError(
-                f"sensor {name!r} seen from {tree.root_link!r} needs the joint(s) {', '.join(missing)}, "
+                f"sensor {name!r} seen from {tree.root_link!r} needs the joint(s) {', '.join(map(repr, missing))}, "
                 f"which the motion lacks; {known_names(missing[0], joints.names)}"
             )
     samples = len(joints)
@@ -79,7 +79,7 @@ def expected_wrenches(
 
 
 def _broadcast(values: FloatArray, samples: int) -> FloatArray:
-    if values.ndim == 2 and len(values) != samples:
+    if values.ndim == 2 and len(values) not in {1, samples}:
         raise ShapeError(f"root motion: expected 1 or {samples} samples, got {len(values)}")
     return np.broadcast_to(values, (samples, 3))
 

@@ -12,6 +12,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from enum import StrEnum
+from types import MappingProxyType
 
 import numpy as np
 
@@ -85,7 +86,11 @@ class BodyTree:
     frames: Mapping[str, tuple[int, FloatArray]]
     """Body and `body_H_link` of every link."""
     cuts: Mapping[str, SensorCut]
-    """Cut of every sensor, by the sensor's name."""
+    """Cut of every sensor in a fixed joint, by the sensor's name."""
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "frames", MappingProxyType(dict(self.frames)))
+        object.__setattr__(self, "cuts", MappingProxyType(dict(self.cuts)))
 
 
 def build_tree(model: RobotModel, root_link: str) -> BodyTree:
@@ -99,7 +104,7 @@ def build_tree(model: RobotModel, root_link: str) -> BodyTree:
         The tree, cut at every sensor that sits in a fixed joint.
 
     Raises:
-        RobotError: If the robot has no such link.
+        RobotError: If the robot has no such link, or joints mimic each other in a circle.
     """
     if root_link not in model.links:
         raise RobotError(f"robot {model.name!r} has no link {root_link!r}; {known_names(root_link, model.links)}")
@@ -192,8 +197,13 @@ class _Builder:
             mimic = joint.mimic
             offset += multiplier * mimic.offset
             multiplier *= mimic.multiplier
-            if mimic.leader not in self.model.joints or mimic.leader in seen:
-                # a dangling or circular leader is an error only where the coordinate is asked for
+            if mimic.leader in seen:
+                raise RobotError(
+                    f"joint {seen[0]!r}: expected it to mimic a free joint, got {' -> '.join(seen)} -> "
+                    f"{mimic.leader}, a circle"
+                )
+            if mimic.leader not in self.model.joints:
+                # a dangling leader is an error only where the coordinate is asked for
                 return Coordinate(joint=mimic.leader, multiplier=multiplier, offset=offset)
             seen.append(mimic.leader)
             joint = self.model.joints[mimic.leader]

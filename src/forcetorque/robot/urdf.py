@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import TypeVar
@@ -48,7 +49,7 @@ def read_urdf(path: Path | str) -> RobotModel:
     except (DefusedXmlException, ValueError, LookupError) as error:
         raise FormatError(f"{file}: expected plain XML, got {error!r}") from error
     if robot is None or robot.tag != "robot":
-        got = "nothing" if robot is None else f"<{robot.tag}>"
+        got = "nothing" if robot is None else f"<{robot.tag!r}>"
         raise FormatError(f"{file}: expected the root element <robot>, got {got}; expand xacro files first")
     place = UrdfPlace(str(file))
     joints = _by_name(place, "joint", robot.findall("joint"), _read_joint)
@@ -130,7 +131,7 @@ def _read_axis(place: UrdfPlace, joint: Element) -> FloatArray:
     if element is None:
         return np.array([1.0, 0.0, 0.0])  # the default of the URDF specification
     axis = numbers(place.inside("<axis>"), element, "xyz", count=3)
-    length = float(np.linalg.norm(axis))
+    length = math.hypot(*axis)  # does not overflow
     if length == 0.0:
         raise place.inside("<axis>").error("a direction", "the zero vector")
     return axis / length

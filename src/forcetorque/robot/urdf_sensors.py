@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import math
 from xml.etree.ElementTree import Element
 
 from forcetorque.arrays import FloatArray
@@ -42,9 +43,12 @@ def read_sensors(place: UrdfPlace, robot: Element) -> dict[str, ForceTorqueSenso
                 sensor = _read_simulated(place, gazebo, tag)
                 by_joint[sensor.joint] = _merge(place, by_joint.get(sensor.joint), sensor)
     found: dict[str, ForceTorqueSensor] = {}
+    taken: set[str] = set()
     for sensor in by_joint.values():
-        if sensor.name in found:
-            raise place.error("each sensor name once", f"{sensor.name!r} twice")
+        for name in (sensor.name, *sensor.aliases):
+            if name in taken:
+                raise place.error("each sensor name once", f"{name!r} twice")
+            taken.add(name)
         found[sensor.name] = sensor
     return found
 
@@ -88,13 +92,17 @@ def _read_simulated(place: UrdfPlace, gazebo: Element, tag: Element) -> ForceTor
 
 
 def _simulated_pose(place: UrdfPlace, tag: Element) -> FloatArray:
+    pose = tag.find("pose")
+    if pose is not None and pose.attrib:
+        # degrees, relative_to and rotation_format change what the numbers mean
+        raise place.inside("<pose>").error("no attributes: x y z in m, roll pitch yaw in rad", str(dict(pose.attrib)))
     text = (tag.findtext("pose") or "0 0 0 0 0 0").strip()
     try:
         values = [float(word) for word in text.split()]
     except ValueError:
         values = []
-    if len(values) != 6:
-        raise place.inside("<pose>").error("six numbers, x y z roll pitch yaw", repr(text))
+    if len(values) != 6 or not all(math.isfinite(value) for value in values):
+        raise place.inside("<pose>").error("six finite numbers, x y z roll pitch yaw", repr(text))
     return make_pose(rotation_from_rpy(values[3:]), values[:3])
 
 

@@ -57,7 +57,7 @@ class Inertia:
         return cls(
             mass=mass,
             first_moment=mass * np.asarray(centre_of_mass, dtype=np.float64),
-            second_moment=np.asarray(second_moment, dtype=np.float64) - mass * hat @ hat,
+            second_moment=read_only(second_moment, name="second_moment", shape=(3, 3)) - mass * hat @ hat,
         )
 
     @property

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray
+from forcetorque.arrays import FloatArray, require_last_axis
 from forcetorque.errors import ShapeError
 
 
@@ -20,9 +20,15 @@ def make_pose(a_R_b: Any, a_p_b: Any) -> FloatArray:
 
     Returns:
         `a_H_b`; shape (..., 4, 4); translation in m.
+
+    Raises:
+        ShapeError: If the rotation does not end in (3, 3), or the position not in 3.
     """
     rotation = np.asarray(a_R_b, dtype=np.float64)
     position = np.asarray(a_p_b, dtype=np.float64)
+    if rotation.shape[-2:] != (3, 3):
+        raise ShapeError(f"a_R_b: expected shape (..., 3, 3), got {rotation.shape}")
+    require_last_axis(position, name="a_p_b", length=3)
     batch = np.broadcast_shapes(rotation.shape[:-2], position.shape[:-1])
     pose = np.zeros((*batch, 4, 4))
     pose[..., :3, :3] = rotation

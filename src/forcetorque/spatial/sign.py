@@ -31,5 +31,5 @@ def reading_sign(direction: MeasureDirection, *, child_is_outboard: bool) -> flo
     Returns:
         +1.0 or -1.0.
     """
-    outboard_is_acted_on = (direction is MeasureDirection.PARENT_TO_CHILD) == child_is_outboard
+    outboard_is_acted_on = (MeasureDirection(direction) is MeasureDirection.PARENT_TO_CHILD) == child_is_outboard
     return 1.0 if outboard_is_acted_on else -1.0
