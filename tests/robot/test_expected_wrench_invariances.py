@@ -155,12 +155,12 @@ def test_free_fall_reads_nothing(robot: RobotModel, tree: BodyTree) -> None:
 def test_readings_at_rest_are_linear_in_gravity(robot: RobotModel, tree: BodyTree) -> None:
     """At rest, the reading under a sum of gravities is the sum of the readings."""
     motion = random_motion(robot, samples=3, seed=4)
-    first, second = np.random.default_rng(5).normal(size=(2, 3))
+    first, second = 7.0 * np.random.default_rng(5).normal(size=(2, 3))
     results = {}
     for name, joints in (("still", JointMotion.at_rest(motion.names, motion.position)), ("moving", motion)):
         one, two, both = (
-            expected_wrenches(tree, joints, RootMotion.fixed(down, gravity=7.0))
-            for down in (first, second, first - 2.5 * second)
+            expected_wrenches(tree, joints, RootMotion.fixed(g / np.linalg.norm(g), gravity=float(np.linalg.norm(g))))
+            for g in (first, second, first - 2.5 * second)
         )
         results[name] = [np.abs(both[key] - one[key] + 2.5 * two[key]).max() for key in both]
         assert len(results[name]) == 6

@@ -93,3 +93,9 @@ def test_another_number_of_root_samples_is_refused(tmp_path: Path) -> None:
     swing = JointMotion.at_rest(["swing"], [[0.0], [0.5], [1.0]])
     with pytest.raises(ShapeError, match="root motion: expected 1 or 3 samples, got 2"):
         expected_wrenches(tree, swing, _root(angular_velocity=np.zeros((2, 3))))
+
+
+def test_a_gravity_direction_that_is_not_a_unit_vector_is_refused() -> None:
+    """Gravity in m/s2 given as the direction would weigh everything ten times."""
+    with pytest.raises(ShapeError, match="unit vector"):
+        RootMotion.fixed([0.0, 0.0, -9.80665])

@@ -60,7 +60,7 @@ def expected_wrenches(
         missing = [joint for joint in required_joints(tree, name) if joint not in joints.names]
         if missing:
             raise RobotError(
-                f"sensor {name!r} seen from {tree.root_link!r} needs the joint(s) {', '.join(map(repr, missing))}, "
+                f"sensor {name!r} seen from {tree.root_link!r} needs the joint(s) {', '.join(missing)}, "
                 f"which the motion lacks; {known_names(missing[0], joints.names)}"
             )
     samples = len(joints)

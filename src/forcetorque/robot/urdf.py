@@ -49,7 +49,7 @@ def read_urdf(path: Path | str) -> RobotModel:
     except (DefusedXmlException, ValueError, LookupError) as error:
         raise FormatError(f"{file}: expected plain XML, got {error!r}") from error
     if robot is None or robot.tag != "robot":
-        got = "nothing" if robot is None else f"<{robot.tag!r}>"
+        got = "nothing" if robot is None else f"<{robot.tag}>"
         raise FormatError(f"{file}: expected the root element <robot>, got {got}; expand xacro files first")
     place = UrdfPlace(str(file))
     joints = _by_name(place, "joint", robot.findall("joint"), _read_joint)

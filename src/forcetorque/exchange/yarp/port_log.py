@@ -134,10 +134,9 @@ def _layout(line: bytes, n_stamps: int, choose: Choose, *, first: bool) -> Numbe
         chosen = choose(bottle[1 + n_stamps :])
     except FormatError as error:
         if first and _fits(bottle, 3 - n_stamps, choose):
-            says, has = ("one stamp", "two stamps") if n_stamps == 1 else ("two stamps", "one stamp")
+            fitting = "two stamps" if n_stamps == 1 else "one stamp"
             raise FormatError(
-                f"expected {says} as info.log says, got a message that fits only with {has}; "
-                "correct the line Stamp: of info.log"
+                f"{error}; with {fitting} the line would fit: if that is so, correct the line Stamp: of info.log"
             ) from error
         raise
     return layout_of(line, bottle, n_stamps=n_stamps, chosen=chosen)

@@ -1,0 +1,68 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Lines are grouped by what stands between their numbers."""
+
+from __future__ import annotations
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from forcetorque.exchange.yarp import skeleton
+from forcetorque.exchange.yarp.skeleton import group_lines
+
+_LINE = "1 1.5 (2.5 -3) [ok]"
+_LINES = st.lists(st.text(alphabet="01.-e() [ok]", max_size=12), min_size=1, max_size=12)
+
+
+def test_lines_that_differ_in_numbers_share_a_group() -> None:
+    """Number, length and sign of digits do not matter."""
+    (group,) = group_lines(f"{_LINE}\n20000 1e-9 (-0.25 777) [ok]\n".encode())
+    assert group.rows.tolist() == [0, 1]
+
+
+@pytest.mark.parametrize(
+    "other",
+    [
+        "1 1.5 (2.5) [ok]",
+        "1 1.5 (2.5 ) [ok]",
+        "1 1.5 ( -3) [ok]",
+        "1 1.5 (2.5 -3) [fail]",
+        "1 1.5 (2.5 -3)4 [ok]",
+        "1 1.5 4(2.5 -3) [ok]",
+        "1 1.5 (2.5 -3) [ok4]",
+        "1 1.5 (2.5 -3) [ok]4",
+        "1 1.5 (2.5  -3) [ok]",
+        "1 1.5 () [ok]",
+        "1 (2.5 -3) [ok]",
+        "",
+    ],
+)
+def test_lines_that_differ_in_structure_do_not(other: str) -> None:
+    """Also a number that is missing or glued to a bracket makes another skeleton."""
+    groups = group_lines(f"{_LINE}\n{other}\n{_LINE}\n".encode())
+    assert [group.rows.tolist() for group in groups] == [[0, 2], [1]]
+
+
+def _expected_groups(lines: list[str]) -> list[list[int]]:
+    """Group by walking through the characters."""
+    found: dict[str, list[int]] = {}
+    for row, line in enumerate(lines):
+        key = ""
+        for character in line:
+            if character not in "0123456789.+-eE":
+                key += character
+            elif not key.endswith("#"):
+                key += "#"
+        found.setdefault(key, []).append(row)
+    return list(found.values())
+
+
+@given(lines=_LINES, piece=st.sampled_from([1, 2, 7, 1 << 18]))
+def test_groups_share_out_the_lines(lines: list[str], piece: int) -> None:
+    """Every line is in one group, in order, wherever the pieces of the text are cut."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(skeleton, "_PIECE_SIZE", piece)
+        groups = group_lines("".join(line + "\n" for line in lines).encode())
+    assert [group.rows.tolist() for group in groups] == _expected_groups(lines)
+    for group in groups:
+        assert group.text.decode().split("\n")[:-1] == [lines[row] for row in group.rows]
