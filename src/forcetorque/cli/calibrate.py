@@ -8,6 +8,7 @@ from datetime import UTC, datetime
 from importlib.metadata import version
 from pathlib import Path
 from typing import Literal
+from urllib.parse import quote
 
 from pydantic import BaseModel, ConfigDict, Field
 from rich.table import Table
@@ -16,6 +17,7 @@ from forcetorque.calibration import Calibration, write_calibration
 from forcetorque.cli.output import Format, console, print_result, start_logging, table
 from forcetorque.errors import ExperimentError, FitError
 from forcetorque.experiment import Experiment, ExperimentSensor, calibrate_sensor, load_experiment
+from forcetorque.experiment.inputs import stated_in
 from forcetorque.spatial import WRENCH_COMPONENTS, WRENCH_UNITS
 
 
@@ -60,16 +62,18 @@ def run(
     experiment = load_experiment(path)
     for finding in experiment.recording.findings:
         log.warning("%s: %s", finding.stream, finding.message)
-    chosen = [experiment.sensor(name) for name in sensors] if sensors else list(experiment.sensors)
+    named = [experiment.sensor(name) for name in sensors] if sensors else list(experiment.sensors)
+    chosen = list(dict.fromkeys(named))  # who names a sensor twice gets it once
     files = _files(output, chosen)
     given = _lambda(regularisation, experiment)
     created = datetime.now(UTC).isoformat(timespec="seconds")
     written = []
     for sensor, file in zip(chosen, files, strict=True):
         log.info("fitting %s (%s)", sensor.name, sensor.serial)
-        calibration = calibrate_sensor(
-            experiment, sensor, code_version=version("forcetorque"), created=created, regularisation=given
-        )
+        with stated_in(f"{path}: sensor {sensor.name!r}"):
+            calibration = calibrate_sensor(
+                experiment, sensor, code_version=version("forcetorque"), created=created, regularisation=given
+            )
         secondary = calibration.secondary_matrix()
         written.append(
             WrittenCalibration(
@@ -93,7 +97,10 @@ def _files(output: Path, sensors: list[ExperimentSensor]) -> list[Path]:
                 f"--output {output}: one file for {len(sensors)} sensors; name a folder, or one sensor with --sensor"
             )
         return [output]
-    return [output / f"{sensor.name}_{sensor.serial}.json" for sensor in sensors]
+    if output.exists() and not output.is_dir():
+        raise ExperimentError(f"--output {output}: expected a folder or a .json file, got another file")
+    # quoted, because a name or a serial number may hold a slash
+    return [output / f"{quote(f'{sensor.name}_{sensor.serial}', safe=' ')}.json" for sensor in sensors]
 
 
 def _lambda(text: str | None, experiment: Experiment) -> float | None:

@@ -14,6 +14,7 @@ from forcetorque.calibration import Calibration, read_calibration
 from forcetorque.cli.output import Format, console, print_result, start_logging, table
 from forcetorque.errors import ExperimentError
 from forcetorque.experiment import Experiment, Verdict, evaluate_sensor, load_experiment
+from forcetorque.experiment.inputs import stated_in
 from forcetorque.spatial import WRENCH_COMPONENTS, WRENCH_UNITS
 
 _SUFFIX = {"N": "N", "N m": "Nm"}
@@ -27,7 +28,7 @@ class VerdictRow(BaseModel):
     serial: str
     """Its serial number."""
     candidate: str
-    """`prior`, or the calibration file."""
+    """The calibration file, or its prior: `prior`, and `prior of FILE` among several files."""
     offset: Literal["fitted", "re-estimated"]
     """Offset of the fitted data, or re-estimated on the judged samples."""
     samples: int
@@ -77,10 +78,13 @@ def run(path: Path, *, calibrations: list[Path], output_format: Format) -> None:
     loaded = {str(file): read_calibration(file) for file in calibrations}
     log.info("reading %s", path)
     experiment = load_experiment(path)
+    for finding in experiment.recording.findings:
+        log.warning("%s: %s", finding.stream, finding.message)
     verdicts: list[Verdict] = []
     for sensor_name, group in _by_sensor(experiment, loaded).items():
         log.info("judging %s", sensor_name)
-        verdicts += evaluate_sensor(experiment, experiment.sensor(sensor_name), group)
+        with stated_in(f"{path}: sensor {sensor_name!r}"):
+            verdicts += evaluate_sensor(experiment, experiment.sensor(sensor_name), group)
     result = EvaluateResult(experiment=experiment.name, verdicts=[_row(verdict) for verdict in verdicts])
     rows = [_flat(row) for row in result.verdicts]
     print_result(result.model_dump(mode="json", by_alias=True), rows, output_format, show=lambda: _show(result))

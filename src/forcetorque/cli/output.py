@@ -50,7 +50,10 @@ def console() -> Console:
     """
     from rich.console import Console
 
-    return Console(highlight=False, soft_wrap=False, width=None if sys.stdout.isatty() else _PIPE_WIDTH)
+    # no markup: names and labels of the user's may hold brackets
+    return Console(
+        highlight=False, markup=False, emoji=False, soft_wrap=False, width=None if sys.stdout.isatty() else _PIPE_WIDTH
+    )
 
 
 def table(*headings: str, title: str | None = None) -> Table:
@@ -83,14 +86,15 @@ def print_result(
 
     Args:
         result: The whole result, with its schema.
-        rows: The same as flat rows with equal keys, for CSV.
+        rows: The same as flat rows, for CSV; a key that a row does not have is left empty.
         output_format: Form.
         show: Prints the result for people.
     """
     if output_format is Format.JSON:
         sys.stdout.write(json.dumps(result, indent=2, allow_nan=False) + "\n")
     elif output_format is Format.CSV:
-        writer = csv.DictWriter(sys.stdout, fieldnames=list(rows[0]), lineterminator="\n")
+        names = list(dict.fromkeys(name for row in rows for name in row))
+        writer = csv.DictWriter(sys.stdout, fieldnames=names, lineterminator="\n")
         writer.writeheader()
         writer.writerows(rows)
     else:

@@ -1,0 +1,98 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Every example runs, and the README says what they print."""
+
+from __future__ import annotations
+
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from forcetorque.calibration import read_calibration
+from forcetorque.exchange.icub import read_matrix_file
+from forcetorque.experiment import load_experiment, parse_experiment
+
+ROOT = Path(__file__).resolve().parents[2]
+README = (ROOT / "README.md").read_text(encoding="utf-8")
+YOGA = sorted((ROOT / "examples").glob("0?_icub_yoga_*.toml"))
+
+
+def _block(name: str) -> str:
+    """Content of the fenced block between two markers of the README."""
+    found = re.search(rf"<!-- {name} -->\n```\w*\n(.*?)```\n<!-- /{name} -->", README, re.DOTALL)
+    assert found is not None
+    return found[1]
+
+
+@pytest.fixture(scope="module")
+def demo(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, str]:
+    """Folder and output of `make demo`'s script."""
+    folder = tmp_path_factory.mktemp("run") / "build" / "demo"
+    script = ROOT / "examples" / "01_known_truth.py"
+    done = subprocess.run(
+        [sys.executable, str(script), "build/demo"],
+        cwd=folder.parents[1],
+        env={**os.environ, "PYTHONPATH": str(ROOT / "src")},
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    return folder, done.stdout
+
+
+def test_the_demo_recovers_the_truth(demo: tuple[Path, str]) -> None:
+    """The new matrix is at least ten times nearer the truth than the prior, as the demo's table shows."""
+    _, output = demo
+    rows = {
+        line.split()[0]: [float(v) for v in re.findall(r"([\d.]+) %", line)]
+        for line in output.splitlines()
+        if line.startswith("  ") and "%" in line and line.split()[0] in ("prior", "new")
+    }
+    assert set(rows) == {"prior", "new"}
+    assert len(rows["new"]) == 6
+    assert all(new < 0.1 * prior for new, prior in zip(rows["new"], rows["prior"], strict=True))
+
+
+def test_the_demo_leaves_its_files(demo: tuple[Path, str]) -> None:
+    """What the demo names is there and reads."""
+    folder, _ = demo
+    assert load_experiment(folder / "experiment.toml").sensors[0].serial == "SIM001"
+    assert read_calibration(folder / "calibration.json").sensor.serial == "SIM001"
+    assert read_matrix_file(folder / "matrix_SIM001.txt").matrix.shape == (6, 6)
+
+
+def test_the_readme_shows_what_the_demo_prints(demo: tuple[Path, str]) -> None:
+    """The end of the demo's output stands in the README, character by character."""
+    _, output = demo
+    shown = [line.rstrip() for line in _block("demo").splitlines()]
+    printed = [line.rstrip() for line in output.splitlines()]
+    assert len(shown) > 8
+    assert printed[-len(shown) :] == shown
+
+
+def test_the_readmes_script_runs(demo: tuple[Path, str]) -> None:
+    """The Python block of the README runs after the demo."""
+    folder, _ = demo
+    done = subprocess.run(
+        [sys.executable, "-c", _block("example")], cwd=folder.parents[1], capture_output=True, text=True, check=True
+    )
+    assert "excited directions: (True, True, True, True, True, True)" in done.stdout
+
+
+def test_the_readme_is_short() -> None:
+    """A README of at most 120 lines is read."""
+    assert len(README.splitlines()) < 120
+
+
+def test_there_are_four_splits_of_the_yoga_log() -> None:
+    """The parametrised tests below look at something."""
+    assert len(YOGA) == 4
+
+
+@pytest.mark.parametrize("path", YOGA, ids=lambda path: path.name)
+def test_yoga_examples_parse(path: Path) -> None:
+    """The experiment files are valid, also where the measured data are absent."""
+    assert parse_experiment(path).sensor[0].serial == "SN026"

@@ -1,0 +1,75 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The main job on a real log: a leg sensor of an iCub that balances on the other foot."""
+
+from __future__ import annotations
+
+import math
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from forcetorque.experiment import Experiment, Verdict, calibrate_sensor, evaluate_sensor, load_experiment
+
+ROOT = Path(__file__).resolve().parents[2]
+YOGA = sorted((ROOT / "examples").glob("0?_icub_yoga_*.toml"))
+
+pytestmark = pytest.mark.real_data
+
+
+def _load(path: Path, data_dir: Path, tmp_path: Path) -> Experiment:
+    """Load an example with the data where they are."""
+    copy = tmp_path / path.name
+    copy.write_text(path.read_text(encoding="utf-8").replace("../../shared/data", data_dir.as_posix()))
+    return load_experiment(copy)
+
+
+def _verdicts(experiment: Experiment) -> tuple[dict[tuple[str, str], Verdict], float]:
+    sensor = experiment.sensors[0]
+    calibration = calibrate_sensor(experiment, sensor, code_version="test", created="test")
+    verdicts = evaluate_sensor(experiment, sensor, {"new": calibration})
+    return {(v.candidate, v.offset): v for v in verdicts}, calibration.lambda_counts2
+
+
+@pytest.mark.parametrize("path", YOGA, ids=lambda path: path.name)
+def test_never_worse_than_the_prior(path: Path, data_dir: Path, tmp_path: Path) -> None:
+    """On judged data the force error with the chosen lambda is at most that of the prior, offset as fitted."""
+    verdicts, _ = _verdicts(_load(path, data_dir, tmp_path))
+    prior, new = verdicts["prior", "fitted"].errors, verdicts["new", "fitted"].errors
+    assert new.count > 1000
+    assert new.force_mean <= prior.force_mean
+    assert new.moment_mean <= prior.moment_mean
+
+
+def test_half_the_error_where_the_fitted_part_moves(data_dir: Path, tmp_path: Path) -> None:
+    """Fitted on the moving half, the force error on the other is less than half of the prior's."""
+    verdicts, regularisation = _verdicts(_load(YOGA[0], data_dir, tmp_path))
+    assert math.isfinite(regularisation)
+    assert verdicts["new", "fitted"].errors.force_mean < 0.5 * verdicts["prior", "fitted"].errors.force_mean
+
+
+def test_the_prior_reproduces_the_known_error(data_dir: Path, tmp_path: Path) -> None:
+    """The prior's error on unsmoothed data is what an independent static fit saw, 2.9 N forwards and 4.2 N back."""
+    for path, seen in ((YOGA[0], 2.9), (YOGA[1], 4.2)):
+        text = path.read_text(encoding="utf-8")
+        plain = tmp_path / "plain.toml"
+        plain.write_text(text.replace("smoothing = ", "# smoothing = "))
+        verdicts, _ = _verdicts(_load(plain, data_dir, tmp_path))
+        assert verdicts["prior", "fitted"].errors.force_mean == pytest.approx(seen, abs=0.15)
+
+
+def test_joints_that_the_sensor_does_not_need_may_be_absent(data_dir: Path, tmp_path: Path) -> None:
+    """The log holds neither arms nor, in the example, torso and head: the leg's sensor needs two legs."""
+    experiment = _load(YOGA[0], data_dir, tmp_path)
+    assert set(experiment.recording.streams) == {"right_leg_ft", "left_leg", "right_leg"}
+
+
+def test_the_curve_script_shows_every_lambda(data_dir: Path, tmp_path: Path) -> None:
+    """The example script prints a row per candidate and marks one."""
+    copy = tmp_path / YOGA[0].name
+    copy.write_text(YOGA[0].read_text(encoding="utf-8").replace("../../shared/data", data_dir.as_posix()))
+    script = ROOT / "examples" / "06_lambda_curve.py"
+    done = subprocess.run([sys.executable, str(script), str(copy)], capture_output=True, text=True, check=True)
+    assert done.stdout.count("<- chosen") == 1
+    assert len(done.stdout.splitlines()) > 40
