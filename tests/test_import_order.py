@@ -4,8 +4,10 @@
 from __future__ import annotations
 
 import ast
+import re
 import subprocess
 import sys
+import tomllib
 from pathlib import Path
 
 import pytest
@@ -87,6 +89,24 @@ def test_the_top_imports_nothing_heavy() -> None:
 def test_a_later_package_is_noticed() -> None:
     """Negative control: an import against the order is a violation."""
     assert _violations("recording", {"spatial", "errors", "calibration"}) == {"calibration"}
+
+
+DISTRIBUTIONS = {"pydantic_core": "pydantic"}
+"""Distribution of an importable name, where they differ."""
+
+
+def test_every_import_is_a_declared_dependency() -> None:
+    """The library imports only what it declares, and declares only what it imports: a bare install runs."""
+    project = tomllib.loads((ROOT.parents[1] / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    declared = {re.split(r"[<>=!~ ;\[]", entry)[0] for entry in project["dependencies"]}
+    imported = set()
+    for path in ROOT.rglob("*.py"):
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            names = [alias.name for alias in node.names] if isinstance(node, ast.Import) else []
+            names += [node.module] if isinstance(node, ast.ImportFrom) and node.module else []
+            imported |= {name.split(".")[0] for name in names}
+    foreign = imported - sys.stdlib_module_names - {"forcetorque"}
+    assert {DISTRIBUTIONS.get(name, name) for name in foreign} == declared
 
 
 PRINTING = {"print", "input"}
