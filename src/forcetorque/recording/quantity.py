@@ -99,6 +99,13 @@ QUANTITIES = {
             has_frame=True,
             description="Reading of a gyroscope.",
         ),
+        Quantity(
+            name="device_stamp",
+            labels=Labels.FIXED,
+            columns=("device_stamp",),
+            units=("tick",),
+            description="The device's own clock, in its own unit: shows transport delay and jitter.",
+        ),
     )
 }
 """Every quantity by name."""
