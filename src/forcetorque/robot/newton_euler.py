@@ -11,30 +11,19 @@ nothing outboard touches the world.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
 from forcetorque.arrays import FloatArray
-from forcetorque.errors import RobotError, ShapeError, known_names
+from forcetorque.errors import RobotError, known_names
+from forcetorque.robot.kinematics import BodyState, move_to, root_state, stacked_root
 from forcetorque.robot.motion import JointMotion, RootMotion
 from forcetorque.robot.requirements import needed_bodies, required_joints
-from forcetorque.robot.tree import Body, BodyTree, Connection
-from forcetorque.spatial import invert_pose, rotation_about_z, transform_wrench
+from forcetorque.robot.tree import Body, BodyTree
+from forcetorque.spatial import invert_pose, transform_wrench
 
 _BLOCK = 4096
 """Samples per pass: the working arrays of a block stay in the processor's cache."""
-
-
-@dataclass(slots=True)
-class _BodyState:
-    """Where one body is in its parent, and its motion in its own axes at its origin; vectors of shape (n, 3)."""
-
-    parent_R_body: FloatArray
-    parent_p_body: FloatArray
-    angular_velocity: FloatArray
-    angular_acceleration: FloatArray
-    proper_acceleration: FloatArray
 
 
 def expected_wrenches(
@@ -64,12 +53,7 @@ def expected_wrenches(
                 f"which the motion lacks; {known_names(missing[0], joints.names)}"
             )
     samples = len(joints)
-    base = np.stack(
-        [
-            _broadcast(values, samples)
-            for values in (root.angular_velocity, root.angular_acceleration, root.proper_acceleration)
-        ]
-    )
+    base = stacked_root(root, samples)
     expected = {name: np.empty((samples, 6)) for name in wanted}
     for start in range(0, samples, _BLOCK):
         block = slice(start, start + _BLOCK)
@@ -78,22 +62,16 @@ def expected_wrenches(
     return expected
 
 
-def _broadcast(values: FloatArray, samples: int) -> FloatArray:
-    if values.ndim == 2 and len(values) not in {1, samples}:
-        raise ShapeError(f"root motion: expected 1 or {samples} samples, got {len(values)}")
-    return np.broadcast_to(values, (samples, 3))
-
-
 def _evaluate_block(
     tree: BodyTree, joints: JointMotion, base: FloatArray, sensors: Sequence[str], block: slice
 ) -> dict[str, FloatArray]:
     moving, weighing = needed_bodies(tree, sensors)
-    states: dict[int, _BodyState] = {}
+    states: dict[int, BodyState] = {}
     wrenches: dict[int, FloatArray] = {}
     for index, body in enumerate(tree.bodies):
         if not moving[index]:
             continue
-        states[index] = _root_state(base) if body.parent < 0 else _move(body, states[body.parent], joints, block)
+        states[index] = root_state(base) if body.parent < 0 else move_to(body, states[body.parent], joints, block)
         if weighing[index]:
             wrenches[index] = _net_wrench(body, states[index])
     for index in reversed(range(len(tree.bodies))):
@@ -109,49 +87,7 @@ def _evaluate_block(
     return readings
 
 
-def _root_state(base: FloatArray) -> _BodyState:
-    angular_velocity, angular_acceleration, proper_acceleration = base
-    return _BodyState(np.eye(3), np.zeros(3), angular_velocity, angular_acceleration, proper_acceleration)
-
-
-def _move(body: Body, parent: _BodyState, joints: JointMotion, block: slice) -> _BodyState:
-    """Carry the parent's motion across a body's joint."""
-    if body.coordinate is None:  # a cut: the same rigid body
-        return _BodyState(
-            np.eye(3), np.zeros(3), parent.angular_velocity, parent.angular_acceleration, parent.proper_acceleration
-        )
-    column = joints.names.index(body.coordinate.joint)
-    q = body.coordinate.multiplier * joints.position[block, column] + body.coordinate.offset
-    dq = body.coordinate.multiplier * joints.velocity[block, column]
-    ddq = body.coordinate.multiplier * joints.acceleration[block, column]
-    z = np.array([0.0, 0.0, 1.0])
-    rotation, position = body.parent_R_joint, body.parent_p_joint
-    if body.connection is Connection.ROTARY:
-        rotation = rotation @ rotation_about_z(q)
-    else:
-        position = position + q[:, None] * rotation[:, 2]
-    omega_parent, alpha_parent = parent.angular_velocity, parent.angular_acceleration
-    at_joint = (
-        parent.proper_acceleration
-        + np.cross(alpha_parent, position)
-        + np.cross(omega_parent, np.cross(omega_parent, position))
-    )
-    omega, alpha, acceleration = (_into(rotation, v) for v in (omega_parent, alpha_parent, at_joint))
-    along, along_rate = dq[:, None] * z, ddq[:, None] * z
-    if body.connection is Connection.ROTARY:
-        alpha = alpha + np.cross(omega, along) + along_rate
-        omega = omega + along
-    else:
-        acceleration = acceleration + 2.0 * np.cross(omega, along) + along_rate
-    return _BodyState(rotation, position, omega, alpha, acceleration)
-
-
-def _into(parent_R_body: FloatArray, parent_vector: FloatArray) -> FloatArray:
-    vector: FloatArray = np.einsum("...ji,...j->...i", parent_R_body, parent_vector)
-    return vector
-
-
-def _net_wrench(body: Body, state: _BodyState) -> FloatArray:
+def _net_wrench(body: Body, state: BodyState) -> FloatArray:
     """Force and moment about the body's origin that make the body move as it does; shape (n, 6)."""
     omega, alpha = state.angular_velocity, state.angular_acceleration
     moment, tensor = body.inertia.first_moment, body.inertia.second_moment
@@ -164,7 +100,7 @@ def _net_wrench(body: Body, state: _BodyState) -> FloatArray:
     return np.concatenate([force, couple], axis=1)
 
 
-def _in_parent(state: _BodyState, wrench: FloatArray) -> FloatArray:
+def _in_parent(state: BodyState, wrench: FloatArray) -> FloatArray:
     force: FloatArray = np.einsum("...ij,...j->...i", state.parent_R_body, wrench[:, :3])
     couple = np.einsum("...ij,...j->...i", state.parent_R_body, wrench[:, 3:])
     return np.concatenate([force, couple + np.cross(state.parent_p_body, force)], axis=1)

@@ -1,0 +1,171 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Motion of bodies, from the root outwards, in each body's own axes at its origin."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from forcetorque.arrays import FloatArray
+from forcetorque.errors import RobotError, ShapeError, known_names
+from forcetorque.robot.motion import JointMotion, RootMotion
+from forcetorque.robot.tree import Body, BodyTree, Connection
+from forcetorque.spatial import rotation_about_z, split_pose
+
+
+@dataclass(slots=True)
+class BodyState:
+    """Where one body is in its parent, and its motion in its own axes at its origin; vectors of shape (n, 3)."""
+
+    parent_R_body: FloatArray
+    """Rotation in the parent; shape (3, 3) or (n, 3, 3)."""
+    parent_p_body: FloatArray
+    """Origin in the parent; shape (3,) or (n, 3); m."""
+    angular_velocity: FloatArray
+    """Angular velocity; rad/s."""
+    angular_acceleration: FloatArray
+    """Angular acceleration; rad/s2."""
+    proper_acceleration: FloatArray
+    """Proper acceleration of the origin; m/s2."""
+
+
+def stacked_root(root: RootMotion, samples: int) -> FloatArray:
+    """Give the root's motion for every sample.
+
+    Args:
+        root: Motion of one sample or of all.
+        samples: Number of samples, n.
+
+    Returns:
+        Angular velocity, angular acceleration and proper acceleration; shape (3, n, 3).
+
+    Raises:
+        ShapeError: If the motion has neither one sample nor n.
+    """
+    vectors = (root.angular_velocity, root.angular_acceleration, root.proper_acceleration)
+    for values in vectors:
+        if values.ndim == 2 and len(values) not in {1, samples}:
+            raise ShapeError(f"root motion: expected 1 or {samples} samples, got {len(values)}")
+    return np.stack([np.broadcast_to(values, (samples, 3)) for values in vectors])
+
+
+def motion_of_link(tree: BodyTree, joints: JointMotion, root: RootMotion, link: str) -> RootMotion:
+    """Carry the motion of the root link, such as that of an IMU, to another link.
+
+    Args:
+        tree: Robot rooted at the link whose motion is known.
+        joints: Motion of at least the joints between the two links (`joints_between`).
+        root: Motion of the root link's frame.
+        link: Link whose motion is wanted.
+
+    Returns:
+        Motion of that link's frame, in its own axes; n samples.
+
+    Raises:
+        RobotError: If a joint between the two links is not in `joints`.
+    """
+    for joint in joints_between(tree, link):
+        if joint not in joints.names:
+            raise RobotError(
+                f"carrying the motion of {tree.root_link!r} to {link!r} needs joint {joint!r}; "
+                f"{known_names(joint, joints.names)}"
+            )
+    state = root_state(stacked_root(root, len(joints)))
+    for index in _path(tree, link)[1:]:
+        state = move_to(tree.bodies[index], state, joints, slice(None))
+    body_R_link, body_p_link = split_pose(tree.frames[link][1])
+    omega, alpha = state.angular_velocity, state.angular_acceleration
+    at_link = state.proper_acceleration + np.cross(alpha, body_p_link) + np.cross(omega, np.cross(omega, body_p_link))
+    return RootMotion(
+        proper_acceleration=_into(body_R_link, at_link),
+        angular_velocity=_into(body_R_link, omega),
+        angular_acceleration=_into(body_R_link, alpha),
+    )
+
+
+def joints_between(tree: BodyTree, link: str) -> tuple[str, ...]:
+    """Name the joints between the root link and another.
+
+    Args:
+        tree: The robot.
+        link: The other link.
+
+    Returns:
+        Joints from the root outwards; leaders instead of joints that mimic.
+
+    Raises:
+        RobotError: If the robot has no such link.
+    """
+    coordinates = (tree.bodies[index].coordinate for index in _path(tree, link))
+    return tuple(dict.fromkeys(coordinate.joint for coordinate in coordinates if coordinate is not None))
+
+
+def _path(tree: BodyTree, link: str) -> list[int]:
+    """Indices of the bodies from the root to a link."""
+    if link not in tree.frames:
+        raise RobotError(f"the robot has no link {link!r}; {known_names(link, tree.frames)}")
+    path = [tree.frames[link][0]]
+    while tree.bodies[path[0]].parent >= 0:
+        path.insert(0, tree.bodies[path[0]].parent)
+    return path
+
+
+def root_state(base: FloatArray) -> BodyState:
+    """Start the recursion at the root body.
+
+    Args:
+        base: Result of `stacked_root`; shape (3, n, 3).
+
+    Returns:
+        State of the root body.
+    """
+    angular_velocity, angular_acceleration, proper_acceleration = base
+    return BodyState(np.eye(3), np.zeros(3), angular_velocity, angular_acceleration, proper_acceleration)
+
+
+def move_to(body: Body, parent: BodyState, joints: JointMotion, block: slice) -> BodyState:
+    """Carry the parent's motion across a body's joint.
+
+    Args:
+        body: The body.
+        parent: State of its parent.
+        joints: Motion of its joint, by name.
+        block: Samples of `joints` that the parent's state is of.
+
+    Returns:
+        State of the body.
+    """
+    if body.coordinate is None:  # a cut: the same rigid body
+        return BodyState(
+            np.eye(3), np.zeros(3), parent.angular_velocity, parent.angular_acceleration, parent.proper_acceleration
+        )
+    column = joints.names.index(body.coordinate.joint)
+    q = body.coordinate.multiplier * joints.position[block, column] + body.coordinate.offset
+    dq = body.coordinate.multiplier * joints.velocity[block, column]
+    ddq = body.coordinate.multiplier * joints.acceleration[block, column]
+    z = np.array([0.0, 0.0, 1.0])
+    rotation, position = body.parent_R_joint, body.parent_p_joint
+    if body.connection is Connection.ROTARY:
+        rotation = rotation @ rotation_about_z(q)
+    else:
+        position = position + q[:, None] * rotation[:, 2]
+    omega_parent, alpha_parent = parent.angular_velocity, parent.angular_acceleration
+    at_joint = (
+        parent.proper_acceleration
+        + np.cross(alpha_parent, position)
+        + np.cross(omega_parent, np.cross(omega_parent, position))
+    )
+    omega, alpha, acceleration = (_into(rotation, v) for v in (omega_parent, alpha_parent, at_joint))
+    along, along_rate = dq[:, None] * z, ddq[:, None] * z
+    if body.connection is Connection.ROTARY:
+        alpha = alpha + np.cross(omega, along) + along_rate
+        omega = omega + along
+    else:
+        acceleration = acceleration + 2.0 * np.cross(omega, along) + along_rate
+    return BodyState(rotation, position, omega, alpha, acceleration)
+
+
+def _into(parent_R_body: FloatArray, parent_vector: FloatArray) -> FloatArray:
+    vector: FloatArray = np.einsum("...ji,...j->...i", parent_R_body, parent_vector)
+    return vector
