@@ -24,3 +24,7 @@ class Finding:
     """Stamp of the last sample concerned."""
     channel: str | None = None
     """Signal or column concerned, where it is not the whole stream."""
+    size: float | None = None
+    """How large it is, in `unit`."""
+    unit: str | None = None
+    """Unit of the size."""

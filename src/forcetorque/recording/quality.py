@@ -1,0 +1,188 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Quality of a stream by itself: stamps, sequence numbers, missing values, stuck channels, saturation."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from forcetorque.arrays import BoolArray, FloatArray
+from forcetorque.recording.alignment import gap_limit_ns, usable_samples
+from forcetorque.recording.finding import Finding
+from forcetorque.recording.stream import Signal, Stream
+
+STUCK_SECONDS = 1.0
+"""A noisy channel that repeats one value for longer than this is stuck."""
+SATURATION_SHARE = 0.005
+"""Counts within this share of the limit of the converter are saturated."""
+
+_NOISY = ("wrench", "raw", "proper_acceleration", "angular_velocity")
+"""Quantities whose noise changes them at every sample; encoders and thermometers may rest."""
+_WRAPS = (1 << 15, 1 << 16, 1 << 31, 1 << 32)
+"""Sizes of counters that start again at zero."""
+
+
+def stream_findings(stream: Stream) -> tuple[Finding, ...]:
+    """Look for what is wrong with a stream, without a model of what it measures.
+
+    Args:
+        stream: The stream.
+
+    Returns:
+        Gaps, stamps that repeat or step back, lost messages, missing values and stuck channels.
+    """
+    if not len(stream):
+        return (Finding(stream=stream.name, kind="empty", message="the stream holds no sample", count=0),)
+    found = [*_gaps(stream), *_bad_stamps(stream), *_lost_messages(stream)]
+    for signal in stream.signals.values():
+        found += _missing_values(stream, signal)
+        if signal.quantity in _NOISY:
+            found += _stuck_channels(stream, signal)
+    return tuple(found)
+
+
+def saturation_findings(
+    stream: Stream, counts: FloatArray, *, limit_counts: float, recovered: bool
+) -> tuple[Finding, ...]:
+    """Look for channels that reach the limit of their converter.
+
+    Args:
+        stream: Stream that the counts belong to.
+        counts: Raw readings; shape (n, c); counts.
+        limit_counts: Largest magnitude that the converter gives.
+        recovered: Whether the counts came through an inverse matrix; they are then not whole, and an
+            offset that the electronics added moves them away from the limit.
+
+    Returns:
+        One finding per stretch of time and channel.
+    """
+    found = []
+    for channel in range(counts.shape[1]):
+        at_limit = np.abs(counts[:, channel]) >= (1.0 - SATURATION_SHARE) * limit_counts
+        for first, last in spans(at_limit):
+            largest = float(np.abs(counts[first : last + 1, channel]).max())
+            note = " (recovered counts)" if recovered else ""
+            found.append(
+                _finding(
+                    stream,
+                    "saturation",
+                    f"within {100 * SATURATION_SHARE:g} % of {limit_counts:g} counts{note}",
+                    first,
+                    last,
+                    channel=f"ch{channel}",
+                    size=largest,
+                    unit="counts",
+                )
+            )
+    return tuple(found)
+
+
+def spans(mask: BoolArray) -> list[tuple[int, int]]:
+    """Find the runs of true values.
+
+    Args:
+        mask: Truth per sample; shape (n,).
+
+    Returns:
+        First and last index of every run.
+    """
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], mask, [False]]).astype(np.int8)))
+    return [(int(a), int(b) - 1) for a, b in zip(edges[::2], edges[1::2], strict=True)]
+
+
+def _finding(
+    stream: Stream,
+    kind: str,
+    message: str,
+    first: int,
+    last: int,
+    *,
+    count: int | None = None,
+    channel: str | None = None,
+    size: float | None = None,
+    unit: str | None = None,
+) -> Finding:
+    return Finding(
+        stream=stream.name,
+        kind=kind,
+        message=message,
+        count=last - first + 1 if count is None else count,
+        start_ns=int(stream.stamp_ns[first]),
+        end_ns=int(stream.stamp_ns[last]),
+        channel=channel,
+        size=size,
+        unit=unit,
+    )
+
+
+def _gaps(stream: Stream) -> list[Finding]:
+    usable = usable_samples(stream.stamp_ns)
+    steps = np.diff(stream.stamp_ns[usable])
+    found = []
+    for k in np.flatnonzero(steps > gap_limit_ns(stream.stamp_ns[usable])):
+        seconds = float(steps[k]) * 1e-9
+        before, after = int(usable[k]), int(usable[k + 1])
+        text = f"no sample for {seconds:.3f} s, {steps[k] / float(np.median(steps)):.0f} periods"
+        found.append(_finding(stream, "gap", text, before, after, count=1, size=seconds, unit="s"))
+    return found
+
+
+def _bad_stamps(stream: Stream) -> list[Finding]:
+    steps = np.diff(stream.stamp_ns)
+    found = []
+    for kind, bad, text in (
+        ("repeated_stamp", steps == 0, "stamps repeat the one before"),
+        ("backward_stamp", steps < 0, "stamps step back in time"),
+    ):
+        at = np.flatnonzero(bad) + 1
+        if len(at):
+            size = float(np.abs(steps[at - 1]).max()) * 1e-9
+            found.append(
+                _finding(stream, kind, f"{len(at)} {text}", int(at[0]), int(at[-1]), count=len(at), size=size, unit="s")
+            )
+    return found
+
+
+def _lost_messages(stream: Stream) -> list[Finding]:
+    """Compare sequence numbers, which may start again at zero when their counter is full."""
+    if stream.sequence is None or len(stream) < 2 or (stream.sequence < 0).any():
+        return []
+    wrap = next((size for size in _WRAPS if size > int(stream.sequence.max())), None)
+    steps = np.diff(stream.sequence)
+    forward = steps if wrap is None else np.where(steps < 0, steps + wrap, steps)
+    found = []
+    for k in np.flatnonzero(forward != 1):
+        lost = int(forward[k]) - 1
+        restarted = lost < 0 or (wrap is not None and lost > wrap // 2)
+        kind = "sequence_restart" if restarted else "lost_messages"
+        text = (
+            f"sequence number {stream.sequence[k + 1]} after {stream.sequence[k]}"
+            if restarted
+            else f"{lost} message(s) lost by the sequence numbers"
+        )
+        size = None if restarted else float(lost)
+        unit = None if restarted else "messages"
+        found.append(_finding(stream, kind, text, int(k), int(k) + 1, count=max(lost, 1), size=size, unit=unit))
+    return found
+
+
+def _missing_values(stream: Stream, signal: Signal) -> list[Finding]:
+    missing = ~np.isfinite(signal.values).all(axis=1)
+    text = f"no {signal.quantity}"
+    return [_finding(stream, "missing", text, first, last, channel=signal.quantity) for first, last in spans(missing)]
+
+
+def _stuck_channels(stream: Stream, signal: Signal) -> list[Finding]:
+    found = []
+    for name, column in zip(signal.columns, signal.values.T, strict=True):
+        for first, last in _constant_runs(column):
+            seconds = float(stream.stamp_ns[last] - stream.stamp_ns[first]) * 1e-9
+            if seconds > STUCK_SECONDS:
+                text = f"{signal.quantity} stays at {column[first]:g} {signal.units[0]}"
+                found.append(_finding(stream, "stuck", text, first, last, channel=name, size=seconds, unit="s"))
+    return found
+
+
+def _constant_runs(column: FloatArray) -> list[tuple[int, int]]:
+    """First and last index of every run of two or more equal values."""
+    same: BoolArray = np.diff(column) == 0.0
+    return [(first, last + 1) for first, last in spans(same)]

@@ -1,0 +1,122 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Findings about a stream by itself: each fault is found where it was put, a clean stream gives none."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from forcetorque.recording import Finding, Signal, Stream
+from forcetorque.recording.quality import saturation_findings, stream_findings
+from forcetorque.spatial import WRENCH_COMPONENTS, WRENCH_UNITS
+
+PERIOD_NS = 10_000_000
+COUNT = 1000
+
+
+def _stream(
+    *, stamps: np.ndarray | None = None, values: np.ndarray | None = None, sequence: np.ndarray | None = None
+) -> Stream:
+    stamp_ns = np.arange(COUNT) * PERIOD_NS if stamps is None else stamps
+    noise = np.random.default_rng(1).normal(size=(len(stamp_ns), 6))
+    wrench = Signal(
+        quantity="wrench",
+        values=noise if values is None else values,
+        columns=WRENCH_COMPONENTS,
+        units=WRENCH_UNITS,
+        frame="ft",
+    )
+    return Stream(name="ft", clock="c", stamp_ns=stamp_ns, signals={"wrench": wrench}, sequence=sequence)
+
+
+def _only(findings: tuple[Finding, ...]) -> Finding:
+    assert len(findings) == 1
+    return findings[0]
+
+
+def test_a_clean_stream_has_no_findings() -> None:
+    """Jittering stamps, noise and a counter that wraps are normal."""
+    rng = np.random.default_rng(2)
+    stamps = np.arange(COUNT) * PERIOD_NS + rng.integers(-PERIOD_NS // 4, PERIOD_NS // 4, COUNT)
+    sequence = (np.arange(COUNT) + 32768 - 300) % 32768
+    assert stream_findings(_stream(stamps=stamps, sequence=sequence)) == ()
+
+
+def test_a_gap_is_found_with_time_and_length() -> None:
+    """A pause of 0.5 s in a 100 Hz stream is one gap, between the two samples around it."""
+    stamps = np.arange(COUNT) * PERIOD_NS
+    stamps[400:] += 500_000_000
+    finding = _only(stream_findings(_stream(stamps=stamps)))
+    assert (finding.kind, finding.start_ns, finding.end_ns) == ("gap", stamps[399], stamps[400])
+    assert finding.size == pytest.approx(0.51)
+
+
+def test_repeated_and_backward_stamps_are_told_apart() -> None:
+    """A repeated stamp and a step back are counted each by its kind."""
+    stamps = np.arange(COUNT) * PERIOD_NS
+    stamps[100] = stamps[99]
+    stamps[200] = stamps[197]
+    kinds = {finding.kind: finding for finding in stream_findings(_stream(stamps=stamps))}
+    assert kinds["repeated_stamp"].count == 1
+    assert kinds["repeated_stamp"].start_ns == stamps[100]
+    assert kinds["backward_stamp"].count == 1
+    assert kinds["backward_stamp"].size == pytest.approx(0.02)
+
+
+@pytest.mark.parametrize("start", [0, 32760, 65530, 10**6])
+def test_lost_messages_are_counted_across_a_wrap(start: int) -> None:
+    """Three lost messages are three, also where a 15- or 16-bit counter starts again."""
+    wrap = {32760: 32768, 65530: 65536}.get(start, 1 << 40)
+    sequence = (start + np.concatenate([np.arange(5), np.arange(8, COUNT + 3)])) % wrap
+    finding = _only(stream_findings(_stream(sequence=sequence)))
+    assert (finding.kind, finding.size, finding.start_ns) == ("lost_messages", 3.0, 4 * PERIOD_NS)
+
+
+def test_a_counter_that_starts_again_is_no_loss() -> None:
+    """A sender that was restarted begins to count anew."""
+    sequence = np.concatenate([np.arange(5000, 5500), np.arange(500)])
+    assert _only(stream_findings(_stream(sequence=sequence))).kind == "sequence_restart"
+
+
+def test_a_stuck_channel_is_named() -> None:
+    """One channel that repeats a value for 3 s while the others go on."""
+    values = np.random.default_rng(3).normal(size=(COUNT, 6))
+    values[200:500, 2] = 7.5
+    finding = _only(stream_findings(_stream(values=values)))
+    assert (finding.kind, finding.channel, finding.size) == ("stuck", "fz", pytest.approx(2.99))
+    assert (finding.start_ns, finding.end_ns) == (200 * PERIOD_NS, 499 * PERIOD_NS)
+
+
+def test_a_resting_joint_is_not_stuck() -> None:
+    """Encoders repeat a value while the joint rests."""
+    joints = Signal(quantity="position", values=np.zeros((COUNT, 1)), columns=("knee",), units=("rad",))
+    stream = Stream(name="leg", clock="c", stamp_ns=np.arange(COUNT) * PERIOD_NS, signals={"position": joints})
+    assert stream_findings(stream) == ()
+
+
+def test_missing_values_are_found_by_stretch() -> None:
+    """Two stretches of NaN are two findings with their numbers of samples."""
+    values = np.random.default_rng(4).normal(size=(COUNT, 6))
+    values[10:13, 1] = np.nan
+    values[700] = np.nan
+    found = stream_findings(_stream(values=values))
+    assert [(f.kind, f.count, f.start_ns) for f in found] == [
+        ("missing", 3, 10 * PERIOD_NS),
+        ("missing", 1, 700 * PERIOD_NS),
+    ]
+
+
+def test_an_empty_stream_is_a_finding() -> None:
+    """A stream without samples is reported instead of failing."""
+    assert _only(stream_findings(_stream(stamps=np.empty(0, dtype=np.int64)))).kind == "empty"
+
+
+@pytest.mark.parametrize(("recovered", "value"), [(False, 32767.0), (True, -32700.3)])
+def test_saturation_is_found_within_half_a_percent(recovered: bool, value: float) -> None:
+    """Counts at the limit, of either sign, are found; counts just below are not; recovered ones are marked."""
+    counts = np.zeros((COUNT, 6))
+    counts[50:60, 3] = value
+    counts[70, 3] = 0.99 * 32767
+    finding = _only(saturation_findings(_stream(), counts, limit_counts=32767, recovered=recovered))
+    assert (finding.channel, finding.count, finding.size) == ("ch3", 10, abs(value))
+    assert ("recovered" in finding.message) is recovered
