@@ -15,6 +15,10 @@ class ShapeError(ForceTorqueError, ValueError):
     """An array does not have the shape that the argument documents."""
 
 
+class UnitError(ForceTorqueError, ValueError):
+    """A unit is unknown or does not belong to the quantity."""
+
+
 class FormatError(ForceTorqueError, ValueError):
     """A file or a text is not what its format says."""
 
@@ -55,6 +59,7 @@ def known_names(wanted: str, known: Iterable[str]) -> str:
     """
     # names come from files: one with a line break in it must not break the message in two
     names = sorted(name if name.isprintable() else repr(name) for name in known)
-    close = get_close_matches(wanted, names, n=1)
-    hint = f'did you mean "{close[0]}"? ' if close else ""
+    spelled = {name.lower(): name for name in names}
+    close = get_close_matches(wanted.lower(), spelled, n=1)
+    hint = f'did you mean "{spelled[close[0]]}"? ' if close else ""
     return f"{hint}known: {', '.join(names) if names else 'none'}"

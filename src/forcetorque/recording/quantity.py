@@ -92,12 +92,28 @@ QUANTITIES = {
             description="Reading of an accelerometer: +9.8 m/s2 upwards at rest.",
         ),
         Quantity(
+            name="gravity",
+            labels=Labels.FIXED,
+            columns=_XYZ,
+            units=("m/s2",) * 3,
+            has_frame=True,
+            description="Acceleration of free fall along the axes of a frame: it points down.",
+        ),
+        Quantity(
             name="angular_velocity",
             labels=Labels.FIXED,
             columns=_XYZ,
             units=("rad/s",) * 3,
             has_frame=True,
             description="Reading of a gyroscope.",
+        ),
+        Quantity(
+            name="angular_acceleration",
+            labels=Labels.FIXED,
+            columns=_XYZ,
+            units=("rad/s2",) * 3,
+            has_frame=True,
+            description="Angular acceleration, where a device gives it.",
         ),
         Quantity(
             name="device_stamp",

@@ -6,9 +6,11 @@ from forcetorque.spatial.pose import invert_pose, make_pose, split_pose
 from forcetorque.spatial.rotation import rotation_about_z, rotation_from_rpy, rotation_with_z_along, skew
 from forcetorque.spatial.sign import MeasureDirection, reading_sign
 from forcetorque.spatial.twist import transform_twist, twist_matrix
+from forcetorque.spatial.units import SI_FACTORS, si_factor
 from forcetorque.spatial.wrench import WRENCH_COMPONENTS, WRENCH_UNITS, transform_wrench, wrench_matrix
 
 __all__ = [
+    "SI_FACTORS",
     "WRENCH_COMPONENTS",
     "WRENCH_UNITS",
     "Inertia",
@@ -19,6 +21,7 @@ __all__ = [
     "rotation_about_z",
     "rotation_from_rpy",
     "rotation_with_z_along",
+    "si_factor",
     "skew",
     "split_pose",
     "transform_twist",

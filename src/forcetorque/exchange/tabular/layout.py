@@ -1,0 +1,72 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the columns of a table mean, as the caller declares it; nothing is guessed from names or numbers."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from forcetorque.errors import FormatError, known_names
+
+NANOSECOND_DIGITS = {"s": 9, "ms": 6, "us": 3, "ns": 0}
+"""Decimal digits from a unit of time to nanoseconds."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class StampColumn:
+    """The column that holds the time of every row."""
+
+    column: str
+    """Name of the column."""
+    unit: str
+    """s, ms, us or ns since the epoch of the clock."""
+
+    def __post_init__(self) -> None:
+        if self.unit not in NANOSECOND_DIGITS:
+            raise FormatError(f"unit of the stamps: {known_names(self.unit, NANOSECOND_DIGITS)}; got {self.unit!r}")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TableSignal:
+    """Columns that make up one quantity."""
+
+    quantity: str
+    """Name of the quantity."""
+    columns: tuple[str, ...]
+    """Columns of the table, in the order of the quantity."""
+    units: tuple[str, ...]
+    """Unit of each column in the table."""
+    names: tuple[str, ...] | None = None
+    """Names of the columns in the stream, such as joints; None for those that the quantity has."""
+    frame: str | None = None
+    """Frame along whose axes the values are given."""
+
+    def __post_init__(self) -> None:
+        if len(self.units) != len(self.columns):
+            raise FormatError(
+                f"{self.quantity}: expected one unit for each of {len(self.columns)} columns, got {len(self.units)}"
+            )
+        if self.names is not None and len(self.names) != len(self.columns):
+            raise FormatError(
+                f"{self.quantity}: expected one name for each of {len(self.columns)} columns, got {len(self.names)}"
+            )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TableLayout:
+    """Form of a table."""
+
+    delimiter: str = ","
+    """One character between columns; a space stands for any run of spaces and tabs."""
+    column_names: tuple[str, ...] | None = None
+    """Names of the columns, for a table without a line of headings; None if its first line has them."""
+    stamp: StampColumn | None
+    """Column of the time; None for a table of poses without one: rows are then a second apart."""
+    signals: tuple[TableSignal, ...]
+    """What is read."""
+
+    def __post_init__(self) -> None:
+        if len(self.delimiter) != 1:
+            raise FormatError(f"delimiter: expected one character, got {self.delimiter!r}")
+        quantities = [signal.quantity for signal in self.signals]
+        if not quantities or len(set(quantities)) != len(quantities):
+            raise FormatError(f"signals: expected at least one and each quantity once, got {quantities}")

@@ -1,0 +1,58 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Units that files come in, and their SI units; conversion happens in readers, and only when a unit is stated."""
+
+from __future__ import annotations
+
+import math
+
+from forcetorque.constants import STANDARD_GRAVITY
+from forcetorque.errors import UnitError, known_names
+
+_POUND_FORCE = 4.4482216152605
+"""One pound-force in N, by definition of pound and standard gravity."""
+_INCH = 0.0254
+
+SI_FACTORS: dict[str, tuple[str, float]] = {
+    "N": ("N", 1.0),
+    "mN": ("N", 1e-3),
+    "kN": ("N", 1e3),
+    "kgf": ("N", STANDARD_GRAVITY),
+    "lbf": ("N", _POUND_FORCE),
+    "N m": ("N m", 1.0),
+    "N mm": ("N m", 1e-3),
+    "kgf cm": ("N m", STANDARD_GRAVITY * 1e-2),
+    "lbf in": ("N m", _POUND_FORCE * _INCH),
+    "lbf ft": ("N m", _POUND_FORCE * 12.0 * _INCH),
+    "rad": ("rad", 1.0),
+    "deg": ("rad", math.pi / 180.0),
+    "rad/s": ("rad/s", 1.0),
+    "deg/s": ("rad/s", math.pi / 180.0),
+    "rad/s2": ("rad/s2", 1.0),
+    "deg/s2": ("rad/s2", math.pi / 180.0),
+    "m": ("m", 1.0),
+    "mm": ("m", 1e-3),
+    "m/s": ("m/s", 1.0),
+    "m/s2": ("m/s2", 1.0),
+    "g": ("m/s2", STANDARD_GRAVITY),
+    "degC": ("degC", 1.0),
+    "counts": ("counts", 1.0),
+    "tick": ("tick", 1.0),
+}
+"""SI unit and factor of every unit that files may state."""
+
+
+def si_factor(unit: str) -> tuple[str, float]:
+    """Look up a unit.
+
+    Args:
+        unit: Unit as the file's description states it.
+
+    Returns:
+        Its SI unit, and the factor from one to the other.
+
+    Raises:
+        UnitError: If the unit is not known.
+    """
+    if unit not in SI_FACTORS:
+        raise UnitError(f"unknown unit {unit!r}; {known_names(unit, SI_FACTORS)}")
+    return SI_FACTORS[unit]
