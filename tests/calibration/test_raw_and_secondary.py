@@ -38,3 +38,5 @@ def test_singular_and_misshapen_priors_are_refused() -> None:
         recover_raw(np.zeros((3, 6)), PRIOR[:, :5])
     with pytest.raises(ShapeError, match="matrix"):
         secondary_matrix(PRIOR[:, :5], PRIOR)
+    with pytest.raises(FitError, match="singular"):
+        secondary_matrix(PRIOR, np.zeros((6, 6)))

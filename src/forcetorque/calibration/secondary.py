@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from forcetorque.arrays import FloatArray
-from forcetorque.errors import ShapeError
+from forcetorque.errors import FitError, ShapeError
 
 
 def secondary_matrix(matrix: Any, prior: Any) -> FloatArray:
@@ -23,9 +23,13 @@ def secondary_matrix(matrix: Any, prior: Any) -> FloatArray:
 
     Raises:
         ShapeError: If a matrix is not 6 x 6.
+        FitError: If the prior cannot be inverted.
     """
     new, old = np.asarray(matrix, dtype=np.float64), np.asarray(prior, dtype=np.float64)
     for name, array in (("matrix", new), ("prior", old)):
         if array.shape != (6, 6):
             raise ShapeError(f"{name}: expected shape (6, 6), got {array.shape}")
-    return np.asarray(np.linalg.solve(old.T, new.T).T, dtype=np.float64)
+    try:
+        return np.asarray(np.linalg.solve(old.T, new.T).T, dtype=np.float64)
+    except np.linalg.LinAlgError as error:
+        raise FitError("the prior matrix is singular, so no matrix corrects what it made") from error

@@ -9,7 +9,7 @@ from typing import Annotated
 
 import typer
 
-from forcetorque.cli.output import Format
+from forcetorque.cli.output import ExportFormat, Format
 from forcetorque.errors import ForceTorqueError
 
 app = typer.Typer(
@@ -86,9 +86,48 @@ def _evaluate(
     run(experiment, calibrations=calibration, output_format=output_format)
 
 
+@app.command("export")
+def _export(
+    calibration: Annotated[list[Path], typer.Argument(help="Calibration files; one for icub-matrix.")],
+    to: Annotated[
+        ExportFormat,
+        typer.Option(
+            "--to",
+            help="Matrix file for the sensor's DSP, XML groups for wholebodydynamics, or a plain table.",
+        ),
+    ],
+    output: Annotated[Path, typer.Option("--output", "-o", help="File to write.")],
+    full_scale: Annotated[
+        tuple[int, int, int, int, int, int] | None,
+        typer.Option(
+            "--full-scale", help="Six full scales for icub-matrix; N, N m. Default: chosen to hold the matrix."
+        ),
+    ] = None,
+    sensor_name: Annotated[
+        str | None,
+        typer.Option("--sensor-name", help="Name of the sensor in the robot's configuration, for wholebodydynamics."),
+    ] = None,
+    output_format: FormatOption = Format.TABLE,
+) -> None:
+    """Write calibrations as files that a robot or another program reads.
+
+    Example: forcetorque export leg.json --to wholebodydynamics -o leg.xml
+    """
+    from forcetorque.cli.export import run
+
+    run(
+        calibration,
+        to=to,
+        output=output,
+        full_scale=full_scale,
+        sensor_name=sensor_name,
+        output_format=output_format,
+    )
+
+
 @app.command("schema")
 def _schema(
-    name: Annotated[str, typer.Argument(help="experiment, recording, calibration, calibrate or evaluate.")],
+    name: Annotated[str, typer.Argument(help="experiment, recording, calibration, calibrate, evaluate or export.")],
 ) -> None:
     """Print the JSON schema of a file or of a command's result.
 

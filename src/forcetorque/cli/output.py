@@ -27,6 +27,14 @@ class Format(StrEnum):
     CSV = "csv"
 
 
+class ExportFormat(StrEnum):
+    """Form of the file that an export writes."""
+
+    ICUB_MATRIX = "icub-matrix"
+    WHOLEBODYDYNAMICS = "wholebodydynamics"
+    CSV = "csv"
+
+
 def start_logging() -> logging.Logger:
     """Send the library's and the command's messages to standard error.
 

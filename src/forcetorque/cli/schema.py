@@ -26,6 +26,7 @@ def run(name: str) -> None:
         "calibration": _calibration,
         "calibrate": _calibrate,
         "evaluate": _evaluate,
+        "export": _export,
     }
     if name not in known:
         raise ForceTorqueError(f"no schema is called {name!r}; {known_names(name, known)}")
@@ -60,3 +61,9 @@ def _evaluate() -> dict[str, Any]:
     from forcetorque.cli.evaluate import EvaluateResult
 
     return EvaluateResult.model_json_schema()
+
+
+def _export() -> dict[str, Any]:
+    from forcetorque.cli.export import ExportResult
+
+    return ExportResult.model_json_schema()

@@ -1,0 +1,57 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Calibrations of a plausible sensor, for tests of what is done with one."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from forcetorque.arrays import FloatArray
+from forcetorque.calibration import Calibration, Prior, Provenance, Selection, SensorIdentity, Validity
+from forcetorque.simulation import distorted_by_mounting, y_shaped_matrix
+from forcetorque.spatial import MeasureDirection
+
+FACTORY = y_shaped_matrix(arm_m=0.02, counts_per_newton=60.0)
+"""Prior matrix; N/count, N m/count."""
+MOUNTED = distorted_by_mounting(FACTORY, relative=0.05, rng=np.random.default_rng(7))
+"""Another matrix of the same sensor."""
+OFFSET = np.array([8.0, -5.0, 20.0, 0.3, -0.2, 0.1])
+
+
+def make_calibration(
+    *,
+    name: str = "leg_ft",
+    serial: str = "SN001",
+    matrix: FloatArray = MOUNTED,
+    prior: FloatArray | None = FACTORY,
+    offset: FloatArray = OFFSET,
+) -> Calibration:
+    """Make a calibration whose fitted raw range is -3000 j to 2000 j counts for channel j = 1, 2, ..."""
+    channels = matrix.shape[1]
+    return Calibration(
+        sensor=SensorIdentity(
+            name=name, serial=serial, robot="arm", frame="child", measure_direction=MeasureDirection.CHILD_TO_PARENT
+        ),
+        matrix=matrix,
+        offset=offset,
+        matrix_standard_error=None,
+        offset_standard_error=None,
+        residual_rms=np.ones(6),
+        lambda_counts2=0.0,
+        prior=None if prior is None else Prior(matrix=prior, offset=np.zeros(6), source="matrix.txt"),
+        validity=Validity(
+            raw_minimum_counts=-3000.0 * np.arange(1, channels + 1),
+            raw_maximum_counts=2000.0 * np.arange(1, channels + 1),
+            reference_deviation=np.ones(6),
+            rank=channels,
+            condition=12.0,
+            directions=np.eye(channels),
+            variance_counts2=np.ones(channels),
+            explained=np.ones(channels),
+            excited=(True,) * channels,
+        ),
+        selection=Selection(rule="given"),
+        provenance=Provenance(
+            code_version="1", created="2026-01-01T00:00:00+00:00", experiment="e", intervals=(), samples=3, dropped=0,
+            inputs_sha256={},
+        ),
+    )  # fmt: skip

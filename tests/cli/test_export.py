@@ -1,0 +1,273 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""`forcetorque export`: the written files hold the calibration, and the result says what they do not hold."""
+
+from __future__ import annotations
+
+import csv
+import io
+import itertools
+import json
+import logging
+import sys
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from forcetorque.calibration import Calibration, write_calibration
+from forcetorque.cli import main
+from forcetorque.cli.export import ExportResult
+from forcetorque.exchange.icub import read_matrix_file
+from forcetorque.exchange.wholebodydynamics import corrected, read_groups
+from tests.calibrations import FACTORY, MOUNTED, OFFSET, make_calibration
+
+SOLVE_ROUNDING = 1e-10
+"""Relative to the largest wrench: eps times the condition number of the prior, about 1e4 with rows in N and N m."""
+SUM_ROUNDING = 1e-12
+"""Relative: sums of six products in another order, of differences that keep 12 digits."""
+
+
+@dataclass(frozen=True)
+class Done:
+    """What a command left."""
+
+    code: int
+    out: str
+    err: str
+
+    def result(self) -> dict[str, Any]:
+        """Give the result in JSON."""
+        content: dict[str, Any] = json.loads(self.out)
+        return content
+
+
+Run = Callable[..., Done]
+
+
+@pytest.fixture
+def run(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> Run:
+    """Run `forcetorque export` with these arguments."""
+
+    def command(*arguments: str | Path) -> Done:
+        monkeypatch.setattr(sys, "argv", ["forcetorque", "export", *map(str, arguments)])
+        monkeypatch.setattr(logging.getLogger("forcetorque"), "handlers", [])  # or it keeps an earlier test's stream
+        with pytest.raises(SystemExit) as leaving:
+            main()
+        captured = capsys.readouterr()
+        return Done(code=int(leaving.value.code or 0), out=captured.out, err=captured.err)
+
+    return command
+
+
+@pytest.fixture
+def leg(tmp_path: Path) -> Path:
+    """File of a calibration."""
+    return _written(tmp_path / "leg.json", make_calibration())
+
+
+def _written(path: Path, calibration: Calibration) -> Path:
+    write_calibration(path, calibration)
+    return path
+
+
+def _half_lsb_excess(full_scale: list[int], decoded: np.ndarray) -> float:
+    half = np.array(full_scale)[:, np.newaxis] / 32767 / 2**16
+    return float((np.abs(decoded - MOUNTED) - half * (1 + 1e-9)).max())
+
+
+def test_the_matrix_file_decodes_to_the_calibration(run: Run, leg: Path, tmp_path: Path) -> None:
+    """Every coefficient is within half a least significant bit of its row; one code further is not."""
+    output = tmp_path / "matrix_SN001.txt"
+    done = run(leg, "--to", "icub-matrix", "-o", output, "--format", "json")
+    assert done.code == 0
+    file = read_matrix_file(output)
+    (entry,) = done.result()["calibrations"]
+    assert entry["full_scale"] == list(file.full_scale)
+    assert np.array(entry["matrix"]).tobytes() == file.matrix.tobytes()
+    assert _half_lsb_excess(entry["full_scale"], file.matrix) <= 0.0
+    one_code = np.array(file.full_scale)[:, np.newaxis] / 32767 / 2**15
+    assert _half_lsb_excess(entry["full_scale"], file.matrix + one_code) > 0.0
+
+
+def test_the_rounding_error_is_the_largest_over_the_fitted_range(run: Run, leg: Path, tmp_path: Path) -> None:
+    """It is reached at a corner of the raw range: the 64 corners give the same, and no reading inside gives more."""
+    output = tmp_path / "matrix.txt"
+    (entry,) = run(leg, "--to", "icub-matrix", "-o", output, "--format", "json").result()["calibrations"]
+    difference = read_matrix_file(output).matrix - MOUNTED
+    low, high = -3000.0 * np.arange(1, 7), 2000.0 * np.arange(1, 7)
+    corners = np.array(list(itertools.product(*zip(low, high, strict=True))))
+    assert corners.shape == (64, 6)
+    by_corners = np.abs(corners @ difference.T).max(axis=0)
+    np.testing.assert_allclose(entry["largest_rounding_error"], by_corners, rtol=SUM_ROUNDING)
+    inside = np.random.default_rng(3).uniform(low, high, size=(1000, 6))
+    assert (np.abs(inside @ difference.T).max(axis=0) <= by_corners).all()
+
+
+def test_the_offset_that_a_matrix_file_cannot_hold_is_announced(run: Run, leg: Path, tmp_path: Path) -> None:
+    """Standard error warns with the offset, and the result says that it is not stored."""
+    done = run(leg, "--to", "icub-matrix", "-o", tmp_path / "matrix.txt", "--format", "json")
+    assert "WARNING" in done.err
+    assert "offset (8, -5, 20) N, (0.3, -0.2, 0.1) N m: not stored" in done.err
+    (entry,) = done.result()["calibrations"]
+    assert entry["offset_stored"] is False
+    assert entry["offset"] == OFFSET.tolist()
+    stored = run(leg, "--to", "csv", "-o", tmp_path / "table.csv", "--format", "json")
+    assert "WARNING" not in stored.err
+    assert stored.result()["calibrations"][0]["offset_stored"] is True
+
+
+def test_full_scales_can_be_kept(run: Run, leg: Path, tmp_path: Path) -> None:
+    """Six given full scales stand in the file; one that cannot hold its row is refused with the smallest that can."""
+    output = tmp_path / "matrix.txt"
+    given = ["1587", "1823", "2113", "37", "38", "24"]
+    done = run(leg, "--to", "icub-matrix", "-o", output, "--full-scale", *given, "--format", "json")
+    assert done.result()["calibrations"][0]["full_scale"] == [int(scale) for scale in given]
+    file = read_matrix_file(output)
+    assert file.full_scale == (1587, 1823, 2113, 37, 38, 24)
+    assert _half_lsb_excess(list(file.full_scale), file.matrix) <= 0.0
+    before = output.read_bytes()
+    refused = run(leg, "--to", "icub-matrix", "-o", output, "--full-scale", "1", *given[1:])
+    assert refused.code == 2
+    assert "leg.json: matrix[0, " in refused.err
+    assert "smallest full scale that holds it is" in refused.err
+    assert output.read_bytes() == before
+
+
+def test_a_matrix_file_named_after_another_sensor_is_refused(run: Run, leg: Path, tmp_path: Path) -> None:
+    """matrix_SN002.txt is the factory's name for the file of sensor SN002, not SN001."""
+    output = tmp_path / "matrix_SN002.txt"
+    done = run(leg, "--to", "icub-matrix", "-o", output)
+    assert done.code == 2
+    assert "'SN001'" in done.err
+    assert "'SN002'" in done.err
+    assert not output.exists()
+
+
+def test_several_sensors_go_into_one_configuration(run: Run, leg: Path, tmp_path: Path) -> None:
+    """Each correction turns the prior's stream into the wrenches of its calibration."""
+    other = make_calibration(name="arm_ft", serial="SN002", matrix=2.0 * MOUNTED, offset=-OFFSET)
+    arm, output = _written(tmp_path / "arm.json", other), tmp_path / "ft.xml"
+    done = run(leg, arm, "--to", "wholebodydynamics", "-o", output, "--format", "json")
+    assert done.code == 0
+    found = read_groups(output)
+    assert [correction.sensor for correction in found] == ["leg_ft", "arm_ft"]
+    raw = np.random.default_rng(4).normal(size=(20, 6)) * 1000
+    checked = 0
+    for correction, calibration, entry in zip(
+        found, (make_calibration(), other), done.result()["calibrations"], strict=True
+    ):
+        expected = calibration.apply(raw, serial=calibration.sensor.serial)
+        tolerance = SOLVE_ROUNDING * np.abs(expected).max()
+        np.testing.assert_allclose(corrected(correction, raw @ FACTORY.T), expected, rtol=0, atol=tolerance)
+        assert entry["matrix"] == correction.secondary_matrix.tolist()
+        assert entry["sensor"] == correction.sensor
+        checked += 1
+    assert checked == 2
+    assert "which the device ADDS" in done.err
+
+
+def test_the_robots_name_of_a_sensor_can_be_given(run: Run, leg: Path, tmp_path: Path) -> None:
+    """The name stands in the file and in the result."""
+    output = tmp_path / "ft.xml"
+    arguments = (leg, "--to", "wholebodydynamics", "-o", output, "--format", "json")
+    assert run(*arguments, "--sensor-name", "l_leg_ft").result()["calibrations"][0]["sensor"] == "l_leg_ft"
+    assert [correction.sensor for correction in read_groups(output)] == ["l_leg_ft"]
+    refused = run(*arguments, "--sensor-name", "l leg")
+    assert refused.code == 2
+    assert "leg.json: sensor: expected a name that YARP reads as one word" in refused.err
+
+
+def test_an_offset_of_six_zeros_is_warned_of(run: Run, tmp_path: Path) -> None:
+    """The device would not set its offset to zero but keep its own."""
+    zero = _written(tmp_path / "zero.json", make_calibration(offset=np.zeros(6)))
+    done = run(zero, "--to", "wholebodydynamics", "-o", tmp_path / "ft.xml")
+    assert "WARNING" in done.err
+    assert "ignores an FT_OFFSET of six zeros" in done.err
+
+
+def test_a_table_holds_matrix_and_offset(run: Run, leg: Path, tmp_path: Path) -> None:
+    """The file reads back to the calibration, to the last bit."""
+    output = tmp_path / "table.csv"
+    assert run(leg, "--to", "csv", "-o", output).code == 0
+    rows = list(csv.DictReader(io.StringIO(output.read_text(encoding="utf-8"))))
+    assert np.array([[float(row[f"c{j}_per_count"]) for j in range(6)] for row in rows]).tobytes() == MOUNTED.tobytes()
+    assert [float(row["offset"]) for row in rows] == OFFSET.tolist()
+
+
+@pytest.mark.parametrize("to", ["icub-matrix", "wholebodydynamics", "csv"])
+def test_the_result_has_three_forms(run: Run, leg: Path, tmp_path: Path, to: str) -> None:
+    """JSON is what its schema says, CSV has a row per component with the same numbers, the table names the file."""
+    output = tmp_path / "out.file"
+    result = run(leg, "--to", to, "-o", output, "--format", "json").result()
+    ExportResult.model_validate(result)
+    assert result["schema"] == "forcetorque/export/1"
+    assert (result["format"], result["file"]) == (to, str(output))
+    rows = list(csv.DictReader(io.StringIO(run(leg, "--to", to, "-o", output, "--format", "csv").out)))
+    (entry,) = result["calibrations"]
+    assert [row["component"] for row in rows] == ["fx", "fy", "fz", "tx", "ty", "tz"]
+    assert [[float(row[f"m{j}"]) for j in range(6)] for row in rows] == entry["matrix"]
+    assert ("full_scale" in rows[0]) is (to == "icub-matrix")
+    table = run(leg, "--to", to, "-o", output).out
+    assert f"written to {output}" in table
+    assert f"offset: {result['offset_handling']}" in table
+    assert "leg_ft (SN001)" in table
+
+
+def test_the_result_has_a_schema(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    """`forcetorque schema export` describes the keys of the result."""
+    monkeypatch.setattr(sys, "argv", ["forcetorque", "schema", "export"])
+    with pytest.raises(SystemExit) as leaving:
+        main()
+    assert not leaving.value.code
+    schema = json.loads(capsys.readouterr().out)
+    assert set(schema["properties"]) == {"schema", "format", "file", "offset_handling", "calibrations"}
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        ("LEG ARM --to icub-matrix -o OUT", "--to icub-matrix: a file holds one matrix, got 2 calibrations"),
+        ("LEG --to csv -o OUT --full-scale 1 1 1 1 1 1", "--full-scale: only files of --to icub-matrix"),
+        ("LEG --to csv -o OUT --sensor-name x", "--sensor-name: expected --to wholebodydynamics and one calibration"),
+        ("LEG ARM --to wholebodydynamics -o OUT --sensor-name x", "--sensor-name: expected --to wholebodydynamics"),
+        ("LEG LEG2 --to wholebodydynamics -o OUT", "expected every sensor once, got 'leg_ft' 2 times"),
+        ("BARE --to wholebodydynamics -o OUT", "bare.json: sensor 'bare' ('SN001'): expected a matrix and a prior"),
+        ("WIDE --to icub-matrix -o OUT", "wide.json: matrix: expected an array of shape (6, 6), got (6, 7)"),
+        ("UNRANGED --to icub-matrix -o OUT", "unranged.json: raw_minimum_counts: expected an array of shape (6)"),
+        ("LEG --to csv -o FOLDER", "expected a file to write, got a folder"),
+        ("LEG --to csv -o LEG", "expected another file, got a calibration that is to be exported"),
+        ("LEG --to csv -o NOWHERE", "expected an existing folder to write to, got none"),
+        ("NONE --to csv -o OUT", "none.json: expected a calibration file, there is none"),
+        ("LEG NONE --to wholebodydynamics -o OUT", "none.json: expected a calibration file, there is none"),
+    ],
+)
+def test_wrong_requests_are_one_line_and_write_nothing(
+    run: Run, leg: Path, tmp_path: Path, arguments: str, message: str
+) -> None:
+    """The line says what to change; the exit code is 2, and no file changes."""
+    seven = np.hstack([MOUNTED, np.ones((6, 1))])
+    (tmp_path / "folder").mkdir()
+    _written(tmp_path / "arm.json", make_calibration(name="arm_ft"))
+    _written(tmp_path / "leg2.json", make_calibration())
+    _written(tmp_path / "bare.json", make_calibration(name="bare", prior=None))
+    _written(tmp_path / "wide.json", make_calibration(matrix=seven, prior=None))
+    unranged = make_calibration().model_copy(update={"validity": make_calibration(matrix=seven).validity})
+    _written(tmp_path / "unranged.json", unranged)
+    files = {
+        "OUT": tmp_path / "out.file",
+        "LEG": leg,
+        "FOLDER": tmp_path / "folder",
+        "NOWHERE": tmp_path / "nowhere" / "x",
+    }
+    files |= {name.upper(): tmp_path / f"{name}.json" for name in ("arm", "leg2", "bare", "wide", "unranged", "none")}
+    before = {path: path.read_bytes() for path in tmp_path.iterdir() if path.is_file()}
+    done = run(*(files.get(word, word) for word in arguments.split()))
+    assert done.code == 2
+    assert done.out == ""
+    errors = [line for line in done.err.splitlines() if line.startswith("error: ")]
+    assert len(errors) == 1
+    assert message in errors[0]
+    assert {path: path.read_bytes() for path in tmp_path.iterdir() if path.is_file()} == before
