@@ -139,13 +139,14 @@ def _flat(row: VerdictRow) -> dict[str, object]:
 def _show(result: EvaluateResult) -> None:
     screen = console()
     headings = [f"{component}, {unit}" for component, unit in zip(WRENCH_COMPONENTS, WRENCH_UNITS, strict=True)]
+    labels = _labels([row.candidate for row in result.verdicts])
     for sensor in dict.fromkeys(row.sensor for row in result.verdicts):
         rows = [row for row in result.verdicts if row.sensor == sensor]
         title = f"{result.experiment}: {sensor} ({rows[0].serial}), {rows[0].samples} samples that were not fitted"
         made = table("candidate", "offset", *headings, "force, N", "moment, N m", title=title)
         for row in rows:
             made.add_row(
-                _short(row.candidate),
+                labels[row.candidate],
                 row.offset,
                 *(f"{value:.3f}" for value in row.rmse),
                 _with_error(row.force_error_mean_N, row.force_error_standard_error_N),
@@ -155,10 +156,13 @@ def _show(result: EvaluateResult) -> None:
     screen.print("per axis: RMSE; force and moment: mean norm of the error ± its standard error")
 
 
-def _short(candidate: str) -> str:
-    """Leave the folders of a calibration file out."""
-    words, _, file = candidate.rpartition(" ")
-    return " ".join([*words.split(), Path(file).name])
+def _labels(candidates: list[str]) -> dict[str, str]:
+    """Leave the folders of calibration files out, unless files in several folders share a name."""
+    labels = {}
+    for candidate in candidates:
+        words = "prior of " if candidate.startswith("prior of ") else ""
+        labels[candidate] = words + Path(candidate.removeprefix(words)).name
+    return labels if len(set(labels.values())) == len(labels) else {candidate: candidate for candidate in labels}
 
 
 def _with_error(value: float, error: float | None) -> str:

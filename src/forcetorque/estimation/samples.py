@@ -114,9 +114,11 @@ def sensor_samples(
     reference = expected_wrenches(tree, motion, root, [name])[name]
     reading = source.signal(quantity)
     values = reading.values[picked]
-    if processing.smoothing is not None:  # after the cut, so that nothing leaks in from outside
-        values = smooth(at_ns, values, processing.smoothing)
-        reference = smooth(at_ns, reference, processing.smoothing)
+    if processing.smoothing is not None:
+        # after the cut, so that nothing leaks in from outside; together, because a sample that only one
+        # of the two lacks would give them two different filters
+        both = smooth(at_ns, np.hstack([values, reference]), processing.smoothing)
+        values, reference = np.split(both, [values.shape[1]], axis=1)
     complete = np.isfinite(reference).all(axis=1) & np.isfinite(values).all(axis=1)
     if not complete.any():
         raise RecordingError(

@@ -183,7 +183,9 @@ def _steps(residual: _Residual, free: BoolArray) -> list[Finding]:
     if len(free) <= 2 * shift:
         return found
     levels = median_filter(residual.values, size=(width, 1), mode="nearest")
-    away = binary_erosion(free, structure=np.ones(2 * shift + 1, dtype=np.bool_), border_value=1)  # both levels free of contact
+    away = binary_erosion(
+        free, structure=np.ones(2 * shift + 1, dtype=np.bool_), border_value=1
+    )  # both levels free of contact
     for axis, name in enumerate(WRENCH_COMPONENTS):
         change = np.zeros(len(free))
         change[shift:-shift] = levels[2 * shift :, axis] - levels[: -2 * shift, axis]

@@ -8,13 +8,17 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray
-from forcetorque.calibration import Calibration
+from forcetorque.arrays import FloatArray, require_shape
+from forcetorque.calibration import Calibration, Prior
 from forcetorque.errors import ExperimentError
 from forcetorque.evaluation import WrenchErrors, offset_removed, wrench_errors
+from forcetorque.experiment.inputs import stated_in
 from forcetorque.experiment.load import Experiment, ExperimentSensor
 from forcetorque.experiment.samples import samples_of
 from forcetorque.recording import Use
+
+_SAME_OFFSET = 1e-9
+"""Offsets of one prior on the same data differ by less than this; N, N m."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -49,16 +53,20 @@ def evaluate_sensor(
 
     Raises:
         SerialNumberError: If a calibration is of another sensor.
-        ExperimentError: If a judged interval was fitted.
+        ExperimentError: If a judged interval was fitted, or the robot now reads the sensor in another frame or sign.
+        ShapeError: If a matrix does not have one column per channel of the sensor.
     """
     for name, calibration in calibrations.items():
-        calibration.require_serial(sensor.serial)
+        with stated_in(name):
+            calibration.require_serial(sensor.serial)
+        _refuse_other_reading(name, calibration, experiment, sensor)
         _refuse_fitted(name, calibration, experiment)
     parts = samples_of(experiment, sensor, Use.VALIDATION)
     raw = np.concatenate([p.raw for p in parts])
     reference = np.concatenate([p.samples.reference for p in parts])
     verdicts = []
     for candidate, matrix, offset in _candidates(calibrations):
+        require_shape(matrix, name=f"{candidate}: matrix", shape=(6, raw.shape[1]))
         measured = raw @ matrix.T + offset
         for kind, values in (("fitted", measured), ("re-estimated", offset_removed(measured, reference))):
             verdicts.append(
@@ -74,13 +82,31 @@ def evaluate_sensor(
 
 
 def _candidates(calibrations: Mapping[str, Calibration]) -> list[tuple[str, FloatArray, FloatArray]]:
-    priors: dict[bytes, tuple[str, FloatArray, FloatArray]] = {}
+    priors: list[tuple[str, FloatArray, FloatArray]] = []
     for name, calibration in calibrations.items():
-        if calibration.prior is not None:
-            prior = calibration.prior
+        prior = calibration.prior
+        if prior is not None and not any(_same(prior, matrix, offset) for _, matrix, offset in priors):
             label = "prior" if len(calibrations) == 1 else f"prior of {name}"
-            priors.setdefault(prior.matrix.tobytes() + prior.offset.tobytes(), (label, prior.matrix, prior.offset))
-    return [*priors.values(), *((name, c.matrix, c.offset) for name, c in calibrations.items())]
+            priors.append((label, prior.matrix, prior.offset))
+    return [*priors, *((name, c.matrix, c.offset) for name, c in calibrations.items())]
+
+
+def _same(prior: Prior, matrix: FloatArray, offset: FloatArray) -> bool:
+    # the last bits of a mean depend on where its numbers lie in memory
+    return np.array_equal(prior.matrix, matrix) and np.allclose(prior.offset, offset, rtol=0.0, atol=_SAME_OFFSET)
+
+
+def _refuse_other_reading(
+    name: str, calibration: Calibration, experiment: Experiment, sensor: ExperimentSensor
+) -> None:
+    """Refuse to compare wrenches in one frame and sign with references in another."""
+    tag = experiment.model.sensor(sensor.name)
+    fitted = (calibration.sensor.frame, calibration.sensor.measure_direction.value)
+    if fitted != (tag.frame.value, tag.direction.value):
+        raise ExperimentError(
+            f"calibration {name!r}: expected readings in the frame {tag.frame}, {tag.direction}, as the robot "
+            f"{experiment.model.name!r} has them, got {', '.join(fitted)}; fit again with this robot"
+        )
 
 
 def _refuse_fitted(name: str, calibration: Calibration, experiment: Experiment) -> None:

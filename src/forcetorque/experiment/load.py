@@ -59,7 +59,7 @@ class Experiment:
         """Find a sensor of the experiment.
 
         Args:
-            name: Name in the experiment file.
+            name: Its name, or another one that the robot model has for it.
 
         Returns:
             The sensor.
@@ -68,7 +68,7 @@ class Experiment:
             ExperimentError: If the experiment has none of that name.
         """
         for sensor in self.sensors:
-            if sensor.name == name:
+            if name in (sensor.name, *self.model.sensor(sensor.name).aliases):
                 return sensor
         raise ExperimentError(
             f"experiment {self.name!r} has no sensor {name!r}; {known_names(name, (s.name for s in self.sensors))}"
@@ -111,14 +111,14 @@ def load_experiment(path: Path | str) -> Experiment:
     inputs = Inputs(file.parent)
     model = _declare_sensors(parsed, file, read_urdf(inputs.file(parsed.robot.urdf)))
     streams = _read_streams(parsed, file, model, inputs)
-    recording = streams.with_intervals(_intervals(parsed, file, streams, model))
+    intervals = _intervals(parsed, file, streams, model)
+    with stated_in(str(file)):
+        recording = streams.with_intervals(intervals)
     return Experiment(
         name=parsed.name,
         model=model,
         recording=recording,
-        sensors=tuple(
-            _sensor(file, index, entry, model, recording, inputs) for index, entry in enumerate(parsed.sensor)
-        ),
+        sensors=_sensors(parsed, file, model, recording, inputs),
         processing=_processing(parsed),
         regularisation=parsed.calibration.lambda_counts2,
         inputs_sha256=inputs.sha256(),
@@ -153,12 +153,14 @@ def _read_streams(parsed: schema.ExperimentFile, file: Path, model: RobotModel, 
         where = f"{file}: recording.stream[{index}]"
         if port.name in readings:
             raise ExperimentError(f"{where}: the name {port.name!r} is taken by an earlier stream")
-        folder = inputs.below(log.path / port.port, "data.log", "data.log.gz")
+        folder = inputs.below(log.path / port.port, "data.log", "data.log.gz", "info.log")
         if isinstance(port, schema.StateExtPort):
             units = {name: model.joints[name].type.unit for name in port.joints if name in model.joints}
-            readings[port.name] = read_state_ext(folder, stream=port.name, joints=port.joints, joint_units=units)
+            with stated_in(where):
+                readings[port.name] = read_state_ext(folder, stream=port.name, joints=port.joints, joint_units=units)
         elif port.name in readers:
-            readings[port.name] = read_analog(folder, stream=port.name, frame=readers[port.name])
+            with stated_in(where):
+                readings[port.name] = read_analog(folder, stream=port.name, frame=readers[port.name])
         else:
             raise ExperimentError(f"{where}: no [[sensor]] reads the stream {port.name!r}; add one or leave it out")
     return Recording(
@@ -166,6 +168,24 @@ def _read_streams(parsed: schema.ExperimentFile, file: Path, model: RobotModel, 
         findings=tuple(finding for reading in readings.values() for finding in reading.findings),
         origin=origin,
     )
+
+
+def _sensors(
+    parsed: schema.ExperimentFile, file: Path, model: RobotModel, recording: Recording, inputs: Inputs
+) -> tuple[ExperimentSensor, ...]:
+    found: list[ExperimentSensor] = []
+    for index, entry in enumerate(parsed.sensor):
+        sensor = _sensor(file, index, entry, model, recording, inputs)
+        for earlier in found:
+            if sensor.name == earlier.name:
+                raise ExperimentError(f"{file}: sensor[{index}]: {sensor.name!r} is listed twice; keep one")
+            if sensor.stream == earlier.stream:
+                raise ExperimentError(
+                    f"{file}: sensor[{index}]: {sensor.name!r} reads the stream {sensor.stream!r}, as does "
+                    f"{earlier.name!r}; every sensor has its own"
+                )
+        found.append(sensor)
+    return tuple(found)
 
 
 def _sensor(
@@ -195,16 +215,20 @@ def _sensor(
 
 
 def _intervals(parsed: schema.ExperimentFile, file: Path, recording: Recording, model: RobotModel) -> list[Interval]:
-    supports = {}
+    supports: dict[str, Support] = {}
     for index, entry in enumerate(parsed.support):
         if entry.frame not in model.links:
             raise ExperimentError(
                 f"{file}: support[{index}]: robot {model.name!r} has no link {entry.frame!r}; "
                 f"{known_names(entry.frame, model.links)}"
             )
+        if entry.frame in supports:
+            raise ExperimentError(f"{file}: support[{index}]: the frame {entry.frame!r} is listed twice; keep one")
         with stated_in(f"{file}: support[{index}]"):
             supports[entry.frame] = Support(frame=entry.frame, gravity_direction=entry.gravity_direction)
-    start, end = recording.span_ns
+    with stated_in(f"{file}: recording"):
+        start, end = recording.span_ns
+    log_s = (end - start) // 1_000_000 / 1000  # rounded down, so that who copies it from the message stays inside
     found = []
     for index, span in enumerate(parsed.interval):
         where = f"{file}: interval[{index}] {span.label!r}"
@@ -212,10 +236,9 @@ def _intervals(parsed: schema.ExperimentFile, file: Path, recording: Recording, 
             raise ExperimentError(
                 f"{where}: no [[support]] has the frame {span.support!r}; {known_names(span.support, supports)}"
             )
-        if span.start_s < 0.0 or start + round(span.end_s * 1e9) > end + 1:
+        if span.start_s < 0.0 or max(span.start_s, span.end_s) * 1e9 > end - start + 1.5:
             raise ExperimentError(
-                f"{where}: expected a span inside the log, 0 to {(end - start) * 1e-9:.3f} s, "
-                f"got {span.start_s:g} to {span.end_s:g} s"
+                f"{where}: expected a span inside the log, 0 to {log_s:.3f} s, got {span.start_s:g} to {span.end_s:g} s"
             )
         with stated_in(f"{file}: interval[{index}]"):
             interval = Interval(

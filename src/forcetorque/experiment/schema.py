@@ -6,7 +6,16 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, model_validator
+from pydantic import (
+    BaseModel,
+    BeforeValidator,
+    ConfigDict,
+    Discriminator,
+    Field,
+    Tag,
+    WithJsonSchema,
+    model_validator,
+)
 from pydantic_core import PydanticCustomError
 
 from forcetorque.array_field import ArrayField
@@ -36,8 +45,9 @@ class _Table(BaseModel):
 
 
 Text = Annotated[str, Field(min_length=1)]
-Positive = Annotated[float, Field(gt=0.0, allow_inf_nan=False)]
-Finite = Annotated[float, Field(allow_inf_nan=False)]
+# strict: a text or a flag is no number
+Positive = Annotated[float, Field(gt=0.0, allow_inf_nan=False, strict=True)]
+Finite = Annotated[float, Field(allow_inf_nan=False, strict=True)]
 
 
 class Robot(_Table):
@@ -157,20 +167,29 @@ class Smoothing(_Table):
 
     window_s: Positive
     """Length of the window; s."""
-    order: Annotated[int, Field(ge=0)]
+    order: Annotated[int, Field(ge=0, strict=True)]
     """Order of the polynomial."""
+
+
+def _form_of_derivatives(value: Any) -> str:
+    return "word" if isinstance(value, str) else "table"
 
 
 class ProcessingTable(_Table):
     """How logged samples become reading and reference."""
 
-    derivatives: Smoothing | Literal["logged"] = Smoothing(window_s=0.3, order=3)
+    derivatives: Annotated[
+        Annotated[Smoothing, Tag("table")] | Annotated[Literal["logged"], Tag("word")],
+        Discriminator(_form_of_derivatives),
+    ] = Smoothing(window_s=0.3, order=3)
     """Filter that differentiates joint positions, or `logged` to take velocity and acceleration from the log."""
     smoothing: Smoothing | None = None
     """Filter of reading and reference alike inside each interval, against vibration; none if left out."""
 
 
 def _lambda(value: Any) -> Any:
+    if isinstance(value, str) and value != "held-out":
+        raise PydanticCustomError("lambda_word", "expected a number of at least 0 counts2 or `held-out`")
     return None if value == "held-out" else value
 
 
@@ -178,7 +197,9 @@ class CalibrationTable(_Table):
     """How the fit is regularised."""
 
     lambda_counts2: Annotated[
-        float | None, BeforeValidator(_lambda, json_schema_input_type=float | Literal["held-out"]), Field(ge=0.0)
+        Annotated[float, Field(ge=0.0, strict=True)] | None,
+        BeforeValidator(_lambda),
+        WithJsonSchema({"anyOf": [{"type": "number", "minimum": 0}, {"const": "held-out"}]}),
     ] = None
     """Lambda in the convention of thesis (5.4); `held-out` to choose it on held-out blocks."""
 

@@ -2,7 +2,7 @@
 """What was measured: streams with their own clocks, intervals, findings; see docs/recording.md."""
 
 from forcetorque.recording.finding import Finding
-from forcetorque.recording.interval import Interval, Support, Use
+from forcetorque.recording.interval import Interval, MovingSupport, Support, Use
 from forcetorque.recording.quantity import QUANTITIES, Labels, Quantity
 from forcetorque.recording.recording import Recording
 from forcetorque.recording.schema import recording_schema
@@ -15,6 +15,7 @@ __all__ = [
     "Finding",
     "Interval",
     "Labels",
+    "MovingSupport",
     "Quantity",
     "Recording",
     "SavitzkyGolay",

@@ -86,7 +86,8 @@ def interpolate(stream: Stream, values: FloatArray, at_ns: IntArray) -> FloatArr
     # an instant that is a sample's own has nothing to interpolate, also at the edge of a gap
     exact_before, exact_after = at_ns == stamps[before], at_ns == stamps[after]
     in_gap = (span > gap_limit_ns(stamps)) & ~exact_before & ~exact_after
-    result = (1.0 - weight)[:, None] * samples[before] + weight[:, None] * samples[after]
+    with np.errstate(invalid="ignore"):  # infinite samples with weight zero
+        result = (1.0 - weight)[:, None] * samples[before] + weight[:, None] * samples[after]
     result[exact_before] = samples[before[exact_before]]
     result[exact_after] = samples[after[exact_after]]
     result[outside | in_gap] = np.nan

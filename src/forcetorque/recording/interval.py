@@ -5,11 +5,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import StrEnum
+from operator import index
 
 import numpy as np
 
 from forcetorque.arrays import FloatArray, read_only
-from forcetorque.errors import RecordingError
+from forcetorque.errors import RecordingError, known_names
 
 _UNIT = 4.0 * float(np.finfo(np.float64).eps)
 """A direction this close to unit length is left as it is, so that a stored one reads back bit by bit."""
@@ -48,6 +49,21 @@ class Support:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class MovingSupport:
+    """A frame that is the only unknown contact while an IMU tells how the robot moves."""
+
+    frame: str
+    """Link of the robot model; it need not stand still."""
+    motion_streams: tuple[str, ...]
+    """Streams with the IMU's signals: proper acceleration or gravity, and angular velocity."""
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "motion_streams", tuple(self.motion_streams))
+        if not self.motion_streams:
+            raise RecordingError(f"support frame {self.frame!r}: expected the streams of an IMU, got none")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Interval:
     """A span of time, start included and end excluded."""
 
@@ -59,10 +75,23 @@ class Interval:
     """First instant after it; ns on the recording's clock."""
     use: Use
     """What it is for."""
-    support: Support | None
+    support: Support | MovingSupport | None
     """Support frame; None only where the use is `ignore`."""
 
     def __post_init__(self) -> None:
+        # NumPy integers become plain ones, which a file can hold; the text of a use becomes the use
+        try:
+            object.__setattr__(self, "start_ns", index(self.start_ns))
+            object.__setattr__(self, "end_ns", index(self.end_ns))
+        except TypeError as error:
+            raise RecordingError(
+                f"interval {self.label!r}: expected whole nanoseconds, got {self.start_ns!r} to {self.end_ns!r}"
+            ) from error
+        try:
+            object.__setattr__(self, "use", Use(self.use))
+        except ValueError as error:
+            known = known_names(str(self.use), Use)
+            raise RecordingError(f"interval {self.label!r}: no use is called {self.use!r}; {known}") from error
         if not self.start_ns < self.end_ns:
             raise RecordingError(
                 f"interval {self.label!r}: expected an end after its start, "

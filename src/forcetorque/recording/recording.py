@@ -28,6 +28,8 @@ class Recording:
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "streams", MappingProxyType(dict(self.streams)))
+        object.__setattr__(self, "intervals", tuple(self.intervals))
+        object.__setattr__(self, "findings", tuple(self.findings))
         object.__setattr__(self, "origin", MappingProxyType(dict(self.origin)))
         for key, stream in self.streams.items():
             if key != stream.name:

@@ -80,6 +80,8 @@ def smooth(stamp_ns: IntArray, values: FloatArray, window: SavitzkyGolay, *, der
 def _smooth_on_grid(
     grid: FloatArray, seconds: FloatArray, values: FloatArray, length: int, order: int, derivative: int
 ) -> FloatArray:
+    from scipy.signal import savgol_filter  # here because importing it takes longer than most filters
+
     even = np.column_stack([np.interp(grid, seconds, column) for column in values.T])
     filtered = savgol_filter(even, length, order, deriv=derivative, delta=float(grid[1]), axis=0)
     return np.column_stack([np.interp(seconds, grid, column) for column in filtered.T])

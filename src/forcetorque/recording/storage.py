@@ -11,19 +11,19 @@ import json
 import shutil
 from collections.abc import Mapping
 from dataclasses import asdict
+from operator import index as whole_number
 from pathlib import Path
 from typing import Any
 from urllib.parse import quote
 from uuid import uuid4
 
-import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
 
-from forcetorque.arrays import IntArray
+from forcetorque.arrays import FloatArray, IntArray
 from forcetorque.errors import FormatError, MissingFileError, RecordingError, ShapeError
 from forcetorque.recording.finding import Finding
-from forcetorque.recording.interval import Interval, Support, Use
+from forcetorque.recording.interval import Interval, MovingSupport, Support, Use
 from forcetorque.recording.quantity import QUANTITIES
 from forcetorque.recording.recording import Recording
 from forcetorque.recording.stream import Signal, Stream
@@ -37,32 +37,29 @@ _METADATA_KEY = b"forcetorque"
 
 
 def write_recording(folder: Path | str, recording: Recording) -> None:
-    """Write a recording as a folder; readers see the old one or the new one, never a part.
+    """Write a recording as a folder; readers see the old one, for an instant none, then the new one, never a part.
 
     Args:
-        folder: Folder to make; a recording that is there already is replaced.
+        folder: Folder to make; a recording that is there already is replaced, if nothing else lies beside it.
         recording: What to write.
 
     Raises:
-        RecordingError: If the folder exists and is not a recording.
+        RecordingError: If the folder exists and is not a recording, or holds other files too.
         MissingFileError: If the folder that it is to be made in does not exist.
     """
     target = Path(folder).resolve()
     if not target.parent.is_dir():
         raise MissingFileError(f"{folder}: expected an existing folder to write to, got none; create {target.parent}")
-    if target.exists() and not (target / INDEX_FILE).is_file():
-        raise RecordingError(f"{folder}: exists and holds no {INDEX_FILE}; choose a new folder, nothing was written")
+    if target.exists():
+        _require_replaceable(target)
     fresh = target.with_name(f".{uuid4().hex}.tmp")
     fresh.mkdir()
     try:
         for stream in recording.streams.values():
             _write_stream(fresh / _file_name(stream.name), stream)
-        (fresh / INDEX_FILE).write_text(json.dumps(_index(recording), indent=2) + "\n", encoding="utf-8")
-        replaced = target.with_name(f".{uuid4().hex}.old")
-        if target.exists():
-            target.rename(replaced)
-        fresh.rename(target)
-        shutil.rmtree(replaced, ignore_errors=True)
+        index = json.dumps(_index(recording), indent=2, default=whole_number)  # counts may be NumPy integers
+        (fresh / INDEX_FILE).write_text(index + "\n", encoding="utf-8")
+        _replace(target, fresh)
     finally:
         shutil.rmtree(fresh, ignore_errors=True)
 
@@ -87,6 +84,9 @@ def read_recording(folder: Path | str) -> Recording:
         index = json.loads(index_path.read_text(encoding="utf-8"))
         if index["schema"] != SCHEMA:
             raise FormatError(f"{index_path}: expected the schema {SCHEMA!r}, got {index['schema']!r}")
+        for file in index["streams"].values():
+            if Path(file).name != file:
+                raise FormatError(f"{index_path}: expected the name of a file beside it, got {file!r}")
         streams = {name: _read_stream(Path(folder) / file) for name, file in index["streams"].items()}
         return Recording(
             streams=streams,
@@ -98,10 +98,41 @@ def read_recording(folder: Path | str) -> Recording:
         raise
     except (json.JSONDecodeError, UnicodeDecodeError) as error:
         raise FormatError(f"{index_path}: expected JSON, got {error}") from error
-    except (KeyError, TypeError, AttributeError) as error:
+    except (KeyError, TypeError, AttributeError, RecursionError) as error:
         raise FormatError(f"{index_path}: expected the form {SCHEMA}, got {error!r}") from error
     except (RecordingError, ShapeError, ValueError) as error:
         raise FormatError(f"{index_path}: {error}") from error
+
+
+def _require_replaceable(target: Path) -> None:
+    """Refuse a folder with anything but one recording in it, for replacing it deletes what it holds."""
+    index_path = target / INDEX_FILE
+    if not index_path.is_file():
+        raise RecordingError(f"{target}: exists and holds no {INDEX_FILE}; choose a new folder, nothing was written")
+    try:
+        index = json.loads(index_path.read_text(encoding="utf-8"))
+        own = {INDEX_FILE, *index["streams"].values()} if index["schema"] == SCHEMA else set()
+    except (ValueError, KeyError, TypeError, AttributeError, RecursionError):
+        own = set()
+    others = sorted({path.name for path in target.iterdir()} - own)
+    if others:
+        raise RecordingError(
+            f"{target}: exists and {', '.join(others)} in it is no part of a recording of the form {SCHEMA!r}; "
+            "choose a new folder, nothing was written"
+        )
+
+
+def _replace(target: Path, fresh: Path) -> None:
+    old = target.with_name(f".{uuid4().hex}.old")
+    if target.exists():
+        target.rename(old)
+    try:
+        fresh.rename(target)
+    except BaseException:
+        if old.exists():
+            old.rename(target)
+        raise
+    shutil.rmtree(old, ignore_errors=True)
 
 
 def _file_name(stream: str) -> str:
@@ -118,18 +149,25 @@ def _index(recording: Recording) -> dict[str, Any]:
                 "start_ns": interval.start_ns,
                 "end_ns": interval.end_ns,
                 "use": interval.use.value,
-                "support": None
-                if interval.support is None
-                else {
-                    "frame": interval.support.frame,
-                    "gravity_direction": interval.support.gravity_direction.tolist(),
-                },
+                "support": _stored_support(interval.support),
             }
             for interval in recording.intervals
         ],
         "findings": [asdict(finding) for finding in recording.findings],
         "origin": dict(recording.origin),
     }
+
+
+def _stored_support(support: Support | MovingSupport | None) -> dict[str, Any] | None:
+    if support is None:
+        return None
+    if isinstance(support, Support):
+        return {"frame": support.frame, "gravity_direction": support.gravity_direction.tolist()}
+    return {"frame": support.frame, "motion_streams": list(support.motion_streams)}
+
+
+def _support(entry: Mapping[str, Any]) -> Support | MovingSupport:
+    return MovingSupport(**entry) if "motion_streams" in entry else Support(**entry)
 
 
 def _interval(entry: Mapping[str, Any]) -> Interval:
@@ -139,7 +177,7 @@ def _interval(entry: Mapping[str, Any]) -> Interval:
         start_ns=entry["start_ns"],
         end_ns=entry["end_ns"],
         use=Use(entry["use"]),
-        support=None if support is None else Support(**support),
+        support=None if support is None else _support(support),
     )
 
 
@@ -162,23 +200,24 @@ def _write_stream(path: Path, stream: Stream) -> None:
     schema = pa.schema(fields, metadata={_METADATA_KEY: json.dumps(header).encode()})
     table = pa.Table.from_arrays(arrays, schema=schema)
     # float samples hardly repeat: splitting their bytes packs twice as well as a dictionary
-    pq.write_table(table, path, compression="zstd", use_dictionary=False, use_byte_stream_split=True)
+    pq.write_table(
+        table, path, compression="zstd", use_dictionary=False, use_byte_stream_split=True, write_page_checksum=True
+    )
 
 
 def _read_stream(path: Path) -> Stream:
     if not path.is_file():
         raise MissingFileError(f"{path}: expected the Parquet file of a stream, there is no such file")
     try:
-        table = pq.read_table(path).combine_chunks()
+        table = pq.read_table(path, page_checksum_verification=True).combine_chunks()
         header = json.loads(table.schema.metadata[_METADATA_KEY])
         signals = {}
         for quantity, described in header["signals"].items():
             if quantity not in QUANTITIES:
                 raise FormatError(f"no quantity is called {quantity!r}; known: {', '.join(QUANTITIES)}")
-            values = _column(table, quantity).values.to_numpy(zero_copy_only=False)
             signals[quantity] = Signal(
                 quantity=quantity,
-                values=values.reshape(len(table), len(described["columns"])),
+                values=_samples(table, quantity, width=len(described["columns"])),
                 columns=tuple(described["columns"]),
                 units=tuple(described["units"]),
                 frame=described["frame"],
@@ -206,5 +245,21 @@ def _column(table: Any, name: str) -> Any:
     return column
 
 
+def _samples(table: Any, name: str, *, width: int) -> FloatArray:
+    column = _column(table, name)
+    form = column.type
+    # the rows of a list of free length could add up by chance and be torn apart
+    if not (pa.types.is_fixed_size_list(form) and form.list_size == width and pa.types.is_float64(form.value_type)):
+        raise FormatError(f"column {name!r}: expected lists of {width} float64 each, got {form}")
+    if column.values.null_count:
+        raise FormatError(f"column {name!r}: expected numbers, got empty values; NaN marks a gap")
+    values: FloatArray = column.values.to_numpy(zero_copy_only=False).reshape(len(table), width)
+    return values
+
+
 def _integers(table: Any, name: str) -> IntArray:
-    return np.asarray(_column(table, name).to_numpy(zero_copy_only=False), dtype=np.int64)
+    column = _column(table, name)
+    if not pa.types.is_int64(column.type):
+        raise FormatError(f"column {name!r}: expected int64, got {column.type}")
+    integers: IntArray = column.to_numpy(zero_copy_only=False)
+    return integers

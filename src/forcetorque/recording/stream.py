@@ -19,6 +19,8 @@ def _stamps(values: Any, *, name: str) -> IntArray:
     array = np.array(values, order="C")
     if array.ndim != 1 or (array.size and array.dtype.kind not in "iu"):
         raise ShapeError(f"{name}: expected integers of shape (n,), got {array.dtype} of shape {array.shape}")
+    if array.size and array.max() > np.iinfo(np.int64).max:
+        raise ShapeError(f"{name}: expected integers of 64 bits with a sign, got {array.max()}")
     array = array.astype(np.int64)
     array.setflags(write=False)
     return array

@@ -1,0 +1,57 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Commands that run in this process, on a fresh copy of a small complete experiment."""
+
+from __future__ import annotations
+
+import logging
+import shutil
+import sys
+from datetime import UTC, datetime
+from pathlib import Path
+
+import pytest
+
+from forcetorque.calibration import write_calibration
+from forcetorque.cli.main import main
+from forcetorque.experiment import calibrate_sensor, load_experiment
+from tests.cli.outcome import Outcome, Run
+from tests.experiments import PARQUET, write_experiments
+
+
+@pytest.fixture(scope="session")
+def intact(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Folder of the experiment, with the calibration `fitted.json` of its sensor; nobody changes it."""
+    folder = tmp_path_factory.mktemp("intact")
+    write_experiments(folder)
+    experiment = load_experiment(folder / PARQUET)
+    created = datetime(2020, 1, 1, tzinfo=UTC).isoformat()
+    fitted = calibrate_sensor(experiment, experiment.sensors[0], code_version="1", created=created)
+    write_calibration(folder / "fitted.json", fitted)
+    return folder
+
+
+@pytest.fixture
+def arm(intact: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """Folder with a copy of the experiment, to damage; it is the working folder."""
+    folder = Path(shutil.copytree(intact, tmp_path / "arm"))
+    monkeypatch.chdir(folder)
+    return folder
+
+
+@pytest.fixture
+def run(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> Run:
+    """Run `forcetorque` with words as typed in a shell."""
+    logger = logging.getLogger("forcetorque")
+
+    def call(*words: object) -> Outcome:
+        # the handler of an earlier run writes to what standard error was then
+        monkeypatch.setattr(logger, "handlers", [])
+        monkeypatch.setattr(sys, "argv", ["forcetorque", *map(str, words)])
+        capsys.readouterr()
+        with pytest.raises(SystemExit) as stop:
+            main()
+        captured = capsys.readouterr()
+        code = stop.value.code
+        return Outcome(code=code if isinstance(code, int) else 0, out=captured.out, err=captured.err)
+
+    return call

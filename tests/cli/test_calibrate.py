@@ -1,0 +1,174 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""`forcetorque calibrate`: files, forms of the result, choice of sensors and of lambda."""
+
+from __future__ import annotations
+
+import json
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from forcetorque.calibration import read_calibration
+from tests.cli.json_schema import faults
+from tests.cli.outcome import Run
+from tests.experiments import PARQUET, TWO, YARP, add, edit, snapshot
+
+COMPONENTS = ("fx", "fy", "fz", "tx", "ty", "tz")
+
+
+@pytest.mark.parametrize("form", [PARQUET, YARP])
+def test_a_file_is_written_and_described(arm: Path, run: Run, form: str) -> None:
+    """The file holds the calibration that the JSON on standard output shows, and nothing else is written."""
+    before = snapshot(arm)
+    result = run("calibrate", form, "--output", "made.json", "--format", "json").result()
+    assert snapshot(arm).keys() - before.keys() == {"made.json"}
+    assert (result["schema"], result["experiment"]) == ("forcetorque/calibrate/1", "small arm")
+    (entry,) = result["calibrations"]
+    assert entry["file"] == "made.json"
+    assert entry["calibration"] == json.loads(Path("made.json").read_text(encoding="utf-8"))
+    fitted = read_calibration("made.json")
+    assert fitted.prior is not None
+    new, prior = fitted.matrix, fitted.prior.matrix
+    assert np.allclose(np.array(entry["secondary_matrix"]) @ prior, new, rtol=0.0, atol=1e-12 * np.abs(new).max())
+
+
+def test_the_json_fits_the_printed_schemas(arm: Path, run: Run) -> None:
+    """Result and file are what `forcetorque schema` promises; a damaged one is noticed."""
+    result = run("calibrate", TWO, "-o", "made", "--format", "json", "--lambda", "held-out").result()
+    schemas = {name: run("schema", name).result() for name in ("calibrate", "calibration")}
+    assert faults(result, schemas["calibrate"]) == []
+    files = sorted(Path("made").iterdir())
+    assert len(files) == 2
+    for file in files:
+        content = json.loads(file.read_text(encoding="utf-8"))
+        assert faults(content, schemas["calibration"]) == []
+        assert faults({**content, "matrix": content["matrix"][:5]}, schemas["calibration"])
+    assert faults({**result, "calibrations": "none"}, schemas["calibrate"])
+    assert faults({key: value for key, value in result.items() if key != "experiment"}, schemas["calibrate"])
+
+
+def test_the_csv_holds_the_same_numbers(arm: Path, run: Run) -> None:
+    """One row per component, equally long, with the matrix in full precision."""
+    rows = run("calibrate", PARQUET, "-o", "made.json", "--format", "csv").rows()
+    fitted = read_calibration("made.json")
+    assert [row["component"] for row in rows] == list(COMPONENTS)
+    assert [row["unit"] for row in rows] == ["N"] * 3 + ["N m"] * 3
+    assert np.array_equal([[float(row[f"c{j}_per_count"]) for j in range(6)] for row in rows], fitted.matrix)
+    assert np.array_equal([float(row["offset"]) for row in rows], fitted.offset)
+    assert np.array_equal([float(row["residual_rms"]) for row in rows], fitted.residual_rms)
+    assert {float(row["lambda_counts2"]) for row in rows} == {fitted.lambda_counts2}
+    assert {row["samples"] for row in rows} == {str(fitted.provenance.samples)}
+
+
+def test_the_table_is_the_default(arm: Path, run: Run) -> None:
+    """Without --format people get the matrix per 1000 counts, excitation and the name of the file."""
+    made = run("calibrate", PARQUET, "-o", "made.json")
+    assert made.code == 0
+    assert made.out == run("calibrate", PARQUET, "-o", "made.json", "--format", "table").out
+    first, *_, last = made.out.splitlines()
+    fitted = read_calibration("made.json")
+    assert first.startswith(f"arm_ft (SIM001): {fitted.provenance.samples} samples of fit, 0 left out; lambda ")
+    assert last == "written to made.json"
+    found = re.search(r"^ fz, N +(.*)$", made.out, re.MULTILINE)
+    assert found is not None
+    shown = [float(word) for word in found[1].split()]
+    assert np.abs(np.array(shown[:6]) - 1000.0 * fitted.matrix[2]).max() < 0.0005001  # half of the third digit
+    assert made.out.count(" yes ") == 6
+
+
+def test_brackets_in_names_are_shown(arm: Path, run: Run) -> None:
+    """What the user called things is text, never markup."""
+    edit(arm / PARQUET, 'label = "fit"', 'label = "run [bold] :smile: [/x]"')
+    edit(arm / PARQUET, 'name = "small arm"', 'name = "[/red] arm"')
+    assert "samples of run [bold] :smile: [/x], 0 left" in run("calibrate", PARQUET, "-o", "a.json").out
+    assert run("evaluate", PARQUET, "-c", "a.json").out.startswith("[/red] arm: arm_ft (SIM001)")
+
+
+def test_a_folder_gets_one_file_per_sensor(arm: Path, run: Run) -> None:
+    """The folder is made; names and serial numbers with a slash stay inside it."""
+    result = run("calibrate", TWO, "-o", "deep/made", "--format", "json").result()
+    assert sorted(path.name for path in Path("deep/made").iterdir()) == [
+        "arm_ft_SIM001.json",
+        "tool_ft_SIM%2F002.json",
+    ]
+    for entry in result["calibrations"]:
+        assert read_calibration(entry["file"]).sensor.serial == entry["calibration"]["sensor"]["serial"]
+    assert [entry["calibration"]["sensor"]["serial"] for entry in result["calibrations"]] == ["SIM001", "SIM/002"]
+
+
+def test_sensors_are_chosen_by_name(arm: Path, run: Run) -> None:
+    """--sensor picks, in the order given and each once; a file takes one sensor."""
+    one = run("calibrate", TWO, "-o", "one.json", "--sensor", "tool_ft", "--format", "json").result()
+    assert [entry["calibration"]["sensor"]["name"] for entry in one["calibrations"]] == ["tool_ft"]
+    words = ("--sensor", "tool_ft", "--sensor", "arm_ft", "--sensor", "tool_ft")
+    both = run("calibrate", TWO, "-o", "both", *words, "--format", "json").result()
+    assert [entry["calibration"]["sensor"]["name"] for entry in both["calibrations"]] == ["tool_ft", "arm_ft"]
+    before = snapshot(arm)
+    error = run("calibrate", TWO, "-o", "two.json").error()
+    assert error == "error: --output two.json: one file for 2 sensors; name a folder, or one sensor with --sensor"
+    error = run("calibrate", TWO, "-o", "x.json", "--sensor", "tol_ft").error()
+    assert error.startswith("error: experiment 'small arm' has no sensor 'tol_ft'; did you mean \"tool_ft\"?")
+    assert snapshot(arm) == before
+
+
+def test_all_sensors_or_none_are_written(arm: Path, run: Run) -> None:
+    """Where the second sensor cannot be fitted, the first leaves no file."""
+    before = snapshot(arm)
+    error = run("calibrate", TWO, "-o", "made", "--lambda", "0").error()
+    assert error.startswith(
+        "error: two.toml: sensor 'tool_ft': lambda is 0 and the data do not excite 3 of 6 directions"
+    )
+    assert snapshot(arm) == before
+
+
+@pytest.mark.parametrize(
+    ("in_file", "words", "expected", "rule"),
+    [
+        ("", (), None, "held-out"),
+        ("lambda_counts2 = 12.5", (), 12.5, "given"),
+        ("lambda_counts2 = 12.5", ("--lambda", "1e3"), 1000.0, "given"),
+        ("lambda_counts2 = 12.5", ("--lambda", "held-out"), None, "held-out"),
+        ('lambda_counts2 = "held-out"', (), None, "held-out"),
+        ("", ("--lambda", "0"), 0.0, "given"),
+        ("", ("--lambda", "inf"), "infinite", "given"),
+    ],
+)
+def test_lambda_comes_from_the_command_or_the_file(
+    arm: Path, run: Run, in_file: str, words: tuple[str, ...], expected: float | str | None, rule: str
+) -> None:
+    """--lambda rules over the file, the file over the default, which is held-out blocks."""
+    add(arm / PARQUET, f"\n[calibration]\n{in_file}\n")
+    result = run("calibrate", PARQUET, "-o", "a.json", *words, "--format", "json").result()
+    made = result["calibrations"][0]["calibration"]
+    assert rule in made["selection"]["rule"]
+    assert made["lambda_counts2"] == expected if expected is not None else made["lambda_counts2"] > 0.0
+    if expected == "infinite":
+        assert made["matrix"] == made["prior"]["matrix"]
+
+
+@pytest.mark.parametrize("value", ["-1", "nan", "much", "held_out", "", "-inf"])
+def test_a_bad_lambda_is_refused(arm: Path, run: Run, value: str) -> None:
+    """The option, what it takes and what came are named, and nothing is written."""
+    before = snapshot(arm)
+    error = run("calibrate", PARQUET, "-o", "a.json", "--lambda", value).error()
+    assert error == f"error: --lambda: expected a number of at least 0 counts2 or `held-out`, got '{value}'"
+    assert snapshot(arm) == before
+
+
+def test_findings_of_the_log_are_warnings(arm: Path, run: Run) -> None:
+    """What the readers found is said before the fit, on standard error only."""
+    made = run("calibrate", YARP, "-o", "a.json", "--format", "json")
+    assert made.err.splitlines() == made.log
+    assert [line.partition(":")[0] for line in made.log] == ["INFO", "WARNING", "WARNING", "INFO"]
+    assert made.log[1].startswith("WARNING: joints: the board does not estimate the velocity: all 1200 messages hold")
+    made.result()
+
+
+def test_an_earlier_file_is_replaced(arm: Path, run: Run) -> None:
+    """Nothing of what the file held stays."""
+    file = Path("fitted.json")
+    file.write_text(file.read_text(encoding="utf-8") * 3, encoding="utf-8")
+    assert run("calibrate", PARQUET, "-o", file, "--lambda", "17").code == 0
+    assert read_calibration(file).lambda_counts2 == 17.0

@@ -1,0 +1,142 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Every command explains itself, is documented, and prints schemas that files and results fit."""
+
+from __future__ import annotations
+
+import json
+import re
+import tomllib
+from importlib.metadata import version
+from pathlib import Path
+
+import pytest
+
+from forcetorque.cli.main import app
+from forcetorque.recording import QUANTITIES
+from tests.cli.json_schema import faults
+from tests.cli.outcome import Run
+from tests.experiments import TEXTS
+
+COMMANDS = sorted(str(command.name) for command in app.registered_commands)
+ROOT = Path(__file__).parents[2]
+JSON_SCHEMAS = ("experiment", "calibration", "calibrate", "evaluate")
+
+
+def _paragraphs(help_text: str) -> list[str]:
+    return [" ".join(block.split()) for block in help_text.split("\n\n")]
+
+
+def test_there_are_commands() -> None:
+    """The tests below look at something."""
+    assert {"calibrate", "evaluate", "schema"} <= set(COMMANDS)
+
+
+def test_the_help_lists_every_command(run: Run) -> None:
+    """Asked for help the program lists its commands; without a word it does so too, and fails."""
+    asked, bare = run("--help"), run()
+    assert asked.code == 0
+    assert (bare.code, bare.out + bare.err) == (2, asked.out)
+    assert re.findall(r"^  (\w+)  ", asked.out.partition("Commands:")[2], re.MULTILINE) == COMMANDS
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_the_help_of_a_command_has_one_line_and_an_example(run: Run, command: str) -> None:
+    """One sentence says what it does, one line can be copied; every option is explained."""
+    asked = run(command, "--help")
+    assert (asked.code, asked.err) == (0, "")
+    usage, sentence, example, *_ = asked.out.split("\n\n")
+    assert re.match(rf"Usage: .*\bforcetorque {command} ", usage)
+    assert re.fullmatch(r"  [A-Z][^\n]+\.", sentence)
+    assert re.fullmatch(rf"  Example: forcetorque {command} [^\n]+", example)
+    options = re.split(r"\n(?=  -)", asked.out.partition("Options:")[2])[1:]
+    assert options
+    for option in options:
+        assert re.search(r"  [A-Z]|\n {10,}[A-Z]", option), option
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_the_example_of_a_command_can_be_typed(
+    run: Run, command: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Where its files are missing, that is the only complaint; the words themselves are right."""
+    monkeypatch.chdir(tmp_path)
+    example = next(text for text in _paragraphs(run(command, "--help").out) if text.startswith("Example: "))
+    _, name, *words = example.split()
+    assert name == "forcetorque"
+    ended = run(*words)
+    if ended.code != 0:
+        assert re.search(r": expected an? [\w ]+, there is none", ended.error())
+    with_a_typo = run(*words, "--no-such-option")
+    assert with_a_typo.code == 2
+    assert "No such option: --no-such-option" in with_a_typo.err
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_the_readme_names_every_command(command: str) -> None:
+    """Who reads the README learns that the command exists."""
+    assert re.search(rf"\bforcetorque {command}\b", (ROOT / "README.md").read_text(encoding="utf-8"))
+
+
+def test_the_version_is_that_of_the_package(run: Run) -> None:
+    """It is one line on standard output."""
+    asked = run("--version")
+    assert (asked.code, asked.out, asked.err) == (0, f"{version('forcetorque')}\n", "")
+
+
+def _names(run: Run) -> list[str]:
+    known = run("schema", "experimint").error()
+    assert known.startswith("error: no schema is called 'experimint'; did you mean \"experiment\"? known: ")
+    return known.partition("known: ")[2].split(", ")
+
+
+def test_an_unknown_schema_leads_to_the_known_ones(run: Run) -> None:
+    """The error and the help list the same names, and each of them is printed as JSON."""
+    names = _names(run)
+    assert set(JSON_SCHEMAS) | {"recording"} <= set(names)
+    (argument,) = re.findall(r"Arguments:\n((?:.+\n)+)", run("schema", "--help").out)
+    for name in names:
+        assert re.search(rf"\b{name}\b", argument)
+        described = run("schema", name).result()
+        assert isinstance(described, dict)
+        assert described
+
+
+@pytest.mark.parametrize("name", JSON_SCHEMAS)
+def test_schemas_say_what_every_key_means_where_it_has_a_table(run: Run, name: str) -> None:
+    """Each is a JSON schema of an object, every table in it is described, and unknown tables are not referred to."""
+    schema = run("schema", name).result()
+    assert schema["type"] == "object"
+    assert "schema" in schema["properties"]
+    tables = [schema, *schema.get("$defs", {}).values()]
+    for table in tables:
+        assert table.get("description") or "enum" in table, table["title"]
+    references = set(re.findall(r'"#/\$defs/(\w+)"', json.dumps(schema)))
+    assert references == set(schema.get("$defs", {}))
+    assert len(tables) > 1
+
+
+@pytest.mark.parametrize("form", TEXTS)
+def test_experiment_files_fit_the_printed_schema(run: Run, form: str) -> None:
+    """Complete files fit, with every form that an optional key may have; damaged ones do not."""
+    schema = run("schema", "experiment").result()
+    content = tomllib.loads(TEXTS[form])
+    assert faults(content, schema) == []
+    for processing in ({"derivatives": "logged"}, {"derivatives": {"window_s": 0.1, "order": 2}, "smoothing": None}):
+        assert faults({**content, "processing": processing}, schema) == []
+    for value in (5, 2.5, "held-out"):
+        assert faults({**content, "calibration": {"lambda_counts2": value}}, schema) == []
+    for damage in ({"colour": "red"}, {"name": 3}, {"calibration": {"lambda_counts2": "held"}}, {"sensor": []}):
+        assert faults({**content, **damage}, schema) != []
+    for key in ("robot", "recording", "sensor", "support", "interval", "schema", "name"):
+        assert faults({other: value for other, value in content.items() if other != key}, schema) != []
+
+
+def test_the_schema_of_recordings_lists_every_quantity(run: Run) -> None:
+    """Name, columns, units and meaning are those that readers and writers use."""
+    described = run("schema", "recording").result()
+    assert described["schema"] == "forcetorque/recording/1"
+    assert list(described["quantities"]) == list(QUANTITIES)
+    for name, quantity in QUANTITIES.items():
+        assert described["quantities"][name]["description"] == quantity.description
+        if quantity.columns:
+            assert described["quantities"][name]["columns"] == list(quantity.columns)

@@ -1,0 +1,143 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Judging calibrations: which candidates, on which samples, and what is refused."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from forcetorque.calibration import Calibration
+from forcetorque.errors import ExperimentError, SerialNumberError, ShapeError
+from forcetorque.experiment import Experiment, calibrate_sensor, evaluate_sensor, load_experiment, samples_of
+from forcetorque.recording import Use
+from tests.experiments import PARQUET, add, edit
+
+
+@pytest.fixture(scope="module")
+def experiment(intact: Path) -> Experiment:
+    """The experiment with raw counts."""
+    return load_experiment(intact / PARQUET)
+
+
+@pytest.fixture(scope="module")
+def fitted(experiment: Experiment) -> Calibration:
+    """Its sensor, calibrated."""
+    return _fitted(experiment, 100.0)
+
+
+def _fitted(experiment: Experiment, regularisation: float) -> Calibration:
+    sensor = experiment.sensors[0]
+    return calibrate_sensor(experiment, sensor, code_version="1", created="today", regularisation=regularisation)
+
+
+def test_every_candidate_is_judged_with_both_offsets(experiment: Experiment, fitted: Calibration) -> None:
+    """One calibration means four verdicts, the prior first; all are of the same samples."""
+    verdicts = evaluate_sensor(experiment, experiment.sensors[0], {"new": fitted})
+    assert [(v.candidate, v.offset) for v in verdicts] == [
+        ("prior", "fitted"),
+        ("prior", "re-estimated"),
+        ("new", "fitted"),
+        ("new", "re-estimated"),
+    ]
+    (part,) = samples_of(experiment, experiment.sensors[0], Use.VALIDATION)
+    assert {v.errors.count for v in verdicts} == {len(part.samples)}
+    assert len(part.samples) > 400
+
+
+def test_the_new_matrix_is_better_than_the_prior_where_it_was_not_fitted(
+    experiment: Experiment, fitted: Calibration
+) -> None:
+    """The simulated mounting is found: every force error falls to a tenth, with either offset."""
+    by_key = {(v.candidate, v.offset): v for v in evaluate_sensor(experiment, experiment.sensors[0], {"new": fitted})}
+    for offset in ("fitted", "re-estimated"):
+        new, prior = by_key["new", offset].errors, by_key["prior", offset].errors
+        assert new.force_mean < 0.1 * prior.force_mean
+        assert (new.rmse[:3] < 0.1 * prior.rmse[:3]).all()
+    assert len(by_key) == 4
+
+
+def test_the_re_estimated_offset_leaves_no_mean_error(experiment: Experiment, fitted: Calibration) -> None:
+    """It is estimated on the judged samples; the fitted one is not."""
+    verdicts = evaluate_sensor(experiment, experiment.sensors[0], {"new": fitted})
+    bias = {v.offset: np.abs(v.errors.bias).max() for v in verdicts if v.candidate == "new"}
+    assert bias["re-estimated"] < 1e-11 < 1e-3 < bias["fitted"]
+
+
+def test_a_shared_prior_comes_once(experiment: Experiment, fitted: Calibration) -> None:
+    """Two calibrations of the same data and prior have one prior to be compared with."""
+    other = _fitted(experiment, 1e6)
+    verdicts = evaluate_sensor(experiment, experiment.sensors[0], {"a": fitted, "b": other})
+    assert list(dict.fromkeys(v.candidate for v in verdicts)) == ["prior of a", "a", "b"]
+
+
+def test_a_calibration_without_prior_stands_alone(experiment: Experiment, fitted: Calibration) -> None:
+    """There is nothing to compare with, and nothing is made up."""
+    alone = fitted.model_copy(update={"prior": None})
+    verdicts = evaluate_sensor(experiment, experiment.sensors[0], {"new": alone})
+    assert [v.candidate for v in verdicts] == ["new", "new"]
+
+
+def test_another_serial_number_is_refused(experiment: Experiment, fitted: Calibration) -> None:
+    """A calibration of another sensor is named, with both numbers."""
+    foreign = fitted.model_copy(update={"sensor": fitted.sensor.model_copy(update={"serial": "SIM009"})})
+    with pytest.raises(SerialNumberError, match="^new: calibration of sensor 'SIM009': .* got 'SIM001'"):
+        evaluate_sensor(experiment, experiment.sensors[0], {"old": fitted, "new": foreign})
+
+
+@pytest.mark.parametrize(("field", "value"), [("frame", "parent"), ("measure_direction", "parent_to_child")])
+def test_a_reading_in_another_frame_or_sign_is_refused(
+    experiment: Experiment, fitted: Calibration, field: str, value: str
+) -> None:
+    """Wrenches are not compared with references that mean something else."""
+    identity = type(fitted.sensor).model_validate({**fitted.sensor.model_dump(), field: value})
+    other = fitted.model_copy(update={"sensor": identity})
+    with pytest.raises(
+        ExperimentError, match=rf"calibration 'new': expected .* child, child_to_parent, .* got .*{value}"
+    ):
+        evaluate_sensor(experiment, experiment.sensors[0], {"new": other})
+
+
+def test_another_number_of_channels_is_refused(experiment: Experiment, fitted: Calibration) -> None:
+    """A matrix that does not fit the readings is named."""
+    narrow = fitted.model_copy(update={"matrix": fitted.matrix[:, :5], "prior": None})
+    with pytest.raises(ShapeError, match=r"new: matrix: expected an array of shape \(6, 6\), got \(6, 5\)"):
+        evaluate_sensor(experiment, experiment.sensors[0], {"new": narrow})
+
+
+@pytest.mark.parametrize(("start_s", "refused"), [("13.999", True), ("14.0", False)])
+def test_samples_that_were_fitted_are_not_judged(arm: Path, fitted: Calibration, start_s: str, refused: bool) -> None:
+    """One millisecond that was fitted is enough to refuse, the instant at which the fit ended is not."""
+    edit(arm / PARQUET, "end_s = 14.0", "end_s = 10.0")
+    edit(arm / PARQUET, "start_s = 14.5", f"start_s = {start_s}")
+    changed = load_experiment(arm / PARQUET)
+    if refused:
+        with pytest.raises(
+            ExperimentError, match="'new' was fitted on the interval 'fit', which overlaps the judged inte"
+        ):
+            evaluate_sensor(changed, changed.sensors[0], {"new": fitted})
+    else:
+        assert len(evaluate_sensor(changed, changed.sensors[0], {"new": fitted})) == 4
+
+
+def test_intervals_are_pooled_before_anything_is_averaged(arm: Path, fitted: Calibration) -> None:
+    """Two judged intervals give the statistics of all their samples together."""
+    whole = load_experiment(arm / PARQUET)
+    edit(arm / PARQUET, "end_s = 23.5", "end_s = 17.0")
+    rest = 'label = "rest"\nstart_s = 17.0\nend_s = 23.5\nuse = "validation"\nsupport = "base"'
+    add(arm / PARQUET, f"\n[[interval]]\n{rest}\n")
+    parts = load_experiment(arm / PARQUET)
+    assert [interval.label for interval in parts.intervals(Use.VALIDATION)] == ["judge", "rest"]
+    one, many = (evaluate_sensor(e, e.sensors[0], {"new": fitted})[2].errors for e in (whole, parts))
+    assert one.count == many.count
+    assert np.abs(one.rmse - many.rmse).max() < 1e-9  # N, N m; rounding
+
+
+def test_an_experiment_that_only_fits_judges_nothing(experiment: Experiment, fitted: Calibration) -> None:
+    """Without an interval for validation there is no verdict."""
+    fits = experiment.intervals(Use.CALIBRATION)
+    only = replace(experiment, recording=experiment.recording.with_intervals(fits))
+    with pytest.raises(ExperimentError, match=r"expected an interval with use = \"validation\", it has none"):
+        evaluate_sensor(only, only.sensors[0], {"new": fitted})
