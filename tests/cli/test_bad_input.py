@@ -172,6 +172,11 @@ BAD: dict[str, tuple[str, Callable[[], object], str]] = {
         lambda: edit_lines(Path("matrix_SIM001.txt"), lambda lines: ["0\r\n"] * 36 + lines[36:]),
         "yarp.toml: sensor 'arm_ft': the prior matrix is singular, so raw counts cannot be recovered from the",
     ),
+    "singular prior of counts": (
+        PARQUET,
+        lambda: edit_lines(Path("matrix_SIM001.txt"), lambda lines: ["0\r\n"] * 36 + lines[36:]),
+        "parquet.toml: sensor 'arm_ft': the prior matrix is singular, so no matrix corrects what it made",
+    ),
     "joint that was not logged": (
         YARP,
         _in(YARP, '"elbow", "wrist"]', '"elbow", "finger"]'),

@@ -115,8 +115,8 @@ def test_samples_that_cannot_be_used_are_left_out_and_counted(arm: Path) -> None
     add(arm / PARQUET, '[[interval]]\nlabel = "bump"\nstart_s = 8.0\nend_s = 10.0\nuse = "ignore"\n')
     experiment = load_experiment(arm / PARQUET)
     (fit,), (bump,) = experiment.intervals(Use.CALIBRATION), experiment.intervals(Use.IGNORE)
-    in_fit = np.count_nonzero((stream.stamp_ns >= fit.start_ns) & (stream.stamp_ns < fit.end_ns))
-    in_bump = np.count_nonzero((stream.stamp_ns >= bump.start_ns) & (stream.stamp_ns < bump.end_ns))
+    in_fit = int(np.count_nonzero((stream.stamp_ns >= fit.start_ns) & (stream.stamp_ns < fit.end_ns)))
+    in_bump = int(np.count_nonzero((stream.stamp_ns >= bump.start_ns) & (stream.stamp_ns < bump.end_ns)))
     provenance = _calibrated(experiment).provenance
     assert (provenance.samples, provenance.dropped) == (in_fit - in_bump - 2, 2)
     assert in_bump > 90

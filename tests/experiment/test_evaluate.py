@@ -67,10 +67,15 @@ def test_the_re_estimated_offset_leaves_no_mean_error(experiment: Experiment, fi
 
 
 def test_a_shared_prior_comes_once(experiment: Experiment, fitted: Calibration) -> None:
-    """Two calibrations of the same data and prior have one prior to be compared with."""
-    other = _fitted(experiment, 1e6)
-    verdicts = evaluate_sensor(experiment, experiment.sensors[0], {"a": fitted, "b": other})
-    assert list(dict.fromkeys(v.candidate for v in verdicts)) == ["prior of a", "a", "b"]
+    """Two calibrations of the same data and prior have one prior, whose offset may differ by rounding."""
+    candidates = {}
+    for change in (1e-13, 1e-3):  # N, N m
+        assert fitted.prior is not None
+        prior = fitted.prior.model_copy(update={"offset": fitted.prior.offset + change})
+        other = _fitted(experiment, 1e6).model_copy(update={"prior": prior})
+        verdicts = evaluate_sensor(experiment, experiment.sensors[0], {"a": fitted, "b": other})
+        candidates[change] = list(dict.fromkeys(v.candidate for v in verdicts))
+    assert candidates == {1e-13: ["prior of a", "a", "b"], 1e-3: ["prior of a", "prior of b", "a", "b"]}
 
 
 def test_a_calibration_without_prior_stands_alone(experiment: Experiment, fitted: Calibration) -> None:

@@ -151,9 +151,13 @@ def test_an_interval_may_end_with_the_log(arm: Path, cut_ns: int) -> None:
     assert load_experiment(arm / PARQUET).intervals(Use.VALIDATION)[0].end_ns == start + length_ms * 1_000_000
 
 
-def test_intervals_may_touch_and_ignored_ones_may_overlap(arm: Path) -> None:
-    """An end is excluded, so the next may begin there; an ignored interval may lie anywhere."""
-    edit(arm / PARQUET, "start_s = 14.5", "start_s = 14.0")
+@pytest.mark.parametrize(("fit", "judge"), [((0.5, 14.0), (14.0, 23.5)), ((14.0, 23.5), (0.5, 14.0))])
+def test_intervals_may_touch_and_ignored_ones_may_overlap(
+    arm: Path, fit: tuple[float, float], judge: tuple[float, float]
+) -> None:
+    """An end is excluded, so another may begin there, before or after; an ignored interval may lie anywhere."""
+    edit(arm / PARQUET, "start_s = 14.5\nend_s = 23.5", f"start_s = {judge[0]}\nend_s = {judge[1]}")
+    edit(arm / PARQUET, '"fit"\nstart_s = 0.5\nend_s = 14.0', f'"fit"\nstart_s = {fit[0]}\nend_s = {fit[1]}')
     add(arm / PARQUET, '[[interval]]\nlabel = "bump"\nstart_s = 13.0\nend_s = 15.0\nuse = "ignore"\n')
     uses = [interval.use for interval in load_experiment(arm / PARQUET).recording.intervals]
     assert uses == [Use.CALIBRATION, Use.VALIDATION, Use.IGNORE]

@@ -87,7 +87,7 @@ CONTRADICTIONS: dict[str, tuple[tuple[str, Damage], type[ForceTorqueError], str]
     "stream name twice": (
         _in(YARP, 'name = "joints"', 'name = "arm_ft"'),
         ExperimentError,
-        r"recording\.stream\[1\]: the name 'arm_ft' is taken by an earlier stream",
+        r"recording: two streams are named 'arm_ft'",
     ),
     "stream that nobody reads": (
         _in(YARP, 'name = "arm_ft"\nport', 'name = "leg_ft"\nport'),

@@ -10,7 +10,8 @@ import pytest
 
 from forcetorque.errors import FormatError, MissingFileError
 from forcetorque.experiment import ExperimentFile, parse_experiment
-from forcetorque.experiment.schema import ParquetLog, Smoothing, StateExtPort, YarpLog
+from forcetorque.experiment.log_schema import ParquetLog, StateExtPort, YarpLog
+from forcetorque.experiment.schema import Smoothing
 from forcetorque.recording import Use
 from tests.experiments import JOINTS, PARQUET, TEXTS, TWO, YARP
 
@@ -22,7 +23,7 @@ smoothing = { window_s = 0.5, order = 2 }
 [calibration]
 lambda_counts2 = 1000
 """
-NOT_NEEDED = {"prior", "support", "derivatives", "smoothing", "lambda_counts2"}
+NOT_NEEDED = {"prior", "end_s", "support", "derivatives", "smoothing", "lambda_counts2"}
 """Keys of the complete texts that have a default, or may be absent."""
 DOCUMENT = Path(__file__).parents[2] / "docs" / "recording.md"
 
@@ -148,14 +149,14 @@ TABLES = {
     'path = "log"': ("recording", "format, path, stream"),
     'kind = "analog"': (r"recording.stream\[0\]", "kind, name, port"),
     'kind = "state_ext"': (r"recording.stream\[1\]", "joints, kind, name, port"),
-    "[[sensor]]": (r"sensor\[0\]", "frame, joint, measure_direction, name, prior, serial, stream"),
-    "[[support]]": (r"support\[0\]", "frame, gravity_direction"),
+    "[[sensor]]": (r"sensor\[0\]", "frame, joint, limit_counts, measure_direction, name, prior, serial, stream"),
+    "[[support]]": (r"support\[0\]", "frame, gravity_direction, imu"),
     'label = "judge"': (r"interval\[1\]", "end_s, label, start_s, support, use"),
     "[processing]": ("processing", "derivatives, smoothing"),
     "[calibration]": ("calibration", "lambda_counts2"),
     'name = "small arm"': (
         "top level",
-        "calibration, interval, name, processing, recording, robot, schema, sensor, support",
+        "calibration, interval, load, name, processing, recording, robot, schema, sensor, support",
     ),
 }
 
@@ -257,7 +258,7 @@ def test_several_wrong_values_are_counted(tmp_path: Path) -> None:
     ("content", "message"),
     [
         (b'name = "\xff"', "expected TOML, got 'utf-8' codec can't decode byte 0xff in position 8"),
-        (b"", r"schema: Field required \(and 6 more\)"),
+        (b"", r"schema: Field required \(and 4 more\)"),
         (b"name = " + b"[" * 5000, "expected TOML, got maximum recursion depth exceeded"),
         (b"name = 1" + b"0" * 5000, "expected TOML, got Exceeds the limit"),
     ],

@@ -87,6 +87,14 @@ def test_a_stuck_channel_is_named() -> None:
     assert (finding.start_ns, finding.end_ns) == (200 * PERIOD_NS, 499 * PERIOD_NS)
 
 
+def test_a_frozen_reading_is_one_finding() -> None:
+    """All channels that repeat their values for 3 s are one finding, not six."""
+    values = np.random.default_rng(5).normal(size=(COUNT, 6))
+    values[200:500] = values[200]
+    finding = _only(stream_findings(_stream(values=values)))
+    assert (finding.kind, finding.channel, finding.size) == ("frozen", "wrench", pytest.approx(2.99))
+
+
 def test_a_resting_joint_is_not_stuck() -> None:
     """Encoders repeat a value while the joint rests."""
     joints = Signal(quantity="position", values=np.zeros((COUNT, 1)), columns=("knee",), units=("rad",))

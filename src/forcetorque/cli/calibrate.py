@@ -74,7 +74,15 @@ def run(
             calibration = calibrate_sensor(
                 experiment, sensor, code_version=version("forcetorque"), created=created, regularisation=given
             )
-        secondary = calibration.secondary_matrix()
+            secondary = calibration.secondary_matrix()
+        unexcited = calibration.validity.excited.count(False)
+        if unexcited:
+            log.warning(
+                "%s: the loads leave %d of %d raw directions unexcited; along them the matrix is the prior's or noise",
+                sensor.name,
+                unexcited,
+                len(calibration.validity.excited),
+            )
         written.append(
             WrittenCalibration(
                 file=str(file),

@@ -149,8 +149,8 @@ def _show(result: EvaluateResult) -> None:
                 labels[row.candidate],
                 row.offset,
                 *(f"{value:.3f}" for value in row.rmse),
-                _with_error(row.force_error_mean_N, row.force_error_standard_error_N),
-                _with_error(row.moment_error_mean_Nm, row.moment_error_standard_error_Nm),
+                _with_error(row.force_error_mean_N, row.force_error_standard_error_N, digits=2),
+                _with_error(row.moment_error_mean_Nm, row.moment_error_standard_error_Nm, digits=3),
             )
         screen.print(made)
     screen.print("per axis: RMSE; force and moment: mean norm of the error ± its standard error")
@@ -165,5 +165,5 @@ def _labels(candidates: list[str]) -> dict[str, str]:
     return labels if len(set(labels.values())) == len(labels) else {candidate: candidate for candidate in labels}
 
 
-def _with_error(value: float, error: float | None) -> str:
-    return f"{value:.2f}" if error is None else f"{value:.2f} ±{error:.2f}"
+def _with_error(value: float, error: float | None, *, digits: int) -> str:
+    return f"{value:.{digits}f}" if error is None else f"{value:.{digits}f} ±{error:.{digits}f}"

@@ -125,9 +125,38 @@ def _export(
     )
 
 
+@app.command("inspect")
+def _inspect(
+    log: Annotated[
+        Path, typer.Argument(help="Experiment file, YARP dumper folder, or folder of the project's own form.")
+    ],
+    output_format: FormatOption = Format.TABLE,
+) -> None:
+    """Find gaps, lost messages, frozen or saturated sensors, steps and contacts.
+
+    Example: forcetorque inspect experiment.toml
+    """
+    from forcetorque.cli.inspect import run
+
+    run(log, output_format=output_format)
+
+
+@app.command("payload")
+def _payload(experiment: ExperimentArgument, output_format: FormatOption = Format.TABLE) -> None:
+    """Estimate mass, centre of mass and bias of a wrist sensor's load.
+
+    Example: forcetorque payload experiment.toml
+    """
+    from forcetorque.cli.payload import run
+
+    run(experiment, output_format=output_format)
+
+
 @app.command("schema")
 def _schema(
-    name: Annotated[str, typer.Argument(help="experiment, recording, calibration, calibrate, evaluate or export.")],
+    name: Annotated[
+        str, typer.Argument(help="experiment, recording, calibration, calibrate, evaluate, export, inspect or payload.")
+    ],
 ) -> None:
     """Print the JSON schema of a file or of a command's result.
 

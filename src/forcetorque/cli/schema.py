@@ -27,6 +27,8 @@ def run(name: str) -> None:
         "calibrate": _calibrate,
         "evaluate": _evaluate,
         "export": _export,
+        "inspect": _inspect,
+        "payload": _payload,
     }
     if name not in known:
         raise ForceTorqueError(f"no schema is called {name!r}; {known_names(name, known)}")
@@ -67,3 +69,15 @@ def _export() -> dict[str, Any]:
     from forcetorque.cli.export import ExportResult
 
     return ExportResult.model_json_schema()
+
+
+def _inspect() -> dict[str, Any]:
+    from forcetorque.cli.inspect import InspectResult
+
+    return InspectResult.model_json_schema()
+
+
+def _payload() -> dict[str, Any]:
+    from forcetorque.cli.payload import PayloadResult
+
+    return PayloadResult.model_json_schema()

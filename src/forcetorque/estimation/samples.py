@@ -10,11 +10,21 @@ import numpy as np
 from forcetorque.arrays import FloatArray, IntArray, read_only, require_shape
 from forcetorque.constants import STANDARD_GRAVITY
 from forcetorque.errors import RecordingError
-from forcetorque.recording import Interval, Recording, SavitzkyGolay, Signal, Stream, Use
+from forcetorque.estimation.root_motion import joints_to_support, support_motion_at
+from forcetorque.recording import (
+    Interval,
+    MovingSupport,
+    Recording,
+    SavitzkyGolay,
+    Signal,
+    Stream,
+    Support,
+    Use,
+)
 from forcetorque.recording.alignment import require_overlap, usable_samples
 from forcetorque.recording.joints import joint_motion_at
 from forcetorque.recording.smoothing import smooth
-from forcetorque.robot import RobotModel, RootMotion, build_tree, expected_wrenches, required_joints
+from forcetorque.robot import RobotModel, build_tree, expected_wrenches, required_joints
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -95,23 +105,8 @@ def sensor_samples(
         raise RecordingError(f"interval {interval.label!r}: expected a support frame, got none")
     source = recording.stream(stream)
     picked, wanted = _pick(recording, source, interval)
-    name = model.sensor(sensor).name
-    tree = build_tree(model, interval.support.frame)
-    joints = required_joints(tree, name)
-    for used in ("position", "velocity", "acceleration") if processing.logged_derivatives else ("position",):
-        holders = recording.joint_signals(used)
-        for holder in dict.fromkeys(holders[joint][0].name for joint in joints if joint in holders):
-            require_overlap(source, recording.stream(holder))
     at_ns = source.stamp_ns[picked]
-    motion = joint_motion_at(
-        recording,
-        joints,
-        at_ns,
-        window=processing.derivative_window,
-        logged_derivatives=processing.logged_derivatives,
-    )
-    root = RootMotion.fixed(interval.support.gravity_direction, gravity=processing.gravity)
-    reference = expected_wrenches(tree, motion, root, [name])[name]
+    reference, joints = _reference(recording, model, sensor, source, interval.support, at_ns, processing)
     reading = source.signal(quantity)
     values = reading.values[picked]
     if processing.smoothing is not None:
@@ -121,9 +116,10 @@ def sensor_samples(
         values, reference = np.split(both, [values.shape[1]], axis=1)
     complete = np.isfinite(reference).all(axis=1) & np.isfinite(values).all(axis=1)
     if not complete.any():
+        needed = ", ".join(joints) or "motion of the support"
         raise RecordingError(
             f"interval {interval.label!r}: none of {len(picked)} samples of {stream!r} has both a reading and the "
-            f"joint(s) {', '.join(joints)}; the streams have gaps or missing values all over it"
+            f"joint(s) {needed}; the streams have gaps or missing values all over it"
         )
     return SensorSamples(
         label=interval.label,
@@ -132,6 +128,39 @@ def sensor_samples(
         reference=reference[complete],
         dropped=wanted - int(np.count_nonzero(complete)),
     )
+
+
+def _reference(
+    recording: Recording,
+    model: RobotModel,
+    sensor: str,
+    source: Stream,
+    support: Support | MovingSupport,
+    at_ns: IntArray,
+    processing: Processing,
+) -> tuple[FloatArray, tuple[str, ...]]:
+    """Expected wrench of a sensor at given instants, and the joints that it needed."""
+    name = model.sensor(sensor).name
+    tree = build_tree(model, support.frame)
+    joints = tuple(dict.fromkeys((*required_joints(tree, name), *joints_to_support(model, recording, support))))
+    for used in ("position", "velocity", "acceleration") if processing.logged_derivatives else ("position",):
+        holders = recording.joint_signals(used)
+        for holder in dict.fromkeys(holders[joint][0].name for joint in joints if joint in holders):
+            require_overlap(source, recording.stream(holder))
+    if isinstance(support, MovingSupport):
+        for stream in support.motion_streams:
+            require_overlap(source, recording.stream(stream))
+    motion = joint_motion_at(
+        recording,
+        joints,
+        at_ns,
+        window=processing.derivative_window,
+        logged_derivatives=processing.logged_derivatives,
+    )
+    root = support_motion_at(
+        model, recording, support, motion, at_ns, window=processing.derivative_window, gravity=processing.gravity
+    )
+    return expected_wrenches(tree, motion, root, [name])[name], joints
 
 
 def _pick(recording: Recording, source: Stream, interval: Interval) -> tuple[IntArray, int]:

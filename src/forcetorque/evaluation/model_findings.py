@@ -3,7 +3,7 @@
 
 The residual is reading minus expectation, less its median over the samples that are in use. A
 running median of half a second takes vibration out and keeps steps sharp. What counts is a tenth of
-the load that the limb puts on the sensor, or six times the usual scatter if that is more: heuristics,
+the load that the limb puts on the sensor, or four times the usual scatter if that is more: heuristics,
 chosen so that a lab's log gives few lines and each is worth a look.
 """
 
@@ -25,8 +25,10 @@ LOAD_SHARE = 0.1
 """Part of the limb's load on the sensor that makes a residual worth a line."""
 FIRM_SHARE = 0.5
 """Part of the limb's weight that a contact carries at its peak to be beyond doubt."""
-SCATTERS = 6.0
+SCATTERS = 4.0
 """Robust standard deviations of the smoothed residual that do the same."""
+CONTACT_SCATTERS = 3.0
+"""Robust standard deviations of the lifting force, which knows its direction, that make a contact."""
 OUTLIER_SCATTERS = 12.0
 """Robust standard deviations of what smoothing takes out that make single samples outliers."""
 
@@ -88,8 +90,9 @@ def model_findings(
             f"got {measured.shape}, {expected.shape} and {np.count_nonzero(in_use)} in use"
         )
     residual = _residual(stream, stamp_ns, measured, expected, in_use)
-    contact = _carried(residual, expected) > LOAD_SHARE * np.linalg.norm(expected[:, :3], axis=1)
-    contacts = _merged(residual, contact)
+    carried, weight = _carried(residual, expected), np.linalg.norm(expected[:, :3], axis=1)
+    usual = CONTACT_SCATTERS * _ROBUST * float(np.median(np.abs(carried[in_use])))
+    contacts = _merged(residual, carried > np.maximum(LOAD_SHARE * weight, usual))
     free = np.ones(len(stamp_ns), dtype=bool)
     for first, last in contacts:
         # a light contact may as well be a step of the sensor: its axes are then reported too

@@ -2,8 +2,10 @@
 """The experiment file: from TOML to robot, recording, intervals and sensors, and on to a verdict."""
 
 from forcetorque.experiment.calibrate import calibrate_sensor
+from forcetorque.experiment.content import Experiment, ExperimentSensor
 from forcetorque.experiment.evaluate import Verdict, evaluate_sensor
-from forcetorque.experiment.load import Experiment, ExperimentSensor, load_experiment
+from forcetorque.experiment.inspect import inspect_experiment, inspect_recording
+from forcetorque.experiment.load import load_experiment
 from forcetorque.experiment.parse import parse_experiment
 from forcetorque.experiment.samples import IntervalSamples, samples_of
 from forcetorque.experiment.schema import ExperimentFile
@@ -16,6 +18,8 @@ __all__ = [
     "Verdict",
     "calibrate_sensor",
     "evaluate_sensor",
+    "inspect_experiment",
+    "inspect_recording",
     "load_experiment",
     "parse_experiment",
     "samples_of",

@@ -20,7 +20,7 @@ from forcetorque.calibration import (
     Validity,
     calibrate,
 )
-from forcetorque.experiment.load import Experiment, ExperimentSensor
+from forcetorque.experiment.content import Experiment, ExperimentSensor
 from forcetorque.experiment.samples import IntervalSamples, samples_of
 from forcetorque.recording import Use
 

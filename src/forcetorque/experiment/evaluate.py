@@ -12,8 +12,8 @@ from forcetorque.arrays import FloatArray, require_shape
 from forcetorque.calibration import Calibration, Prior
 from forcetorque.errors import ExperimentError
 from forcetorque.evaluation import WrenchErrors, offset_removed, wrench_errors
+from forcetorque.experiment.content import Experiment, ExperimentSensor
 from forcetorque.experiment.inputs import stated_in
-from forcetorque.experiment.load import Experiment, ExperimentSensor
 from forcetorque.experiment.samples import samples_of
 from forcetorque.recording import Use
 

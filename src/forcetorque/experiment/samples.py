@@ -9,7 +9,7 @@ from forcetorque.arrays import FloatArray
 from forcetorque.calibration import recover_raw
 from forcetorque.errors import ExperimentError
 from forcetorque.estimation import SensorSamples, sensor_samples
-from forcetorque.experiment.load import Experiment, ExperimentSensor
+from forcetorque.experiment.content import Experiment, ExperimentSensor
 from forcetorque.recording import Interval, Use
 
 

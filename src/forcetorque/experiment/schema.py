@@ -7,9 +7,7 @@ from pathlib import Path
 from typing import Annotated, Any, Literal
 
 from pydantic import (
-    BaseModel,
     BeforeValidator,
-    ConfigDict,
     Discriminator,
     Field,
     Tag,
@@ -21,36 +19,14 @@ from pydantic_core import PydanticCustomError
 from forcetorque.array_field import ArrayField
 from forcetorque.arrays import FloatArray
 from forcetorque.constants import STANDARD_GRAVITY
-from forcetorque.errors import known_names
+from forcetorque.experiment.log_schema import Log
+from forcetorque.experiment.table import Finite, Positive, Table, Text
 from forcetorque.recording import Use
 from forcetorque.robot import SensorFrame
 from forcetorque.spatial import MeasureDirection
 
 
-class _Table(BaseModel):
-    """A table of the file; a key that it does not know is an error that lists the known ones."""
-
-    model_config = ConfigDict(extra="forbid", frozen=True, arbitrary_types_allowed=True, populate_by_name=True)
-
-    @model_validator(mode="before")
-    @classmethod
-    def _refuse_unknown_keys(cls, values: Any) -> Any:
-        known = {field.alias or name for name, field in cls.model_fields.items()}
-        for key in values if isinstance(values, dict) else ():
-            if key not in known:
-                raise PydanticCustomError(
-                    "unknown_key", "{message}", {"message": f"unknown key {key!r}; {known_names(key, known)}"}
-                )
-        return values
-
-
-Text = Annotated[str, Field(min_length=1)]
-# strict: a text or a flag is no number
-Positive = Annotated[float, Field(gt=0.0, allow_inf_nan=False, strict=True)]
-Finite = Annotated[float, Field(allow_inf_nan=False, strict=True)]
-
-
-class Robot(_Table):
+class Robot(Table):
     """The robot model."""
 
     urdf: Path
@@ -59,53 +35,28 @@ class Robot(_Table):
     """Magnitude of gravity; m/s2."""
 
 
-class AnalogPort(_Table):
-    """A YARP port of six calibrated numbers, N and N m."""
+class Load(Table):
+    """What hangs on a wrist sensor, in place of a robot."""
 
-    kind: Literal["analog"]
-    """Kind of the port."""
-    name: Text
-    """Name of the stream in the recording."""
-    port: Text
-    """Folder of the port below the log's folder."""
+    frame: Text
+    """Frame of the sensor, along whose axes it and the motion streams read."""
+    motion: Annotated[tuple[Text, ...], Field(min_length=1)]
+    """Streams with `gravity` (still poses), or `proper_acceleration` and `angular_velocity`."""
+    measure_direction: MeasureDirection
+    """Who acts on whom in the reading; the load is the child."""
+    mass_kg: Positive | None = None
+    """Mass; left out to estimate it with centre of mass and bias on the calibration intervals."""
+    centre_of_mass_m: Annotated[FloatArray, ArrayField((3,))] | None = None
+    """Centre of mass in the frame; given if the mass is."""
 
-
-class StateExtPort(_Table):
-    """A YARP port `stateExt:o` of a control board."""
-
-    kind: Literal["state_ext"]
-    """Kind of the port."""
-    name: Text
-    """Name of the stream in the recording."""
-    port: Text
-    """Folder of the port below the log's folder."""
-    joints: Annotated[tuple[Text, ...], Field(min_length=1)]
-    """Joints of the board, in its order, named as in the URDF."""
+    @model_validator(mode="after")
+    def _whole_or_not_at_all(self) -> Load:
+        if (self.mass_kg is None) != (self.centre_of_mass_m is None):
+            raise PydanticCustomError("half_a_load", "give mass_kg and centre_of_mass_m, or neither to estimate both")
+        return self
 
 
-class YarpLog(_Table):
-    """A folder of yarpdatadumper."""
-
-    format: Literal["yarp"]
-    """Format of the recording."""
-    path: Path
-    """Folder that holds the ports."""
-    stream: Annotated[
-        tuple[Annotated[AnalogPort | StateExtPort, Field(discriminator="kind")], ...], Field(min_length=1)
-    ]
-    """Ports to read."""
-
-
-class ParquetLog(_Table):
-    """A folder in the project's own form."""
-
-    format: Literal["parquet"]
-    """Format of the recording."""
-    path: Path
-    """Folder with recording.json."""
-
-
-class Sensor(_Table):
+class Sensor(Table):
     """A force-torque sensor to calibrate or evaluate."""
 
     name: Text
@@ -114,8 +65,11 @@ class Sensor(_Table):
     """Stream of the recording that holds its reading."""
     serial: Text
     """Serial number."""
-    prior: Path | None = None
-    """Matrix file that the sensor was calibrated with before, and whose counts a calibrated stream recovers."""
+    prior: Literal["identity"] | Path | None = None
+    """Matrix file that the sensor was calibrated with before, and whose counts a calibrated stream recovers;
+    `identity` if that matrix is not known: the calibrated reading then takes the place of counts."""
+    limit_counts: Positive = 32767.0
+    """Largest magnitude of a raw reading; counts."""
     joint: Text | None = None
     """Fixed joint of a sensor without a tag."""
     measure_direction: MeasureDirection | None = None
@@ -138,31 +92,41 @@ class Sensor(_Table):
         return self
 
 
-class Support(_Table):
-    """A link that stands still in the world."""
+class Support(Table):
+    """The link that is the only one to touch the world: at rest there, or moving with a known motion."""
 
     frame: Text
     """Link of the URDF."""
-    gravity_direction: Annotated[FloatArray, ArrayField((3,))]
-    """Direction in which things fall, in the axes of the frame; [0, 0, -1] for a level sole with z up."""
+    gravity_direction: Annotated[FloatArray, ArrayField((3,))] | None = None
+    """At rest: direction in which things fall, in the axes of the frame; [0, 0, -1] for a level sole with z up."""
+    imu: Annotated[tuple[Text, ...], Field(min_length=1)] | None = None
+    """Moving: streams of an IMU at any link, with proper_acceleration and angular_velocity."""
+
+    @model_validator(mode="after")
+    def _at_rest_or_moving(self) -> Support:
+        if (self.gravity_direction is None) == (self.imu is None):
+            raise PydanticCustomError(
+                "support_motion", "a support needs gravity_direction if it is at rest, or imu if the robot moves"
+            )
+        return self
 
 
-class Interval(_Table):
+class Interval(Table):
     """A span of the recording."""
 
     label: Text
     """Name of the interval."""
     start_s: Finite
     """Start; s from the earliest stamp over all streams."""
-    end_s: Finite
-    """End; s from the earliest stamp over all streams."""
+    end_s: Finite | None = None
+    """End, itself excluded; s from the earliest stamp over all streams; the end of the log if left out."""
     use: Use
     """calibration, validation or ignore."""
     support: Text | None = None
     """Support frame; required unless the use is ignore."""
 
 
-class Smoothing(_Table):
+class Smoothing(Table):
     """A Savitzky-Golay filter."""
 
     window_s: Positive
@@ -175,7 +139,7 @@ def _form_of_derivatives(value: Any) -> str:
     return "word" if isinstance(value, str) else "table"
 
 
-class ProcessingTable(_Table):
+class ProcessingTable(Table):
     """How logged samples become reading and reference."""
 
     derivatives: Annotated[
@@ -193,7 +157,7 @@ def _lambda(value: Any) -> Any:
     return None if value == "held-out" else value
 
 
-class CalibrationTable(_Table):
+class CalibrationTable(Table):
     """How the fit is regularised."""
 
     lambda_counts2: Annotated[
@@ -204,24 +168,36 @@ class CalibrationTable(_Table):
     """Lambda in the convention of thesis (5.4); `held-out` to choose it on held-out blocks."""
 
 
-class ExperimentFile(_Table):
+class ExperimentFile(Table):
     """The whole file."""
 
     schema_name: Literal["forcetorque/experiment/1"] = Field(alias="schema")
     """Form of the file."""
     name: Text
     """Name of the experiment."""
-    robot: Robot
-    """The robot model."""
-    recording: Annotated[YarpLog | ParquetLog, Field(discriminator="format")]
+    robot: Robot | None = None
+    """The robot model; a wrist sensor has `load` instead."""
+    load: Load | None = None
+    """What hangs on a wrist sensor, in place of a robot."""
+    recording: Log
     """Where the recording is."""
     sensor: Annotated[tuple[Sensor, ...], Field(min_length=1)]
     """Sensors."""
-    support: Annotated[tuple[Support, ...], Field(min_length=1)]
-    """Support frames."""
+    support: tuple[Support, ...] = ()
+    """Support frames; none with `load`."""
     interval: Annotated[tuple[Interval, ...], Field(min_length=1)]
     """Intervals."""
     processing: ProcessingTable = ProcessingTable()
     """How samples are processed."""
     calibration: CalibrationTable = CalibrationTable()
     """How the fit is regularised."""
+
+    @model_validator(mode="after")
+    def _robot_or_load(self) -> ExperimentFile:
+        if (self.robot is None) == (self.load is None):
+            raise PydanticCustomError("robot_or_load", "expected [robot] with a URDF, or [load] for a wrist sensor")
+        if self.robot is not None and not self.support:
+            raise PydanticCustomError("no_support", "expected [[support]]: the frame that the robot stands on")
+        if self.load is not None and (self.support or len(self.sensor) > 1):
+            raise PydanticCustomError("load_alone", "with [load] there is one [[sensor]] and no [[support]]")
+        return self

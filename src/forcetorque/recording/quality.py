@@ -166,23 +166,30 @@ def _lost_messages(stream: Stream) -> list[Finding]:
 
 
 def _missing_values(stream: Stream, signal: Signal) -> list[Finding]:
-    missing = ~np.isfinite(signal.values).all(axis=1)
+    missing = np.logical_not(np.isfinite(signal.values).all(axis=1))
     text = f"no {signal.quantity}"
     return [_finding(stream, "missing", text, first, last, channel=signal.quantity) for first, last in spans(missing)]
 
 
 def _stuck_channels(stream: Stream, signal: Signal) -> list[Finding]:
-    found = []
-    for name, column in zip(signal.columns, signal.values.T, strict=True):
-        for first, last in _constant_runs(column):
-            seconds = float(stream.stamp_ns[last] - stream.stamp_ns[first]) * 1e-9
-            if seconds > STUCK_SECONDS:
-                text = f"{signal.quantity} stays at {column[first]:g} {signal.units[0]}"
-                found.append(_finding(stream, "stuck", text, first, last, channel=name, size=seconds, unit="s"))
+    """Runs of one value; one finding where all channels rest together."""
+    whole: BoolArray = (np.diff(signal.values, axis=0) == 0.0).all(axis=1)
+    text = f"the whole {signal.quantity} stays the same, as when a board saturates or loses its sensor"
+    found = [
+        _finding(stream, "frozen", text, first, last, channel=signal.quantity, size=seconds, unit="s")
+        for first, last, seconds in _long_runs(stream, whole)
+    ]
+    for name, unit, column in zip(signal.columns, signal.units, signal.values.T, strict=True):
+        alone: BoolArray = (np.diff(column) == 0.0) & ~whole
+        found += [
+            _finding(stream, "stuck", f"stays at {column[first]:g} {unit}", first, last, channel=name, size=s, unit="s")
+            for first, last, s in _long_runs(stream, alone)
+        ]
     return found
 
 
-def _constant_runs(column: FloatArray) -> list[tuple[int, int]]:
-    """First and last index of every run of two or more equal values."""
-    same: BoolArray = np.diff(column) == 0.0
-    return [(first, last + 1) for first, last in spans(same)]
+def _long_runs(stream: Stream, same_as_before: BoolArray) -> list[tuple[int, int, float]]:
+    """First and last index, and seconds, of runs of equal values that are too long for noise."""
+    runs = ((first, last + 1) for first, last in spans(same_as_before))
+    timed = ((first, last, float(stream.stamp_ns[last] - stream.stamp_ns[first]) * 1e-9) for first, last in runs)
+    return [run for run in timed if run[2] > STUCK_SECONDS]

@@ -4,9 +4,12 @@
 from __future__ import annotations
 
 import gzip
+import json
+import re
 from dataclasses import dataclass
 from decimal import Decimal
 from pathlib import Path
+from typing import Any
 
 INFO = "Type: Bottle;\nStamp: tx;\n[1457614036.915703] /icub/right_leg/analog:o [connected]\n"
 INFO_TWO_STAMPS = INFO.replace("tx;", "tx+rx;")
@@ -70,3 +73,10 @@ def _parse_line(line: str, n_stamps: int) -> SlowLine:
             numbers.append(token)
     stamps = tuple(int(Decimal(stamp) * 10**9) for stamp in head[1:])
     return SlowLine(int(head[0]), stamps, tuple(numbers), tuple(lists), tuple(flags))
+
+
+def parse_nested(line: str) -> list[Any]:
+    """Parse a line of numbers and nested lists by way of JSON; the numbers stay text."""
+    signs = {"(": "[", ")": "]"}
+    text = ",".join(signs.get(token) or json.dumps(token) for token in re.findall(r"[()]|[^() ]+", line))
+    return json.loads(f"[{text}]".replace("[,", "[").replace(",]", "]"))  # type: ignore[no-any-return]

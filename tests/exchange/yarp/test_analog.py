@@ -10,7 +10,7 @@ import pytest
 
 from forcetorque.errors import FormatError
 from forcetorque.exchange.yarp import PortReading, read_analog
-from tests.exchange.yarp.port_logs import INFO, INFO_TWO_STAMPS, write_port
+from tests.exchange.yarp.port_logs import INFO, write_port
 
 _GOOD = "7 1457614036.921366 1.5 -2 3e-3 4.0 5.25 -6.125"
 
@@ -64,41 +64,6 @@ def test_sequence_numbers_stay_as_logged(tmp_path: Path) -> None:
     reading = _read(tmp_path, "".join(_GOOD.replace("7", str(k), 1) + "\n" for k in numbers))
     assert reading.stream.sequence is not None
     assert reading.stream.sequence.tolist() == numbers
-
-
-@pytest.mark.parametrize("spelling", ["tx+rx", "rx+tx"])
-def test_of_two_stamps_the_senders_is_used(tmp_path: Path, spelling: str) -> None:
-    """A parser of one stamp would read the second as a force."""
-    text = "1 10.25 10.5 1 2 3 4 5 6\n2 11.25 11.5 1 2 3 4 5 7\n"
-    reading = _read(tmp_path, text, INFO.replace("tx;", f"{spelling};"))
-    assert reading.stream.stamp_ns.tolist() == [10_250000000, 11_250000000]
-    assert reading.stream.signal("wrench").values[:, 0].tolist() == [1.0, 1.0]
-    assert reading.findings == ()
-
-
-def test_without_the_senders_stamp_the_dumpers_is_used(tmp_path: Path) -> None:
-    """A message without an envelope is stamped 0 by the sender; that is replaced and said."""
-    text = "-1 0.000000 10.5 1 2 3 4 5 6\n2 11.25 11.5 1 2 3 4 5 7\n-1 0.000000 12.5 1 2 3 4 5 6\n"
-    reading = _read(tmp_path, text, INFO_TWO_STAMPS)
-    assert reading.stream.stamp_ns.tolist() == [10_500000000, 11_250000000, 12_500000000]
-    (finding,) = reading.findings
-    assert (finding.kind, finding.count) == ("dumper_stamp", 2)
-    assert (finding.start_ns, finding.end_ns) == (10_500000000, 12_500000000)
-
-
-@pytest.mark.parametrize(
-    ("info", "line", "message"),
-    [
-        (INFO, "1 10.25 10.5 1 2 3 4 5 6", "expected 6 numbers .*, got 7; .* with two stamps the line would fit"),
-        (None, "1 10.25 10.5 1 2 3 4 5 6", "with two stamps the line would fit"),
-        (INFO_TWO_STAMPS, "1 10.25 1 2 3 4 5 6", "expected 6 numbers .*, got 5; .* with one stamp the line would fit"),
-        (INFO_TWO_STAMPS, "1 10.25 -1e-5 2 3 4 5 6", "got '-1e-5'; .* with one stamp the line would fit"),
-    ],
-)
-def test_info_file_and_lines_must_agree_on_stamps(tmp_path: Path, info: str | None, line: str, message: str) -> None:
-    """The reader does not decide which of the two is wrong."""
-    with pytest.raises(FormatError, match=rf"data\.log:1: .*{message}"):
-        _read(tmp_path, f"{line}\n", info)
 
 
 @pytest.mark.parametrize(

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from forcetorque.errors import FormatError, MissingFileError
-from forcetorque.exchange.yarp import port_folder, read_analog
+from forcetorque.exchange.yarp import port_folder, port_log, read_analog, read_state_ext
 from tests.exchange.yarp.port_logs import INFO, write_port
 
 _TEXT = "".join(f"{i} {1e9 + i / 100:.6f} {i} 2 3 4.5 5 -6e-3\n" for i in range(200))
@@ -151,6 +151,30 @@ def test_a_log_without_line_feeds_does_not_fill_the_memory(tmp_path: Path) -> No
     _, peak = tracemalloc.get_traced_memory()
     tracemalloc.stop()
     assert peak < 4 * port_folder.BLOCK_SIZE
+
+
+def test_a_long_log_is_read_in_blocks(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A packed log of 20 MB: besides its result, twice while that is put together, some blocks are held."""
+    monkeypatch.setattr(port_folder, "BLOCK_SIZE", 1 << 18)
+    message = "(1.5 2.5 3.5) [ok] " * 10 + "(1 2 3) [ok]"
+    text = "".join(f"{k} {k}.25 {message}\n" for k in range(100_000))
+    assert len(text) > 20_000_000
+    folder = write_port(tmp_path, text, packed=True)
+    tracemalloc.start()
+    stream = read_state_ext(folder, stream="s", joints="abc").stream
+    held, peak = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    assert len(stream) == 100_000
+    assert peak - 2 * held < 8 * port_folder.BLOCK_SIZE < len(text) // 8
+
+
+def test_the_forms_of_lines_are_limited(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Each form costs time and memory; a log has a handful, a damaged file may have one per line."""
+    text = "".join(f"1 1.5{' ' * (k + 1)}1 2 3 4 5 6\n" for k in range(20))
+    assert len(_read(write_port(tmp_path, text))) == 20
+    monkeypatch.setattr(port_log, "FORM_LIMIT", 12)
+    with pytest.raises(FormatError, match=r"data\.log:13: expected lines of at most 12 forms"):
+        _read(tmp_path)
 
 
 def test_what_a_file_may_unpack_to_is_limited(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from forcetorque.errors import FormatError, RecordingError
-from forcetorque.exchange.yarp import PortReading, read_state_ext
+from forcetorque.exchange.yarp import PortReading, read_state_ext, skeleton
 from tests.exchange.yarp.port_logs import INFO, INFO_TWO_STAMPS, write_port
 
 _JOINTS = ("hip", "knee", "slide")
@@ -209,12 +209,30 @@ def test_a_line_of_another_structure_is_refused(tmp_path: Path, line: str, messa
     assert len(_read(tmp_path, good + _line(9)).stream) == before + 1
 
 
-def test_numbers_that_touch_are_refused(tmp_path: Path) -> None:
-    """Once the brackets are gone, `(1 2 3)(4 5 6)` would hold the number 34."""
-    touching = _line(layout="2014").replace(") (", ")(")
-    with pytest.raises(FormatError, match=r"data\.log:1: expected a space between all elements"):
-        _read(tmp_path, touching)
-    assert len(_read(tmp_path, _line().replace(") [", ")[")).stream) == 1
+@pytest.mark.parametrize("layout", _LAYOUTS)
+def test_brackets_separate_like_spaces(tmp_path: Path, layout: str) -> None:
+    """`(1 2 3)(4 5 6)` does not hold the number 34; with and without spaces the same is read."""
+    text = "".join(_line(k, layout=layout) for k in range(3))
+    touching = text.replace(") (", ")(").replace(") [", ")[").replace("] (", "](")
+    assert touching.count(" (") == 3
+    spaced, tight = (_read(tmp_path, lines).stream for lines in (text, touching))
+    assert spaced.stamp_ns.tolist() == tight.stamp_ns.tolist()
+    for name in ("position", "velocity", "acceleration"):
+        np.testing.assert_array_equal(tight.signal(name).values, spaced.signal(name).values)
+
+
+def test_lines_of_one_form_are_read_as_among_others(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """There what stands behind the wanted numbers is cut off; neither that nor the pieces change a number."""
+    good = [_line(k, stamps=f"{10 ** (k % 7)}.5") for k in range(300)]
+    expected = _read(tmp_path, "".join(good)).stream
+    other = _line(300, lists={10: "()"}, flags={10: "[fail]"})
+    mixed = _read(tmp_path, "".join([*good, other])).stream
+    monkeypatch.setattr(skeleton, "_PIECE_SIZE", 37)
+    pieces = _read(tmp_path, "".join(good)).stream
+    for name in ("position", "velocity", "acceleration"):
+        np.testing.assert_array_equal(mixed.signal(name).values[:-1], expected.signal(name).values)
+        np.testing.assert_array_equal(pieces.signal(name).values, expected.signal(name).values)
+    assert pieces.stamp_ns.tolist() == mixed.stamp_ns.tolist()[:-1] == expected.stamp_ns.tolist()
 
 
 def test_every_mixture_of_flags_is_read(tmp_path: Path) -> None:

@@ -2,7 +2,24 @@
 """Logs of yarpdatadumper: one folder per port."""
 
 from forcetorque.exchange.yarp.analog import read_analog
+from forcetorque.exchange.yarp.discover import FoundPort, PortKind, discover_ports, read_port
+from forcetorque.exchange.yarp.inertial import read_inertial
+from forcetorque.exchange.yarp.measures import MeasuresList, MeasuresSensor, read_measures
 from forcetorque.exchange.yarp.reading import PortReading
+from forcetorque.exchange.yarp.state import read_state
 from forcetorque.exchange.yarp.state_ext import read_state_ext
 
-__all__ = ["PortReading", "read_analog", "read_state_ext"]
+__all__ = [
+    "FoundPort",
+    "MeasuresList",
+    "MeasuresSensor",
+    "PortKind",
+    "PortReading",
+    "discover_ports",
+    "read_analog",
+    "read_inertial",
+    "read_measures",
+    "read_port",
+    "read_state",
+    "read_state_ext",
+]

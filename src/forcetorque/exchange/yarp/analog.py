@@ -5,14 +5,11 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from forcetorque.errors import FormatError
 from forcetorque.exchange.yarp.bottle import Bottle
-from forcetorque.exchange.yarp.message_line import is_number
+from forcetorque.exchange.yarp.plain_numbers import expect_numbers
 from forcetorque.exchange.yarp.port_log import read_port_log
 from forcetorque.exchange.yarp.reading import CLOCK, PortReading
 from forcetorque.recording import QUANTITIES, Signal, Stream
-
-_COMPONENTS = "fx fy fz tx ty tz"
 
 
 def read_analog(port_dir: str | Path, *, stream: str, frame: str) -> PortReading:
@@ -47,9 +44,4 @@ def read_analog(port_dir: str | Path, *, stream: str, frame: str) -> PortReading
 
 
 def _choose_wrench(message: Bottle) -> range:
-    numbers = sum(map(is_number, message))
-    others = len(message) - numbers
-    if numbers != len(_COMPONENTS.split()) or others:
-        also = f" and {others} lists or flags" if others else ""
-        raise FormatError(f"expected 6 numbers {_COMPONENTS}, got {numbers}{also}; is this the port of such a sensor?")
-    return range(numbers)
+    return expect_numbers(message, QUANTITIES["wrench"].columns, advice="is this the port of such a sensor?")

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -11,17 +12,20 @@ import pyarrow as pa
 import pyarrow.compute as pc
 import pyarrow.csv as pacsv
 
-from forcetorque.arrays import FloatArray, IntArray
-from forcetorque.errors import FormatError
+from forcetorque.arrays import BoolArray, FloatArray, IntArray
 from forcetorque.exchange.yarp.bottle import Bottle, leaves
 from forcetorque.exchange.yarp.message_line import is_number
+from forcetorque.exchange.yarp.skeleton import NUMBER_CHARACTERS, LineGroup
 
-_PUNCTUATION = b"()[]okfail"
-"""What stands in a line besides numbers and spaces; no `e`, which belongs to numbers."""
+_BRACKETS = b"()[]"
+_LETTERS = b"okfail"
+"""What stands in a line besides brackets, numbers and spaces; no `e`, which belongs to numbers."""
+_AS_SPACES = bytes.maketrans(_BRACKETS, b" " * len(_BRACKETS))
+_NUMBER = re.compile(rb"[0-9.+\-eE]+")
 _STAMP_TYPE = pa.decimal128(19, 9)
 """A float64 resolves 240 ns at today's epoch, so stamps are read as decimals, which are exact."""
 _NS_PER_S = pa.scalar(10**9, pa.decimal128(10, 0))
-_ARROW_BLOCK_SIZE = 1 << 18
+_ARROW_BLOCK_SIZE = 1 << 20
 """Bytes that one thread of Arrow converts at a time."""
 
 
@@ -31,8 +35,10 @@ class Numbers:
 
     sequence: IntArray
     """Sequence numbers; shape (n,)."""
-    stamps_ns: IntArray
-    """Stamps in the order of the line; shape (1 or 2, n); ns."""
+    stamp_ns: IntArray
+    """Stamps; shape (n,); ns."""
+    by_dumper: BoolArray
+    """Whether the dumper's stamp stands in for one that the sender did not give; shape (n,)."""
     values: FloatArray
     """Chosen numbers of the messages; shape (n, width); NaN where a message has none."""
 
@@ -41,67 +47,72 @@ class Numbers:
 class NumberLayout:
     """Where the numbers of a skeleton stand among the spaces once brackets and flags are deleted."""
 
-    n_cells: int
-    """Number of cells that the spaces separate; those of deleted flags and empty lists are empty."""
-    head: tuple[int, ...]
-    """Cells of the sequence number and the stamps."""
+    n_structure: int | None
+    """Characters of the skeleton that are needed, because nothing behind them is wanted; None for all."""
+    spaced: bool
+    """Whether brackets become spaces, because some numbers have only brackets between them."""
+    sequence: int
+    """Cell of the sequence number."""
+    stamps: tuple[int, ...]
+    """Cell of the stamp that is taken, and of the one that is taken where that is not positive."""
     wanted: tuple[int | None, ...]
     """Cell of each value that is wanted; None where the message has none."""
 
 
-def layout_of(line: bytes, bottle: Bottle, *, n_stamps: int, chosen: Sequence[int | None]) -> NumberLayout:
+def layout_of(line: bytes, bottle: Bottle, *, stamps: Sequence[str], chosen: Sequence[int | None]) -> NumberLayout:
     """Find the cells of the numbers in one line; every line of the same skeleton has the same.
 
     Args:
         line: The line without its end.
         bottle: The same line, parsed.
-        n_stamps: Stamps that stand before the message.
+        stamps: Stamps before the message in their order, out of `tx`, `rx` and `unknown`.
         chosen: For each value that is wanted, which number of the message it is; None: not there.
 
     Returns:
         The layout.
-
-    Raises:
-        FormatError: If two elements touch, so that two numbers would become one.
     """
-    texts = line.translate(None, _PUNCTUATION).split(b" ")
-    cells = tuple(i for i, text in enumerate(texts) if text)
-    if len(cells) != sum(map(is_number, leaves(bottle))):
-        raise FormatError("expected a space between all elements, got two that touch; delete the line")
-    n_head = 1 + n_stamps
+    first = 1 + len(stamps)
+    last = max([first - 1, *(first + which for which in chosen if which is not None)])
+    end = [number.end() for number in _NUMBER.finditer(line)][last]
+    spaced = len(_filled_cells(line, spaced=False)) != sum(map(is_number, leaves(bottle)))
+    cells = _filled_cells(line, spaced=spaced)
+    sender_first = sorted(range(len(stamps)), key=lambda i: stamps[i] != "tx")
     return NumberLayout(
-        n_cells=len(texts),
-        head=cells[:n_head],
-        wanted=tuple(None if which is None else cells[n_head + which] for which in chosen),
+        n_structure=len(line[:end].translate(None, NUMBER_CHARACTERS)) if 2 * end < len(line) else None,
+        spaced=spaced,
+        sequence=cells[0],
+        stamps=tuple(cells[1 + i] for i in sender_first),
+        wanted=tuple(None if which is None else cells[first + which] for which in chosen),
     )
 
 
-def convert(text: bytes, layout: NumberLayout) -> Numbers | None:
+def convert(group: LineGroup, layout: NumberLayout) -> Numbers | None:
     """Convert the sequence numbers, the stamps and the wanted numbers of some lines.
 
     Numbers that are not wanted are not converted: in logs of boards they are two thirds.
 
     Args:
-        text: Lines of the layout.
+        group: Lines of the layout.
         layout: Where their numbers stand.
 
     Returns:
         The numbers, or None if something made of the characters of numbers is not a finite number.
     """
-    types = dict(zip(layout.head, (pa.int64(), _STAMP_TYPE, _STAMP_TYPE), strict=False))
+    types = dict(zip((layout.sequence, *layout.stamps), (pa.int64(), _STAMP_TYPE, _STAMP_TYPE), strict=False))
     types |= {cell: pa.float64() for cell in layout.wanted if cell is not None}
     names = {str(cell): kind for cell, kind in types.items()}
+    text = _plain(group.beginnings, spaced=layout.spaced)
+    n_cells = text.count(b" ", 0, text.index(b"\n")) + 1
     try:
         table = pacsv.read_csv(
-            pa.BufferReader(text.translate(None, _PUNCTUATION)),
+            pa.BufferReader(text),
             read_options=pacsv.ReadOptions(
-                column_names=[str(cell) for cell in range(layout.n_cells)], block_size=_ARROW_BLOCK_SIZE
+                column_names=[str(cell) for cell in range(n_cells)], block_size=_ARROW_BLOCK_SIZE
             ),
             parse_options=pacsv.ParseOptions(delimiter=" ", quote_char=False, ignore_empty_lines=False),
             convert_options=pacsv.ConvertOptions(column_types=names, include_columns=list(names), null_values=[]),
         )
-        sequence, *stamps = (table.column(str(cell)) for cell in layout.head)
-        stamps_ns = [pc.multiply(stamp, _NS_PER_S).cast(pa.int64()).to_numpy() for stamp in stamps]
+        stamps = [pc.multiply(table.column(str(cell)), _NS_PER_S).cast(pa.int64()).to_numpy() for cell in layout.stamps]
     except pa.ArrowException:
         return None
     values = np.full((table.num_rows, len(layout.wanted)), np.nan)
@@ -110,4 +121,18 @@ def convert(text: bytes, layout: NumberLayout) -> Numbers | None:
             column[:] = table.column(str(cell)).to_numpy()
             if not np.isfinite(column).all():
                 return None
-    return Numbers(sequence=sequence.to_numpy(), stamps_ns=np.array(stamps_ns), values=values)
+    stamp_ns = np.where(stamps[0] > 0, stamps[0], stamps[-1])
+    return Numbers(
+        sequence=table.column(str(layout.sequence)).to_numpy(),
+        stamp_ns=stamp_ns,
+        by_dumper=stamp_ns != stamps[0],
+        values=values,
+    )
+
+
+def _plain(text: bytes, *, spaced: bool) -> bytes:
+    return text.translate(_AS_SPACES, _LETTERS) if spaced else text.translate(None, _BRACKETS + _LETTERS)
+
+
+def _filled_cells(line: bytes, *, spaced: bool) -> list[int]:
+    return [i for i, text in enumerate(_plain(line, spaced=spaced).split(b" ")) if text]

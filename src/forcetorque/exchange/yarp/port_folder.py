@@ -3,7 +3,8 @@
 
 `info.log` is as `src/commands/yarpdatadumper/main.cpp` of YARP writes it: `Type: Bottle;`, then
 `Stamp: tx;`, `Stamp: rx;` or `Stamp: tx+rx;` (absent before about 2017). `rx` is also written when
-no option chose: then the sender's stamp was logged wherever there was one.
+no option chose: then the sender's stamp was logged wherever there was one. Where `tx` was chosen,
+messages without an envelope, whose sequence number is negative, carry both stamps all the same.
 """
 
 from __future__ import annotations
@@ -12,13 +13,19 @@ import gzip
 import re
 import zlib
 from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
+from io import BufferedIOBase
 from pathlib import Path
 
 from forcetorque.errors import FormatError, MissingFileError
-from forcetorque.exchange.yarp.bottle import quote
+from forcetorque.exchange.yarp.bottle import Bottle, quote
+from forcetorque.exchange.yarp.message_line import is_number
 
-BLOCK_SIZE = 1 << 23
+LOG_NAMES = ("data.log", "data.log.gz")
+"""Names that the file of messages may have."""
+
+BLOCK_SIZE = 1 << 21
 """Bytes per read, which bounds what is held besides the result."""
 
 LINE_LIMIT = 1 << 16
@@ -27,11 +34,12 @@ LINE_LIMIT = 1 << 16
 UNPACKED_LIMIT = 2 << 30
 """Bytes that a `.gz` may unpack to: 10 h of a 100 Hz joint log; it stops files made to fill the memory."""
 
+_UNKNOWN = ("unknown",)
 _INFO_SIZE = 4096
 """Bytes of `info.log` that are read: what matters is in its first two lines."""
 _TYPE = re.compile(r"^Type: *([^;\r\n]*)", re.MULTILINE)
 _STAMP = re.compile(r"^Stamp: *([^;\r\n]*)", re.MULTILINE)
-_STAMPS = {"tx": 1, "rx": 1, "tx+rx": 2, "rx+tx": 2}
+_STAMPS = {"tx": ("tx",), "rx": ("rx",), "tx+rx": ("tx", "rx"), "rx+tx": ("rx", "tx")}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -40,10 +48,23 @@ class PortFolder:
 
     data: Path
     """The file of messages, `data.log` or `data.log.gz`."""
-    n_stamps: int
-    """Stamps per message: 1, or 2 when the sender's and the dumper's were asked for."""
+    stamps: tuple[str, ...]
+    """Stamps of a message in their order: of the sender, `tx`, of the dumper, `rx`, or `unknown`."""
     has_info: bool
     """Whether there is an `info.log`."""
+
+    def possible_stamps(self, line: Bottle) -> tuple[tuple[str, ...], ...]:
+        """Tell which stamps a message may carry.
+
+        Args:
+            line: The elements of its line.
+
+        Returns:
+            The stamps in their order, first those of a message without an envelope if it may be one.
+        """
+        head = [value for value in line[:3] if is_number(value)]
+        without_envelope = len(head) == 3 and head[0] < 0
+        return (("tx", "rx"), self.stamps) if without_envelope and self.stamps == ("tx",) else (self.stamps,)
 
 
 def find_port(port_dir: str | Path) -> PortFolder:
@@ -63,7 +84,7 @@ def find_port(port_dir: str | Path) -> PortFolder:
     info = folder / "info.log"
     try:
         is_file, is_folder, has_info = folder.is_file(), folder.is_dir(), info.is_file()
-        found = [folder / name for name in ("data.log", "data.log.gz") if (folder / name).is_file()]
+        found = [folder / name for name in LOG_NAMES if (folder / name).is_file()]
         header = _first_bytes(info) if has_info else ""
     except OSError as error:
         raise FormatError(f"{folder}: expected a readable port folder, got: {error.strerror}") from error
@@ -75,7 +96,7 @@ def find_port(port_dir: str | Path) -> PortFolder:
         raise MissingFileError(f"{folder}: expected data.log or data.log.gz in the port folder, got neither")
     if len(found) > 1:
         raise FormatError(f"{folder}: expected data.log or data.log.gz, got both; delete the one that is not wanted")
-    return PortFolder(data=found[0], n_stamps=_n_stamps(info, header) if has_info else 1, has_info=has_info)
+    return PortFolder(data=found[0], stamps=_stamps(info, header) if has_info else _UNKNOWN, has_info=has_info)
 
 
 def read_blocks(path: Path) -> Iterator[bytes]:
@@ -92,25 +113,48 @@ def read_blocks(path: Path) -> Iterator[bytes]:
         MissingFileError: If the file vanished.
         FormatError: If the file cannot be read or unpacked.
     """
-    packed = path.suffix == ".gz"
     size = 0
     rest = b""
+    with _opened(path) as file:
+        while chunk := file.read(BLOCK_SIZE):
+            size += len(chunk)
+            if path.suffix == ".gz" and size > UNPACKED_LIMIT:
+                raise FormatError(f"{path}: expected at most {UNPACKED_LIMIT} unpacked bytes; unpack and split it")
+            end = chunk.rfind(b"\n") + 1
+            if end:
+                yield _unix_lines(b"".join((rest, memoryview(chunk)[:end])))
+                rest = chunk[end:]
+            else:
+                rest += chunk
+                if len(rest) > LINE_LIMIT:
+                    break
+    if rest:
+        yield rest
+
+
+def read_first_line(path: Path) -> bytes:
+    """Read the first line of a log and nothing more, unpacking it if its name ends in `.gz`.
+
+    Args:
+        path: File of messages.
+
+    Returns:
+        The line with its line feed; without one if it is cut off or too long; nothing for an empty log.
+
+    Raises:
+        MissingFileError: If the file vanished.
+        FormatError: If the file cannot be read or unpacked.
+    """
+    with _opened(path) as file:
+        return _unix_lines(file.readline(LINE_LIMIT + 1))
+
+
+@contextmanager
+def _opened(path: Path) -> Iterator[BufferedIOBase]:
+    packed = path.suffix == ".gz"
     try:
         with gzip.GzipFile(path) if packed else path.open("rb") as file:
-            while chunk := file.read(BLOCK_SIZE):
-                size += len(chunk)
-                if packed and size > UNPACKED_LIMIT:
-                    raise FormatError(f"{path}: expected at most {UNPACKED_LIMIT} unpacked bytes; unpack and split it")
-                end = chunk.rfind(b"\n") + 1
-                if end:
-                    text = rest + chunk[:end]
-                    # A dumper on Windows ends its lines with carriage return and line feed.
-                    yield text.replace(b"\r\n", b"\n") if b"\r" in text else text
-                    rest = chunk[end:]
-                else:
-                    rest += chunk
-                    if len(rest) > LINE_LIMIT:
-                        break
+            yield file
     except FileNotFoundError as error:
         raise MissingFileError(f"{path}: expected a log, got nothing there") from error
     except EOFError as error:
@@ -121,8 +165,11 @@ def read_blocks(path: Path) -> Iterator[bytes]:
     except (OSError, zlib.error) as error:
         wanted = "a gzip file" if packed else "a readable file"
         raise FormatError(f"{path}: expected {wanted}, got: {error}; copy it again") from error
-    if rest:
-        yield rest
+
+
+def _unix_lines(text: bytes) -> bytes:
+    # A dumper on Windows ends its lines with carriage return and line feed.
+    return text.replace(b"\r\n", b"\n") if b"\r" in text else text
 
 
 def _first_bytes(path: Path) -> str:
@@ -130,14 +177,14 @@ def _first_bytes(path: Path) -> str:
         return file.read(_INFO_SIZE).decode("ascii", "backslashreplace")
 
 
-def _n_stamps(info: Path, header: str) -> int:
+def _stamps(info: Path, header: str) -> tuple[str, ...]:
     kind = _TYPE.search(header)
     if kind is None or kind[1] != "Bottle":
         got = "no such line" if kind is None else f'"Type: {quote(kind[1])[1:-1]};"'
         raise FormatError(f'{info}: expected "Type: Bottle;", got {got}; name the folder of a port that sends numbers')
     stamp = _STAMP.search(header)
     if stamp is None:
-        return 1
+        return _UNKNOWN
     if stamp[1] not in _STAMPS:
         raise FormatError(f"{info}: expected a Stamp out of {', '.join(_STAMPS)}, got {quote(stamp[1])}")
     return _STAMPS[stamp[1]]

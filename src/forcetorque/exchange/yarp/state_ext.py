@@ -17,25 +17,19 @@ from pathlib import Path
 import numpy as np
 
 from forcetorque.arrays import FloatArray
-from forcetorque.errors import FormatError, RecordingError, known_names
+from forcetorque.errors import FormatError
 from forcetorque.exchange.yarp.bottle import Bottle
+from forcetorque.exchange.yarp.joint_units import JOINT_UNITS, joint_signal, units_of_joints
 from forcetorque.exchange.yarp.message_line import FAIL, OK, is_number
 from forcetorque.exchange.yarp.port_log import PortLog, read_port_log
 from forcetorque.exchange.yarp.reading import CLOCK, PortReading
-from forcetorque.recording import Finding, Signal, Stream
-
-_UNITS = {
-    "position": {"rad": "rad", "m": "m"},
-    "velocity": {"rad": "rad/s", "m": "m/s"},
-    "acceleration": {"rad": "rad/s2", "m": "m/s2"},
-}
-"""Quantities that are kept, in the order of the lists, with their unit by the unit of the joint."""
+from forcetorque.recording import Finding, Stream
 
 _MOTOR = ("motor position", "motor velocity", "motor acceleration")
 _MODES = ("control mode", "interaction mode")
-_2014 = (*_UNITS, "torque", "controller output", *_MODES)
-_2015 = (*_UNITS, *_MOTOR, "torque", "controller output", *_MODES)
-_2017 = (*_UNITS, *_MOTOR, "torque", "duty cycle", "current", *_MODES)
+_2014 = (*JOINT_UNITS, "torque", "controller output", *_MODES)
+_2015 = (*JOINT_UNITS, *_MOTOR, "torque", "controller output", *_MODES)
+_2017 = (*JOINT_UNITS, *_MOTOR, "torque", "duty cycle", "current", *_MODES)
 _LAYOUTS: dict[int, tuple[str, ...]] = {7: _2014, 10: _2015, 20: _2015, 22: _2017, 24: (*_2017, "temperature")}
 """Names of the lists by number of elements; those of twenty and more have a flag after each list."""
 
@@ -69,30 +63,40 @@ def read_state_ext(
         FormatError: If the log is not one of a control board with so many joints.
         RecordingError: If a joint is named twice, or `joint_units` names another joint or unit.
     """
-    units = _units_of(joints, joint_units or {})
+    units = units_of_joints(joints, joint_units)
     log = read_port_log(port_dir, stream=stream, choose=_BoardMessages(joints=tuple(joints)))
     findings = list(log.findings)
     logged: dict[str, FloatArray] = {}
-    for name, values in zip(_UNITS, np.split(log.values, len(_UNITS), axis=1), strict=True):
+    for name, values in zip(JOINT_UNITS, np.split(log.values, len(JOINT_UNITS), axis=1), strict=True):
         findings.extend(_failures(stream, name, values, log))
         if _is_not_estimated(name, values, logged):
             findings.append(_not_estimated(stream, name, log))
         else:
             logged[name] = values
-    factors = np.where(np.array(units) == "rad", np.pi / 180.0, 1.0)
-    signals = {
-        name: Signal(
-            quantity=name,
-            values=values * factors,
-            columns=tuple(joints),
-            units=tuple(_UNITS[name][unit] for unit in units),
-        )
-        for name, values in logged.items()
-    }
+    signals = {name: joint_signal(name, values, joints=joints, units=units) for name, values in logged.items()}
     return PortReading(
         stream=Stream(name=stream, clock=CLOCK, stamp_ns=log.stamp_ns, signals=signals, sequence=log.sequence),
         findings=tuple(findings),
     )
+
+
+def count_joints(message: Bottle) -> int:
+    """Count the joints of a board.
+
+    Args:
+        message: One of its messages.
+
+    Returns:
+        Length of the first list that is not empty.
+
+    Raises:
+        FormatError: If it is no message of a board or all its lists are empty; the text does not say where.
+    """
+    lists, _ = _split_flags(message)
+    lengths = [len(numbers) for numbers in lists if numbers]
+    if not lengths:
+        raise FormatError("expected the numbers of at least one joint, got empty lists only")
+    return lengths[0]
 
 
 @dataclass(slots=True, kw_only=True)
@@ -110,7 +114,7 @@ class _BoardMessages:
         lists, failed = _split_flags(message)
         lengths = [None if bad and not numbers else len(numbers) for numbers, bad in zip(lists, failed, strict=True)]
         self._compare(len(message), lengths)
-        for name, length in zip(_UNITS, lengths, strict=False):
+        for name, length in zip(JOINT_UNITS, lengths, strict=False):
             if length not in (None, len(self.joints)):
                 raise FormatError(
                     f"expected {len(self.joints)} numbers of {name} because so many joints were named "
@@ -118,7 +122,9 @@ class _BoardMessages:
                 )
         starts = np.cumsum([0, *map(len, lists)]).tolist()
         return [
-            None if failed[i] else starts[i] + joint for i in range(len(_UNITS)) for joint in range(len(self.joints))
+            None if failed[i] else starts[i] + joint
+            for i in range(len(JOINT_UNITS))
+            for joint in range(len(self.joints))
         ]
 
     def _compare(self, n_elements: int, lengths: list[int | None]) -> None:
@@ -133,15 +139,6 @@ class _BoardMessages:
                 f"got {_show(n_elements, lengths)}; split the log here, or delete the line"
             )
         self.lengths = [new if old is None else old for old, new in zip(self.lengths, lengths, strict=True)]
-
-
-def _units_of(joints: Sequence[str], joint_units: Mapping[str, str]) -> list[str]:
-    for joint, unit in joint_units.items():
-        if joint not in joints:
-            raise RecordingError(f"joint_units: no joint {joint!r} was named; {known_names(joint, joints)}")
-        if unit not in _UNITS["position"]:
-            raise RecordingError(f"joint_units: expected rad or m for {joint!r}, got {unit!r}")
-    return [joint_units.get(joint, "rad") for joint in joints]
 
 
 def _split_flags(message: Bottle) -> tuple[list[Bottle], list[bool]]:
@@ -167,7 +164,7 @@ def _show(n_elements: int, lengths: list[int | None]) -> str:
 
 
 def _failures(stream: str, name: str, values: FloatArray, log: PortLog) -> list[Finding]:
-    rows = np.flatnonzero(np.isnan(values).any(axis=1))
+    rows = np.flatnonzero(np.isnan(values[:, :1]).any(axis=1))  # a list fails as a whole
     if not len(rows):
         return []
     return [
@@ -184,13 +181,13 @@ def _failures(stream: str, name: str, values: FloatArray, log: PortLog) -> list[
 
 
 def _is_not_estimated(name: str, values: FloatArray, logged: Mapping[str, FloatArray]) -> bool:
-    present = values[~np.isnan(values)]
+    present = values[~np.isnan(values[:, :1]).any(axis=1)]
     if name == "position" or not present.size or present.any():
         return False
     if name == "acceleration":
         return True
     positions = logged["position"]
-    positions = positions[~np.isnan(positions).any(axis=1)]
+    positions = positions[~np.isnan(positions[:, :1]).any(axis=1)]
     return bool((positions != positions[:1]).any())
 
 

@@ -1,0 +1,193 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The ports in a folder of logs, and what each of them holds, told from its first message.
+
+Lists say what they are. Plain numbers do not: six may be a force-torque sensor or the positions of
+six joints, twelve an inertial sensor or the positions of twelve. The name decides that: they are
+positions if the name of the port's folder starts with `state`, and a sensor otherwise.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import suppress
+from dataclasses import dataclass
+from enum import StrEnum
+from operator import itemgetter
+from pathlib import Path
+
+from forcetorque.errors import ForceTorqueError, FormatError, MissingFileError
+from forcetorque.exchange.yarp.analog import read_analog
+from forcetorque.exchange.yarp.bottle import Bottle
+from forcetorque.exchange.yarp.inertial import read_inertial
+from forcetorque.exchange.yarp.measures import READ_LISTS, MeasuresList, MeasuresSensor, read_measures, sensor_sizes
+from forcetorque.exchange.yarp.message_line import is_number
+from forcetorque.exchange.yarp.port_folder import LOG_NAMES, find_port
+from forcetorque.exchange.yarp.port_log import read_first_message
+from forcetorque.exchange.yarp.reading import PortReading
+from forcetorque.exchange.yarp.state import read_state
+from forcetorque.exchange.yarp.state_ext import count_joints, read_state_ext
+from forcetorque.recording import QUANTITIES
+
+
+class PortKind(StrEnum):
+    """What a port holds."""
+
+    ANALOG = "analog"
+    """A force-torque sensor, see `read_analog`."""
+    STATE_EXT = "state_ext"
+    """Positions, velocities and accelerations of joints, see `read_state_ext`."""
+    MEASURES = "measures"
+    """A device with several sensors, see `read_measures`."""
+    INERTIAL = "inertial"
+    """An inertial sensor, see `read_inertial`."""
+    STATE = "state"
+    """Positions of joints, see `read_state`."""
+    UNKNOWN = "unknown"
+    """Something that is not read."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FoundPort:
+    """A port in a folder of logs."""
+
+    folder: Path
+    """Folder of the port."""
+    path: str
+    """Its path below the folder of logs, with `/`; its own name where it is that folder."""
+    kind: PortKind
+    """What its first message holds."""
+    reason: str | None = None
+    """Why that is unknown; None if it is known."""
+    n_joints: int = 0
+    """Joints of a board."""
+    sensors: tuple[MeasuresSensor, ...] = ()
+    """Sensors of a device that can be read."""
+
+
+_SENSORS = {6: PortKind.ANALOG, 12: PortKind.INERTIAL}
+"""Sensors that send plain numbers, by the count of these."""
+
+
+def discover_ports(folder: str | Path) -> tuple[FoundPort, ...]:
+    """Find all ports in a folder of logs and tell from the first message what each of them holds.
+
+    Only the first line of each log is read. Links to folders are not followed.
+
+    Args:
+        folder: Folder with the folders of ports at any depth, or one of them.
+
+    Returns:
+        The ports, sorted by their path.
+
+    Raises:
+        MissingFileError: If there is no such folder.
+        FormatError: If it is a file, or the system refuses to list it or a folder in it.
+    """
+    root = Path(folder)
+    paths = {
+        port: port.relative_to(root).as_posix() if port != root else port.resolve().name for port in _port_folders(root)
+    }
+    return tuple(_look_at(port, path) for port, path in sorted(paths.items(), key=itemgetter(1)))
+
+
+def read_port(found: FoundPort) -> tuple[PortReading, ...]:
+    """Read a port that was found, with made-up names, to inspect it.
+
+    The stream is called as the path of the port, and so is the frame; joints are called `joint_0`,
+    `joint_1` and so on, and taken for rotary ones. A device gives one stream for each sensor in the
+    lists that are read, called `path#list[index]`.
+
+    Args:
+        found: The port.
+
+    Returns:
+        One reading, or one for each sensor of a device.
+
+    Raises:
+        MissingFileError: If the port is not there any more.
+        FormatError: If it is unknown what the port holds, or it holds something else further down.
+    """
+    joints = [f"joint_{k}" for k in range(found.n_joints)]
+    match found.kind:
+        case PortKind.ANALOG:
+            return (read_analog(found.folder, stream=found.path, frame=found.path),)
+        case PortKind.INERTIAL:
+            return (read_inertial(found.folder, stream=found.path, frame=found.path),)
+        case PortKind.STATE:
+            return (read_state(found.folder, stream=found.path, joints=joints),)
+        case PortKind.STATE_EXT:
+            return (read_state_ext(found.folder, stream=found.path, joints=joints),)
+        case PortKind.MEASURES:
+            return read_measures(found.folder, sensors=found.sensors)
+        case PortKind.UNKNOWN:
+            raise FormatError(f"{found.folder}: expected a port whose messages are known; {found.reason}")
+
+
+def _port_folders(root: Path) -> Iterator[Path]:
+    pending = [root]
+    while pending:
+        here = pending.pop()
+        try:
+            entries = list(here.iterdir())
+            pending += [entry for entry in entries if entry.is_dir() and not entry.is_symlink()]
+            is_port = any(entry.name in LOG_NAMES and entry.is_file() for entry in entries)
+        except FileNotFoundError as error:
+            raise MissingFileError(f"{here}: expected a folder of logs, got nothing there") from error
+        except NotADirectoryError as error:
+            raise FormatError(
+                f"{here}: expected a folder of logs, got a file; give the folder that holds it"
+            ) from error
+        except OSError as error:
+            raise FormatError(f"{here}: expected a readable folder of logs, got: {error.strerror}") from error
+        if is_port:
+            yield here
+
+
+def _look_at(folder: Path, path: str) -> FoundPort:
+    try:
+        port = find_port(folder)
+        line = read_first_message(port)
+        *others, last = (line[1 + len(stamps) :] for stamps in port.possible_stamps(line))
+        for message in others:
+            with suppress(FormatError):
+                return _classify(message, folder, path)
+        return _classify(last, folder, path)
+    except ForceTorqueError as error:
+        return FoundPort(folder=folder, path=path, kind=PortKind.UNKNOWN, reason=str(error))
+
+
+def _classify(message: Bottle, folder: Path, path: str) -> FoundPort:
+    if all(map(is_number, message)):
+        return _classify_numbers(len(message), folder, path)
+    with suppress(FormatError):
+        return FoundPort(folder=folder, path=path, kind=PortKind.STATE_EXT, n_joints=count_joints(message))
+    try:
+        counts = dict(zip(MeasuresList, map(len, sensor_sizes(message)), strict=False))
+    except FormatError as error:
+        raise FormatError(
+            f"{folder}: expected plain numbers, the lists of a board or those of a device with several sensors, "
+            f"got {len(message)} elements of which {sum(isinstance(element, tuple) for element in message)} are lists"
+        ) from error
+    sensors = tuple(_sensor(name, index, path) for name in READ_LISTS for index in range(counts[name]))
+    if not sensors:
+        raise FormatError(
+            f"{folder}: expected a device with a sensor in one of the lists that are read ({', '.join(READ_LISTS)}), "
+            f"got {', '.join(name for name, count in counts.items() if count) or 'no sensor'}"
+        )
+    return FoundPort(folder=folder, path=path, kind=PortKind.MEASURES, sensors=sensors)
+
+
+def _classify_numbers(count: int, folder: Path, path: str) -> FoundPort:
+    kind = PortKind.STATE if path.rpartition("/")[2].startswith("state") else _SENSORS.get(count)
+    if kind is None or not count:
+        raise FormatError(
+            f"{folder}: expected {' or '.join(map(str, _SENSORS))} numbers of a sensor, or a folder whose name starts "
+            f'with "state", got {count} numbers'
+        )
+    return FoundPort(folder=folder, path=path, kind=kind, n_joints=count if kind is PortKind.STATE else 0)
+
+
+def _sensor(name: MeasuresList, index: int, path: str) -> MeasuresSensor:
+    stream = f"{path}#{name}[{index}]"
+    has_frame = QUANTITIES[READ_LISTS[name].quantity].has_frame
+    return MeasuresSensor(list=name, index=index, stream=stream, frame=stream if has_frame else None)

@@ -1,0 +1,63 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Units of joints: YARP logs rotary ones in deg and prismatic ones in m."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from forcetorque.arrays import FloatArray
+from forcetorque.errors import RecordingError, known_names
+from forcetorque.recording import Signal
+from forcetorque.spatial import si_factor
+
+JOINT_UNITS = {
+    "position": {"rad": "rad", "m": "m"},
+    "velocity": {"rad": "rad/s", "m": "m/s"},
+    "acceleration": {"rad": "rad/s2", "m": "m/s2"},
+}
+"""Quantities of joints, in the order of YARP's lists, with their unit by the unit of the joint."""
+
+
+def units_of_joints(joints: Sequence[str], joint_units: Mapping[str, str] | None) -> tuple[str, ...]:
+    """Tell the unit of each joint.
+
+    Args:
+        joints: Names of the joints.
+        joint_units: `m` for prismatic joints, by name; joints that it does not name are in `rad`.
+
+    Returns:
+        `rad` or `m` for each joint.
+
+    Raises:
+        RecordingError: If `joint_units` names another joint or unit.
+    """
+    units = joint_units or {}
+    for joint, unit in units.items():
+        if joint not in joints:
+            raise RecordingError(f"joint_units: no joint {joint!r} was named; {known_names(joint, joints)}")
+        if unit not in JOINT_UNITS["position"]:
+            raise RecordingError(f"joint_units: expected rad or m for {joint!r}, got {unit!r}")
+    return tuple(units.get(joint, "rad") for joint in joints)
+
+
+def joint_signal(quantity: str, logged: FloatArray, *, joints: Sequence[str], units: Sequence[str]) -> Signal:
+    """Turn logged values of joints into a signal.
+
+    Args:
+        quantity: One of `JOINT_UNITS`.
+        logged: Values as logged, shape (n, k); of deg for rotary joints, of m for prismatic ones.
+        joints: Names of the k joints.
+        units: `rad` or `m` for each joint.
+
+    Returns:
+        The signal, of rad and m.
+    """
+    factors = np.where(np.array(units) == "rad", si_factor("deg")[1], 1.0)
+    return Signal(
+        quantity=quantity,
+        values=logged * factors,
+        columns=tuple(joints),
+        units=tuple(JOINT_UNITS[quantity][unit] for unit in units),
+    )

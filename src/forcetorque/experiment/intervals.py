@@ -1,0 +1,116 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Supports and intervals of an experiment, on the clock of its recording."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+
+from forcetorque.errors import ExperimentError, known_names
+from forcetorque.experiment import schema
+from forcetorque.experiment.inputs import stated_in
+from forcetorque.recording import Interval, MovingSupport, Recording, Support, Use
+from forcetorque.robot import RobotModel
+
+_FAR_S = 1e9
+"""Longer than any log; larger ends are cut to it before they become nanoseconds."""
+
+
+def read_supports(
+    parsed: schema.ExperimentFile, file: Path, recording: Recording, model: RobotModel
+) -> dict[str, Support | MovingSupport]:
+    """Match every support frame to the robot and, where it moves, to the streams of an IMU.
+
+    Args:
+        parsed: Content of the experiment file.
+        file: The experiment file, for messages.
+        recording: The streams.
+        model: The robot.
+
+    Returns:
+        Supports by frame.
+
+    Raises:
+        ExperimentError: If a frame is not in the robot or listed twice.
+    """
+    supports: dict[str, Support | MovingSupport] = {}
+    for index, entry in enumerate(parsed.support):
+        where = f"{file}: support[{index}]"
+        if entry.frame not in model.links:
+            raise ExperimentError(
+                f"{where}: robot {model.name!r} has no link {entry.frame!r}; {known_names(entry.frame, model.links)}"
+            )
+        if entry.frame in supports:
+            raise ExperimentError(f"{where}: the frame {entry.frame!r} is listed twice; keep one")
+        with stated_in(where):
+            if entry.gravity_direction is not None:
+                supports[entry.frame] = Support(frame=entry.frame, gravity_direction=entry.gravity_direction)
+                continue
+            supports[entry.frame] = MovingSupport(frame=entry.frame, motion_streams=entry.imu or ())
+            for name in entry.imu or ():
+                recording.stream(name)
+    return supports
+
+
+def read_intervals(
+    parsed: schema.ExperimentFile,
+    file: Path,
+    recording: Recording,
+    supports: Mapping[str, Support | MovingSupport],
+    *,
+    default: MovingSupport | None,
+) -> list[Interval]:
+    """Bring the intervals to the clock of the recording.
+
+    Args:
+        parsed: Content of the experiment file.
+        file: The experiment file, for messages.
+        recording: The streams, whose earliest stamp is second 0.
+        supports: Supports by frame.
+        default: Support of every interval, for a wrist sensor.
+
+    Returns:
+        Intervals in the order of the file.
+
+    Raises:
+        ExperimentError: If an interval names no known support, lies outside the log, or overlaps another.
+    """
+    with stated_in(f"{file}: recording"):
+        start, end = recording.span_ns
+    log_s = (end - start) // 1_000_000 / 1000  # rounded down, so that who copies it from the message stays inside
+    found = []
+    for index, span in enumerate(parsed.interval):
+        where = f"{file}: interval[{index}] {span.label!r}"
+        if span.support is not None and span.support not in supports:
+            raise ExperimentError(
+                f"{where}: no [[support]] has the frame {span.support!r}; {known_names(span.support, supports)}"
+            )
+        end_ns = end + 1 if span.end_s is None else start + round(min(span.end_s, _FAR_S) * 1e9)
+        if span.start_s < 0.0 or max(span.start_s * 1e9, end_ns - start) > end - start + 1.5:
+            raise ExperimentError(
+                f"{where}: expected a span inside the log, 0 to {log_s:.3f} s, "
+                f"got {span.start_s:g} to {(end_ns - start) * 1e-9 if span.end_s is None else span.end_s:g} s"
+            )
+        with stated_in(f"{file}: interval[{index}]"):
+            interval = Interval(
+                label=span.label,
+                start_ns=start + round(span.start_s * 1e9),
+                end_ns=end_ns,
+                use=span.use,
+                support=default if span.support is None else supports[span.support],
+            )
+        found.append(interval)
+    _refuse_overlap(file, found)
+    return found
+
+
+def _refuse_overlap(file: Path, intervals: list[Interval]) -> None:
+    """Refuse samples that would be fitted and judged, or fitted twice."""
+    used = [interval for interval in intervals if interval.use is not Use.IGNORE]
+    for k, first in enumerate(used):
+        for second in used[k + 1 :]:
+            if first.start_ns < second.end_ns and second.start_ns < first.end_ns:
+                raise ExperimentError(
+                    f"{file}: the intervals {first.label!r} ({first.use}) and {second.label!r} ({second.use}) overlap; "
+                    "a sample is fitted or judged once"
+                )

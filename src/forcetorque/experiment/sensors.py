@@ -1,0 +1,108 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The sensors of an experiment: matched to the robot, to a stream and to a prior matrix."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from forcetorque.arrays import FloatArray
+from forcetorque.errors import ExperimentError
+from forcetorque.exchange.icub import read_matrix_file
+from forcetorque.experiment import schema
+from forcetorque.experiment.content import ExperimentSensor
+from forcetorque.experiment.inputs import Inputs, stated_in
+from forcetorque.recording import Recording
+from forcetorque.robot import RobotModel, SensorFrame
+
+
+def declare_sensors(parsed: schema.ExperimentFile, file: Path, model: RobotModel) -> RobotModel:
+    """Check that the robot has the sensors with a tag, and declare those without.
+
+    Args:
+        parsed: Content of the experiment file.
+        file: The experiment file, for messages.
+        model: The robot.
+
+    Returns:
+        The robot with all sensors.
+    """
+    for index, entry in enumerate(parsed.sensor):
+        with stated_in(f"{file}: sensor[{index}]"):
+            if entry.joint is None or entry.measure_direction is None:
+                model.sensor(entry.name)
+            else:
+                model = model.with_sensor(
+                    entry.name,
+                    joint=entry.joint,
+                    direction=entry.measure_direction,
+                    frame=entry.frame or SensorFrame.CHILD,
+                )
+    return model
+
+
+def read_sensors(
+    parsed: schema.ExperimentFile, file: Path, model: RobotModel, recording: Recording, inputs: Inputs
+) -> tuple[ExperimentSensor, ...]:
+    """Match every sensor to its stream and read its prior matrix.
+
+    Args:
+        parsed: Content of the experiment file.
+        file: The experiment file, for messages.
+        model: The robot with all sensors.
+        recording: The streams.
+        inputs: Resolves and remembers the files.
+
+    Returns:
+        The sensors in the order of the file.
+
+    Raises:
+        ExperimentError: If two entries are one sensor or share a stream.
+    """
+    found: list[ExperimentSensor] = []
+    for index, entry in enumerate(parsed.sensor):
+        sensor = _sensor(file, index, entry, model, recording, inputs)
+        for earlier in found:
+            if sensor.name == earlier.name:
+                raise ExperimentError(f"{file}: sensor[{index}]: {sensor.name!r} is listed twice; keep one")
+            if sensor.stream == earlier.stream:
+                raise ExperimentError(
+                    f"{file}: sensor[{index}]: {sensor.name!r} reads the stream {sensor.stream!r}, as does "
+                    f"{earlier.name!r}; every sensor has its own"
+                )
+        found.append(sensor)
+    return tuple(found)
+
+
+def _sensor(
+    file: Path, index: int, entry: schema.Sensor, model: RobotModel, recording: Recording, inputs: Inputs
+) -> ExperimentSensor:
+    where = f"{file}: sensor[{index}]"
+    with stated_in(where):
+        stream = recording.stream(entry.stream)
+    present = [quantity for quantity in ("raw", "wrench") if quantity in stream.signals]
+    if not present:
+        raise ExperimentError(
+            f"{where}: expected a stream with raw or wrench, {entry.stream!r} holds {', '.join(stream.signals)}"
+        )
+    if present[0] == "wrench" and entry.prior is None:
+        raise ExperimentError(
+            f"{where}: expected prior, the matrix file that {entry.stream!r} was calibrated with; "
+            'raw counts cannot be recovered without it; "identity" where that matrix is not known'
+        )
+    return ExperimentSensor(
+        name=model.sensor(entry.name).name,
+        serial=entry.serial,
+        stream=entry.stream,
+        quantity=present[0],
+        prior=_prior(entry, inputs),
+        prior_source=None if entry.prior is None else Path(entry.prior).as_posix(),
+        limit_counts=entry.limit_counts,
+    )
+
+
+def _prior(entry: schema.Sensor, inputs: Inputs) -> FloatArray | None:
+    if entry.prior is None:
+        return None
+    return np.eye(6) if entry.prior == "identity" else read_matrix_file(inputs.file(Path(entry.prior))).matrix

@@ -1,0 +1,150 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""`inspect` finds the faults that were put into a log and those of a real one; `payload` weighs a wrist's load."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from forcetorque.exchange.icub import encode_matrix, write_matrix_file
+from forcetorque.recording import read_recording, write_recording
+from tests.cli.outcome import Run
+from tests.experiments import FT_LOG, MOUNTED, PARQUET, RATE_HZ, YARP, edit_lines
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+
+
+def _kinds(result: dict[str, Any]) -> set[str]:
+    return {finding["kind"] for finding in result["findings"]}
+
+
+def _of(result: dict[str, Any], kind: str, channel: str | None = None) -> list[dict[str, Any]]:
+    found = result["findings"]
+    return [f for f in found if f["kind"] == kind and (channel is None or f["channel"] == channel)]
+
+
+@pytest.mark.parametrize("what", [PARQUET, "recording"])
+def test_a_clean_recording_has_no_findings(arm: Path, run: Run, what: str) -> None:
+    """The simulated arm has nothing to report, by its experiment and by its folder."""
+    result = run("inspect", arm / what, "--format", "json").result()
+    assert result["findings"] == []
+    assert result["schema"] == "forcetorque/inspect/1"
+    assert result["streams"]["joints"] > 1000
+
+
+def test_faults_of_a_stream_are_found_with_time_and_size(arm: Path, run: Run) -> None:
+    """Lost messages with the gap they leave, and a frozen reading."""
+
+    def damage(lines: list[str]) -> list[str]:
+        lost = lines[:200] + lines[230:]
+        words = lost[500].split()
+        frozen = [" ".join([*line.split()[:2], *words[2:]]) + "\n" for line in lost[500:600]]
+        return [*lost[:500], *frozen, *lost[600:]]
+
+    edit_lines(arm / FT_LOG, damage)
+    result = run("inspect", arm / YARP, "--format", "json").result()
+    (gap,), (lost,), (frozen,) = (_of(result, kind) for kind in ("gap", "lost_messages", "frozen"))
+    assert gap["size"] == pytest.approx(0.62, abs=0.03)
+    assert (lost["size"], lost["unit"]) == (30.0, "messages")
+    assert frozen["size"] == pytest.approx(2.0, abs=0.1)
+    assert frozen["start_s"] == pytest.approx(530 / RATE_HZ, abs=0.1)
+
+
+def test_steps_and_saturation_are_found_with_time_and_size(arm: Path, run: Run) -> None:
+    """A reading that steps by 15 N at 16.6 s, and a channel at its limit, where the prior is right."""
+    write_matrix_file(arm / "matrix_SIM001.txt", encode_matrix(MOUNTED))
+    recording = read_recording(arm / "recording")
+    stream = recording.stream("arm_ft")
+    raw = np.array(stream.signal("raw").values)
+    raw[830:] += np.linalg.solve(MOUNTED, [15.0, 0, 0, 0, 0, 0])
+    raw[100:103, 4] = -32767
+    damaged = replace(stream, signals={"raw": replace(stream.signal("raw"), values=np.rint(raw))})
+    write_recording(arm / "recording", replace(recording, streams={**recording.streams, "arm_ft": damaged}))
+    result = run("inspect", arm / PARQUET, "--format", "json").result()
+    (step,) = _of(result, "step")
+    assert (step["channel"], step["size"]) == ("fx", pytest.approx(15.0, abs=2.0))
+    assert step["start_s"] == pytest.approx(830 / RATE_HZ, abs=0.4)
+    (saturation,) = _of(result, "saturation")
+    assert (saturation["channel"], saturation["count"], saturation["size"]) == ("ch4", 3, 32767.0)
+    assert "recovered" not in saturation["message"]
+
+
+def test_a_folder_of_a_dumper_needs_no_experiment(arm: Path, run: Run) -> None:
+    """Every port is found and read by what it holds."""
+    result = run("inspect", arm / "log", "--format", "json").result()
+    assert set(result["streams"]) == {"arm/stateExt:o", "arm_ft/analog:o"}
+    assert _kinds(result) == {"not_estimated"}
+
+
+def test_rows_and_table_say_the_same(arm: Path, run: Run) -> None:
+    """CSV has one row per finding, the table ends with their number."""
+    rows = run("inspect", arm / "log", "--format", "csv").rows()
+    assert [row["kind"] for row in rows] == ["not_estimated"] * 2
+    shown = run("inspect", arm / "log")
+    assert shown.code == 0
+    assert "2 finding(s)" in shown.out
+
+
+def test_nothing_to_inspect_is_an_error(arm: Path, run: Run) -> None:
+    """A missing path and a folder without a log."""
+    assert "expected an experiment file or the folder of a log" in run("inspect", arm / "nothing").error()
+    (arm / "empty").mkdir()
+    assert "expected ports with data.log" in run("inspect", arm / "empty").error()
+
+
+@pytest.mark.real_data
+@pytest.mark.parametrize("example", ["02_icub_yoga_forward.toml", "04_icub_yoga_quiet.toml"])
+def test_the_yoga_log_tells_its_story(run: Run, data_dir: Path, tmp_path: Path, example: str) -> None:
+    """Contact before 17 s and after 62 s, steps of fx at 22.5 and 58.5 s, fy off at 24-30 s, nothing in 32-58 s."""
+    path = tmp_path / example
+    text = (EXAMPLES / example).read_text(encoding="utf-8")
+    path.write_text(text.replace("../../shared/data", data_dir.as_posix()))
+    result = run("inspect", path, "--format", "json").result()
+    first, last = _of(result, "contact")
+    assert first["start_s"] < 1.0
+    assert first["end_s"] == pytest.approx(17.0, abs=0.7)
+    assert last["start_s"] == pytest.approx(62.0, abs=0.7)
+    assert last["end_s"] > 70.0
+    steps = [(f["start_s"], f["size"]) for f in _of(result, "step", "fx") if abs(f["size"]) > 15.0]
+    assert len(steps) == 2
+    np.testing.assert_allclose([time for time, _ in steps], [22.5, 58.5], atol=0.6)
+    assert steps[0][1] < 0.0 < steps[1][1]
+    (fy,) = [f for f in _of(result, "off_level", "fy") if f["start_s"] < 40.0]
+    assert fy["start_s"] < 24.0
+    assert fy["end_s"] > 29.0
+    assert fy["size"] == pytest.approx(8.5, abs=1.0)
+    timed = [f for f in result["findings"] if f["kind"] != "not_estimated"]
+    assert not [f for f in timed if f["start_s"] < 58.0 and f["end_s"] > 32.0]
+
+
+@pytest.mark.real_data
+def test_a_frozen_sensor_of_the_standing_leg_is_found(run: Run, data_dir: Path) -> None:
+    """The sensor of the leg that carries the robot repeats one reading for 2.4 and for 9.4 s."""
+    log = data_dir / "icub_genova02_yoga" / "dumperLeftLegNoIMU"
+    result = run("inspect", log, "--format", "json").result()
+    frozen = _of(result, "frozen")
+    assert {f["stream"] for f in frozen} == {"icub/left_leg/analog:o"}
+    np.testing.assert_allclose([f["size"] for f in frozen], [2.4, 9.4], atol=0.1)
+
+
+@pytest.mark.real_data
+def test_the_wrist_payload(run: Run, data_dir: Path, tmp_path: Path) -> None:
+    """JSON, CSV and table of the real wrist sensor's load."""
+    path = tmp_path / "wrist.toml"
+    text = (EXAMPLES / "07_wrist_payload.toml").read_text(encoding="utf-8")
+    path.write_text(text.replace("../../shared/data", data_dir.as_posix()))
+    result = run("payload", path, "--format", "json").result()
+    assert result["mass_kg"] == pytest.approx(0.932, abs=0.003)
+    assert result["centre_of_mass_m"][2] == pytest.approx(0.0439, abs=0.0005)
+    (row,) = run("payload", path, "--format", "csv").rows()
+    assert float(row["mass_kg"]) == result["mass_kg"]
+    assert "kg at (" in run("payload", path).out
+
+
+def test_a_robot_has_no_payload_to_estimate(arm: Path, run: Run) -> None:
+    """The command says which table it needs."""
+    assert "expected [load] without mass_kg" in run("payload", arm / PARQUET).error()

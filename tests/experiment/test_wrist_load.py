@@ -1,0 +1,155 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Experiments of a wrist sensor: a load in place of a robot, given or estimated."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from forcetorque.errors import ForceTorqueError
+from forcetorque.experiment import calibrate_sensor, evaluate_sensor, load_experiment, samples_of
+from forcetorque.recording import Use
+
+MASS, CENTRE = 1.1, np.array([0.01, -0.005, 0.07])
+BIAS = np.array([4.0, -2.0, 9.0, 0.3, 0.1, -0.2])
+NOISE = np.array([0.05, 0.05, 0.05, 0.003, 0.003, 0.003])
+POSES = 60
+
+TEXT = """\
+schema = "forcetorque/experiment/1"
+name = "wrist"
+
+[load]
+frame = "tool"
+motion = ["poses"]
+measure_direction = "child_to_parent"
+
+[recording]
+format = "tabular"
+path = "."
+
+[[recording.stream]]
+name = "poses"
+file = "poses.csv"
+stamp = "row"
+
+[[recording.stream.signal]]
+quantity = "wrench"
+columns = ["a", "b", "c", "d", "e", "f"]
+units = ["N", "N", "N", "N mm", "N mm", "N mm"]
+frame = "tool"
+
+[[recording.stream.signal]]
+quantity = "gravity"
+columns = ["x", "y", "z"]
+units = ["g", "g", "g"]
+frame = "tool"
+
+[[sensor]]
+name = "wrist"
+stream = "poses"
+serial = "FT1"
+prior = "identity"
+
+[[interval]]
+label = "fit"
+start_s = 0
+end_s = 40
+use = "calibration"
+
+[[interval]]
+label = "judge"
+start_s = 40
+use = "validation"
+"""
+
+
+def _write(folder: Path, *, text: str = TEXT, matrix: np.ndarray | None = None) -> Path:
+    """Write a table of still poses: gravity in g, moments in N mm, and readings of the known load."""
+    rng = np.random.default_rng(1)
+    down = rng.normal(size=(POSES, 3))
+    down /= np.linalg.norm(down, axis=1, keepdims=True)
+    weight = MASS * 9.80665 * down
+    reading = np.hstack([weight, np.cross(CENTRE, weight)]) + BIAS + NOISE * rng.normal(size=(POSES, 6))
+    if matrix is not None:
+        reading = np.linalg.solve(matrix, reading.T).T
+    rows = np.hstack([reading * [1, 1, 1, 1000, 1000, 1000], down])
+    lines = ["a,b,c,d,e,f,x,y,z", *(",".join(f"{v:.9g}" for v in row) for row in rows)]
+    (folder / "poses.csv").write_text("\n".join(lines) + "\n")
+    path = folder / "wrist.toml"
+    path.write_text(text)
+    return path
+
+
+def test_the_load_is_estimated_on_the_calibration_poses(tmp_path: Path) -> None:
+    """Mass, centre and bias agree with the truth within their standard errors, from the fitted poses only."""
+    payload = load_experiment(_write(tmp_path)).payload
+    assert payload is not None
+    assert payload.count == 40
+    assert abs(payload.mass - MASS) < 4 * payload.mass_error
+    assert (np.abs(payload.centre_of_mass - CENTRE) < 4 * payload.centre_of_mass_error).all()
+    np.testing.assert_allclose(payload.bias, BIAS, atol=4 * NOISE.max())
+
+
+def test_a_given_load_is_taken(tmp_path: Path) -> None:
+    """With mass and centre given nothing is estimated, and the reference is their weight."""
+    given = f"mass_kg = {MASS}\ncentre_of_mass_m = {CENTRE.tolist()}\n"
+    experiment = load_experiment(_write(tmp_path, text=TEXT.replace("\n[recording]", f"{given}\n[recording]")))
+    assert experiment.payload is None
+    (part,) = samples_of(experiment, experiment.sensors[0], Use.VALIDATION)
+    assert len(part.samples) == POSES - 40
+    force = np.linalg.norm(part.samples.reference[:, :3], axis=1)
+    np.testing.assert_allclose(force, MASS * 9.80665, rtol=1e-8)
+
+
+def test_a_distorted_wrist_sensor_is_mended_by_a_known_load(tmp_path: Path) -> None:
+    """Readings that mounting distorted by some 10 % come nearer to a given load on poses that were not fitted."""
+    distorted = np.eye(6) + 0.1 * np.diag(np.random.default_rng(2).normal(size=6))
+    given = f"mass_kg = {MASS}\ncentre_of_mass_m = {CENTRE.tolist()}\n"
+    path = _write(tmp_path, text=TEXT.replace("\n[recording]", f"{given}\n[recording]"), matrix=distorted)
+    experiment = load_experiment(path)
+    sensor = experiment.sensors[0]
+    calibration = calibrate_sensor(experiment, sensor, code_version="1", created="now")
+    verdicts = {(v.candidate, v.offset): v.errors for v in evaluate_sensor(experiment, sensor, {"new": calibration})}
+    assert verdicts["new", "fitted"].force_mean < 0.5 * verdicts["prior", "fitted"].force_mean
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "match"),
+    [
+        ("\n[recording]\n", '\n[robot]\nurdf = "x.urdf"\n\n[recording]\n', r"\[robot\] with a URDF, or \[load\]"),
+        ("\n[recording]\n", "mass_kg = 1.0\n\n[recording]\n", "or neither to estimate both"),
+        ("[[sensor]]", '[[support]]\nframe = "tool"\nimu = ["poses"]\n\n[[sensor]]', r"no \[\[support\]\]"),
+        ('motion = ["poses"]', 'motion = ["imu"]', "no stream 'imu'"),
+        ('quantity = "gravity"', 'quantity = "proper_acceleration"', "angular_velocity"),
+        ('measure_direction = "child_to_parent"', 'measure_direction = "parent_to_child"', "expected a positive one"),
+        ("end_s = 40\n", "end_s = 3\n", "turn the sensor about two axes"),
+        ('columns = ["x", "y", "z"]', 'columns = ["x", "y", "w"]', "no column 'w'"),
+        ('units = ["g", "g", "g"]', 'units = ["g", "g", "kg"]', "unknown unit 'kg'"),
+        ('prior = "identity"\n', "", "expected prior"),
+    ],
+)  # fmt: skip
+def test_what_contradicts_is_refused(tmp_path: Path, old: str, new: str, match: str) -> None:
+    """Each fault is one line that names the experiment file or the table."""
+    assert TEXT.count(old) == 1
+    with pytest.raises(ForceTorqueError, match=match) as caught:
+        load_experiment(_write(tmp_path, text=TEXT.replace(old, new)))
+    assert "\n" not in str(caught.value)
+
+
+@pytest.mark.real_data
+def test_the_real_wrist_example(data_dir: Path, tmp_path: Path) -> None:
+    """Sixteen poses of a real sensor give 0.932 kg; on the eight others the force is right to 0.2 N."""
+    text = (Path(__file__).parents[2] / "examples" / "07_wrist_payload.toml").read_text(encoding="utf-8")
+    path = tmp_path / "wrist.toml"
+    path.write_text(text.replace("../../shared/data", data_dir.as_posix()))
+    experiment = load_experiment(path)
+    assert experiment.payload is not None
+    assert experiment.payload.mass == pytest.approx(0.932, abs=0.003)
+    sensor = experiment.sensors[0]
+    calibration = calibrate_sensor(experiment, sensor, code_version="1", created="now")
+    errors = evaluate_sensor(experiment, sensor, {"new": calibration})
+    assert errors[0].errors.count == 8
+    assert all(verdict.errors.force_mean < 0.2 for verdict in errors)
