@@ -6,6 +6,11 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
+from hypothesis import settings
+
+# the same examples in every run: a failure can be repeated, and a slow machine is no failure
+settings.register_profile("reproducible", derandomize=True, deadline=None)
+settings.load_profile("reproducible")
 
 _DEFAULT_DATA = Path(__file__).resolve().parents[2] / "shared" / "data"
 
@@ -18,7 +23,7 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 @pytest.fixture(scope="session")
 def data_dir(request: pytest.FixtureRequest) -> Path:
     """Folder of measured data; tests that need it skip where it is absent."""
-    folder = Path(request.config.getoption("--data"))
+    folder = Path(request.config.getoption("--data")).resolve()
     if not folder.is_dir():
         pytest.skip(f"no measured data at {folder}; pass --data DIR")
     return folder

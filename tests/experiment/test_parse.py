@@ -68,13 +68,38 @@ def test_what_may_be_left_out_has_a_default(tmp_path: Path) -> None:
     assert parsed.sensor[1].frame is None
 
 
+def _documented() -> list[str]:
+    blocks = re.findall(r"```toml\n(.*?)```", DOCUMENT.read_text(encoding="utf-8"), re.DOTALL)
+    assert len(blocks) == 4
+    return blocks
+
+
 def test_the_documented_file_is_one(tmp_path: Path) -> None:
     """The example of the documentation, with every optional key, is accepted as it stands."""
-    blocks = re.findall(r"```toml\n(.*?)```", DOCUMENT.read_text(encoding="utf-8"), re.DOTALL)
-    assert len(blocks) == 1
-    parsed = _parse(tmp_path, blocks[0])
+    parsed = _parse(tmp_path, _documented()[0])
     assert parsed.calibration.lambda_counts2 is None
     assert parsed.processing.smoothing is not None
+
+
+def test_the_documented_ports_and_imu_fit_into_it(tmp_path: Path) -> None:
+    """The other kinds of ports and the moving support are accepted in place of their plain forms."""
+    whole, ports, moving, _ = _documented()
+    fixed = whole[whole.index("[[support]]") : whole.index("[processing]")]
+    parsed = _parse(tmp_path, whole.replace("[[sensor]]", f"{ports}\n[[sensor]]").replace(fixed, f"{moving}\n"))
+    assert isinstance(parsed.recording, YarpLog)
+    assert {port.kind for port in parsed.recording.stream} == {"analog", "state_ext", "measures", "inertial", "state"}
+    assert parsed.support[0].imu == ("imu",)
+
+
+def test_the_documented_wrist_is_complete_with_a_sensor_and_intervals(tmp_path: Path) -> None:
+    """A load and a table in place of a robot and a YARP log."""
+    head = 'schema = "forcetorque/experiment/1"\nname = "wrist"\n'
+    sensor = '[[sensor]]\nname = "wrist"\nstream = "poses"\nserial = "FT1"\nprior = "identity"\n'
+    interval = '[[interval]]\nlabel = "all"\nstart_s = 0\nuse = "calibration"\n'
+    parsed = _parse(tmp_path, f"{head}{_documented()[3]}\n{sensor}{interval}")
+    assert parsed.load is not None
+    assert parsed.load.mass_kg == 0.932
+    assert parsed.sensor[0].prior == "identity"
 
 
 @pytest.mark.parametrize(
