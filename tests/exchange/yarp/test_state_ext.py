@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from forcetorque.errors import FormatError, RecordingError
-from forcetorque.exchange.yarp import PortReading, read_state_ext, skeleton
+from forcetorque.exchange.yarp import PortReading, port_folder, read_state_ext, skeleton
 from tests.exchange.yarp.port_logs import INFO, INFO_TWO_STAMPS, write_port
 
 _JOINTS = ("hip", "knee", "slide")
@@ -228,6 +228,7 @@ def test_lines_of_one_form_are_read_as_among_others(tmp_path: Path, monkeypatch:
     other = _line(300, lists={10: "()"}, flags={10: "[fail]"})
     mixed = _read(tmp_path, "".join([*good, other])).stream
     monkeypatch.setattr(skeleton, "_PIECE_SIZE", 37)
+    monkeypatch.setattr(port_folder, "BLOCK_SIZE", 5000)
     pieces = _read(tmp_path, "".join(good)).stream
     for name in ("position", "velocity", "acceleration"):
         np.testing.assert_array_equal(mixed.signal(name).values[:-1], expected.signal(name).values)
