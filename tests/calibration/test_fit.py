@@ -118,6 +118,18 @@ def test_an_unexcited_direction_without_penalty_is_named() -> None:
         fit_matrix(Moments.of(raw, reference), None, 0.0)
 
 
+def test_few_samples_of_noise_are_not_excitation() -> None:
+    """Seven samples are fitted exactly by six regressors: that is no evidence of excitation."""
+    rng = np.random.default_rng(21)
+    refused = 0
+    for _ in range(20):
+        moments = Moments.of(rng.normal(size=(7, 6)), rng.normal(size=(7, 6)))
+        with pytest.raises(FitError, match="do not excite"):
+            fit_matrix(moments, None, 0.0)
+        refused += 1
+    assert refused == 20
+
+
 def test_a_prior_turns_the_refusal_into_a_report() -> None:
     """With lambda > 0 the same data are fitted, and the direction is reported as not excited."""
     rng = np.random.default_rng(15)

@@ -100,6 +100,21 @@ def test_jackknife_covers_the_truth() -> None:
     assert 0.3 < float(np.median(ratios)) < 3.0
 
 
+def test_the_error_of_a_mean_is_that_of_block_means() -> None:
+    """With the prior kept the offset is a mean, whose jackknife error is the scatter of block means over root n."""
+    blocks = _moments(_blocks(matrix=TRUTH, drift=1.0, seed=12))
+    _, error = jackknife_error(blocks, PRIOR, math.inf)
+    means = np.stack([block.reference_mean - PRIOR @ block.raw_mean for block in blocks])
+    np.testing.assert_allclose(error, means.std(axis=0, ddof=1) / np.sqrt(len(blocks)), rtol=1e-10)
+
+
+def test_blocks_too_small_to_fit_alone_are_refused() -> None:
+    """Seven samples of six channels fit exactly and say nothing: no lambda is chosen on them."""
+    short = [(raw[:7], reference[:7]) for raw, reference in _blocks(matrix=TRUTH, drift=0.1)]
+    with pytest.raises(FitError, match="at least 8 samples in each of 5 blocks"):
+        choose_lambda(_moments(short), PRIOR)
+
+
 def test_one_block_has_no_choice_and_no_spread() -> None:
     """A choice needs two blocks; a single sample cannot be divided."""
     raw, reference = _blocks(matrix=TRUTH, drift=0.0)[0]

@@ -55,6 +55,23 @@ def test_a_step_is_found_with_time_size_and_axis() -> None:
     assert steps[0].start_ns == pytest.approx(40 * SECOND_NS, abs=0.3 * SECOND_NS)
 
 
+@pytest.mark.parametrize("at", [10, 20, 30, 40, 50])
+def test_a_step_is_found_wherever_it_is(at: float) -> None:
+    """Also in the middle of the samples in use, where half of them are on either level."""
+    _, measured, _, _ = _reading()
+    measured[_span(at, 60), 1] += 20.0
+    steps = [finding for finding in _find(measured) if finding.kind == "step"]
+    assert [(s.channel, round(s.start_ns * 1e-9)) for s in steps if s.start_ns is not None] == [("fy", at)]
+
+
+def test_the_ends_of_a_log_are_no_steps() -> None:
+    """Strong noise gives no step at the first and last second, where there is no level on one side."""
+    for seed in range(5):
+        _, measured, _, _ = _reading(seed)
+        measured += np.random.default_rng(seed).normal(size=measured.shape) * [3, 3, 3, 0.4, 0.4, 0.4]
+        assert not [finding for finding in _find(measured, seed) if finding.kind == "step"]
+
+
 def test_a_span_off_level_is_found_from_begin_to_end() -> None:
     """An axis that is 8 N off for 10 s is reported with its level and both ends."""
     _, measured, _, _ = _reading()

@@ -96,7 +96,13 @@ def test_paths_are_relative_to_the_file(arm: Path, tmp_path: Path, monkeypatch: 
 )
 def test_every_input_is_hashed(arm: Path, form: str, inputs: list[str]) -> None:
     """Each file that was read is there under the name that the experiment has for it, and no other."""
-    expected = ["arm.urdf", "matrix_SIM001.txt", *inputs, *(["recording/recording.json"] if form == PARQUET else [])]
+    expected = [
+        form,
+        "arm.urdf",
+        "matrix_SIM001.txt",
+        *inputs,
+        *(["recording/recording.json"] if form == PARQUET else []),
+    ]
     hashes = load_experiment(arm / form).inputs_sha256
     assert sorted(hashes) == sorted(expected)
     for name in expected:

@@ -149,7 +149,9 @@ def test_the_real_wrist_example(data_dir: Path, tmp_path: Path) -> None:
     assert experiment.payload is not None
     assert experiment.payload.mass == pytest.approx(0.932, abs=0.003)
     sensor = experiment.sensors[0]
-    calibration = calibrate_sensor(experiment, sensor, code_version="1", created="now")
+    calibration = calibrate_sensor(
+        experiment, sensor, code_version="1", created="now", regularisation=experiment.regularisation
+    )
     errors = evaluate_sensor(experiment, sensor, {"new": calibration})
     assert errors[0].errors.count == 8
     assert all(verdict.errors.force_mean < 0.2 for verdict in errors)

@@ -9,7 +9,15 @@ from pathlib import Path
 from typing import Annotated, Any, Final, Literal
 
 import numpy as np
-from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, PlainSerializer, ValidationError, WithJsonSchema
+from pydantic import (
+    BaseModel,
+    BeforeValidator,
+    ConfigDict,
+    Field,
+    PlainSerializer,
+    ValidationError,
+    WithJsonSchema,
+)
 
 from forcetorque.array_field import ArrayField
 from forcetorque.arrays import FloatArray, require_last_axis
@@ -146,7 +154,7 @@ class Calibration(_Part):
     offset: Annotated[FloatArray, ArrayField((6,))]
     """Offset in wrench space; shape (6,); N, N m."""
     matrix_standard_error: Annotated[FloatArray, ArrayField((6, None))] | None
-    """Standard error of the matrix by leaving out blocks; None where there was one block."""
+    """Standard error of the matrix by leaving out blocks, without the pull of the prior; None where it was kept."""
     offset_standard_error: Annotated[FloatArray, ArrayField((6,))] | None
     """Standard error of the offset by leaving out blocks; N, N m."""
     residual_rms: Annotated[FloatArray, ArrayField((6,))]

@@ -42,7 +42,7 @@ class CalibrationFit:
     curve: LambdaCurve | None
     """Held-out error over lambda; None where lambda was given."""
     matrix_standard_error: FloatArray | None
-    """Standard error of the matrix by leaving out blocks; shape (6, c); None with one block."""
+    """Standard error of the matrix by leaving out blocks; shape (6, c); None with one block or a kept prior."""
     offset_standard_error: FloatArray | None
     """Standard error of the offset by leaving out blocks; shape (6,); N, N m."""
     prior_offset: FloatArray | None
@@ -85,7 +85,7 @@ def calibrate(
     return CalibrationFit(
         fit=fit,
         curve=curve,
-        matrix_standard_error=matrix_error,
+        matrix_standard_error=None if math.isinf(regularisation) else matrix_error,
         offset_standard_error=offset_error,
         prior_offset=None if prior is None else solve_matrix(moments, prior, math.inf)[1],
     )

@@ -4,7 +4,7 @@
 The second moment of the raw readings is split in what the reference wrench explains and the rest
 (noise, drift, steps). Least squares shrinks the matrix along a direction by the explained share, so
 a direction of which less than half is explained carries more disturbance than load and counts as
-not excited.
+not excited. The share is adjusted for the number of samples, as if they were independent.
 """
 
 from __future__ import annotations
@@ -124,6 +124,9 @@ def excitation_of(moments: Moments) -> Excitation:
     )
     load = np.einsum("ij,jk,ik->i", directions, explained_matrix, directions)
     share = np.divide(load, variance, out=np.zeros_like(load), where=variance > 0.0)
+    # six regressors explain part of any few samples: the share is adjusted for them, as adjusted R2 is
+    free = moments.count - 1 - int(np.linalg.matrix_rank(moments.reference_reference, hermitian=True))
+    share = 1.0 - (1.0 - share) * (moments.count - 1) / free if free > 0 else np.zeros_like(share)
     return Excitation(
         variance=variance,
         directions=directions,

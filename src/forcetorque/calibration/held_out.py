@@ -84,10 +84,16 @@ def choose_lambda(blocks: Sequence[Moments], prior: FloatArray) -> LambdaCurve:
         The curve and the choice.
 
     Raises:
-        FitError: If there are fewer than two blocks.
+        FitError: If there are fewer than two blocks, or a block has too few samples to fit alone.
     """
     if len(blocks) < 2:
         raise FitError(f"choosing lambda: expected at least two blocks of data, got {len(blocks)}; give a lambda")
+    smallest, least = min(block.count for block in blocks), blocks[0].channels + 2
+    if smallest < least:
+        raise FitError(
+            f"choosing lambda: expected at least {least} samples in each of {len(blocks)} blocks, which are fitted "
+            f"alone, got {smallest}; give more data, or a lambda"
+        )
     candidates = candidate_lambdas(pooled(blocks))
     errors = np.empty((len(blocks), len(candidates)))
     for b, block in enumerate(blocks):
@@ -127,6 +133,6 @@ def jackknife_error(
         solve_matrix(pooled([other for o, other in enumerate(blocks) if o != b]), prior, regularisation)
         for b in range(len(blocks))
     ]
-    scale = (len(blocks) - 1) / np.sqrt(len(blocks))
+    scale = np.sqrt(len(blocks) - 1)  # of the standard deviation with divisor n
     matrices, offsets = np.stack([fit[0] for fit in fits]), np.stack([fit[1] for fit in fits])
     return scale * matrices.std(axis=0), scale * offsets.std(axis=0)

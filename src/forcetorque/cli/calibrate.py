@@ -64,6 +64,11 @@ def run(
         log.warning("%s: %s", finding.stream, finding.message)
     named = [experiment.sensor(name) for name in sensors] if sensors else list(experiment.sensors)
     chosen = list(dict.fromkeys(named))  # who names a sensor twice gets it once
+    if experiment.payload is not None:
+        log.warning(
+            "the load's mass was estimated with this sensor's own reading, so a wrong gain cannot be seen; "
+            "give mass_kg and centre_of_mass_m to judge it"
+        )
     files = _files(output, chosen)
     given = _lambda(regularisation, experiment)
     created = datetime.now(UTC).isoformat(timespec="seconds")

@@ -14,7 +14,7 @@ from rich.table import Table
 from forcetorque.arrays import FloatArray, require_shape
 from forcetorque.calibration import Calibration, read_calibration
 from forcetorque.cli.output import ExportFormat, Format, console, print_result, start_logging, table
-from forcetorque.errors import ForceTorqueError
+from forcetorque.errors import ExperimentError, ForceTorqueError
 from forcetorque.exchange.calibration_table import write_calibration_table
 from forcetorque.exchange.icub import encode_matrix, serial_number_in_name, write_matrix_file
 from forcetorque.exchange.wholebodydynamics import from_calibration, write_groups
@@ -133,6 +133,11 @@ def _to_icub_matrix(
     with stated_in(str(path)):
         if (serial := serial_number_in_name(output)) is not None:
             calibration.require_serial(serial)
+        if calibration.prior is not None and calibration.prior.source == "identity":
+            raise ExperimentError(
+                'its prior is "identity": the matrix corrects a calibrated stream and is not per count; '
+                "use --to wholebodydynamics"
+            )
         file = encode_matrix(calibration.matrix, full_scale=full_scale)
         error = _largest_in_range(file.matrix - calibration.matrix, calibration)
     write_matrix_file(output, file)

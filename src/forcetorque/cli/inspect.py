@@ -85,8 +85,13 @@ def run(path: Path, *, output_format: Format) -> None:
         duration_s=(end - start) * 1e-9,
         findings=[_row(finding, start) for finding in findings],
     )
-    rows = [row.model_dump() for row in result.findings] or [dict.fromkeys(FindingRow.model_fields, "")]
-    print_result(result.model_dump(mode="json", by_alias=True), rows, output_format, show=lambda: _show(result))
+    print_result(
+        result.model_dump(mode="json", by_alias=True),
+        [row.model_dump() for row in result.findings],
+        output_format,
+        show=lambda: _show(result),
+        columns=tuple(FindingRow.model_fields),
+    )
 
 
 def _yarp_recording(folder: Path) -> Recording:

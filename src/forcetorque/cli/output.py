@@ -89,6 +89,7 @@ def print_result(
     output_format: Format,
     *,
     show: Callable[[], None],
+    columns: Sequence[str] = (),
 ) -> None:
     """Print a result in the form that was asked for.
 
@@ -97,11 +98,12 @@ def print_result(
         rows: The same as flat rows, for CSV; a key that a row does not have is left empty.
         output_format: Form.
         show: Prints the result for people.
+        columns: Columns of the CSV that are there also without rows.
     """
     if output_format is Format.JSON:
         sys.stdout.write(json.dumps(result, indent=2, allow_nan=False) + "\n")
     elif output_format is Format.CSV:
-        names = list(dict.fromkeys(name for row in rows for name in row))
+        names = list(dict.fromkeys([*columns, *(name for row in rows for name in row)]))
         writer = csv.DictWriter(sys.stdout, fieldnames=names, lineterminator="\n")
         writer.writeheader()
         writer.writerows(rows)

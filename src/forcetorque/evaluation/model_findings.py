@@ -46,6 +46,7 @@ class _Residual:
     values: FloatArray
     smooth: FloatArray
     limit: FloatArray
+    least: FloatArray
     in_use: BoolArray
 
     def samples(self, seconds: float) -> int:
@@ -124,6 +125,7 @@ def _residual(
         values=values,
         smooth=smooth,
         limit=np.maximum(LOAD_SHARE * load, SCATTERS * scatter),
+        least=LOAD_SHARE * load,
         in_use=in_use,
     )
 
@@ -192,8 +194,13 @@ def _steps(residual: _Residual, free: BoolArray) -> list[Finding]:
     for axis, name in enumerate(WRENCH_COMPONENTS):
         change = np.zeros(len(free))
         change[shift:-shift] = levels[2 * shift :, axis] - levels[: -2 * shift, axis]
+        # a repeated edge sample is no level; and where a wrong prior makes levels wander, only the sudden counts
+        margin = shift + width // 2
+        change[:margin] = change[len(change) - margin :] = 0.0
+        usual = _ROBUST * float(np.median(np.abs(change[residual.in_use])))
+        limit = max(residual.least[axis], SCATTERS * usual)
         change[~away] = 0.0
-        while np.abs(change).max() > residual.limit[axis]:
+        while np.abs(change).max() > limit:
             peak = int(np.argmax(np.abs(change)))
             at = _steepest(residual, axis, peak, shift, float(np.sign(change[peak])))
             text = f"{name} steps against the model"

@@ -60,6 +60,7 @@ def evaluate_sensor(
         with stated_in(name):
             calibration.require_serial(sensor.serial)
         _refuse_other_reading(name, calibration, experiment, sensor)
+        _refuse_other_counts(name, calibration, sensor)
         _refuse_fitted(name, calibration, experiment)
     parts = samples_of(experiment, sensor, Use.VALIDATION)
     raw = np.concatenate([p.raw for p in parts])
@@ -106,6 +107,18 @@ def _refuse_other_reading(
         raise ExperimentError(
             f"calibration {name!r}: expected readings in the frame {tag.frame}, {tag.direction}, as the robot "
             f"{experiment.model.name!r} has them, got {', '.join(fitted)}; fit again with this robot"
+        )
+
+
+def _refuse_other_counts(name: str, calibration: Calibration, sensor: ExperimentSensor) -> None:
+    """Refuse counts that were recovered through another matrix than those of the fit."""
+    if sensor.quantity != "wrench" or sensor.prior is None:
+        return
+    if calibration.prior is None or not np.array_equal(calibration.prior.matrix, sensor.prior):
+        source = "none" if calibration.prior is None else calibration.prior.source
+        raise ExperimentError(
+            f"calibration {name!r}: expected counts recovered through the prior that it was fitted with ({source}), "
+            f"the experiment recovers them through {sensor.prior_source}; name the same matrix file"
         )
 
 

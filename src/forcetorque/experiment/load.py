@@ -43,6 +43,7 @@ def _of_robot(parsed: schema.ExperimentFile, file: Path) -> Experiment:
     if parsed.robot is None:
         raise ExperimentError(f"{file}: expected [robot] or [load]")
     inputs = Inputs(file.parent)
+    inputs.file(Path(file.name))
     model = declare_sensors(parsed, file, read_urdf(inputs.file(parsed.robot.urdf)))
     streams = read_streams(parsed, file, model, inputs)
     supports = read_supports(parsed, file, streams, model)
@@ -66,6 +67,7 @@ def _of_wrist(parsed: schema.ExperimentFile, file: Path) -> Experiment:
     if parsed.load is None:
         raise ExperimentError(f"{file}: expected [robot] or [load]")
     load, name, inputs = parsed.load, parsed.sensor[0].name, Inputs(file.parent)
+    inputs.file(Path(file.name))
     streams = read_streams(parsed, file, None, inputs)
     moving = MovingSupport(frame=load.frame, motion_streams=load.motion)
     with stated_in(f"{file}: load"):
@@ -74,9 +76,10 @@ def _of_wrist(parsed: schema.ExperimentFile, file: Path) -> Experiment:
     intervals = read_intervals(parsed, file, streams, {}, default=moving)
     (sensor,) = read_sensors(parsed, file, load_model(load, name, Inertia.zero()), streams, inputs)
     inertia, payload = given_inertia(load), None
+    processing = _processing(parsed, gravity=Processing().gravity)
     if inertia is None:
         with stated_in(f"{file}: load"):
-            payload = estimate_load(load, sensor, streams, intervals)
+            payload = estimate_load(load, sensor, streams, intervals, window=processing.derivative_window)
         inertia = payload.inertia()
     with stated_in(str(file)):
         recording = streams.with_intervals(intervals)
@@ -85,7 +88,7 @@ def _of_wrist(parsed: schema.ExperimentFile, file: Path) -> Experiment:
         model=load_model(load, name, inertia),
         recording=recording,
         sensors=(sensor,),
-        processing=_processing(parsed, gravity=Processing().gravity),
+        processing=processing,
         regularisation=parsed.calibration.lambda_counts2,
         payload=payload,
         inputs_sha256=inputs.sha256(),

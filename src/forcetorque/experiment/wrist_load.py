@@ -73,7 +73,12 @@ def given_inertia(load: schema.Load) -> Inertia | None:
 
 
 def estimate_load(
-    load: schema.Load, sensor: ExperimentSensor, recording: Recording, intervals: list[Interval]
+    load: schema.Load,
+    sensor: ExperimentSensor,
+    recording: Recording,
+    intervals: list[Interval],
+    *,
+    window: SavitzkyGolay,
 ) -> Payload:
     """Estimate mass, centre of mass and bias on the calibration intervals, with the prior matrix.
 
@@ -82,6 +87,7 @@ def estimate_load(
         sensor: The sensor.
         recording: Its stream, and those of the motion.
         intervals: Intervals of the experiment.
+        window: Filter that differentiates an IMU's angular velocity.
 
     Returns:
         The payload.
@@ -108,7 +114,7 @@ def estimate_load(
         MovingSupport(frame=load.frame, motion_streams=load.motion),
         JointMotion.at_rest((), np.empty((np.count_nonzero(chosen), 0))),
         stream.stamp_ns[chosen],
-        window=SavitzkyGolay(window_s=0.3, order=3),
+        window=window,
         gravity=0.0,
     )
     complete = np.isfinite(motion.proper_acceleration).all(axis=1) & np.isfinite(reading[chosen]).all(axis=1)
