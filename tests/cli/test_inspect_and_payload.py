@@ -122,6 +122,34 @@ def test_the_yoga_log_tells_its_story(run: Run, data_dir: Path, tmp_path: Path, 
 
 
 @pytest.mark.real_data
+def test_calibrate_warns_of_doubtful_samples(run: Run, data_dir: Path, tmp_path: Path) -> None:
+    """What inspect finds inside a fitted interval is a warning; the quiet part has none."""
+    warned = {}
+    for example in ("02_icub_yoga_forward.toml", "04_icub_yoga_quiet.toml"):
+        path = tmp_path / example
+        text = (EXAMPLES / example).read_text(encoding="utf-8")
+        path.write_text(text.replace("../../shared/data", data_dir.as_posix()))
+        ended = run("calibrate", path, "-o", tmp_path / "out.json")
+        assert ended.code == 0
+        warned[example] = [line for line in ended.log if "WARNING: interval" in line]
+    assert any("light_contact" in line for line in warned["02_icub_yoga_forward.toml"])
+    assert any("off_level" in line for line in warned["02_icub_yoga_forward.toml"])
+    assert warned["04_icub_yoga_quiet.toml"] == []
+
+
+@pytest.mark.real_data
+def test_an_estimated_load_cannot_judge_a_gain(run: Run, data_dir: Path, tmp_path: Path) -> None:
+    """Calibrating with a load that the sensor weighed itself warns, and is not exported as a matrix of counts."""
+    path = tmp_path / "wrist.toml"
+    text = (EXAMPLES / "07_wrist_payload.toml").read_text(encoding="utf-8")
+    path.write_text(text.replace("../../shared/data", data_dir.as_posix()))
+    ended = run("calibrate", path, "-o", tmp_path / "wrist.json")
+    assert any("a wrong gain cannot be seen" in line for line in ended.log)
+    refused = run("export", tmp_path / "wrist.json", "--to", "icub-matrix", "-o", tmp_path / "m.txt")
+    assert "not per count" in refused.error()
+
+
+@pytest.mark.real_data
 def test_a_frozen_sensor_of_the_standing_leg_is_found(run: Run, data_dir: Path) -> None:
     """The sensor of the leg that carries the robot repeats one reading for 2.4 and for 9.4 s."""
     log = data_dir / "icub_genova02_yoga" / "dumperLeftLegNoIMU"

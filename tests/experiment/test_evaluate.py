@@ -13,7 +13,7 @@ from forcetorque.calibration import Calibration
 from forcetorque.errors import ExperimentError, SerialNumberError, ShapeError
 from forcetorque.experiment import Experiment, calibrate_sensor, evaluate_sensor, load_experiment, samples_of
 from forcetorque.recording import Use
-from tests.experiments import PARQUET, add, edit
+from tests.experiments import PARQUET, YARP, add, edit
 
 
 @pytest.fixture(scope="module")
@@ -146,3 +146,14 @@ def test_an_experiment_that_only_fits_judges_nothing(experiment: Experiment, fit
     only = replace(experiment, recording=experiment.recording.with_intervals(fits))
     with pytest.raises(ExperimentError, match=r"expected an interval with use = \"validation\", it has none"):
         evaluate_sensor(only, only.sensors[0], {"new": fitted})
+
+
+def test_counts_through_another_prior_are_refused(arm: Path) -> None:
+    """A matrix is for counts recovered through the prior of its fit; through another they are other numbers."""
+    path = arm / YARP
+    experiment = load_experiment(path)
+    calibration = _fitted(experiment, 100.0)
+    assert evaluate_sensor(experiment, experiment.sensors[0], {"new": calibration})
+    other = load_experiment(edit(path, 'prior = "matrix_SIM001.txt"', 'prior = "identity"'))
+    with pytest.raises(ExperimentError, match="recovered through the prior that it was fitted with"):
+        evaluate_sensor(other, other.sensors[0], {"new": calibration})

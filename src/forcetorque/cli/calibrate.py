@@ -16,8 +16,9 @@ from rich.table import Table
 from forcetorque.calibration import Calibration, write_calibration
 from forcetorque.cli.output import Format, console, print_result, start_logging, table
 from forcetorque.errors import ExperimentError, FitError
-from forcetorque.experiment import Experiment, ExperimentSensor, calibrate_sensor, load_experiment
+from forcetorque.experiment import Experiment, ExperimentSensor, calibrate_sensor, doubtful_spans, load_experiment
 from forcetorque.experiment.inputs import stated_in
+from forcetorque.recording import Use
 from forcetorque.spatial import WRENCH_COMPONENTS, WRENCH_UNITS
 
 
@@ -70,6 +71,17 @@ def run(
             "give mass_kg and centre_of_mass_m to judge it"
         )
     files = _files(output, chosen)
+    start_ns = experiment.recording.start_ns
+    for interval, finding in doubtful_spans(experiment, Use.CALIBRATION):
+        span = [((ns or 0) - start_ns) * 1e-9 for ns in (finding.start_ns, finding.end_ns)]
+        log.warning(
+            "interval %r: %s %s at %.2f-%.2f s: %s",
+            interval.label,
+            finding.stream,
+            finding.kind,
+            *span,
+            finding.message,
+        )
     given = _lambda(regularisation, experiment)
     created = datetime.now(UTC).isoformat(timespec="seconds")
     written = []

@@ -4,7 +4,7 @@
 from forcetorque.experiment.calibrate import calibrate_sensor
 from forcetorque.experiment.content import Experiment, ExperimentSensor
 from forcetorque.experiment.evaluate import Verdict, evaluate_sensor
-from forcetorque.experiment.inspect import inspect_experiment, inspect_recording
+from forcetorque.experiment.inspect import doubtful_spans, inspect_experiment, inspect_recording
 from forcetorque.experiment.load import load_experiment
 from forcetorque.experiment.parse import parse_experiment
 from forcetorque.experiment.samples import IntervalSamples, samples_of
@@ -17,6 +17,7 @@ __all__ = [
     "IntervalSamples",
     "Verdict",
     "calibrate_sensor",
+    "doubtful_spans",
     "evaluate_sensor",
     "inspect_experiment",
     "inspect_recording",

@@ -16,6 +16,9 @@ from forcetorque.experiment.content import Experiment, ExperimentSensor
 from forcetorque.recording import Finding, Interval, Recording, Use
 from forcetorque.recording.quality import saturation_findings, stream_findings
 
+_DOUBTFUL = {"contact", "light_contact", "off_level", "step", "saturation", "frozen", "stuck", "gap", "backward_stamp"}
+"""Kinds of findings that make the samples of their span doubtful."""
+
 
 def inspect_recording(recording: Recording) -> tuple[Finding, ...]:
     """Look for what is wrong with a recording, without a robot.
@@ -43,7 +46,11 @@ def inspect_experiment(experiment: Experiment) -> tuple[Finding, ...]:
     """
     found = list(inspect_recording(experiment.recording))
     for sensor in experiment.sensors:
-        found += _saturation(experiment, sensor)
+        try:
+            found += _saturation(experiment, sensor)
+        except ForceTorqueError as error:
+            text = f"no look for saturation: {error}"
+            found.append(Finding(stream=sensor.stream, kind="not_compared", message=text, count=0))
         for interval in _spans(experiment):
             try:
                 found += _against_model(experiment, sensor, interval)
@@ -51,6 +58,29 @@ def inspect_experiment(experiment: Experiment) -> tuple[Finding, ...]:
                 text = f"no comparison with the model over {interval.label}: {error}"
                 found.append(Finding(stream=sensor.stream, kind="not_compared", message=text, count=0))
     return tuple(sorted(found, key=lambda finding: finding.start_ns or 0))
+
+
+def doubtful_spans(experiment: Experiment, use: Use) -> tuple[tuple[Interval, Finding], ...]:
+    """Find what `inspect_experiment` sees inside the intervals of one use.
+
+    Args:
+        experiment: The experiment.
+        use: Use of the intervals.
+
+    Returns:
+        Interval and finding, for findings that make its samples doubtful.
+    """
+    findings = [finding for finding in inspect_experiment(experiment) if finding.kind in _DOUBTFUL]
+    return tuple(
+        (interval, finding)
+        for interval in experiment.recording.intervals
+        if interval.use is use
+        for finding in findings
+        if finding.start_ns is not None
+        and finding.end_ns is not None
+        and finding.start_ns < interval.end_ns
+        and finding.end_ns >= interval.start_ns
+    )
 
 
 def _saturation(experiment: Experiment, sensor: ExperimentSensor) -> tuple[Finding, ...]:
