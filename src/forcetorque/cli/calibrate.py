@@ -13,6 +13,7 @@ from urllib.parse import quote
 from pydantic import BaseModel, ConfigDict, Field
 from rich.table import Table
 
+from forcetorque.arrays import FloatArray
 from forcetorque.calibration import Calibration, write_calibration
 from forcetorque.cli.output import Format, console, print_result, start_logging, table
 from forcetorque.errors import ExperimentError, FitError
@@ -92,6 +93,14 @@ def run(
                 experiment, sensor, code_version=version("forcetorque"), created=created, regularisation=given
             )
             secondary = calibration.secondary_matrix()
+        reversed_axes = () if secondary is None else _reversed_axes(secondary)
+        if reversed_axes:
+            log.warning(
+                "%s: %s come(s) out with the sign of the prior reversed; "
+                "is gravity_direction or measure_direction the right way round?",
+                sensor.name,
+                ", ".join(reversed_axes),
+            )
         unexcited = calibration.validity.excited.count(False)
         if unexcited:
             log.warning(
@@ -140,6 +149,11 @@ def _lambda(text: str | None, experiment: Experiment) -> float | None:
     if not value >= 0.0:
         raise FitError(f"--lambda: expected a number of at least 0 counts2 or `held-out`, got {text!r}")
     return value
+
+
+def _reversed_axes(secondary: FloatArray) -> tuple[str, ...]:
+    """Components that the new matrix reads with the opposite sign of the prior."""
+    return tuple(name for name, own in zip(WRENCH_COMPONENTS, secondary.diagonal(), strict=True) if own < 0.0)
 
 
 def _rows(entry: WrittenCalibration) -> list[dict[str, object]]:
