@@ -13,7 +13,7 @@ from pathlib import Path
 
 import numpy as np
 
-from forcetorque.calibration import DataSet, calibrate
+from forcetorque.calibration import calibrate
 from forcetorque.evaluation import offset_removed, wrench_errors
 from forcetorque.experiment import Experiment, ExperimentSensor, load_experiment, samples_of
 from forcetorque.recording import Use
@@ -21,10 +21,7 @@ from forcetorque.recording import Use
 
 def show_curve(experiment: Experiment, sensor: ExperimentSensor) -> None:
     """Print the held-out and the judged error of every candidate lambda of one sensor."""
-    fitted = [
-        DataSet(label=part.interval.label, raw=part.raw, reference=part.samples.reference)
-        for part in samples_of(experiment, sensor, Use.CALIBRATION)
-    ]
+    fitted = [part.data_set for part in samples_of(experiment, sensor, Use.CALIBRATION)]
     judged = samples_of(experiment, sensor, Use.VALIDATION)
     raw = np.concatenate([part.raw for part in judged])
     reference = np.concatenate([part.samples.reference for part in judged])

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from datetime import UTC, datetime
 from importlib.metadata import version
 from pathlib import Path
@@ -73,7 +74,7 @@ def run(
         )
     files = _files(output, chosen)
     start_ns = experiment.recording.start_ns
-    for interval, finding in doubtful_spans(experiment, Use.CALIBRATION):
+    for interval, finding in doubtful_spans(replace(experiment, sensors=tuple(chosen)), Use.CALIBRATION):
         span = [((ns or 0) - start_ns) * 1e-9 for ns in (finding.start_ns, finding.end_ns)]
         log.warning(
             "interval %r: %s %s at %.2f-%.2f s: %s",

@@ -11,7 +11,6 @@ from forcetorque.calibration import (
     RULE,
     Calibration,
     CalibrationFit,
-    DataSet,
     FittedInterval,
     Prior,
     Provenance,
@@ -47,7 +46,7 @@ def calibrate_sensor(
     """
     parts = samples_of(experiment, sensor, Use.CALIBRATION)
     result = calibrate(
-        [DataSet(label=p.interval.label, raw=p.raw, reference=p.samples.reference) for p in parts],
+        [part.data_set for part in parts],
         sensor.prior,
         regularisation=regularisation,
     )

@@ -6,7 +6,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from forcetorque.arrays import FloatArray
-from forcetorque.calibration import recover_raw
+from forcetorque.calibration import DataSet, recover_raw
 from forcetorque.errors import ExperimentError
 from forcetorque.estimation import SensorSamples, sensor_samples
 from forcetorque.experiment.content import Experiment, ExperimentSensor
@@ -23,6 +23,11 @@ class IntervalSamples:
     """Reading and reference at the same instants."""
     raw: FloatArray
     """Raw readings, logged or recovered through the prior; shape (n, c); counts."""
+
+    @property
+    def data_set(self) -> DataSet:
+        """The same as data to fit."""
+        return DataSet(label=self.interval.label, raw=self.raw, reference=self.samples.reference)
 
 
 def samples_of(experiment: Experiment, sensor: ExperimentSensor, use: Use) -> list[IntervalSamples]:

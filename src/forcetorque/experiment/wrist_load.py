@@ -11,7 +11,7 @@ from forcetorque.experiment import schema
 from forcetorque.experiment.content import ExperimentSensor
 from forcetorque.recording import Interval, MovingSupport, Recording, SavitzkyGolay, Use
 from forcetorque.robot import ForceTorqueSensor, Joint, JointMotion, JointType, RobotModel, SensorFrame
-from forcetorque.spatial import Inertia, split_pose
+from forcetorque.spatial import Inertia
 
 LOAD_LINK = "load"
 """Link of what hangs on the sensor."""
@@ -30,7 +30,6 @@ def load_model(load: schema.Load, sensor: str, inertia: Inertia) -> RobotModel:
         Two links, joined by a fixed joint with the sensor.
     """
     identity = np.eye(4)
-    rotation, _ = split_pose(identity)
     return RobotModel(
         name=f"load of {sensor}",
         links={load.frame: Inertia.zero(), LOAD_LINK: inertia},
@@ -41,7 +40,7 @@ def load_model(load: schema.Load, sensor: str, inertia: Inertia) -> RobotModel:
                 parent=load.frame,
                 child=LOAD_LINK,
                 parent_H_child=identity,
-                axis=rotation[0],
+                axis=np.array([1.0, 0.0, 0.0]),  # a fixed joint has none
             )
         },
         sensors={

@@ -7,11 +7,9 @@ import math
 from collections.abc import Callable, Iterable
 from pathlib import Path
 from typing import TypeVar
-from xml.etree.ElementTree import Element, ParseError
+from xml.etree.ElementTree import Element
 
 import numpy as np
-from defusedxml.common import DefusedXmlException
-from defusedxml.ElementTree import parse
 
 from forcetorque.arrays import FloatArray
 from forcetorque.errors import FormatError, MissingFileError, RobotError
@@ -19,6 +17,7 @@ from forcetorque.robot.model import Joint, JointType, Mimic, RobotModel
 from forcetorque.robot.urdf_attributes import UrdfPlace, number, numbers, origin, required
 from forcetorque.robot.urdf_sensors import read_sensors
 from forcetorque.spatial import Inertia, split_pose
+from forcetorque.xml_file import read_xml
 
 _Named = TypeVar("_Named")
 
@@ -42,12 +41,7 @@ def read_urdf(path: Path | str) -> RobotModel:
     file = Path(path)
     if not file.is_file():
         raise MissingFileError(f"{file}: expected a URDF file, there is none")
-    try:
-        robot = parse(file).getroot()
-    except ParseError as error:
-        raise FormatError(f"{file}:{error.position[0]}: expected XML, got {error.msg}") from error
-    except (DefusedXmlException, ValueError, LookupError) as error:
-        raise FormatError(f"{file}: expected plain XML, got {error!r}") from error
+    robot = read_xml(file)
     if robot is None or robot.tag != "robot":
         got = "nothing" if robot is None else f"<{robot.tag}>"
         raise FormatError(f"{file}: expected the root element <robot>, got {got}; expand xacro files first")

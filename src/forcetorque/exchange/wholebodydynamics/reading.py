@@ -6,16 +6,15 @@ from __future__ import annotations
 import math
 import re
 from pathlib import Path
-from xml.etree.ElementTree import Element, ParseError
+from xml.etree.ElementTree import Element
 
 import numpy as np
-from defusedxml.common import DefusedXmlException
-from defusedxml.ElementTree import parse
 
 from forcetorque.arrays import FloatArray
 from forcetorque.errors import FormatError, MissingFileError
 from forcetorque.exchange.wholebodydynamics.correction import SensorCorrection
 from forcetorque.exchange.wholebodydynamics.group import Group
+from forcetorque.xml_file import read_xml
 
 _LIST = re.compile(r"\(([^()]*)\)")
 _SEPARATOR = re.compile(r"[\s,]+")
@@ -45,12 +44,7 @@ def read_groups(path: Path | str) -> tuple[SensorCorrection, ...]:
     file = Path(path)
     if not file.is_file():
         raise MissingFileError(f"{file}: expected a configuration of wholebodydynamics, there is no such file")
-    try:
-        root = parse(file).getroot()
-    except ParseError as error:
-        raise FormatError(f"{file}:{error.position[0]}: expected XML, got {error.msg}") from error
-    except (DefusedXmlException, ValueError, LookupError) as error:
-        raise FormatError(f"{file}: expected plain XML, got {error!r}") from error
+    root = read_xml(file)
     try:
         lists = _read_lists(root)
         names = dict.fromkeys(name for params in lists.values() for name in params)
