@@ -17,7 +17,7 @@ from forcetorque.calibration.excitation import Excitation, excitation_of
 from forcetorque.calibration.fit import MatrixFit, fit_matrix
 from forcetorque.calibration.held_out import RULE, LambdaCurve, choose_lambda
 from forcetorque.calibration.moments import Moments, pooled
-from forcetorque.calibration.raw import recover_raw
+from forcetorque.calibration.raw import is_invertible, recover_raw
 from forcetorque.calibration.secondary import secondary_matrix
 
 __all__ = [
@@ -39,6 +39,7 @@ __all__ = [
     "choose_lambda",
     "excitation_of",
     "fit_matrix",
+    "is_invertible",
     "pooled",
     "read_calibration",
     "recover_raw",

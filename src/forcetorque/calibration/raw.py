@@ -14,6 +14,19 @@ _WORST_CONDITION = 1e12
 """Beyond this condition number of the row-scaled matrix, double precision loses the counts."""
 
 
+def is_invertible(matrix: FloatArray) -> bool:
+    """Tell whether a calibration matrix can be undone, whatever the units of its rows.
+
+    Args:
+        matrix: Calibration matrix; shape (6, 6); N/count, N m/count.
+
+    Returns:
+        Whether its inverse is more than rounding.
+    """
+    rows = np.linalg.norm(matrix, axis=1, keepdims=True)
+    return bool((rows > 0.0).all() and np.linalg.cond(matrix / rows) < _WORST_CONDITION)
+
+
 def recover_raw(wrench: Any, prior: Any) -> FloatArray:
     """Undo the matrix with which a sensor's electronics turned counts into a wrench.
 
@@ -35,7 +48,6 @@ def recover_raw(wrench: Any, prior: Any) -> FloatArray:
     require_last_axis(readings, name="wrench", length=6)
     if matrix.shape != (6, 6):
         raise ShapeError(f"prior: expected shape (6, 6) to recover raw counts, got {matrix.shape}")
-    rows = np.linalg.norm(matrix, axis=1, keepdims=True)
-    if not (rows > 0.0).all() or not np.linalg.cond(matrix / rows) < _WORST_CONDITION:
+    if not is_invertible(matrix):
         raise FitError("the prior matrix is singular, so raw counts cannot be recovered from the calibrated stream")
     return np.asarray(np.linalg.solve(matrix, readings.T).T, dtype=np.float64)

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from forcetorque.arrays import FloatArray
+from forcetorque.calibration.raw import is_invertible
 from forcetorque.errors import FitError, ShapeError
 
 
@@ -29,7 +30,6 @@ def secondary_matrix(matrix: Any, prior: Any) -> FloatArray:
     for name, array in (("matrix", new), ("prior", old)):
         if array.shape != (6, 6):
             raise ShapeError(f"{name}: expected shape (6, 6), got {array.shape}")
-    try:
-        return np.asarray(np.linalg.solve(old.T, new.T).T, dtype=np.float64)
-    except np.linalg.LinAlgError as error:
-        raise FitError("the prior matrix is singular, so no matrix corrects what it made") from error
+    if not is_invertible(old):
+        raise FitError("the prior matrix is singular, so no matrix corrects what it made")
+    return np.asarray(np.linalg.solve(old.T, new.T).T, dtype=np.float64)

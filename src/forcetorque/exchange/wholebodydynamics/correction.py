@@ -10,16 +10,13 @@ from typing import Any
 import numpy as np
 
 from forcetorque.arrays import FloatArray, read_only, require_last_axis
-from forcetorque.calibration import Calibration
+from forcetorque.calibration import Calibration, is_invertible
 from forcetorque.errors import FitError, FormatError, RecordingError, ShapeError
 
 # The device gets "(NAME (NUMBERS))" as text and splits it again, so the name must come out as one
 # word of text: these characters end or quote a word, and these words become numbers or booleans.
 _SPLITS_A_NAME = re.compile(r"[\s,()\[\]{}\"\\]")
 _READS_AS_A_VALUE = re.compile(r"[-+.0-9][-+.0-9eE]*|[-+0]+[xX][-+.0-9a-fA-F]*|true|false|null|nan|-?inf")
-
-_WORST_CONDITION = 1e12
-"""Beyond this condition number of the row-scaled prior, its inverse is rounding."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -119,8 +116,7 @@ def from_calibration(calibration: Calibration, *, sensor_name: str | None = None
             f"{where}: expected a matrix and a prior matrix of shape (6, 6), got {got}; "
             "calibrated readings can be corrected only if the matrix that made them is known"
         )
-    rows = np.linalg.norm(prior.matrix, axis=1, keepdims=True)
-    if not (rows > 0.0).all() or not np.linalg.cond(prior.matrix / rows) < _WORST_CONDITION:
+    if not is_invertible(prior.matrix):
         raise FitError(f"{where}: expected a prior matrix that can be inverted, got a singular one")
     secondary = calibration.secondary_matrix()
     return SensorCorrection(
