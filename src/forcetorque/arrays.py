@@ -18,21 +18,35 @@ BoolArray = npt.NDArray[np.bool_]
 def read_only(values: Any, *, name: str, shape: tuple[int | None, ...]) -> FloatArray:
     """Copy values to a float64 array that nobody can change afterwards.
 
+    An array that is read-only already, with all memory that it is a view of, is taken as it is: a
+    recording of ten million samples need not be held twice, and a file mapped for reading not at all.
+
     Args:
         values: Anything NumPy can turn into numbers.
         name: Name of the argument, for the message.
         shape: Expected shape; `None` accepts any length of that axis.
 
     Returns:
-        A new read-only array of that shape.
+        A read-only array of that shape.
 
     Raises:
         ShapeError: If the shape differs.
     """
-    array = np.array(values, dtype=np.float64, order="C")
+    array = values if _is_frozen(values) else np.array(values, dtype=np.float64, order="C")
     require_shape(array, name=name, shape=shape)
     array.setflags(write=False)
     return array
+
+
+def _is_frozen(values: Any) -> bool:
+    """Whether it is a C-ordered float64 array that nobody holds a writable view of by accident."""
+    if not isinstance(values, np.ndarray) or values.dtype != np.float64 or not values.flags.c_contiguous:
+        return False
+    while isinstance(values, np.ndarray):
+        if values.flags.writeable:
+            return False
+        values = values.base
+    return True
 
 
 def require_shape(array: npt.NDArray[Any], *, name: str, shape: tuple[int | None, ...]) -> None:

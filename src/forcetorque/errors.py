@@ -39,6 +39,10 @@ class ExperimentError(ForceTorqueError, ValueError):
     """An experiment file contradicts itself or what it points to."""
 
 
+class EstimationError(ForceTorqueError, ValueError):
+    """An estimation was asked for what its sensors and contacts cannot tell."""
+
+
 class FitError(ForceTorqueError, ValueError):
     """Data do not determine what a fit was asked for."""
 

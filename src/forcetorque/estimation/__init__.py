@@ -1,8 +1,33 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What mechanics demands of the sensors of a recording."""
+"""What mechanics demands of sensors, contacts and joints."""
 
+from forcetorque.estimation.ambiguity import indistinguishable
+from forcetorque.estimation.contact import Contact, ContactType
+from forcetorque.estimation.estimate import Evaluator, estimate
+from forcetorque.estimation.estimates import Estimates, Layout
+from forcetorque.estimation.needs import required_joints_of
 from forcetorque.estimation.payload import Payload, identify_payload
+from forcetorque.estimation.question import MinimumNorm, Question, TorqueSum, moving_joints
 from forcetorque.estimation.root_motion import support_motion_at
 from forcetorque.estimation.samples import Processing, SensorSamples, sensor_samples
 
-__all__ = ["Payload", "Processing", "SensorSamples", "identify_payload", "sensor_samples", "support_motion_at"]
+__all__ = [
+    "Contact",
+    "ContactType",
+    "Estimates",
+    "Evaluator",
+    "Layout",
+    "MinimumNorm",
+    "Payload",
+    "Processing",
+    "Question",
+    "SensorSamples",
+    "TorqueSum",
+    "estimate",
+    "identify_payload",
+    "indistinguishable",
+    "moving_joints",
+    "required_joints_of",
+    "sensor_samples",
+    "support_motion_at",
+]

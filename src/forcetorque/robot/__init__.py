@@ -8,6 +8,7 @@ from forcetorque.robot.newton_euler import expected_wrenches
 from forcetorque.robot.requirements import required_joints
 from forcetorque.robot.tree import BodyTree, build_tree
 from forcetorque.robot.urdf import read_urdf
+from forcetorque.robot.wrenches import Wrenches
 
 __all__ = [
     "BodyTree",
@@ -19,6 +20,7 @@ __all__ = [
     "RobotModel",
     "RootMotion",
     "SensorFrame",
+    "Wrenches",
     "build_tree",
     "expected_wrenches",
     "joints_between",

@@ -30,6 +30,27 @@ class BodyState:
     """Proper acceleration of the origin; m/s2."""
 
 
+def root_vectors(root: RootMotion, samples: int) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Give the root's motion in the order of the recursion.
+
+    Args:
+        root: Motion of one sample or of all.
+        samples: Number of samples, n.
+
+    Returns:
+        Angular velocity, angular acceleration and proper acceleration; shape (1, 3) or (n, 3) each.
+
+    Raises:
+        ShapeError: If the motion has neither one sample nor n.
+    """
+    vectors = (root.angular_velocity, root.angular_acceleration, root.proper_acceleration)
+    for values in vectors:
+        if values.ndim == 2 and len(values) not in {1, samples}:
+            raise ShapeError(f"root motion: expected 1 or {samples} samples, got {len(values)}")
+    omega, alpha, proper = (values.reshape(-1, 3) for values in vectors)
+    return omega, alpha, proper
+
+
 def stacked_root(root: RootMotion, samples: int) -> FloatArray:
     """Give the root's motion for every sample.
 
@@ -39,15 +60,8 @@ def stacked_root(root: RootMotion, samples: int) -> FloatArray:
 
     Returns:
         Angular velocity, angular acceleration and proper acceleration; shape (3, n, 3).
-
-    Raises:
-        ShapeError: If the motion has neither one sample nor n.
     """
-    vectors = (root.angular_velocity, root.angular_acceleration, root.proper_acceleration)
-    for values in vectors:
-        if values.ndim == 2 and len(values) not in {1, samples}:
-            raise ShapeError(f"root motion: expected 1 or {samples} samples, got {len(values)}")
-    return np.stack([np.broadcast_to(values, (samples, 3)) for values in vectors])
+    return np.stack([np.broadcast_to(values, (samples, 3)) for values in root_vectors(root, samples)])
 
 
 def motion_of_link(tree: BodyTree, joints: JointMotion, root: RootMotion, link: str) -> RootMotion:

@@ -55,6 +55,19 @@ class JointMotion:
         zero = np.zeros_like(np.asarray(position, dtype=np.float64))
         return cls(names=tuple(names), position=position, velocity=zero, acceleration=zero)
 
+    def samples(self, block: slice) -> JointMotion:
+        """Look at some of the samples.
+
+        Args:
+            block: Range of samples, without a step.
+
+        Returns:
+            The same memory.
+        """
+        parts = (values[block] for values in (self.position, self.velocity, self.acceleration))
+        position, velocity, acceleration = parts
+        return JointMotion(names=self.names, position=position, velocity=velocity, acceleration=acceleration)
+
     def __len__(self) -> int:
         return len(self.position)
 

@@ -19,8 +19,8 @@ from forcetorque.errors import RobotError, known_names
 from forcetorque.robot.kinematics import BodyState, move_to, root_state, stacked_root
 from forcetorque.robot.motion import JointMotion, RootMotion
 from forcetorque.robot.requirements import needed_bodies, required_joints
-from forcetorque.robot.tree import Body, BodyTree
-from forcetorque.spatial import invert_pose, transform_wrench
+from forcetorque.robot.tree import BodyTree
+from forcetorque.spatial import Inertia, invert_pose, transform_wrench
 
 _BLOCK = 4096
 """Samples per pass: the working arrays of a block stay in the processor's cache."""
@@ -73,11 +73,11 @@ def _evaluate_block(
             continue
         states[index] = root_state(base) if body.parent < 0 else move_to(body, states[body.parent], joints, block)
         if weighing[index]:
-            wrenches[index] = _net_wrench(body, states[index])
+            wrenches[index] = net_wrench(body.inertia, states[index])
     for index in reversed(range(len(tree.bodies))):
         parent = tree.bodies[index].parent
         if weighing[index] and parent >= 0 and weighing[parent]:
-            wrenches[parent] += _in_parent(states[index], wrenches[index])
+            wrenches[parent] += in_parent(states[index], wrenches[index])
     zero = np.zeros((base.shape[1], 6))
     readings = {}
     for name in sensors:
@@ -87,20 +87,50 @@ def _evaluate_block(
     return readings
 
 
-def _net_wrench(body: Body, state: BodyState) -> FloatArray:
-    """Force and moment about the body's origin that make the body move as it does; shape (n, 6)."""
+def net_wrench(inertia: Inertia, state: BodyState) -> FloatArray:
+    """Compute the wrench that makes a body move as it does (thesis 2.3 with the corrected inertia).
+
+    Args:
+        inertia: Inertia in and about the body's frame.
+        state: Motion of the body; n samples.
+
+    Returns:
+        Force and moment along the body's axes, about its origin; shape (n, 6); N, N m.
+    """
     omega, alpha = state.angular_velocity, state.angular_acceleration
-    moment, tensor = body.inertia.first_moment, body.inertia.second_moment
+    moment, tensor = inertia.first_moment, inertia.second_moment
     force = (
-        body.inertia.mass * state.proper_acceleration
-        + np.cross(alpha, moment)
-        + np.cross(omega, np.cross(omega, moment))
+        inertia.mass * state.proper_acceleration + np.cross(alpha, moment) + np.cross(omega, np.cross(omega, moment))
     )
     couple = alpha @ tensor + np.cross(omega, omega @ tensor) + np.cross(moment, state.proper_acceleration)
     return np.concatenate([force, couple], axis=1)
 
 
-def _in_parent(state: BodyState, wrench: FloatArray) -> FloatArray:
+def in_parent(state: BodyState, wrench: FloatArray) -> FloatArray:
+    """Express wrenches on a body in its parent's frame.
+
+    Args:
+        state: Where the body is in its parent; n samples.
+        wrench: Wrenches along the body's axes, about its origin; shape (n, 6); N, N m.
+
+    Returns:
+        The same along the parent's axes, about its origin; shape (n, 6); N, N m.
+    """
     force: FloatArray = np.einsum("...ij,...j->...i", state.parent_R_body, wrench[:, :3])
     couple = np.einsum("...ij,...j->...i", state.parent_R_body, wrench[:, 3:])
     return np.concatenate([force, couple + np.cross(state.parent_p_body, force)], axis=1)
+
+
+def in_body(state: BodyState, wrench: FloatArray) -> FloatArray:
+    """Express wrenches in a parent's frame in the frame of a body that hangs on it.
+
+    Args:
+        state: Where the body is in its parent; n samples.
+        wrench: Wrenches along the parent's axes, about its origin; shape (n, 6); N, N m.
+
+    Returns:
+        The same along the body's axes, about its origin; shape (n, 6); N, N m.
+    """
+    about_body = wrench[:, 3:] - np.cross(state.parent_p_body, wrench[:, :3])
+    force = np.einsum("...ji,...j->...i", state.parent_R_body, wrench[:, :3])
+    return np.concatenate([force, np.einsum("...ji,...j->...i", state.parent_R_body, about_body)], axis=1)

@@ -51,6 +51,8 @@ class Body:
     """Index of the parent body, smaller than its own; -1 for the root."""
     connection: Connection
     """How it hangs on its parent."""
+    joint: str | None
+    """Joint that it hangs on; None for the root and for a cut."""
     coordinate: Coordinate | None
     """Coordinate of its joint; None for the root and for a cut."""
     parent_R_joint: FloatArray
@@ -85,12 +87,14 @@ class BodyTree:
     """Bodies, every parent before its children."""
     frames: Mapping[str, tuple[int, FloatArray]]
     """Body and `body_H_link` of every link."""
+    inertias: Mapping[str, Inertia]
+    """Inertia of every link, in and about the link's frame."""
     cuts: Mapping[str, SensorCut]
     """Cut of every sensor in a fixed joint, by the sensor's name."""
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "frames", MappingProxyType(dict(self.frames)))
-        object.__setattr__(self, "cuts", MappingProxyType(dict(self.cuts)))
+        for field in ("frames", "inertias", "cuts"):
+            object.__setattr__(self, field, MappingProxyType(dict(getattr(self, field))))
 
 
 def build_tree(model: RobotModel, root_link: str) -> BodyTree:
@@ -137,7 +141,7 @@ class _Builder:
         self.links: list[list[str]] = []
 
     def add_root(self, link: str) -> None:
-        self._place(link, self._new_body(-1, Connection.ROOT, None, np.eye(4)), np.eye(4))
+        self._place(link, self._new_body(-1, Connection.ROOT, None, None, np.eye(4)), np.eye(4))
 
     def cross(self, joint: Joint, *, downwards: bool) -> None:
         """Add the link on the other side of a joint."""
@@ -146,7 +150,7 @@ class _Builder:
         here_H_there = joint.parent_H_child if downwards else invert_pose(joint.parent_H_child)
         if not joint.type.moves:
             if joint.name in self.cut_joints:
-                body = self._new_body(body, Connection.CUT, None, np.eye(4))
+                body = self._new_body(body, Connection.CUT, None, None, np.eye(4))
             self._place(there, body, body_H_here @ here_H_there)
             return
         # seen from the child the parent turns the other way, about the child frame's own origin
@@ -155,7 +159,8 @@ class _Builder:
         here_H_child = joint.parent_H_child if downwards else np.eye(4)
         child_H_there = np.eye(4) if downwards else here_H_there
         connection = Connection.PRISMATIC if joint.type is JointType.PRISMATIC else Connection.ROTARY
-        moved = self._new_body(body, connection, self._coordinate(joint), body_H_here @ here_H_child @ child_H_joint)
+        body_H_joint = body_H_here @ here_H_child @ child_H_joint
+        moved = self._new_body(body, connection, joint.name, self._coordinate(joint), body_H_joint)
         self._place(there, moved, invert_pose(child_H_joint) @ child_H_there)
 
     def finish(self, root_link: str) -> BodyTree:
@@ -165,16 +170,22 @@ class _Builder:
         )
         fixed = (s for s in self.model.sensors.values() if not self.model.joints[s.joint].type.moves)
         cuts = {sensor.name: self._cut(sensor) for sensor in fixed}
-        return BodyTree(root_link=root_link, bodies=bodies, frames=self.frames, cuts=cuts)
+        return BodyTree(root_link=root_link, bodies=bodies, frames=self.frames, inertias=self.model.links, cuts=cuts)
 
     def _new_body(
-        self, parent: int, connection: Connection, coordinate: Coordinate | None, parent_H_joint: FloatArray
+        self,
+        parent: int,
+        connection: Connection,
+        joint: str | None,
+        coordinate: Coordinate | None,
+        parent_H_joint: FloatArray,
     ) -> int:
         rotation, position = split_pose(parent_H_joint)
         self.shells.append(
             Body(
                 parent=parent,
                 connection=connection,
+                joint=joint,
                 coordinate=coordinate,
                 parent_R_joint=rotation,
                 parent_p_joint=position,

@@ -1,0 +1,99 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Which unknowns of a sub-model its equation cannot tell apart."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from forcetorque.arrays import BoolArray, FloatArray
+from forcetorque.estimation.inputs import Inputs, checked_inputs
+from forcetorque.estimation.needs import needs_of
+from forcetorque.estimation.question import Question
+from forcetorque.estimation.reference import RANK_TOLERANCE, Block, body_states, contact_columns, weighted
+from forcetorque.robot import JointMotion, RootMotion, Wrenches
+from forcetorque.robot.sub_model import SubModel
+
+_POSES = 64
+"""Poses that are looked at, evenly over the samples: what cannot be told apart depends on the pose alone."""
+
+_PART = 1e-6
+"""An unknown takes part in a motion that the equation does not see if this share of it does."""
+
+
+def indistinguishable(
+    question: Question, joints: JointMotion, *, active: Mapping[str, Any] | None = None
+) -> dict[str, tuple[tuple[str, ...], ...]]:
+    """Find unknowns that can trade off against each other without any reading changing.
+
+    Args:
+        question: The question.
+        joints: Poses; motion of at least the joints that it depends on; n samples.
+        active: By the name of an unknown contact, whether it is there; shape (n,), bool; others always are.
+
+    Returns:
+        By sub-model with such unknowns, groups of them, each named `contact.component`; in a group every one
+        depends on another in some of the poses.
+    """
+    at_rest = JointMotion.at_rest(joints.names, joints.position)
+    still = RootMotion(proper_acceleration=np.zeros(3), angular_velocity=np.zeros(3), angular_acceleration=np.zeros(3))
+    nothing = {name: np.zeros((len(joints), 6)) for name in (*question.measured, *(c.name for c in question.known))}
+    wrenches = Wrenches.of(nothing) if nothing else None
+    inputs = checked_inputs(question, at_rest, still, wrenches, wrenches, active)
+    block = _poses(question, inputs)
+    states = body_states(question, needs_of(question, switched=inputs.switched), block)
+    found = {}
+    for part in question.parts:
+        if question.unknown_in(part):
+            columns = contact_columns(question, part, states, block.active)
+            groups = _groups(_hidden(weighted(columns, question, part)[0]), _names(question, part))
+            if groups:
+                found[part.name] = groups
+    return found
+
+
+def _poses(question: Question, inputs: Inputs) -> Block:
+    n = len(inputs.joints)
+    picked = np.unique(np.linspace(0, n - 1, min(n, _POSES)).astype(np.int64)) if n else np.empty(0, dtype=np.int64)
+    if inputs.switched:
+        # every combination of contacts, also one that is there for a moment only
+        _, first = np.unique(inputs.active, axis=0, return_index=True)
+        picked = np.union1d(picked, first)
+    return Block(
+        joints=JointMotion.at_rest(inputs.joints.names, inputs.joints.position[picked]),
+        root=np.zeros((3, len(picked), 3)),
+        measured=np.zeros((len(picked), 0, 6)),
+        known=np.zeros((len(picked), 0, 6)),
+        active=inputs.active[picked].astype(np.float64),
+    )
+
+
+def _hidden(columns: FloatArray) -> BoolArray:
+    """Pairs of unknowns that trade off in some pose; shape (unknowns, unknowns)."""
+    count = columns.shape[2]
+    pairs = np.zeros((count, count), dtype=bool)
+    for matrix in columns[np.isfinite(columns).all(axis=(1, 2))]:
+        there = matrix.any(axis=0)
+        _, sigma, vt = np.linalg.svd(matrix[:, there])
+        rank = int(np.count_nonzero(sigma > RANK_TOLERANCE * sigma[:1]))
+        unseen = vt[rank:].T @ vt[rank:]  # projects on what the readings do not see
+        pairs[np.ix_(there, there)] |= np.abs(unseen) > _PART
+    return pairs
+
+
+def _groups(pairs: BoolArray, names: list[str]) -> tuple[tuple[str, ...], ...]:
+    left, groups = set(np.flatnonzero(pairs.diagonal()).tolist()), []
+    while left:
+        group, border = set(), {min(left)}
+        while border:
+            group |= border
+            border = set(np.flatnonzero(pairs[sorted(border)].any(axis=0)).tolist()) - group
+        groups.append(tuple(names[index] for index in sorted(group)))
+        left -= group
+    return tuple(groups)
+
+
+def _names(question: Question, part: SubModel) -> list[str]:
+    return [f"{contact.name}.{name}" for contact in question.unknown_in(part) for name in contact.type.unknowns]

@@ -1,0 +1,122 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Run the compiled evaluator over all samples, on several threads."""
+
+from __future__ import annotations
+
+import logging
+import math
+import os
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+from numba.core import event
+
+from forcetorque.arrays import IntArray
+from forcetorque.estimation.block.drive import Answer, driver
+from forcetorque.estimation.block.plan import plan_of
+from forcetorque.estimation.estimates import Estimates
+from forcetorque.estimation.inputs import Inputs, refuse_infinite
+from forcetorque.estimation.question import Question
+from forcetorque.robot.block.lanes import LANES
+
+_CHUNK = 16384
+"""Most samples of one task: long against the cost of starting it, and small in memory."""
+
+_LOG = logging.getLogger(__name__)
+
+
+class _Announce(event.Listener):
+    """Says so when a compilation starts; a copy on disk starts none."""
+
+    def __init__(self) -> None:
+        self.said = False
+
+    def on_start(self, event: Any) -> None:
+        if not self.said:
+            _LOG.info("compiling the dynamics for this machine, once; it takes about half a minute")
+            self.said = True
+
+    def on_end(self, event: Any) -> None:
+        pass
+
+
+def run_compiled(
+    question: Question, inputs: Inputs, out: Estimates, *, threads: int | None, progress: Callable[[int], None] | None
+) -> None:
+    """Answer a question in compiled code.
+
+    Args:
+        question: The question.
+        inputs: Its input.
+        out: Where the answer goes.
+        threads: Number of threads; as many as there are processors if None.
+        progress: Called with the number of samples done so far.
+    """
+    plan, joints = plan_of(question, inputs.switched)
+    joint_columns = np.array([inputs.joints.names.index(joint) for joint in joints], dtype=np.int64)
+    measured_columns, known_columns = _six_columns(inputs.measured_columns), _six_columns(inputs.known_columns)
+    motion = (inputs.joints.position, inputs.joints.velocity, inputs.joints.acceleration)
+
+    def task(block: slice) -> int:
+        arrays = (
+            tuple(_frozen(values[block]) for values in motion),
+            tuple(_frozen(values if len(values) == 1 else values[block]) for values in inputs.root),
+            measured_columns,
+            _frozen(_flat(inputs.measured.values[block])),
+            known_columns,
+            _frozen(_flat(inputs.known.values[block])),
+            _frozen(inputs.active[block] if inputs.switched else np.empty((0, 0), dtype=bool)),
+        )
+        if driver()(plan, joint_columns, *arrays, _answer(out.samples(block))):
+            refuse_infinite(inputs, block)
+        return int(block.stop)
+
+    with event.install_listener("numba:compile", _Announce()):
+        task(slice(0, 0))  # two threads would compile the same
+    workers = threads or os.cpu_count() or 1
+    with ThreadPoolExecutor(workers) as pool:
+        for done in pool.map(task, _chunks(len(out), workers)):
+            if progress is not None:
+                progress(done)
+
+
+def _chunks(n: int, workers: int) -> list[slice]:
+    """Divide samples into tasks of whole blocks, as many for each worker."""
+    count = max(workers, -(-n // (_CHUNK * workers)) * workers)
+    size = -(-n // (count * LANES)) * LANES
+    return [slice(start, min(start + size, n)) for start in range(0, n, size)]
+
+
+def _six_columns(wrenches: IntArray) -> IntArray:
+    return (6 * wrenches[:, None] + np.arange(6)).reshape(-1)
+
+
+def _flat(wrenches: npt.NDArray[Any]) -> npt.NDArray[Any]:
+    return wrenches.reshape(len(wrenches), 6 * wrenches.shape[1])
+
+
+def _frozen(values: npt.NDArray[Any]) -> npt.NDArray[Any]:
+    """A read-only, C-ordered view: every other kind of array would be compiled for by itself."""
+    view = np.ascontiguousarray(values).view(np.ndarray)
+    view.flags.writeable = False
+    return view
+
+
+def _answer(out: Estimates) -> Answer:
+    return Answer(
+        expected=_writable(out.expected),
+        contact_wrenches=_writable(out.contact_wrenches),
+        torques=_writable(out.torques),
+        net_wrenches=_writable(out.net_wrenches),
+        rank=_writable(out.rank),
+        condition=_writable(out.condition),
+        residual=_writable(out.residual),
+    )
+
+
+def _writable(values: npt.NDArray[Any]) -> npt.NDArray[Any]:
+    components = math.prod(values.shape[1:])
+    return values.view(np.ndarray).reshape(len(values), components)

@@ -1,0 +1,163 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What is asked of a robot's sensors and model: expected readings, contact wrenches, torques, net wrenches."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from enum import StrEnum
+
+from forcetorque.errors import EstimationError, RobotError, ShapeError, known_names
+from forcetorque.estimation.contact import Contact, ContactType
+from forcetorque.estimation.estimates import Layout
+from forcetorque.robot import BodyTree
+from forcetorque.robot.sub_model import SubModel, cut_of, path_to_root, sub_models
+
+
+class TorqueSum(StrEnum):
+    """Which links' net wrenches make a joint's torque; equal where outboard equations have no residual."""
+
+    WHOLE_TREE = "whole_tree"
+    """All links outboard of the joint, as in iDynTree; readings enter only by way of the contacts."""
+    SUB_MODEL = "sub_model"
+    """Links outboard of the joint inside its sub-model, and the readings at the cuts beyond (thesis 2.8)."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class MinimumNorm:
+    """Leave to the smallest solution what the equation of a sub-model does not determine."""
+
+    length_scale: float
+    """Moment that weighs as much as one newton, in the norm and in the residual; m."""
+
+    def __post_init__(self) -> None:
+        if not 0.0 < self.length_scale < float("inf"):
+            raise ShapeError(f"length_scale: expected a positive length in m, got {self.length_scale}")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Question:
+    """What to estimate; only what is asked is computed."""
+
+    tree: BodyTree
+    """Robot rooted at the link whose motion is known: that of an IMU, or the fixed one."""
+    measured: tuple[str, ...] = ()
+    """Sensors with readings, where the tree is cut to sub-models."""
+    contacts: tuple[Contact, ...] = ()
+    """Contacts with the world, unknown or known."""
+    torques: tuple[str, ...] = ()
+    """Joints whose torque is wanted; `moving_joints(tree)` for all."""
+    torque_sum: TorqueSum = TorqueSum.WHOLE_TREE
+    """Which links' wrenches make a torque."""
+    equations: tuple[str, ...] | None = None
+    """Sub-models whose rank, condition and residual are wanted, by the sensor at their base or the root link;
+    None for all."""
+    minimum_norm: MinimumNorm | None = None
+    """Needed where a sub-model has more than six unknowns; without it 1 N weighs like 1 N m."""
+    expected: tuple[str, ...] = ()
+    """Sensors whose reading is to be expected from the model; they need not be measured."""
+    expected_contact: str | None = None
+    """Link of the one contact that expected readings assume; the root link if None."""
+    net_wrenches: tuple[str, ...] = ()
+    """Links whose net wrench is wanted."""
+    parts: tuple[SubModel, ...] = field(init=False)
+    """Sub-models, inboard ones first."""
+    layout: Layout = field(init=False)
+    """Names of the columns of the result."""
+
+    def __post_init__(self) -> None:
+        for name in ("measured", "contacts", "torques", "expected", "net_wrenches"):
+            object.__setattr__(self, name, tuple(getattr(self, name)))
+        object.__setattr__(self, "torque_sum", TorqueSum(self.torque_sum))
+        object.__setattr__(self, "parts", sub_models(self.tree, self.measured))
+        names = tuple(part.name for part in self.parts)
+        equations = names if self.equations is None else tuple(self.equations)
+        layout = Layout(
+            sensors=self.expected,
+            contacts=tuple(contact.name for contact in self.unknown),
+            joints=self.torques,
+            links=self.net_wrenches,
+            parts=equations,
+        )
+        object.__setattr__(self, "layout", layout)
+        _require_known(equations, names, "sub-model", EstimationError)
+        _require_known(self.torques, moving_joints(self.tree), "moving joint", RobotError)
+        links = [*self.net_wrenches, *(contact.link for contact in self.contacts)]
+        links += [] if self.expected_contact is None else [self.expected_contact]
+        _require_known(links, self.tree.frames, "frame or link", RobotError, once=False)
+        for sensor in self.expected:
+            cut_of(self.tree, sensor)
+        repeated = [name for name, count in Counter(contact.name for contact in self.contacts).items() if count > 1]
+        if repeated:
+            raise EstimationError(f"contacts: expected each name once, {repeated[0]!r} comes again; name them apart")
+
+    @property
+    def unknown(self) -> tuple[Contact, ...]:
+        """Contacts with an unknown."""
+        return tuple(contact for contact in self.contacts if contact.type is not ContactType.KNOWN)
+
+    @property
+    def known(self) -> tuple[Contact, ...]:
+        """Contacts whose wrench is given."""
+        return tuple(contact for contact in self.contacts if contact.type is ContactType.KNOWN)
+
+    @property
+    def length_scale(self) -> float:
+        """Moment that weighs as much as one newton; m."""
+        return 1.0 if self.minimum_norm is None else self.minimum_norm.length_scale
+
+    def body_of(self, contact: Contact) -> int:
+        """Find the body that a contact is on.
+
+        Args:
+            contact: One of its contacts.
+
+        Returns:
+            Index of the body.
+        """
+        return self.tree.frames[contact.link][0]
+
+    def unknown_in(self, part: SubModel) -> tuple[Contact, ...]:
+        """Pick the contacts of a sub-model that have an unknown.
+
+        Args:
+            part: The sub-model.
+
+        Returns:
+            Its contacts, in the order of the question.
+        """
+        return tuple(contact for contact in self.unknown if self.body_of(contact) in part.bodies)
+
+    def expected_path(self) -> tuple[int, ...]:
+        """List the bodies from the contact of expected readings to the root.
+
+        Returns:
+            Bodies, the touched one first, the root last.
+        """
+        link = self.tree.root_link if self.expected_contact is None else self.expected_contact
+        return path_to_root(self.tree, self.tree.frames[link][0])
+
+
+def moving_joints(tree: BodyTree) -> tuple[str, ...]:
+    """Name the joints that move, in the order of the tree.
+
+    Args:
+        tree: The robot.
+
+    Returns:
+        Joints, those that mimic others too: each carries a torque of its own.
+    """
+    return tuple(body.joint for body in tree.bodies if body.joint is not None)
+
+
+def _require_known(
+    wanted: Iterable[str], known: Iterable[str], what: str, error: type[Exception], *, once: bool = True
+) -> None:
+    names, seen = set(known), set()
+    for name in wanted:
+        if name not in names:
+            raise error(f"the robot has no {what} {name!r}; {known_names(name, names)}")
+        if once and name in seen:
+            raise error(f"{what} {name!r}: expected each once, it is asked for twice")
+        seen.add(name)
