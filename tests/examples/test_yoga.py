@@ -8,12 +8,21 @@ import subprocess
 import sys
 from pathlib import Path
 
+import numpy as np
 import pytest
 
-from forcetorque.experiment import Experiment, Verdict, calibrate_sensor, evaluate_sensor, load_experiment
+from forcetorque.experiment import (
+    Experiment,
+    Verdict,
+    calibrate_sensor,
+    corrections_of,
+    estimate_experiment,
+    evaluate_sensor,
+    load_experiment,
+)
 
 ROOT = Path(__file__).resolve().parents[2]
-YOGA = sorted((ROOT / "examples").glob("0?_icub_yoga_*.toml"))
+YOGA = sorted((ROOT / "examples").glob("0[2-5]_icub_yoga_*.toml"))
 
 pytestmark = pytest.mark.real_data
 
@@ -73,3 +82,17 @@ def test_the_curve_script_shows_every_lambda(data_dir: Path, tmp_path: Path) -> 
     done = subprocess.run([sys.executable, str(script), str(copy)], capture_output=True, text=True, check=True)
     assert done.stdout.count("<- chosen") == 1
     assert len(done.stdout.splitlines()) > 40
+
+
+def test_nothing_touches_the_free_leg(data_dir: Path, tmp_path: Path) -> None:
+    """The contact of the free leg is small, and ten times larger while the floor is touched."""
+    experiment = _load(ROOT / "examples" / "08_icub_yoga_contacts.toml", data_dir, tmp_path)
+    spans = {
+        span.interval.label: span.estimates for span in estimate_experiment(experiment, corrections_of(experiment, {}))
+    }
+    for contact, limit in (("r_leg_ft_sensor", 5.0), ("r_foot_ft_sensor", 2.0)):
+        force = {label: np.linalg.norm(found.contact(contact)[:, :3], axis=1) for label, found in spans.items()}
+        mean = {label: np.nanmean(values) for label, values in force.items()}
+        assert min(np.count_nonzero(np.isfinite(values)) for values in force.values()) > 700
+        assert mean["free"] < limit
+        assert min(mean["both feet down"], mean["down again"]) > 10.0 * mean["free"]

@@ -70,7 +70,7 @@ def test_what_may_be_left_out_has_a_default(tmp_path: Path) -> None:
 
 def _documented() -> list[str]:
     blocks = re.findall(r"```toml\n(.*?)```", DOCUMENT.read_text(encoding="utf-8"), re.DOTALL)
-    assert len(blocks) == 4
+    assert len(blocks) == 5
     return blocks
 
 
@@ -83,7 +83,7 @@ def test_the_documented_file_is_one(tmp_path: Path) -> None:
 
 def test_the_documented_ports_and_imu_fit_into_it(tmp_path: Path) -> None:
     """The other kinds of ports and the moving support are accepted in place of their plain forms."""
-    whole, ports, moving, _ = _documented()
+    whole, ports, moving, _, _ = _documented()
     fixed = whole[whole.index("[[support]]") : whole.index("[processing]")]
     parsed = _parse(tmp_path, whole.replace("[[sensor]]", f"{ports}\n[[sensor]]").replace(fixed, f"{moving}\n"))
     assert isinstance(parsed.recording, YarpLog)
@@ -100,6 +100,14 @@ def test_the_documented_wrist_is_complete_with_a_sensor_and_intervals(tmp_path: 
     assert parsed.load is not None
     assert parsed.load.mass_kg == 0.932
     assert parsed.sensor[0].prior == "identity"
+
+
+def test_the_documented_contact_fits_into_it(tmp_path: Path) -> None:
+    """Contacts and the length scale are accepted as they stand."""
+    whole, *_, contact = _documented()
+    parsed = _parse(tmp_path, f"{whole}\n{contact}")
+    assert parsed.contact[0].intervals == ("moving",)
+    assert parsed.estimation.length_scale_m == 0.2
 
 
 @pytest.mark.parametrize(
@@ -181,7 +189,7 @@ TABLES = {
     "[calibration]": ("calibration", "lambda_counts2"),
     'name = "small arm"': (
         "top level",
-        "calibration, interval, load, name, processing, recording, robot, schema, sensor, support",
+        "calibration, contact, estimation, interval, load, name, processing, recording, robot, schema, sensor, support",
     ),
 }
 

@@ -69,6 +69,44 @@ def _calibrate(
     run(experiment, output=output, sensors=sensor, regularisation=regularisation, output_format=output_format)
 
 
+@app.command("estimate")
+def _estimate(
+    experiment: ExperimentArgument,
+    output: Annotated[Path, typer.Option("--output", "-o", help="File for every sample, .parquet or .csv.")],
+    calibration: Annotated[
+        list[Path] | None,
+        typer.Option("--calibration", "-c", help="Calibration file; repeat for more. Default: the priors."),
+    ] = None,
+    contacts: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--contacts",
+            help="FRAME, FRAME:force or FRAME:force_along:x,y,z; repeat for more. Default: those of the file, else "
+            "at the sensors.",
+        ),
+    ] = None,
+    length_scale: Annotated[
+        float | None,
+        typer.Option("--length-scale", help="Moment that weighs as much as one newton; m. For more than six unknowns."),
+    ] = None,
+    output_format: FormatOption = Format.TABLE,
+) -> None:
+    """Estimate contact wrenches, joint torques and expected readings.
+
+    Example: forcetorque estimate experiment.toml -o estimates.parquet
+    """
+    from forcetorque.cli.estimate import run
+
+    run(
+        experiment,
+        output=output,
+        calibrations=calibration,
+        contacts=contacts,
+        length_scale=length_scale,
+        output_format=output_format,
+    )
+
+
 @app.command("evaluate")
 def _evaluate(
     experiment: ExperimentArgument,
@@ -155,7 +193,10 @@ def _payload(experiment: ExperimentArgument, output_format: FormatOption = Forma
 @app.command("schema")
 def _schema(
     name: Annotated[
-        str, typer.Argument(help="experiment, recording, calibration, calibrate, evaluate, export, inspect or payload.")
+        str,
+        typer.Argument(
+            help="experiment, recording, calibration, calibrate, estimate, evaluate, export, inspect or payload."
+        ),
     ],
 ) -> None:
     """Print the JSON schema of a file or of a command's result.

@@ -25,6 +25,7 @@ def run(name: str) -> None:
         "recording": _recording,
         "calibration": _calibration,
         "calibrate": _calibrate,
+        "estimate": _estimate,
         "evaluate": _evaluate,
         "export": _export,
         "inspect": _inspect,
@@ -57,6 +58,12 @@ def _calibrate() -> dict[str, Any]:
     from forcetorque.cli.calibrate import CalibrateResult
 
     return CalibrateResult.model_json_schema()
+
+
+def _estimate() -> dict[str, Any]:
+    from forcetorque.cli.estimate import EstimateResult
+
+    return EstimateResult.model_json_schema()
 
 
 def _evaluate() -> dict[str, Any]:

@@ -18,8 +18,8 @@ from forcetorque.estimation.reference import Block, evaluate_block
 from forcetorque.robot import JointMotion, RootMotion
 from forcetorque.robot.wrenches import Wrenches
 
-_FEW = 5000
-"""Fewer samples than this take the readable evaluator less time than loading the compiled one."""
+_FEW = 20000
+"""Fewer samples than this take the readable evaluator no longer than loading the compiled one."""
 
 _BLOCK = 4096
 """Samples per pass of the readable evaluator: its working arrays stay in the processor's cache."""

@@ -10,6 +10,8 @@ import numpy as np
 from forcetorque.arrays import FloatArray, IntArray, read_only, require_shape
 from forcetorque.constants import STANDARD_GRAVITY
 from forcetorque.errors import RecordingError
+from forcetorque.estimation.estimate import estimate
+from forcetorque.estimation.question import Question
 from forcetorque.estimation.root_motion import joints_to_support, support_motion_at
 from forcetorque.recording import (
     Interval,
@@ -24,7 +26,7 @@ from forcetorque.recording import (
 from forcetorque.recording.alignment import require_overlap, usable_samples
 from forcetorque.recording.joints import joint_motion_at
 from forcetorque.recording.smoothing import smooth
-from forcetorque.robot import RobotModel, build_tree, expected_wrenches, required_joints
+from forcetorque.robot import RobotModel, build_tree, required_joints
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -104,7 +106,7 @@ def sensor_samples(
     if interval.support is None:
         raise RecordingError(f"interval {interval.label!r}: expected a support frame, got none")
     source = recording.stream(stream)
-    picked, wanted = _pick(recording, source, interval)
+    picked, wanted = pick_samples(recording, source, interval)
     at_ns = source.stamp_ns[picked]
     reference, joints = _reference(recording, model, sensor, source, interval.support, at_ns, processing)
     reading = source.signal(quantity)
@@ -160,11 +162,24 @@ def _reference(
     root = support_motion_at(
         model, recording, support, motion, at_ns, window=processing.derivative_window, gravity=processing.gravity
     )
-    return expected_wrenches(tree, motion, root, [name])[name], joints
+    answer = estimate(Question(tree=tree, expected=(name,), equations=()), motion, root)
+    return answer.expected_of(name), joints
 
 
-def _pick(recording: Recording, source: Stream, interval: Interval) -> tuple[IntArray, int]:
-    """Find the samples of an interval that are not to be ignored, and count those with a bad stamp too."""
+def pick_samples(recording: Recording, source: Stream, interval: Interval) -> tuple[IntArray, int]:
+    """Find the samples of an interval that are not to be ignored.
+
+    Args:
+        recording: The recording.
+        source: One of its streams.
+        interval: The interval.
+
+    Returns:
+        Indices of its samples with increasing stamps, and the number of all its samples.
+
+    Raises:
+        RecordingError: If it lies outside the log, or no sample is left.
+    """
     start, end = recording.span_ns
     if interval.start_ns < start or interval.end_ns > end + 1:
         first, last = ((t - start) * 1e-9 for t in (interval.start_ns, interval.end_ns))

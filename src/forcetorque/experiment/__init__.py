@@ -3,21 +3,27 @@
 
 from forcetorque.experiment.calibrate import calibrate_sensor
 from forcetorque.experiment.content import Experiment, ExperimentSensor
+from forcetorque.experiment.estimate import IntervalEstimates, estimate_experiment
 from forcetorque.experiment.evaluate import Verdict, evaluate_sensor
 from forcetorque.experiment.inspect import doubtful_spans, inspect_experiment, inspect_recording
 from forcetorque.experiment.load import load_experiment
 from forcetorque.experiment.parse import parse_experiment
+from forcetorque.experiment.readings import Correction, corrections_of
 from forcetorque.experiment.samples import IntervalSamples, samples_of
 from forcetorque.experiment.schema import ExperimentFile
 
 __all__ = [
+    "Correction",
     "Experiment",
     "ExperimentFile",
     "ExperimentSensor",
+    "IntervalEstimates",
     "IntervalSamples",
     "Verdict",
     "calibrate_sensor",
+    "corrections_of",
     "doubtful_spans",
+    "estimate_experiment",
     "evaluate_sensor",
     "inspect_experiment",
     "inspect_recording",

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from forcetorque.arrays import FloatArray
 from forcetorque.errors import ExperimentError, known_names
-from forcetorque.estimation import Payload, Processing
+from forcetorque.estimation import Contact, Payload, Processing
 from forcetorque.recording import Interval, Recording, Use
 from forcetorque.robot import RobotModel
 
@@ -33,6 +33,18 @@ class ExperimentSensor:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class ExperimentContact:
+    """A place where the world may touch the robot beside the support."""
+
+    contact: Contact
+    """The contact."""
+    stream: str | None = None
+    """Stream with the wrench of a known contact."""
+    intervals: tuple[str, ...] | None = None
+    """Labels of the intervals in which it may touch; None for all."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Experiment:
     """Everything that an experiment file points to."""
 
@@ -44,6 +56,10 @@ class Experiment:
     """What was measured, with the file's intervals."""
     sensors: tuple[ExperimentSensor, ...]
     """Sensors in the order of the file."""
+    contacts: tuple[ExperimentContact, ...]
+    """Contacts beside the support."""
+    length_scale: float | None
+    """Moment that weighs as much as one newton, where contacts leave something undetermined; m."""
     processing: Processing
     """Filters and gravity."""
     regularisation: float | None

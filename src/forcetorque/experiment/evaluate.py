@@ -13,7 +13,7 @@ from forcetorque.calibration import Calibration, Prior
 from forcetorque.errors import ExperimentError
 from forcetorque.evaluation import WrenchErrors, offset_removed, wrench_errors
 from forcetorque.experiment.content import Experiment, ExperimentSensor
-from forcetorque.experiment.inputs import stated_in
+from forcetorque.experiment.fitness import require_fit
 from forcetorque.experiment.samples import samples_of
 from forcetorque.recording import Use
 
@@ -57,10 +57,7 @@ def evaluate_sensor(
         ShapeError: If a matrix does not have one column per channel of the sensor.
     """
     for name, calibration in calibrations.items():
-        with stated_in(name):
-            calibration.require_serial(sensor.serial)
-        _refuse_other_reading(name, calibration, experiment, sensor)
-        _refuse_other_counts(name, calibration, sensor)
+        require_fit(name, calibration, experiment, sensor)
         _refuse_fitted(name, calibration, experiment)
     parts = samples_of(experiment, sensor, Use.VALIDATION)
     raw = np.concatenate([p.raw for p in parts])
@@ -95,31 +92,6 @@ def _candidates(calibrations: Mapping[str, Calibration]) -> list[tuple[str, Floa
 def _same(prior: Prior, matrix: FloatArray, offset: FloatArray) -> bool:
     # the last bits of a mean depend on where its numbers lie in memory
     return np.array_equal(prior.matrix, matrix) and np.allclose(prior.offset, offset, rtol=0.0, atol=_SAME_OFFSET)
-
-
-def _refuse_other_reading(
-    name: str, calibration: Calibration, experiment: Experiment, sensor: ExperimentSensor
-) -> None:
-    """Refuse to compare wrenches in one frame and sign with references in another."""
-    tag = experiment.model.sensor(sensor.name)
-    fitted = (calibration.sensor.frame, calibration.sensor.measure_direction.value)
-    if fitted != (tag.frame.value, tag.direction.value):
-        raise ExperimentError(
-            f"calibration {name!r}: expected readings in the frame {tag.frame}, {tag.direction}, as the robot "
-            f"{experiment.model.name!r} has them, got {', '.join(fitted)}; fit again with this robot"
-        )
-
-
-def _refuse_other_counts(name: str, calibration: Calibration, sensor: ExperimentSensor) -> None:
-    """Refuse counts that were recovered through another matrix than those of the fit."""
-    if sensor.quantity != "wrench" or sensor.prior is None:
-        return
-    if calibration.prior is None or not np.array_equal(calibration.prior.matrix, sensor.prior):
-        source = "none" if calibration.prior is None else calibration.prior.source
-        raise ExperimentError(
-            f"calibration {name!r}: expected counts recovered through the prior that it was fitted with ({source}), "
-            f"the experiment recovers them through {sensor.prior_source}; name the same matrix file"
-        )
 
 
 def _refuse_fitted(name: str, calibration: Calibration, experiment: Experiment) -> None:

@@ -8,6 +8,7 @@ from pathlib import Path
 from forcetorque.errors import ExperimentError
 from forcetorque.estimation import Processing
 from forcetorque.experiment import schema
+from forcetorque.experiment.contacts import read_contacts
 from forcetorque.experiment.content import Experiment
 from forcetorque.experiment.inputs import Inputs, stated_in
 from forcetorque.experiment.intervals import read_intervals, read_supports
@@ -55,6 +56,8 @@ def _of_robot(parsed: schema.ExperimentFile, file: Path) -> Experiment:
         model=model,
         recording=recording,
         sensors=read_sensors(parsed, file, model, recording, inputs),
+        contacts=read_contacts(parsed, file, model, recording),
+        length_scale=parsed.estimation.length_scale_m,
         processing=_processing(parsed, gravity=parsed.robot.gravity),
         regularisation=parsed.calibration.lambda_counts2,
         payload=None,
@@ -83,11 +86,14 @@ def _of_wrist(parsed: schema.ExperimentFile, file: Path) -> Experiment:
         inertia = payload.inertia()
     with stated_in(str(file)):
         recording = streams.with_intervals(intervals)
+    loaded = load_model(load, name, inertia)
     return Experiment(
         name=parsed.name,
-        model=load_model(load, name, inertia),
+        model=loaded,
         recording=recording,
         sensors=(sensor,),
+        contacts=read_contacts(parsed, file, loaded, recording),
+        length_scale=parsed.estimation.length_scale_m,
         processing=processing,
         regularisation=parsed.calibration.lambda_counts2,
         payload=payload,

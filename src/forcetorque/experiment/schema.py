@@ -19,6 +19,7 @@ from pydantic_core import PydanticCustomError
 from forcetorque.array_field import ArrayField
 from forcetorque.arrays import FloatArray
 from forcetorque.constants import STANDARD_GRAVITY
+from forcetorque.estimation import ContactType
 from forcetorque.experiment.log_schema import Log
 from forcetorque.experiment.table import Finite, Positive, Table, Text
 from forcetorque.recording import Use
@@ -111,6 +112,42 @@ class Support(Table):
         return self
 
 
+class Contact(Table):
+    """A place where the world may touch the robot beside the support."""
+
+    frame: Text
+    """Link of the URDF."""
+    name: Text | None = None
+    """Name, unique in the file; that of the frame if left out."""
+    type: ContactType = ContactType.WRENCH
+    """What is unknown."""
+    position_m: Annotated[FloatArray, ArrayField((3,))] | None = None
+    """Contact point in the frame; its origin if left out."""
+    direction: Annotated[FloatArray, ArrayField((3,))] | None = None
+    """Unit vector of a `force_along`, in the axes of the frame."""
+    stream: Text | None = None
+    """Stream with the wrench of a `known` contact, in this frame."""
+    intervals: Annotated[tuple[Text, ...], Field(min_length=1)] | None = None
+    """Labels of the intervals in which it may touch; all if left out."""
+
+    @model_validator(mode="after")
+    def _fits_its_type(self) -> Contact:
+        if (self.direction is not None) != (self.type is ContactType.FORCE_ALONG):
+            raise PydanticCustomError("direction_rules", "direction is for type force_along, which needs it")
+        if (self.stream is not None) != (self.type is ContactType.KNOWN):
+            raise PydanticCustomError("stream_rules", "stream is for type known, which needs it")
+        if self.type is ContactType.KNOWN and self.position_m is not None:
+            raise PydanticCustomError("known_place", "the wrench of a known contact is about the origin of its frame")
+        return self
+
+
+class EstimationTable(Table):
+    """How contacts are told apart."""
+
+    length_scale_m: Positive | None = None
+    """Moment that weighs as much as one newton; needed where a sub-model has more than six unknowns."""
+
+
 class Interval(Table):
     """A span of the recording."""
 
@@ -187,6 +224,10 @@ class ExperimentFile(Table):
     """Support frames; none with `load`."""
     interval: Annotated[tuple[Interval, ...], Field(min_length=1)]
     """Intervals."""
+    contact: tuple[Contact, ...] = ()
+    """Contacts beside the support; without any, whatever touches a sub-model is given at its sensor."""
+    estimation: EstimationTable = EstimationTable()
+    """How contacts are told apart."""
     processing: ProcessingTable = ProcessingTable()
     """How samples are processed."""
     calibration: CalibrationTable = CalibrationTable()

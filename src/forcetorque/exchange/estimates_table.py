@@ -1,0 +1,111 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Estimates as one table, Parquet or comma-separated text: a row per instant, a column per number."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+import pyarrow as pa
+import pyarrow.csv as pacsv
+import pyarrow.parquet as pq
+
+from forcetorque.arrays import IntArray
+from forcetorque.atomic import write_bytes_atomically
+from forcetorque.errors import FormatError
+from forcetorque.estimation import Estimates
+from forcetorque.robot import JointType, RobotModel, Wrenches
+from forcetorque.spatial import WRENCH_COMPONENTS, WRENCH_UNITS
+
+SCHEMA = "forcetorque/estimates/1"
+"""Name and version of the form."""
+
+SUFFIXES = (".parquet", ".csv")
+"""Endings of the files that can be written."""
+
+_Column = tuple[str, str, npt.NDArray[Any]]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class EstimatedSpan:
+    """Estimates of one span of time."""
+
+    label: str
+    """Name of the span."""
+    stamp_ns: IntArray
+    """Instants; shape (n,); ns."""
+    time_s: npt.NDArray[np.float64]
+    """The same from the start of the recording; shape (n,); s."""
+    measured: Wrenches
+    """What the sensors measured."""
+    estimates: Estimates
+    """What was estimated."""
+
+
+def write_estimates(path: Path | str, spans: Sequence[EstimatedSpan], model: RobotModel) -> int:
+    """Write estimates; on any error the file keeps what it held before.
+
+    Columns are `interval`, `stamp_ns`, `time_s`, and then `contact.NAME.fx`, `torque.JOINT`,
+    `expected.SENSOR.fx`, `measured.SENSOR.fx`, `rank.PART`, `condition.PART` and `residual.PART.fx`.
+    Their units stand in the metadata of the Parquet fields. A cell is empty where an interval lacks the column, or a
+    sample has a gap.
+
+    Args:
+        path: File to write or to replace, ending in .parquet or .csv, in an existing folder.
+        spans: Spans, one after the other.
+        model: The robot, for the units of its joints.
+
+    Returns:
+        Number of rows.
+
+    Raises:
+        FormatError: If the name ends otherwise.
+    """
+    file = Path(path)
+    if file.suffix not in SUFFIXES:
+        raise FormatError(f"{file}: expected a name that ends in {' or '.join(SUFFIXES)}")
+    tables = [_table(span, model) for span in spans]
+    table = pa.concat_tables(tables, promote_options="default")
+    table = table.replace_schema_metadata({b"forcetorque": SCHEMA.encode()})
+    sink = pa.BufferOutputStream()
+    if file.suffix == ".csv":
+        pacsv.write_csv(table, sink)
+    else:
+        pq.write_table(table, sink)
+    write_bytes_atomically(file, sink.getvalue())
+    return int(table.num_rows)
+
+
+def _table(span: EstimatedSpan, model: RobotModel) -> Any:
+    arrays = [pa.array([span.label] * len(span.stamp_ns), pa.string()), pa.array(span.stamp_ns), pa.array(span.time_s)]
+    fields = [pa.field("interval", pa.string()), pa.field("stamp_ns", pa.int64(), metadata={"unit": "ns"})]
+    fields.append(pa.field("time_s", pa.float64(), metadata={"unit": "s"}))
+    for name, unit, values in _columns(span, model):
+        made = pa.array(np.ascontiguousarray(values), from_pandas=True)  # NaN is an empty cell
+        arrays.append(made)
+        fields.append(pa.field(name, made.type, metadata={"unit": unit}))
+    return pa.table(arrays, schema=pa.schema(fields))
+
+
+def _columns(span: EstimatedSpan, model: RobotModel) -> Iterator[_Column]:
+    layout, estimates = span.estimates.layout, span.estimates
+    yield from _wrenches("contact", layout.contacts, estimates.contact_wrenches)
+    for k, joint in enumerate(layout.joints):
+        unit = "N" if model.joints[joint].type is JointType.PRISMATIC else "N m"
+        yield f"torque.{joint}", unit, estimates.torques[:, k]
+    yield from _wrenches("expected", layout.sensors, estimates.expected)
+    yield from _wrenches("measured", span.measured.names, span.measured.values)
+    for k, part in enumerate(layout.parts):
+        yield f"rank.{part}", "1", estimates.rank[:, k]
+        yield f"condition.{part}", "1", estimates.condition[:, k]
+    yield from _wrenches("residual", layout.parts, estimates.residual)
+
+
+def _wrenches(what: str, names: Iterable[str], values: npt.NDArray[np.float64]) -> Iterator[_Column]:
+    for k, name in enumerate(names):
+        for j, (component, unit) in enumerate(zip(WRENCH_COMPONENTS, WRENCH_UNITS, strict=True)):
+            yield f"{what}.{name}.{component}", unit, values[:, k, j]

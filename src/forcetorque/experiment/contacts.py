@@ -1,0 +1,120 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The contacts of an experiment: from its file, from words, and those that need no naming."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from pathlib import Path
+
+import numpy as np
+
+from forcetorque.errors import ExperimentError, known_names
+from forcetorque.estimation import Contact, ContactType
+from forcetorque.experiment import schema
+from forcetorque.experiment.content import ExperimentContact
+from forcetorque.experiment.inputs import stated_in
+from forcetorque.recording import Recording
+from forcetorque.robot import BodyTree, RobotModel
+from forcetorque.spatial import invert_pose
+
+
+def read_contacts(
+    parsed: schema.ExperimentFile, file: Path, model: RobotModel, recording: Recording
+) -> tuple[ExperimentContact, ...]:
+    """Match the contacts of a file to the robot and the recording.
+
+    Args:
+        parsed: Content of the experiment file.
+        file: The experiment file, for messages.
+        model: The robot.
+        recording: Streams and intervals.
+
+    Returns:
+        The contacts in the order of the file.
+
+    Raises:
+        ExperimentError: If a frame, stream or interval is not there, or a name comes twice.
+    """
+    labels = [interval.label for interval in recording.intervals]
+    found: list[ExperimentContact] = []
+    for index, entry in enumerate(parsed.contact):
+        where = f"{file}: contact[{index}]"
+        for label in entry.intervals or ():
+            if label not in labels:
+                raise ExperimentError(f"{where}: no interval is labelled {label!r}; {known_names(label, labels)}")
+        with stated_in(where):
+            point = np.zeros(3) if entry.position_m is None else entry.position_m
+            contact = Contact.at_point(
+                entry.frame, point, name=entry.name or "", type=entry.type, direction=entry.direction
+            )
+            _require_link(contact, model)
+            if entry.stream is not None:
+                _require_wrench(entry.stream, entry.frame, recording)
+        if contact.name in [earlier.contact.name for earlier in found]:
+            raise ExperimentError(f"{where}: the contact {contact.name!r} is listed twice; give each its own name")
+        found.append(ExperimentContact(contact=contact, stream=entry.stream, intervals=entry.intervals))
+    return tuple(found)
+
+
+def contact_in_words(text: str, model: RobotModel) -> ExperimentContact:
+    """Understand a contact as the command line has it: `FRAME`, `FRAME:TYPE` or `FRAME:force_along:x,y,z`.
+
+    Args:
+        text: The words.
+        model: The robot.
+
+    Returns:
+        The contact, at the origin of the frame and in all intervals.
+
+    Raises:
+        ExperimentError: If it is not of that form or the robot has no such frame.
+    """
+    frame, *rest = text.split(":")
+    word = rest[0] if rest else ContactType.WRENCH.value
+    kinds = [kind.value for kind in ContactType if kind is not ContactType.KNOWN]
+    if word not in kinds:
+        raise ExperimentError(f"contact {text!r}: no type is called {word!r}; {known_names(word, kinds)}")
+    direction = None
+    if len(rest) > 1:
+        try:
+            direction = np.array([float(number) for number in rest[1].split(",")])
+        except ValueError as error:
+            raise ExperimentError(f"contact {text!r}: expected a direction x,y,z, got {rest[1]!r}") from error
+    if len(rest) > 2:
+        raise ExperimentError(f"contact {text!r}: expected FRAME, FRAME:TYPE or FRAME:force_along:x,y,z")
+    with stated_in(f"contact {text!r}"):
+        contact = Contact(link=frame, type=ContactType(word), direction=direction)
+        _require_link(contact, model)
+    return ExperimentContact(contact=contact)
+
+
+def contacts_at_sensors(tree: BodyTree, sensors: Iterable[str]) -> tuple[Contact, ...]:
+    """Give what touches the part outboard of each sensor at the sensor itself (thesis 4.1).
+
+    Args:
+        tree: Robot rooted at the support.
+        sensors: Sensors that it is cut at.
+
+    Returns:
+        A full wrench per sensor, in the sensor's frame, under its name.
+    """
+    contacts = []
+    for sensor in sensors:
+        cut = tree.cuts[sensor]
+        link = tree.bodies[cut.body].links[0]
+        link_H_sensor = invert_pose(tree.frames[link][1]) @ cut.body_H_sensor
+        contacts.append(Contact(link=link, name=sensor, link_H_contact=link_H_sensor))
+    return tuple(contacts)
+
+
+def _require_link(contact: Contact, model: RobotModel) -> None:
+    if contact.link not in model.links:
+        raise ExperimentError(
+            f"robot {model.name!r} has no link {contact.link!r}; {known_names(contact.link, model.links)}"
+        )
+
+
+def _require_wrench(name: str, frame: str, recording: Recording) -> None:
+    signal = recording.stream(name).signal("wrench")
+    if signal.frame != frame:
+        raise ExperimentError(f"stream {name!r}: expected the wrench in the frame {frame!r}, it is in {signal.frame!r}")

@@ -1,0 +1,56 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Whether a calibration may be applied to what a sensor of an experiment reads."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from forcetorque.calibration import Calibration
+from forcetorque.errors import ExperimentError
+from forcetorque.experiment.content import Experiment, ExperimentSensor
+from forcetorque.experiment.inputs import stated_in
+
+
+def require_fit(name: str, calibration: Calibration, experiment: Experiment, sensor: ExperimentSensor) -> None:
+    """Refuse a calibration of another sensor, or of one that is read in another way.
+
+    Args:
+        name: Name of the calibration, for messages.
+        calibration: The calibration.
+        experiment: The experiment.
+        sensor: One of its sensors.
+
+    Raises:
+        SerialNumberError: If it is of another sensor.
+        ExperimentError: If the robot now reads the sensor in another frame or sign, or counts were recovered
+            through another matrix.
+    """
+    with stated_in(name):
+        calibration.require_serial(sensor.serial)
+    _refuse_other_reading(name, calibration, experiment, sensor)
+    _refuse_other_counts(name, calibration, sensor)
+
+
+def _refuse_other_reading(
+    name: str, calibration: Calibration, experiment: Experiment, sensor: ExperimentSensor
+) -> None:
+    """Refuse to compare wrenches in one frame and sign with references in another."""
+    tag = experiment.model.sensor(sensor.name)
+    fitted = (calibration.sensor.frame, calibration.sensor.measure_direction.value)
+    if fitted != (tag.frame.value, tag.direction.value):
+        raise ExperimentError(
+            f"calibration {name!r}: expected readings in the frame {tag.frame}, {tag.direction}, as the robot "
+            f"{experiment.model.name!r} has them, got {', '.join(fitted)}; fit again with this robot"
+        )
+
+
+def _refuse_other_counts(name: str, calibration: Calibration, sensor: ExperimentSensor) -> None:
+    """Refuse counts that were recovered through another matrix than those of the fit."""
+    if sensor.quantity != "wrench" or sensor.prior is None:
+        return
+    if calibration.prior is None or not np.array_equal(calibration.prior.matrix, sensor.prior):
+        source = "none" if calibration.prior is None else calibration.prior.source
+        raise ExperimentError(
+            f"calibration {name!r}: expected counts recovered through the prior that it was fitted with ({source}), "
+            f"the experiment recovers them through {sensor.prior_source}; name the same matrix file"
+        )

@@ -1,0 +1,107 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the sensors of an experiment measured, as wrenches at given instants."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from forcetorque.arrays import FloatArray, IntArray, read_only
+from forcetorque.calibration import Calibration, recover_raw
+from forcetorque.errors import ExperimentError
+from forcetorque.experiment.content import Experiment, ExperimentSensor
+from forcetorque.experiment.fitness import require_fit
+from forcetorque.experiment.samples import samples_of
+from forcetorque.recording import Use
+from forcetorque.recording.alignment import interpolate
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Correction:
+    """How raw counts become a wrench."""
+
+    matrix: FloatArray | None
+    """Matrix; shape (6, c); N/count, N m/count; None where the logged wrench is taken."""
+    offset: FloatArray
+    """Offset that is added; shape (6,); N, N m."""
+    source: str
+    """Where they come from, in words."""
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "offset", read_only(self.offset, name="offset", shape=(6,)))
+
+
+def corrections_of(experiment: Experiment, calibrations: Mapping[str, Calibration]) -> dict[str, Correction]:
+    """Decide how every sensor is read.
+
+    A calibration is used where one is given. Else the prior is, or the logged wrench, with the
+    offset that makes its mean that of the model over the calibration intervals.
+
+    Args:
+        experiment: The experiment.
+        calibrations: Calibrations by name of their file.
+
+    Returns:
+        Corrections by sensor.
+
+    Raises:
+        ExperimentError: If two calibrations are of one sensor, or raw counts have neither calibration nor prior.
+    """
+    chosen: dict[str, tuple[str, Calibration]] = {}
+    for name, calibration in calibrations.items():
+        sensor = experiment.sensor(calibration.sensor.name)
+        require_fit(name, calibration, experiment, sensor)
+        if sensor.name in chosen:
+            raise ExperimentError(f"{name}: {chosen[sensor.name][0]} calibrates {sensor.name!r} too; give one")
+        chosen[sensor.name] = (name, calibration)
+    corrections = {}
+    for sensor in experiment.sensors:
+        if sensor.name in chosen:
+            name, calibration = chosen[sensor.name]
+            correction = Correction(matrix=calibration.matrix, offset=calibration.offset, source=name)
+        else:
+            correction = _uncalibrated(experiment, sensor)
+        corrections[sensor.name] = correction
+    return corrections
+
+
+def wrench_at(experiment: Experiment, sensor: ExperimentSensor, correction: Correction, at_ns: IntArray) -> FloatArray:
+    """Give what a sensor measured at given instants.
+
+    Args:
+        experiment: The experiment.
+        sensor: One of its sensors.
+        correction: How it is read.
+        at_ns: Instants; shape (n,); ns.
+
+    Returns:
+        Wrenches in its frame and direction; shape (n, 6); N, N m; NaN in gaps.
+    """
+    stream = experiment.recording.stream(sensor.stream)
+    values = interpolate(stream, stream.signal(sensor.quantity).values, at_ns)
+    if correction.matrix is None:
+        return values + correction.offset
+    if sensor.quantity == "wrench" and sensor.prior is not None:
+        values = recover_raw(values, sensor.prior)
+    return values @ correction.matrix.T + correction.offset
+
+
+def _uncalibrated(experiment: Experiment, sensor: ExperimentSensor) -> Correction:
+    matrix = sensor.prior if sensor.quantity == "raw" else None
+    if sensor.quantity == "raw" and matrix is None:
+        raise ExperimentError(f"sensor {sensor.name!r}: raw counts become wrenches by --calibration or a prior matrix")
+    words = "the logged wrench" if matrix is None else f"the prior {sensor.prior_source}"
+    if not any(interval.use is Use.CALIBRATION for interval in experiment.recording.intervals):
+        return Correction(matrix=matrix, offset=np.zeros(6), source=f"{words}, no offset removed")
+    parts = samples_of(experiment, sensor, Use.CALIBRATION)
+    read = np.concatenate([p.samples.reading.values for p in parts])
+    wrench = read if matrix is None else read @ matrix.T
+    reference = np.concatenate([p.samples.reference for p in parts])
+    labels = ", ".join(repr(part.interval.label) for part in parts)
+    return Correction(
+        matrix=matrix,
+        offset=(reference - wrench).mean(axis=0),
+        source=f"{words}, offset over {labels} ({len(read)} samples)",
+    )
