@@ -133,10 +133,13 @@ class Question:
         """List the bodies from the contact of expected readings to the root.
 
         Returns:
-            Bodies, the touched one first, the root last.
+            Bodies, the touched one first, the root last; the root alone where no expected sensor is in between,
+            since the readings are then those of a contact there.
         """
         link = self.tree.root_link if self.expected_contact is None else self.expected_contact
-        return path_to_root(self.tree, self.tree.frames[link][0])
+        path = path_to_root(self.tree, self.tree.frames[link][0])
+        between = any(self.tree.cuts[sensor].body in path for sensor in self.expected)
+        return path if between else path[-1:]
 
 
 def moving_joints(tree: BodyTree) -> tuple[str, ...]:

@@ -85,7 +85,8 @@ class _Evaluation:
         """What neighbours and unknown contacts together must do to each body."""
         demand = [np.zeros((len(self.out), 6)) for _ in self.bodies]
         for index in np.flatnonzero(self.needs.carrying).tolist():
-            demand[index] = net_wrench(self.bodies[index].inertia, self.states[index])
+            if not self.bodies[index].inertia.is_zero:  # nothing is needed there, whatever gap the motion has
+                demand[index] = net_wrench(self.bodies[index].inertia, self.states[index])
         for k, contact in enumerate(self.question.known):
             demand[self.question.body_of(contact)] -= on_body(self.question, contact, self.block.known[:, k])
         return demand

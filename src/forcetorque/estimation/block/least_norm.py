@@ -18,8 +18,9 @@ from forcetorque.robot.block.lanes import LANES, PASS, STRIDE
 
 MOST_SWEEPS = 12
 """Six rows are orthogonal after five or six sweeps; the limit is for rounding that goes round in circles."""
-ORTHOGONAL = 1e-9
-"""The largest product left, relative to the whole: the sweep that found it squared it."""
+ORTHOGONAL = 1e-13
+"""The largest product that the last sweep found, relative to the whole. Equal singular values, such as those of a
+wrench, do not converge quadratically: what was found may be left."""
 RANK_TOLERANCE_SQUARED = 1e-18
 """Square of `reference.RANK_TOLERANCE`."""
 TINY = 1e-300
