@@ -8,7 +8,6 @@ move as they do, less what the world does to them.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -195,8 +194,3 @@ def random_pose(rng: np.random.Generator, *, reach: float = 0.3) -> FloatArray:
     pose[:3, :3] = Rotation.random(random_state=rng).as_matrix()
     pose[:3, 3] = rng.uniform(-reach, reach, 3)
     return pose
-
-
-def readings_of(simulation: Simulation, sensors: tuple[str, ...]) -> Mapping[str, FloatArray]:
-    """Readings of several sensors."""
-    return {sensor: simulation.reading(sensor) for sensor in sensors}
