@@ -86,7 +86,7 @@ def run_compiled(
 def _chunks(n: int, workers: int) -> list[slice]:
     """Divide samples into tasks of whole blocks, as many for each worker."""
     count = max(workers, -(-n // (_CHUNK * workers)) * workers)
-    size = -(-n // (count * LANES)) * LANES
+    size = max(-(-n // (count * LANES)), 1) * LANES
     return [slice(start, min(start + size, n)) for start in range(0, n, size)]
 
 
