@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cache
 
 import numpy as np
 
@@ -40,7 +41,8 @@ class Touched:
         return from_root(self.simulation.links[contact.link].pose @ contact.link_H_contact, wrench)
 
 
-def humanoid(root_link: str = "root_link", *, samples: int = 7) -> tuple[RobotModel, BodyTree, JointMotion, RootMotion]:
+@cache
+def humanoid(root_link: str, samples: int) -> tuple[RobotModel, BodyTree, JointMotion, RootMotion]:
     """An iCub with six sensors, moving."""
     model = read_urdf(icub("iCubGazeboV2_7"))
     assert len(model.sensors) == 6
@@ -54,7 +56,7 @@ def humanoid(root_link: str = "root_link", *, samples: int = 7) -> tuple[RobotMo
 
 def touched(contacts: Sequence[Contact], *, root_link: str = "root_link", samples: int = 7, seed: int = 3) -> Touched:
     """Touch the humanoid at random strength, and hold it at its root link."""
-    model, tree, joints, root = humanoid(root_link, samples=samples)
+    model, tree, joints, root = humanoid(root_link, samples)
     return touch(model, tree, joints, root, contacts, seed=seed)
 
 
