@@ -17,7 +17,7 @@ from forcetorque.experiment import load_experiment, parse_experiment
 
 ROOT = Path(__file__).resolve().parents[2]
 README = (ROOT / "README.md").read_text(encoding="utf-8")
-YOGA = sorted((ROOT / "examples").glob("0?_icub_yoga_*.toml"))
+YOGA = sorted((ROOT / "examples").glob("0[2-5]_icub_yoga_*.toml"))
 
 
 def _block(name: str) -> str:
