@@ -57,11 +57,16 @@ def _answer(robot: Touched, contacts: tuple[Contact, ...], torque_sum: TorqueSum
 @pytest.mark.parametrize("evaluator", Evaluator)
 @pytest.mark.parametrize("root_link", ["root_link", "r_sole", "head"])
 def test_both_sums_agree_where_a_full_wrench_takes_up_everything(root_link: str, evaluator: Evaluator) -> None:
-    """With a full wrench on every sub-model no reading can contradict a torque."""
+    """With a full wrench on every sub-model both sums are what the links and contacts outboard add up to."""
     robot = _shaken(root_link)
     contacts = _contacts(robot, ())
     whole, inside = (_answer(robot, contacts, torque_sum, evaluator) for torque_sum in TorqueSum)
     np.testing.assert_allclose(whole.torques, inside.torques, rtol=0, atol=ROUNDING)
+    state = Simulation(robot.model, robot.tree.root_link, robot.joints, robot.root)
+    for contact in contacts:
+        state.touch(contact, whole.contact(contact.name))
+    for joint in whole.layout.joints:
+        np.testing.assert_allclose(inside.torque(joint), state.torque(joint), rtol=0, atol=ROUNDING)
     np.testing.assert_allclose(whole.residual, 0.0, rtol=0, atol=ROUNDING)
     open_foot, open_inside = (_answer(robot, _contacts(robot, ("l_sole",)), s, evaluator) for s in TorqueSum)
     assert np.abs(open_foot.torques - open_inside.torques).max() > VISIBLE  # negative control
