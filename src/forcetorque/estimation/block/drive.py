@@ -15,7 +15,7 @@ import forcetorque.robot.block
 from forcetorque.arrays import FloatArray, IntArray
 from forcetorque.estimation.block import stages
 from forcetorque.estimation.block.scratch import make_scratch
-from forcetorque.robot.block.lanes import LANES, PASS
+from forcetorque.robot.block.lanes import DRIVER, LANES
 
 
 class Answer(NamedTuple):
@@ -42,7 +42,7 @@ def driver() -> Callable[..., bool]:
     # change in another file must be part of the latter
     source = _source_digest()
 
-    @njit(cache=True, **PASS)
+    @njit(cache=True, **DRIVER)
     def drive(plan, joint_columns, motion, root, measured_columns, measured, known_columns, known, active, out):
         source  # noqa: B018
         gap = False

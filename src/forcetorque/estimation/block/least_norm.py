@@ -91,7 +91,8 @@ def sum_up(columns, count, right, work, solution, rank, condition):
             most[k] = length[k] if length[k] > most[k] else most[k]
     solution[:count] = 0.0
     rank[:] = 0.0
-    least[:] = most
+    for k in range(LANES):
+        least[k] = most[k]
     for i in range(6):
         length, b = work[i], right[i * STRIDE : (i + 1) * STRIDE]
         for k in range(LANES):

@@ -29,8 +29,7 @@ class Bodies(NamedTuple):
     mass: FloatArray
     first_moment: FloatArray
     second_moment: FloatArray
-    moved: IntArray  # bodies across a joint, parents first
-    weighed: IntArray  # bodies that have an inertia and whose wrench is needed
+    weighed: BoolArray  # whether it has an inertia and its wrench is needed
     blank: IntArray  # bodies whose wrench is needed and starts at zero
     multiplier: FloatArray  # per coordinate
     offset: FloatArray
@@ -142,7 +141,7 @@ def plan_of(question: Question, switched: frozenset[str]) -> tuple[Plan, tuple[s
 
 def _bodies(question: Question, needs: Needs) -> tuple[Bodies, tuple[str, ...]]:
     bodies = question.tree.bodies
-    motion, coordinate, moved = np.zeros(len(bodies), dtype=np.int64), np.full(len(bodies), -1), []
+    motion, coordinate = np.zeros(len(bodies), dtype=np.int64), np.full(len(bodies), -1)
     coordinates: list[Coordinate] = []
     rows = 1
     for index, body in enumerate(bodies):
@@ -152,8 +151,7 @@ def _bodies(question: Question, needs: Needs) -> tuple[Bodies, tuple[str, ...]]:
             motion[index], rows = rows, rows + 1
             coordinate[index] = len(coordinates)
             coordinates.append(body.coordinate)
-            moved.append(index)
-    weighed = [i for i, body in enumerate(bodies) if needs.carrying[i] and not body.inertia.is_zero]
+    weighed = needs.carrying & np.array([not body.inertia.is_zero for body in bodies])
     layout = Bodies(
         parent=_integers(body.parent for body in bodies),
         motion=motion,
@@ -162,9 +160,8 @@ def _bodies(question: Question, needs: Needs) -> tuple[Bodies, tuple[str, ...]]:
         R=np.array([body.parent_R_joint for body in bodies]),
         p=np.array([body.parent_p_joint for body in bodies]),
         **_inertias([body.inertia for body in bodies]),
-        moved=_integers(moved),
-        weighed=_integers(weighed),
-        blank=_integers(set(np.flatnonzero(needs.carrying)) - set(weighed)),
+        weighed=weighed,
+        blank=_integers(np.flatnonzero(needs.carrying & ~weighed)),
         multiplier=np.array([c.multiplier for c in coordinates], dtype=np.float64),
         offset=np.array([c.offset for c in coordinates], dtype=np.float64),
         mimics=np.array([(c.multiplier, c.offset) != (1.0, 0.0) for c in coordinates], dtype=bool),

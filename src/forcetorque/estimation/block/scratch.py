@@ -7,7 +7,7 @@ import numpy as np
 from numba import njit
 
 from forcetorque.arrays import FloatArray
-from forcetorque.robot.block.lanes import PASS, STRIDE
+from forcetorque.robot.block.lanes import DRIVER, STRIDE
 
 
 class Scratch(NamedTuple):
@@ -38,7 +38,7 @@ class Scratch(NamedTuple):
     gap: FloatArray  # zero where all results so far are finite
 
 
-@njit(**PASS)
+@njit(**DRIVER)
 def make_scratch(coordinates, bodies, both, leaving, expected, known, sensors, contacts, unknowns, torques):
     """Scratch for so many of each."""
     return Scratch(

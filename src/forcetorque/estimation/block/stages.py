@@ -10,6 +10,7 @@ from forcetorque.robot.block.passes import (
     add_to,
     angles,
     carry_inwards,
+    copy,
     difference,
     follow,
     from_frame,
@@ -46,23 +47,20 @@ def read_motion(bodies, work, columns, motion, root, first, count):
 @njit(**PASS)
 def demand(bodies, work):
     """Motion of every body that matters, and the wrench that it takes."""
-    for i in bodies.moved:
-        c = bodies.coordinate[i]
-        parent, body = work.motion[bodies.motion[bodies.parent[i]]], work.motion[bodies.motion[i]]
-        if bodies.slides[i]:
-            work.cosine[c], work.sine[c] = 1.0, 0.0
-            move_prismatic(parent, body, work.q[c], work.dq[c], work.ddq[c], bodies.R[i], bodies.p[i])
-        else:
-            angles(work.q[c], work.cosine[c], work.sine[c])
-            move_rotary(parent, body, work.dq[c], work.ddq[c], work.cosine[c], work.sine[c], bodies.R[i], bodies.p[i])
-    for i in bodies.weighed:
-        net_wrench(
-            work.motion[bodies.motion[i]],
-            work.wrench[i],
-            bodies.mass[i],
-            bodies.first_moment[i],
-            bodies.second_moment[i],
-        )
+    for i in range(len(bodies.parent)):
+        c, rows = bodies.coordinate[i], work.motion[bodies.motion[i]]
+        if c >= 0:
+            parent = work.motion[bodies.motion[bodies.parent[i]]]
+            if bodies.slides[i]:
+                work.cosine[c], work.sine[c] = 1.0, 0.0
+                move_prismatic(parent, rows, work.q[c], work.dq[c], work.ddq[c], bodies.R[i], bodies.p[i])
+            else:
+                angles(work.q[c], work.cosine[c], work.sine[c])
+                move_rotary(
+                    parent, rows, work.dq[c], work.ddq[c], work.cosine[c], work.sine[c], bodies.R[i], bodies.p[i]
+                )
+        if bodies.weighed[i]:
+            net_wrench(rows, work.wrench[i], bodies.mass[i], bodies.first_moment[i], bodies.second_moment[i])
     for i in bodies.blank:
         work.wrench[i] = 0.0
 
@@ -126,11 +124,11 @@ def expect(bodies, sums, frames, work, wrenches, out, first, count):
     for i in sums.expected:
         pass_inwards(bodies, work, i, wrenches)
     if len(sums.expected_path):
-        work.carried[:] = wrenches[0]
+        copy(wrenches[0], work.carried)
         for i in sums.expected_path:
             hand_outwards(bodies, work, i, work.carried, wrenches)
     for j in range(len(frames.body)):
-        work.readout[j] = wrenches[frames.body[j]]
+        copy(wrenches[frames.body[j]], work.readout[j])
         to_frame(work.readout[j], frames.R[j], frames.p[j], frames.sign[j])
     gaps(work.readout.reshape(-1), 6 * len(frames.body), work.gap)
     store(work.readout.reshape(-1), count, out, first, 0, 6 * len(frames.body))
@@ -168,7 +166,7 @@ def missing_at_base(plan, work, s, wrench):
     if reading >= 0:
         difference(work.wrench[base], work.reading[reading], wrench)
     else:
-        wrench[:] = work.wrench[base]
+        copy(work.wrench[base], wrench)
 
 
 @njit(**FORMULA)
@@ -233,7 +231,7 @@ def solve_open(plan, work, s):
     for m in range(plan.parts.first[s], plan.parts.last[s]):
         j = plan.parts.members[m]
         u = unpack(plan, work, j, u)
-        work.carried[:] = work.contact[j]
+        copy(work.contact[j], work.carried)
         from_frame(work.carried, plan.contact_frames.R[j], plan.contact_frames.p[j], 1.0)
         take_from(work.carried, work.wrench[plan.contact_frames.body[j]])
         for i in plan.contacts.path[j]:
@@ -279,9 +277,11 @@ def unpack(plan, work, j, u):
         size = plan.length_scale if component >= 3 else 1.0
         if unknowns == 1:
             for r in range(3):
-                wrench[r * STRIDE : (r + 1) * STRIDE] = plan.contacts.direction[j, r] * work.solution[u]
+                for k in range(LANES):
+                    wrench[r * STRIDE + k] = plan.contacts.direction[j, r] * work.solution[u, k]
         else:
-            wrench[component * STRIDE : (component + 1) * STRIDE] = size * work.solution[u + component]
+            for k in range(LANES):
+                wrench[component * STRIDE + k] = size * work.solution[u + component, k]
     return u + unknowns
 
 
@@ -320,8 +320,10 @@ def torques(plan, work, out, first, count):
     """Component along the joint of the wrench across it."""
     for j in range(len(plan.torques.body)):
         i, row = plan.torques.body[j], plan.torques.component[j] * STRIDE
-        work.torque[j] = work.wrench[i, row : row + STRIDE]
+        for k in range(LANES):
+            work.torque[j, k] = work.wrench[i, row + k]
         if plan.torques.inboard[j]:
-            work.torque[j] += work.residue[i, row : row + STRIDE]
+            for k in range(LANES):
+                work.torque[j, k] += work.residue[i, row + k]
     gaps(work.torque.reshape(-1), len(plan.torques.body), work.gap)
     store(work.torque.reshape(-1), count, out, first, 0, len(plan.torques.body))

@@ -9,15 +9,17 @@ from typing import Any
 
 from numba import njit
 
-LANES = 128
+LANES = 96
 """Samples of a block: its rows stay in the second-level cache."""
 STRIDE = LANES + 4
 """Numbers from one row to the next; not a power of two, or all rows would fall on the same cache sets."""
 
 FORMULA: dict[str, Any] = {"inline": "always", "fastmath": {"contract", "nsz"}, "error_model": "numpy"}
 """Small formulas, put where they are called; multiply-adds may be fused, NaN stays NaN."""
-PASS: dict[str, Any] = {"fastmath": {"contract", "nsz"}, "error_model": "numpy", "nogil": True}
-"""Loops over the lanes of a block."""
+DRIVER: dict[str, Any] = {"fastmath": {"contract", "nsz"}, "error_model": "numpy", "nogil": True}
+"""What makes the arrays of a block and hands them to the passes."""
+PASS: dict[str, Any] = DRIVER | {"_nrt": False}
+"""Loops over the lanes of a block. They make no arrays, so that numba need not count references to rows."""
 
 
 @njit(**FORMULA)

@@ -187,6 +187,13 @@ def point_inwards(point, q, cosine, sine, R, p, slides):
 
 
 @njit(**PASS)
+def copy(a, b):
+    """b = a, for any number of rows."""
+    for i in range(len(a)):
+        b[i] = a[i]
+
+
+@njit(**PASS)
 def add_to(a, b):
     """b += a, for six rows."""
     for i in range(6 * STRIDE):

@@ -9,8 +9,7 @@ References:
     [2] fdlibm, k_sin.c and k_cos.c, Sun Microsystems, 1993 (freely granted).
 """
 
-import math
-
+import numpy as np
 from numba import njit
 
 from forcetorque.robot.block.lanes import FORMULA
@@ -19,7 +18,8 @@ from forcetorque.robot.block.lanes import FORMULA
 @njit(**FORMULA)
 def cosine_sine(x):
     """Cosine and sine of x."""
-    quarters = math.floor(x * 0.6366197723675814 + 0.5)
+    # math.floor would give an integer, for which there is no vector instruction before AVX-512
+    quarters = np.floor(x * 0.6366197723675814 + 0.5)
     r = x - quarters * 1.5707963267341256
     r = r - quarters * 6.077100506303966e-11
     r = r - quarters * 2.0222662487959506e-21
@@ -36,7 +36,7 @@ def cosine_sine(x):
     c = 2.48015872894767294178e-05 + z * c
     c = -1.38888888888741095749e-03 + z * c
     c = 1.0 - 0.5 * z + z * z * (4.16666666666666019037e-02 + z * c)
-    quarter = quarters - 4.0 * math.floor(quarters * 0.25)
+    quarter = quarters - 4.0 * np.floor(quarters * 0.25)
     odd = (quarter == 1.0) | (quarter == 3.0)
     cosine = s if odd else c
     sine = c if odd else s
