@@ -73,6 +73,7 @@ def write_result(
     accuracy: Mapping[str, Any],
     rounds: int,
     packages: tuple[str, ...],
+    figures: Mapping[str, Any] | None = None,
 ) -> None:
     """Write one object with everything that a figure in the README needs, and print the ratios.
 
@@ -83,6 +84,7 @@ def write_result(
         accuracy: How far the results agree.
         rounds: Counted rounds.
         packages: Packages whose versions matter.
+        figures: Anything else that was measured, with its unit in its name.
     """
     commit = subprocess.run(["git", "rev-parse", "HEAD"], capture_output=True, text=True, check=False)
     result = {
@@ -92,6 +94,7 @@ def write_result(
             for name, values in seconds.items()
         },
         "accuracy": dict(accuracy),
+        "figures": dict(figures or {}),
         "rounds": rounds,
         "machine": {"processor": platform.machine(), "cores": os.cpu_count(), "python": platform.python_version()},
         "versions": {name: version(name) for name in packages},
