@@ -16,6 +16,13 @@ from forcetorque.sensor.bridge import (
     bridge_ratio,
     linearised_bridge_ratio,
 )
+from forcetorque.sensor.catalogue import (
+    CatalogueSensor,
+    Technology,
+    find_sensor,
+    sensor_catalogue,
+    sensors_with_range,
+)
 from forcetorque.sensor.elastic import ElasticElement, cross_shaped_element, y_shaped_element
 from forcetorque.sensor.full_scale import (
     FullScale,
@@ -37,6 +44,7 @@ __all__ = [
     "Adc",
     "Amplifier",
     "Bridge",
+    "CatalogueSensor",
     "Coverage",
     "ElasticElement",
     "FullScale",
@@ -45,15 +53,19 @@ __all__ = [
     "ReachableFullScale",
     "ResistiveGauge",
     "Rounding",
+    "Technology",
     "all_channels_full_scale",
     "axis_resolution",
     "bridge_ratio",
     "coverage",
     "cross_shaped_element",
+    "find_sensor",
     "full_scale",
     "hold_on_saturation",
     "linearised_bridge_ratio",
     "quantisation_noise",
     "reachable_full_scale",
+    "sensor_catalogue",
+    "sensors_with_range",
     "y_shaped_element",
 ]
