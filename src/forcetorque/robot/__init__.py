@@ -2,7 +2,7 @@
 """Robots: from URDF to bodies, joints and force-torque sensors, and their dynamics."""
 
 from forcetorque.robot.kinematics import joints_between, motion_of_link
-from forcetorque.robot.model import ForceTorqueSensor, Joint, JointType, Mimic, RobotModel, SensorFrame
+from forcetorque.robot.model import ForceTorqueSensor, Joint, JointLimit, JointType, Mimic, RobotModel, SensorFrame
 from forcetorque.robot.motion import JointMotion, RootMotion
 from forcetorque.robot.newton_euler import expected_wrenches
 from forcetorque.robot.requirements import required_joints
@@ -14,6 +14,7 @@ __all__ = [
     "BodyTree",
     "ForceTorqueSensor",
     "Joint",
+    "JointLimit",
     "JointMotion",
     "JointType",
     "Mimic",
