@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Robots: from URDF to bodies, joints and force-torque sensors, and their dynamics."""
 
-from forcetorque.robot.kinematics import joints_between, motion_of_link
+from forcetorque.robot.kinematics import joints_between, link_pose, motion_of_link
 from forcetorque.robot.model import ForceTorqueSensor, Joint, JointLimit, JointType, Mimic, RobotModel, SensorFrame
 from forcetorque.robot.motion import JointMotion, RootMotion
 from forcetorque.robot.newton_euler import expected_wrenches
@@ -25,6 +25,7 @@ __all__ = [
     "build_tree",
     "expected_wrenches",
     "joints_between",
+    "link_pose",
     "motion_of_link",
     "read_urdf",
     "required_joints",
