@@ -58,15 +58,14 @@ def joint_range(model: RobotModel, tree: BodyTree, joint: str, *, margin: float)
 
 def _limits(model: RobotModel, name: str) -> tuple[float, float]:
     joint = model.joints[name]
-    endless = joint.type is JointType.CONTINUOUS
-    if not endless and (joint.limit is None or joint.limit.lower is None or joint.limit.upper is None):
+    if joint.type is JointType.CONTINUOUS:
+        return -math.pi, math.pi
+    limit = joint.limit
+    if limit is None or limit.lower is None or limit.upper is None:
         raise RobotError(
             f"joint {name!r}: expected limits of its position in the URDF, it has none; "
             f"name the range: ranges={{{name!r}: (low, high)}}"
         )
-    if endless or joint.limit is None or joint.limit.lower is None or joint.limit.upper is None:
-        return -math.pi, math.pi
-    low, high = joint.limit.lower, joint.limit.upper
-    if joint.type is JointType.REVOLUTE and low < math.pi and high > -math.pi:
-        return max(low, -math.pi), min(high, math.pi)
-    return low, high
+    if joint.type is JointType.REVOLUTE and limit.lower < math.pi and limit.upper > -math.pi:
+        return max(limit.lower, -math.pi), min(limit.upper, math.pi)
+    return limit.lower, limit.upper

@@ -165,7 +165,7 @@ class Movement:
         Returns:
             The wrench in the support's frame; shape (n, 6); N, N m.
         """
-        bearing = Contact(link=self.support, name="support")
+        bearing = Contact(link=self.support, name=f"{self.support} (support)")  # a name that no touch has
         touches = tuple(touch.contact for touch in self.external)
         question = Question(tree=self.tree, contacts=(bearing, *touches))
         known = self.external_wrenches(seconds)
