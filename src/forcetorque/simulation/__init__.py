@@ -1,15 +1,41 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Robots, motions and sensors with known truth, for users as much as for our tests."""
 
-from forcetorque.simulation.motion import random_smooth_motion
-from forcetorque.simulation.recording import ARM_URDF, simulate_recording
+from forcetorque.simulation.load import with_load
+from forcetorque.simulation.motions import (
+    Movement,
+    MovementKind,
+    Stand,
+    Touch,
+    Waypoints,
+    balancing_movement,
+    contact_switching_movements,
+    grid_movement,
+    random_movement,
+    random_smooth_motion,
+    z_torque_movement,
+)
+from forcetorque.simulation.recording import simulate_recording
+from forcetorque.simulation.robots import ARM_URDF, BIPED_URDF
 from forcetorque.simulation.sensor import SimulatedSensor, distorted_by_mounting, y_shaped_matrix
 
 __all__ = [
     "ARM_URDF",
+    "BIPED_URDF",
+    "Movement",
+    "MovementKind",
     "SimulatedSensor",
+    "Stand",
+    "Touch",
+    "Waypoints",
+    "balancing_movement",
+    "contact_switching_movements",
     "distorted_by_mounting",
+    "grid_movement",
+    "random_movement",
     "random_smooth_motion",
     "simulate_recording",
+    "with_load",
     "y_shaped_matrix",
+    "z_torque_movement",
 ]

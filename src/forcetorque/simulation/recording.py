@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -14,11 +13,8 @@ from forcetorque.constants import STANDARD_GRAVITY
 from forcetorque.recording import Recording, Signal, Stream
 from forcetorque.recording.alignment import seconds_since
 from forcetorque.robot import JointMotion, RobotModel, RootMotion, build_tree, expected_wrenches
-from forcetorque.simulation.motion import random_smooth_motion
+from forcetorque.simulation.motions import random_smooth_motion
 from forcetorque.simulation.sensor import SimulatedSensor
-
-ARM_URDF = Path(__file__).parent / "robots" / "arm.urdf"
-"""The small arm that ships with the library; its sensor is `arm_ft`, its base stands level."""
 
 _EPOCH_NS = 1_700_000_000_000_000_000
 _ENCODER_STEP = 2.0 * np.pi / 2**16
