@@ -91,22 +91,74 @@ def test_a_later_package_is_noticed() -> None:
     assert _violations("recording", {"spatial", "errors", "calibration"}) == {"calibration"}
 
 
-DISTRIBUTIONS = {"pydantic_core": "pydantic"}
+DISTRIBUTIONS = {"pydantic_core": "pydantic", "sklearn": "scikit-learn"}
 """Distribution of an importable name, where they differ."""
+DEVELOPMENT = {"test", "docs"}
+"""Extras of those who work on the library; nothing in it may need them."""
+
+
+def _distributions(entries: list[str]) -> set[str]:
+    """Names of requirements, without versions and markers; an extra that names others of ours names none itself."""
+    return {re.split(r"[<>=!~ ;\[]", entry)[0] for entry in entries} - {"forcetorque"}
+
+
+def _foreign(code: str) -> tuple[set[str], set[str]]:
+    """Distributions that a file needs when it is imported, and those that it imports only in functions or for types."""
+    at_import: set[str] = set()
+    everywhere: set[str] = set()
+
+    def look(node: ast.AST, *, deferred: bool) -> None:
+        names = [alias.name for alias in node.names] if isinstance(node, ast.Import) else []
+        names += [node.module] if isinstance(node, ast.ImportFrom) and node.module and not node.level else []
+        found = {name.split(".")[0] for name in names} - sys.stdlib_module_names - {"forcetorque"}
+        everywhere.update(found)
+        if not deferred:
+            at_import.update(found)
+        if isinstance(node, ast.If) and ast.unparse(node.test) == "TYPE_CHECKING":
+            for child in node.body:
+                look(child, deferred=True)
+            for child in node.orelse:
+                look(child, deferred=deferred)
+            return
+        inside = deferred or isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda)
+        for child in ast.iter_child_nodes(node):
+            look(child, deferred=inside)
+
+    look(ast.parse(code), deferred=False)
+    named = [{DISTRIBUTIONS.get(name, name) for name in names} for names in (at_import, everywhere - at_import)]
+    return named[0], named[1]
 
 
 def test_every_import_is_a_declared_dependency() -> None:
-    """The library imports only what it declares, and declares only what it imports: a bare install runs."""
+    """A bare install runs: what is not a dependency is in an extra, and then imported in functions alone."""
     project = tomllib.loads((ROOT.parents[1] / "pyproject.toml").read_text(encoding="utf-8"))["project"]
-    declared = {re.split(r"[<>=!~ ;\[]", entry)[0] for entry in project["dependencies"]}
-    imported = set()
-    for path in ROOT.rglob("*.py"):
-        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
-            names = [alias.name for alias in node.names] if isinstance(node, ast.Import) else []
-            names += [node.module] if isinstance(node, ast.ImportFrom) and node.module else []
-            imported |= {name.split(".")[0] for name in names}
-    foreign = imported - sys.stdlib_module_names - {"forcetorque"}
-    assert {DISTRIBUTIONS.get(name, name) for name in foreign} == declared
+    extras = project["optional-dependencies"]
+    dependencies = _distributions(project["dependencies"])
+    optional = _distributions([e for name, entries in extras.items() if name not in DEVELOPMENT for e in entries])
+    imported = [_foreign(path.read_text(encoding="utf-8")) for path in ROOT.rglob("*.py")]
+    at_import = set().union(*(first for first, _ in imported))
+    later = set().union(*(second for _, second in imported))
+    assert at_import <= dependencies
+    assert later <= dependencies | optional
+    assert dependencies | optional == at_import | later
+    assert not dependencies & optional
+
+
+@pytest.mark.parametrize(
+    ("code", "expected"),
+    [
+        ("import numpy.linalg", ({"numpy"}, set())),
+        ("def f():\n    from sklearn.svm import SVC", (set(), {"scikit-learn"})),
+        ("if TYPE_CHECKING:\n    from matplotlib.axes import Axes", (set(), {"matplotlib"})),
+        ("if TYPE_CHECKING:\n    pass\nelse:\n    import matplotlib", ({"matplotlib"}, set())),
+        ("try:\n    import matplotlib\nexcept ImportError:\n    pass", ({"matplotlib"}, set())),
+        ("class A:\n    import matplotlib", ({"matplotlib"}, set())),
+        ("import os, forcetorque.spatial", (set(), set())),
+    ],
+)
+def test_imports_in_functions_are_told_apart(code: str, expected: tuple[set[str], set[str]]) -> None:
+    """Control of the test above: only functions and blocks for types put an import off."""
+    assert _foreign(code) == expected
 
 
 PRINTING = {"print", "input"}

@@ -51,6 +51,10 @@ class SerialNumberError(ForceTorqueError, ValueError):
     """A calibration was offered to a sensor with another serial number."""
 
 
+class MissingExtraError(ForceTorqueError, ImportError):
+    """Something needs a library that only an optional extra installs."""
+
+
 def known_names(wanted: str, known: Iterable[str]) -> str:
     """List the names that would have been accepted, the likeliest one first.
 
