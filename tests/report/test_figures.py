@@ -136,8 +136,9 @@ found = select_gains(experiment, experiment.sensors[0])
 assert "matplotlib" not in sys.modules
 gain_figure([found])
 import matplotlib
+settings = matplotlib.rcParams.copy()
+gain_figure([found])
+assert matplotlib.rcParams.copy() == settings
 assert "matplotlib.pyplot" not in sys.modules
-changed = {{k for k in matplotlib.rcParams if matplotlib.rcParams._get(k) != matplotlib.rcParamsOrig._get(k)}}
-assert not changed, changed
 """
     subprocess.run([sys.executable, "-c", code], check=True)
