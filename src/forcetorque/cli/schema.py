@@ -28,6 +28,7 @@ def run(name: str) -> None:
         "estimate": _estimate,
         "evaluate": _evaluate,
         "export": _export,
+        "gains": _gains,
         "inspect": _inspect,
         "payload": _payload,
     }
@@ -76,6 +77,12 @@ def _export() -> dict[str, Any]:
     from forcetorque.cli.export import ExportResult
 
     return ExportResult.model_json_schema()
+
+
+def _gains() -> dict[str, Any]:
+    from forcetorque.cli.gains_result import GainsResult
+
+    return GainsResult.model_json_schema()
 
 
 def _inspect() -> dict[str, Any]:

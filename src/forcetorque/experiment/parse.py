@@ -41,7 +41,11 @@ def parse_experiment(path: Path | str) -> ExperimentFile:
 
 def _one_line(file: Path, content: dict[str, Any], error: ValidationError) -> str:
     # a list that is too short because its only element is wrong is no second error
-    first, *more = [e for e in error.errors() if e["type"] != "too_short"] or error.errors()
+    errors = error.errors()
+    places = [e["loc"] for e in errors]
+    first, *more = [
+        e for e in errors if e["type"] != "too_short" or not any(p[: len(e["loc"])] == e["loc"] != p for p in places)
+    ]
     where = _place(content, first["loc"], missing=first["type"] == "missing") or "top level"
     message = first["msg"]
     if first["type"] == "tuple_type":

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Robots, motions and sensors with known truth, for users as much as for our tests."""
 
+from forcetorque.simulation.board import calibrated_by_board
 from forcetorque.simulation.load import with_load
 from forcetorque.simulation.motions import (
     Movement,
@@ -14,6 +15,14 @@ from forcetorque.simulation.motions import (
     random_movement,
     random_smooth_motion,
     z_torque_movement,
+)
+from forcetorque.simulation.network import (
+    fail_groups,
+    jitter_stamps,
+    lose_messages,
+    offset_clocks,
+    repeat_stamps,
+    step_back,
 )
 from forcetorque.simulation.recording import simulate_recording
 from forcetorque.simulation.robots import ARM_URDF, BIPED_URDF
@@ -29,12 +38,19 @@ __all__ = [
     "Touch",
     "Waypoints",
     "balancing_movement",
+    "calibrated_by_board",
     "contact_switching_movements",
     "distorted_by_mounting",
+    "fail_groups",
     "grid_movement",
+    "jitter_stamps",
+    "lose_messages",
+    "offset_clocks",
     "random_movement",
     "random_smooth_motion",
+    "repeat_stamps",
     "simulate_recording",
+    "step_back",
     "with_load",
     "y_shaped_matrix",
     "z_torque_movement",
