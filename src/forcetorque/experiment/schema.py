@@ -21,10 +21,10 @@ from forcetorque.arrays import FloatArray
 from forcetorque.constants import STANDARD_GRAVITY
 from forcetorque.estimation import ContactType
 from forcetorque.experiment.log_schema import Log
-from forcetorque.experiment.table import Finite, Positive, Table, Text
 from forcetorque.recording import Use
 from forcetorque.robot import SensorFrame
 from forcetorque.spatial import MeasureDirection
+from forcetorque.toml_table import Finite, Positive, Table, Text
 
 
 class Robot(Table):
