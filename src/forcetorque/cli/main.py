@@ -237,7 +237,8 @@ def _schema(
     name: Annotated[
         str,
         typer.Argument(
-            help="experiment, recording, calibration, calibrate, estimate, evaluate, export, gains, inspect or payload."
+            help="experiment, scenario, recording, calibration, calibrate, estimate, evaluate, export, gains, inspect, "
+            "payload or simulate."
         ),
     ],
 ) -> None:
@@ -248,3 +249,18 @@ def _schema(
     from forcetorque.cli.schema import run
 
     run(name)
+
+
+@app.command("simulate")
+def _simulate(
+    scenario: Annotated[str, typer.Argument(help="Scenario file (TOML), or icub-insitu or wrist for a bundled one.")],
+    output: Annotated[Path, typer.Option("--output", "-o", help="Folder to make.")],
+    output_format: FormatOption = Format.TABLE,
+) -> None:
+    """Make recordings of a simulated robot whose sensors are known.
+
+    Example: forcetorque simulate wrist -o simulated
+    """
+    from forcetorque.cli.simulate import run
+
+    run(scenario, output=output, output_format=output_format)

@@ -31,6 +31,8 @@ def run(name: str) -> None:
         "gains": _gains,
         "inspect": _inspect,
         "payload": _payload,
+        "scenario": _scenario,
+        "simulate": _simulate,
     }
     if name not in known:
         raise ForceTorqueError(f"no schema is called {name!r}; {known_names(name, known)}")
@@ -95,3 +97,15 @@ def _payload() -> dict[str, Any]:
     from forcetorque.cli.payload import PayloadResult
 
     return PayloadResult.model_json_schema()
+
+
+def _scenario() -> dict[str, Any]:
+    from forcetorque.simulation.scenario import ScenarioFile
+
+    return ScenarioFile.model_json_schema()
+
+
+def _simulate() -> dict[str, Any]:
+    from forcetorque.cli.simulate import SimulateResult
+
+    return SimulateResult.model_json_schema()

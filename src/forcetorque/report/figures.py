@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -16,6 +16,7 @@ from forcetorque.recording.alignment import GAP_PERIODS
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 DOTS_PER_INCH = 100
 """Resolution of every figure; dots per inch."""
@@ -44,14 +45,7 @@ def gain_figure(sensors: Sequence[SensorGains]) -> bytes:
     References:
         [1] F. J. Andrade Chavez, Force-torque sensing in robotics, thesis (2019), figure 5.8.
     """
-    try:
-        from matplotlib.backends.backend_agg import FigureCanvasAgg
-        from matplotlib.figure import Figure
-    except ImportError as error:
-        raise MissingExtraError("figures are drawn by matplotlib: pip install forcetorque[report]") from error
-    # a Figure with its own canvas, not pyplot: no window, no state that others share
-    figure = Figure(figsize=(ROW_INCHES[0], ROW_INCHES[1] * len(sensors)), dpi=DOTS_PER_INCH, layout="constrained")
-    FigureCanvasAgg(figure)
+    figure = _figure(ROW_INCHES[0], ROW_INCHES[1] * len(sensors))
     panels = figure.subplots(len(sensors), 2, squeeze=False, sharey="row")
     for (before, after), found in zip(panels, sensors, strict=True):
         known = all(each.recommended is not None for each in found.advice)
@@ -61,6 +55,48 @@ def gain_figure(sensors: Sequence[SensorGains]) -> bytes:
         )
         before.set_ylabel("raw, counts")
         after.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), frameon=False)
+    return _png(figure)
+
+
+def force_space_figure(clouds: Mapping[str, Sequence[tuple[str, FloatArray]]]) -> bytes:
+    """Draw clouds of forces as seen along the three axes.
+
+    Args:
+        clouds: By the title of a row, names and forces of its clouds, drawn in this order; shape (n, 3); N.
+
+    Returns:
+        The figure as PNG, a row of three views per title.
+
+    Raises:
+        MissingExtraError: If matplotlib is not installed.
+    """
+    figure = _figure(ROW_INCHES[0], ROW_INCHES[1] * len(clouds))
+    rows = figure.subplots(len(clouds), 3, squeeze=False)
+    for panels, (title, named) in zip(rows, clouds.items(), strict=True):
+        for panel, (first, second) in zip(panels, ((0, 1), (1, 2), (0, 2)), strict=True):
+            for (name, force), colour in zip(named, COLOURS, strict=False):
+                panel.plot(force[:, first], force[:, second], ".", color=colour, markersize=1.5, label=name)
+            panel.set_aspect("equal", adjustable="datalim")
+            panel.set_xlabel(f"f{'xyz'[first]}, N")
+            panel.set_ylabel(f"f{'xyz'[second]}, N")
+        panels[0].set_title(title, fontsize=10, loc="left")
+        panels[-1].legend(loc="center left", bbox_to_anchor=(1.0, 0.5), frameon=False, markerscale=6.0)
+    return _png(figure)
+
+
+def _figure(width: float, height: float) -> Figure:
+    try:
+        from matplotlib.backends.backend_agg import FigureCanvasAgg
+        from matplotlib.figure import Figure
+    except ImportError as error:
+        raise MissingExtraError("figures are drawn by matplotlib: pip install forcetorque[report]") from error
+    # a Figure with its own canvas, not pyplot: no window, no state that others share
+    figure = Figure(figsize=(width, height), dpi=DOTS_PER_INCH, layout="constrained")
+    FigureCanvasAgg(figure)
+    return figure
+
+
+def _png(figure: Figure) -> bytes:
     png = io.BytesIO()
     figure.savefig(png, format="png", dpi=DOTS_PER_INCH)
     return png.getvalue()

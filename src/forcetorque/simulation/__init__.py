@@ -2,6 +2,7 @@
 """Robots, motions and sensors with known truth, for users as much as for our tests."""
 
 from forcetorque.simulation.board import calibrated_by_board
+from forcetorque.simulation.family import FAMILIES, SensorFamily
 from forcetorque.simulation.load import with_load
 from forcetorque.simulation.motions import (
     Movement,
@@ -24,15 +25,17 @@ from forcetorque.simulation.network import (
     repeat_stamps,
     step_back,
 )
-from forcetorque.simulation.recording import simulate_recording
+from forcetorque.simulation.recording import record, simulate_recording
 from forcetorque.simulation.robots import ARM_URDF, BIPED_URDF
 from forcetorque.simulation.sensor import SimulatedSensor, distorted_by_mounting, y_shaped_matrix
 
 __all__ = [
     "ARM_URDF",
     "BIPED_URDF",
+    "FAMILIES",
     "Movement",
     "MovementKind",
+    "SensorFamily",
     "SimulatedSensor",
     "Stand",
     "Touch",
@@ -48,6 +51,7 @@ __all__ = [
     "offset_clocks",
     "random_movement",
     "random_smooth_motion",
+    "record",
     "repeat_stamps",
     "simulate_recording",
     "step_back",
