@@ -22,6 +22,7 @@ types: $(VENV)/test.stamp
 bench: $(VENV)/test.stamp
 	$(BIN)/python -m benchmarks.yarp_readers --json build/benchmarks/yarp_readers.json
 	$(BIN)/python -m benchmarks.dynamics --json build/benchmarks/dynamics.json
+	$(BIN)/python -m benchmarks.simulation --json build/benchmarks/simulation.json
 
 # uv installs exactly what uv.lock says; it is itself installed here, so nothing is assumed
 $(BIN)/uv:

@@ -8,6 +8,7 @@ import re
 import subprocess
 import sys
 import tomllib
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 
 import pytest
@@ -91,22 +92,69 @@ def test_a_later_package_is_noticed() -> None:
     assert _violations("recording", {"spatial", "errors", "calibration"}) == {"calibration"}
 
 
-DISTRIBUTIONS = {"pydantic_core": "pydantic"}
+DISTRIBUTIONS = {"icub_models": "icub-models", "pydantic_core": "pydantic", "sklearn": "scikit-learn"}
 """Distribution of an importable name, where they differ."""
+
+PROJECT = tomllib.loads((ROOT.parents[1] / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+EXTRAS = PROJECT["optional-dependencies"]
+DEVELOPMENT = {"test", "docs"}
+"""Extras that the library itself never imports."""
+
+
+def _distributions(requirements: list[str]) -> set[str]:
+    return {re.split(r"[<>=!~ ;\[]", entry)[0] for entry in requirements}
+
+
+def _at_import(node: ast.AST) -> Iterator[ast.AST]:
+    """Nodes that run when the module is imported: all but those inside functions, and those for type checkers."""
+    for child in ast.iter_child_nodes(node):
+        is_for_types = isinstance(child, ast.If) and ast.unparse(child.test) == "TYPE_CHECKING"
+        if not is_for_types and not isinstance(child, ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda):
+            yield child
+            yield from _at_import(child)
+
+
+def _foreign(nodes: Iterable[ast.AST]) -> set[str]:
+    """Distributions that these nodes import."""
+    imported = set()
+    for node in nodes:
+        names = [alias.name for alias in node.names] if isinstance(node, ast.Import) else []
+        names += [node.module] if isinstance(node, ast.ImportFrom) and node.module else []
+        imported |= {name.split(".")[0] for name in names}
+    return {DISTRIBUTIONS.get(name, name) for name in imported - sys.stdlib_module_names - {"forcetorque"}}
+
+
+def _trees() -> list[ast.Module]:
+    return [ast.parse(path.read_text(encoding="utf-8")) for path in ROOT.rglob("*.py")]
+
+
+RUN_TIME = {
+    name: _distributions(entries) for name, entries in EXTRAS.items() if name not in DEVELOPMENT and name != "all"
+}
 
 
 def test_every_import_is_a_declared_dependency() -> None:
-    """The library imports only what it declares, and declares only what it imports: a bare install runs."""
-    project = tomllib.loads((ROOT.parents[1] / "pyproject.toml").read_text(encoding="utf-8"))["project"]
-    declared = {re.split(r"[<>=!~ ;\[]", entry)[0] for entry in project["dependencies"]}
-    imported = set()
-    for path in ROOT.rglob("*.py"):
-        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
-            names = [alias.name for alias in node.names] if isinstance(node, ast.Import) else []
-            names += [node.module] if isinstance(node, ast.ImportFrom) and node.module else []
-            imported |= {name.split(".")[0] for name in names}
-    foreign = imported - sys.stdlib_module_names - {"forcetorque"}
-    assert {DISTRIBUTIONS.get(name, name) for name in foreign} == declared
+    """The library imports only what it declares, and declares only what it imports."""
+    declared = _distributions(PROJECT["dependencies"]).union(*RUN_TIME.values())
+    assert set().union(*(_foreign(ast.walk(tree)) for tree in _trees())) == declared
+
+
+def test_a_bare_install_imports_every_module() -> None:
+    """What an extra brings is imported only inside functions: without it every module can still be imported."""
+    assert set().union(*(_foreign(_at_import(tree)) for tree in _trees())) <= _distributions(PROJECT["dependencies"])
+
+
+def test_the_extra_named_all_holds_every_run_time_extra() -> None:
+    """`pip install forcetorque[all]` brings everything that the library may import."""
+    (entry,) = EXTRAS["all"]
+    assert entry == f"forcetorque[{','.join(sorted(RUN_TIME))}]"
+
+
+def test_an_extra_imported_with_its_module_is_noticed() -> None:
+    """Negative control: only an import inside a function waits until it is called."""
+    inside, outside = "def fit():\n    import sklearn", "class Fit:\n    import sklearn"
+    assert _foreign(_at_import(ast.parse(inside))) == set()
+    assert _foreign(ast.walk(ast.parse(inside))) == _foreign(_at_import(ast.parse(outside))) == {"scikit-learn"}
 
 
 PRINTING = {"print", "input"}

@@ -47,6 +47,14 @@ class FitError(ForceTorqueError, ValueError):
     """Data do not determine what a fit was asked for."""
 
 
+class SensorError(ForceTorqueError, ValueError):
+    """A part of a sensor was described, or used, as no such part can be."""
+
+
+class MissingExtraError(ForceTorqueError, ImportError):
+    """A function needs an optional extra that is not installed."""
+
+
 class SerialNumberError(ForceTorqueError, ValueError):
     """A calibration was offered to a sensor with another serial number."""
 

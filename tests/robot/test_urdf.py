@@ -144,7 +144,7 @@ def test_a_massless_link_keeps_its_inertia(tmp_path: Path) -> None:
 
 
 def test_what_does_not_matter_is_passed_over(tmp_path: Path) -> None:
-    """Geometry, limits, damping, transmissions and comments change nothing."""
+    """Geometry, effort, damping, transmissions and comments change nothing."""
     noise = (
         "<!-- a comment --><transmission><joint name='j'/></transmission>"
         "<gazebo reference='a'><material>x</material></gazebo>"

@@ -159,6 +159,16 @@ BAD: dict[str, tuple[str, type[ForceTorqueError], str]] = {
         FormatError,
         "<joint name='j'>: <parent>: expected the attribute link, got none",
     ),
+    "limit that is a word": (
+        robot_xml(*A_B, joint_xml("j", "a", "b", type="revolute", inside="<limit lower='-1' upper='open'/>")),
+        FormatError,
+        "<joint name='j'>: <limit>: expected 1 number(s) in upper, got 'open'",
+    ),
+    "endless speed": (
+        robot_xml(*A_B, joint_xml("j", "a", "b", type="continuous", inside="<limit velocity='inf'/>")),
+        FormatError,
+        "<joint name='j'>: <limit>: expected 1 finite number(s) in velocity, got 'inf'",
+    ),
     "mimic without joint": (
         robot_xml(*A_B, joint_xml("j", "a", "b", type="revolute", inside="<mimic/>")),
         FormatError,

@@ -52,17 +52,20 @@ def test_counts_decode_to_the_true_wrench() -> None:
     matrix = y_shaped_matrix(arm_m=0.02, counts_per_newton=60.0)
     sensor = SimulatedSensor(matrix=matrix, offset=np.array([1.0, 2, 3, 0.1, 0.2, 0.3]), noise_counts=0.0)
     wrench = rng.normal(size=(200, 6)) * [10, 10, 10, 1, 1, 1]
-    raw = sensor.read(wrench, rng)
+    raw = sensor.read(wrench, rng, rate_hz=100.0).counts
     assert np.array_equal(raw, np.rint(raw))
     half_count = 0.5 * np.abs(matrix).sum(axis=1)
     assert (np.abs(raw @ matrix.T + sensor.offset - wrench) <= half_count + 1e-9).all()
 
 
-def test_readings_stop_at_the_limit() -> None:
-    """A wrench beyond the range reads the limit, not more."""
+def test_a_saturated_board_holds_its_last_valid_sample() -> None:
+    """While a channel is beyond its limit all channels stay as they were, and the status says so; no other time."""
     sensor = SimulatedSensor(matrix=np.eye(6) * 0.01, offset=np.zeros(6), noise_counts=0.0)
-    raw = sensor.read(np.full((1, 6), 1e6), np.random.default_rng(4))
-    assert (raw == 32767).all()
+    wrench = np.outer([1.0, 2.0, 400.0, 400.0, 3.0], [1.0, 0.5, 0.1, 0.1, 0.1, 0.1])
+    held = sensor.read(wrench, np.random.default_rng(4), rate_hz=100.0)
+    np.testing.assert_array_equal(held.saturated, [False, False, True, True, False])
+    np.testing.assert_array_equal(held.counts[2:4], held.counts[[1, 1]])
+    np.testing.assert_array_equal(held.counts[[0, 1, 4], 0], [100.0, 200.0, 300.0])
 
 
 def test_an_ideal_sensor_has_no_couplings_between_plane_and_axis() -> None:

@@ -163,6 +163,48 @@ def _export(
     )
 
 
+@app.command("gains")
+def _gains(
+    experiment: ExperimentArgument,
+    sensor: SensorOption = None,
+    margin: Annotated[
+        float, typer.Option("--margin", help="Share of the limit to keep free for forces that were not recorded.")
+    ] = 0.2,
+    amplifier_gain: Annotated[
+        str | None,
+        typer.Option("--amplifier-gain", help="Present gains, like 24 or 24,24,24,36,36,36. Default: of the file."),
+    ] = None,
+    allowed_gains: Annotated[
+        str | None,
+        typer.Option("--allowed-gains", help="Gains that can be set, like 8,16,24,36,48. Default: of the file."),
+    ] = None,
+    calibration: Annotated[
+        list[Path] | None,
+        typer.Option("--calibration", "-c", help="Calibration that tells what a count is worth. Default: the priors."),
+    ] = None,
+    figure: Annotated[
+        Path | None, typer.Option("--figure", help="PNG of the channels against their limits, before and after.")
+    ] = None,
+    output_format: FormatOption = Format.TABLE,
+) -> None:
+    """Show the head-room of raw channels and which amplifier gains suit them.
+
+    Example: forcetorque gains experiment.toml --margin 0.2
+    """
+    from forcetorque.cli.gains import run
+
+    run(
+        experiment,
+        sensors=sensor,
+        margin=margin,
+        amplifier_gain=amplifier_gain,
+        allowed_gains=allowed_gains,
+        calibrations=calibration,
+        figure=figure,
+        output_format=output_format,
+    )
+
+
 @app.command("inspect")
 def _inspect(
     log: Annotated[
@@ -195,7 +237,8 @@ def _schema(
     name: Annotated[
         str,
         typer.Argument(
-            help="experiment, recording, calibration, calibrate, estimate, evaluate, export, inspect or payload."
+            help="experiment, scenario, recording, calibration, calibrate, estimate, evaluate, export, gains, inspect, "
+            "payload or simulate."
         ),
     ],
 ) -> None:
@@ -206,3 +249,18 @@ def _schema(
     from forcetorque.cli.schema import run
 
     run(name)
+
+
+@app.command("simulate")
+def _simulate(
+    scenario: Annotated[str, typer.Argument(help="Scenario file (TOML), or icub-insitu or wrist for a bundled one.")],
+    output: Annotated[Path, typer.Option("--output", "-o", help="Folder to make.")],
+    output_format: FormatOption = Format.TABLE,
+) -> None:
+    """Make recordings of a simulated robot whose sensors are known.
+
+    Example: forcetorque simulate wrist -o simulated
+    """
+    from forcetorque.cli.simulate import run
+
+    run(scenario, output=output, output_format=output_format)

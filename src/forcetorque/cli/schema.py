@@ -28,8 +28,11 @@ def run(name: str) -> None:
         "estimate": _estimate,
         "evaluate": _evaluate,
         "export": _export,
+        "gains": _gains,
         "inspect": _inspect,
         "payload": _payload,
+        "scenario": _scenario,
+        "simulate": _simulate,
     }
     if name not in known:
         raise ForceTorqueError(f"no schema is called {name!r}; {known_names(name, known)}")
@@ -78,6 +81,12 @@ def _export() -> dict[str, Any]:
     return ExportResult.model_json_schema()
 
 
+def _gains() -> dict[str, Any]:
+    from forcetorque.cli.gains_result import GainsResult
+
+    return GainsResult.model_json_schema()
+
+
 def _inspect() -> dict[str, Any]:
     from forcetorque.cli.inspect import InspectResult
 
@@ -88,3 +97,15 @@ def _payload() -> dict[str, Any]:
     from forcetorque.cli.payload import PayloadResult
 
     return PayloadResult.model_json_schema()
+
+
+def _scenario() -> dict[str, Any]:
+    from forcetorque.simulation.scenario import ScenarioFile
+
+    return ScenarioFile.model_json_schema()
+
+
+def _simulate() -> dict[str, Any]:
+    from forcetorque.cli.simulate import SimulateResult
+
+    return SimulateResult.model_json_schema()

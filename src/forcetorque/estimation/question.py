@@ -51,8 +51,8 @@ class Question:
     torque_sum: TorqueSum = TorqueSum.WHOLE_TREE
     """Which links' wrenches make a torque."""
     equations: tuple[str, ...] | None = None
-    """Sub-models whose rank, condition and residual are wanted, by the sensor at their base or the root link;
-    None for all."""
+    """Sub-models whose rank, condition and residual are wanted, by the sensor at their base or the root link; None for
+    all where there are readings or contacts, and for none where nothing but the model is asked."""
     minimum_norm: MinimumNorm | None = None
     """Needed where a sub-model has more than six unknowns; without it 1 N weighs like 1 N m."""
     expected: tuple[str, ...] = ()
@@ -72,7 +72,8 @@ class Question:
         object.__setattr__(self, "torque_sum", TorqueSum(self.torque_sum))
         object.__setattr__(self, "parts", sub_models(self.tree, self.measured))
         names = tuple(part.name for part in self.parts)
-        equations = names if self.equations is None else tuple(self.equations)
+        some = names if self.measured or self.contacts else ()
+        equations = some if self.equations is None else tuple(self.equations)
         layout = Layout(
             sensors=self.expected,
             contacts=tuple(contact.name for contact in self.unknown),

@@ -60,7 +60,8 @@ class SensorSamples:
     reference: FloatArray
     """Expected wrench in the sensor's frame and direction; shape (n, 6); N, N m."""
     dropped: int
-    """Samples of the interval left out: missing values, gaps in a joint, stamps that do not step forward."""
+    """Samples of the interval left out: missing values, gaps in a joint, stamps that do not step forward, values that
+    a saturated board held."""
 
     def __post_init__(self) -> None:
         stamps = np.array(self.stamp_ns, dtype=np.int64)
@@ -110,7 +111,7 @@ def sensor_samples(
     at_ns = source.stamp_ns[picked]
     reference, joints = _reference(recording, model, sensor, source, interval.support, at_ns, processing)
     reading = source.signal(quantity)
-    values = reading.values[picked]
+    values = np.where(source.held[picked, None], np.nan, reading.values[picked])
     if processing.smoothing is not None:
         # after the cut, so that nothing leaks in from outside; together, because a sample that only one
         # of the two lacks would give them two different filters

@@ -1,7 +1,32 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""How far a calibration can be trusted, on motions that were not fitted."""
+"""How far a calibration can be trusted, on motions that were not fitted, and how well a sensor uses its range."""
 
+from forcetorque.evaluation.gains import (
+    MARGIN,
+    AxisResolution,
+    ChannelRange,
+    GainAdvice,
+    GainChange,
+    advise_gains,
+    axis_resolution,
+    channel_ranges,
+    strongest_samples,
+)
 from forcetorque.evaluation.model_findings import model_findings
 from forcetorque.evaluation.wrench_errors import WrenchErrors, offset_removed, wrench_errors
 
-__all__ = ["WrenchErrors", "model_findings", "offset_removed", "wrench_errors"]
+__all__ = [
+    "MARGIN",
+    "AxisResolution",
+    "ChannelRange",
+    "GainAdvice",
+    "GainChange",
+    "WrenchErrors",
+    "advise_gains",
+    "axis_resolution",
+    "channel_ranges",
+    "model_findings",
+    "offset_removed",
+    "strongest_samples",
+    "wrench_errors",
+]

@@ -5,6 +5,7 @@ from forcetorque.experiment.calibrate import calibrate_sensor
 from forcetorque.experiment.content import Experiment, ExperimentSensor
 from forcetorque.experiment.estimate import IntervalEstimates, estimate_experiment
 from forcetorque.experiment.evaluate import Verdict, evaluate_sensor
+from forcetorque.experiment.gains import JointPosition, SensorGains, StrongestSample, select_gains
 from forcetorque.experiment.inspect import doubtful_spans, inspect_experiment, inspect_recording
 from forcetorque.experiment.load import load_experiment
 from forcetorque.experiment.parse import parse_experiment
@@ -19,6 +20,9 @@ __all__ = [
     "ExperimentSensor",
     "IntervalEstimates",
     "IntervalSamples",
+    "JointPosition",
+    "SensorGains",
+    "StrongestSample",
     "Verdict",
     "calibrate_sensor",
     "corrections_of",
@@ -30,4 +34,5 @@ __all__ = [
     "load_experiment",
     "parse_experiment",
     "samples_of",
+    "select_gains",
 ]

@@ -30,6 +30,10 @@ class ExperimentSensor:
     """Its file, as the experiment names it; `identity` where the reading itself takes the place of counts."""
     limit_counts: float
     """Largest magnitude of a raw reading; counts."""
+    amplifier_gain: tuple[float, ...] | None = None
+    """Gain of each channel's amplifier while it was recorded; None if it is not known."""
+    allowed_gains: tuple[float, ...] | None = None
+    """Gains that its amplifiers can be set to; None if they are not known."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

@@ -9,7 +9,7 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from forcetorque.exchange.yarp import MeasuresList
-from forcetorque.experiment.table import Table, Text
+from forcetorque.toml_table import Table, Text
 
 
 class AnalogPort(Table):

@@ -77,10 +77,11 @@ def wrench_at(experiment: Experiment, sensor: ExperimentSensor, correction: Corr
         at_ns: Instants; shape (n,); ns.
 
     Returns:
-        Wrenches in its frame and direction; shape (n, 6); N, N m; NaN in gaps.
+        Wrenches in its frame and direction; shape (n, 6); N, N m; NaN in gaps and while the board is saturated.
     """
     stream = experiment.recording.stream(sensor.stream)
-    values = interpolate(stream, stream.signal(sensor.quantity).values, at_ns)
+    logged = np.where(stream.held[:, None], np.nan, stream.signal(sensor.quantity).values)
+    values = interpolate(stream, logged, at_ns)
     if correction.matrix is None:
         return values + correction.offset
     if sensor.quantity == "wrench" and sensor.prior is not None:

@@ -21,10 +21,10 @@ from forcetorque.arrays import FloatArray
 from forcetorque.constants import STANDARD_GRAVITY
 from forcetorque.estimation import ContactType
 from forcetorque.experiment.log_schema import Log
-from forcetorque.experiment.table import Finite, Positive, Table, Text
 from forcetorque.recording import Use
 from forcetorque.robot import SensorFrame
 from forcetorque.spatial import MeasureDirection
+from forcetorque.toml_table import Finite, Positive, Table, Text
 
 
 class Robot(Table):
@@ -71,6 +71,10 @@ class Sensor(Table):
     `identity` if that matrix is not known: the calibrated reading then takes the place of counts."""
     limit_counts: Positive = 32767.0
     """Largest magnitude of a raw reading; counts."""
+    amplifier_gain: Annotated[tuple[Positive, ...], Field(min_length=1)] | None = None
+    """Gain of the amplifier of each channel while it was recorded, for `forcetorque gains`."""
+    allowed_gains: Annotated[tuple[Positive, ...], Field(min_length=1)] | None = None
+    """Gains that its amplifiers can be set to."""
     joint: Text | None = None
     """Fixed joint of a sensor without a tag."""
     measure_direction: MeasureDirection | None = None
@@ -89,6 +93,14 @@ class Sensor(Table):
                 "direction_missing",
                 "a sensor without a URDF tag needs measure_direction, child_to_parent or parent_to_child; "
                 "it is never guessed",
+            )
+        return self
+
+    @model_validator(mode="after")
+    def _allowed_gains_need_the_present_ones(self) -> Sensor:
+        if self.allowed_gains is not None and self.amplifier_gain is None:
+            raise PydanticCustomError(
+                "gain_missing", "allowed_gains needs amplifier_gain, the gains with which the recording was made"
             )
         return self
 

@@ -91,6 +91,12 @@ def _sensor(
             f"{where}: expected prior, the matrix file that {entry.stream!r} was calibrated with; "
             'raw counts cannot be recovered without it; "identity" where that matrix is not known'
         )
+    channels = len(stream.signals[present[0]].columns)
+    if entry.amplifier_gain is not None and len(entry.amplifier_gain) != channels:
+        raise ExperimentError(
+            f"{where}: expected amplifier_gain of {channels} numbers, one per channel of {entry.stream!r}, "
+            f"got {len(entry.amplifier_gain)}"
+        )
     return ExperimentSensor(
         name=model.sensor(entry.name).name,
         serial=entry.serial,
@@ -99,6 +105,8 @@ def _sensor(
         prior=_prior(entry, inputs),
         prior_source=None if entry.prior is None else Path(entry.prior).as_posix(),
         limit_counts=entry.limit_counts,
+        amplifier_gain=entry.amplifier_gain,
+        allowed_gains=entry.allowed_gains,
     )
 
 

@@ -28,11 +28,11 @@ def stream_findings(stream: Stream) -> tuple[Finding, ...]:
         stream: The stream.
 
     Returns:
-        Gaps, stamps that repeat or step back, lost messages, missing values and stuck channels.
+        Gaps, stamps that repeat or step back, lost messages, missing values, stuck channels and reported saturation.
     """
     if not len(stream):
         return (Finding(stream=stream.name, kind="empty", message="the stream holds no sample", count=0),)
-    found = [*_gaps(stream), *_bad_stamps(stream), *_lost_messages(stream)]
+    found = [*_gaps(stream), *_bad_stamps(stream), *_lost_messages(stream), *_reported_saturation(stream)]
     for signal in stream.signals.values():
         found += _missing_values(stream, signal)
         if signal.quantity in _NOISY:
@@ -53,8 +53,10 @@ def saturation_findings(
             offset that the electronics added moves them away from the limit.
 
     Returns:
-        One finding per stretch of time and channel.
+        One finding per stretch of time and channel; none where the board reports saturation itself, which is exact.
     """
+    if "saturated" in stream.signals:
+        return ()
     found = []
     for channel in range(counts.shape[1]):
         at_limit = np.abs(counts[:, channel]) >= (1.0 - SATURATION_SHARE) * limit_counts
@@ -74,6 +76,14 @@ def saturation_findings(
                 )
             )
     return tuple(found)
+
+
+def _reported_saturation(stream: Stream) -> list[Finding]:
+    """Stretches in which the board says that it holds its last valid sample."""
+    text = "the board reports saturation and holds its last valid sample"
+    return [
+        _finding(stream, "saturation", text, first, last, channel="saturated") for first, last in spans(stream.held)
+    ]
 
 
 def spans(mask: BoolArray) -> list[tuple[int, int]]:

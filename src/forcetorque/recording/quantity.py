@@ -116,6 +116,13 @@ QUANTITIES = {
             description="Angular acceleration, where a device gives it.",
         ),
         Quantity(
+            name="saturated",
+            labels=Labels.FIXED,
+            columns=("saturated",),
+            units=("0 or 1",),
+            description="Status of a board: 1 while a channel is at its limit and the last valid sample is held.",
+        ),
+        Quantity(
             name="device_stamp",
             labels=Labels.FIXED,
             columns=("device_stamp",),

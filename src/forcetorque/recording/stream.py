@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray, IntArray, read_only
+from forcetorque.arrays import BoolArray, FloatArray, IntArray, read_only
 from forcetorque.errors import RecordingError, ShapeError, known_names
 from forcetorque.recording.quantity import QUANTITIES, Labels
 
@@ -117,6 +117,14 @@ class Stream:
 
     def __len__(self) -> int:
         return len(self.stamp_ns)
+
+    @property
+    def held(self) -> BoolArray:
+        """Samples that the board itself calls saturated: it repeats its last valid one; shape (n,)."""
+        if "saturated" not in self.signals:
+            return np.zeros(len(self), dtype=bool)
+        held: BoolArray = self.signals["saturated"].values[:, 0] > 0.0
+        return held
 
     def signal(self, quantity: str) -> Signal:
         """Give one signal.

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Robots: from URDF to bodies, joints and force-torque sensors, and their dynamics."""
 
-from forcetorque.robot.kinematics import joints_between, motion_of_link
-from forcetorque.robot.model import ForceTorqueSensor, Joint, JointType, Mimic, RobotModel, SensorFrame
+from forcetorque.robot.kinematics import joints_between, link_pose, motion_of_link
+from forcetorque.robot.model import ForceTorqueSensor, Joint, JointLimit, JointType, Mimic, RobotModel, SensorFrame
 from forcetorque.robot.motion import JointMotion, RootMotion
 from forcetorque.robot.newton_euler import expected_wrenches
 from forcetorque.robot.requirements import required_joints
@@ -14,6 +14,7 @@ __all__ = [
     "BodyTree",
     "ForceTorqueSensor",
     "Joint",
+    "JointLimit",
     "JointMotion",
     "JointType",
     "Mimic",
@@ -24,6 +25,7 @@ __all__ = [
     "build_tree",
     "expected_wrenches",
     "joints_between",
+    "link_pose",
     "motion_of_link",
     "read_urdf",
     "required_joints",

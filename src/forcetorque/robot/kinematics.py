@@ -10,8 +10,9 @@ import numpy as np
 from forcetorque.arrays import FloatArray
 from forcetorque.errors import RobotError, ShapeError, known_names
 from forcetorque.robot.motion import JointMotion, RootMotion
+from forcetorque.robot.sub_model import path_to_root
 from forcetorque.robot.tree import Body, BodyTree, Connection
-from forcetorque.spatial import rotation_about_z, split_pose
+from forcetorque.spatial import make_pose, rotation_about_z, split_pose
 
 
 @dataclass(slots=True)
@@ -98,6 +99,53 @@ def motion_of_link(tree: BodyTree, joints: JointMotion, root: RootMotion, link: 
     )
 
 
+def body_pose(tree: BodyTree, joints: JointMotion, index: int) -> FloatArray:
+    """Find where a body is; z of a body on a joint is the joint's axis.
+
+    Args:
+        tree: The robot.
+        joints: Motion of at least the joints between the root and the body.
+        index: Index of the body.
+
+    Returns:
+        `root_H_body`; shape (n, 4, 4); m.
+
+    Raises:
+        RobotError: If a joint between the root link and the body is not in `joints`.
+    """
+    pose = np.tile(np.eye(4), (len(joints), 1, 1))
+    for body in (tree.bodies[k] for k in reversed(path_to_root(tree, index))):
+        if body.coordinate is None:  # the root, or a cut: the same rigid body
+            continue
+        if body.coordinate.joint not in joints.names:
+            raise RobotError(
+                f"placing {body.links[0]!r} seen from {tree.root_link!r} needs joint {body.coordinate.joint!r}; "
+                f"{known_names(body.coordinate.joint, joints.names)}"
+            )
+        position = joints.position[:, joints.names.index(body.coordinate.joint)]
+        pose = pose @ make_pose(*_across(body, body.coordinate.multiplier * position + body.coordinate.offset))
+    return pose
+
+
+def link_pose(tree: BodyTree, joints: JointMotion, link: str) -> FloatArray:
+    """Find where a link is in the root link.
+
+    Args:
+        tree: Robot rooted at the link in which poses are wanted.
+        joints: Motion of at least the joints between the two links (`joints_between`).
+        link: The other link.
+
+    Returns:
+        `root_H_link`; shape (n, 4, 4); m.
+
+    Raises:
+        RobotError: If the robot has no such link, or a joint between the two links is not in `joints`.
+    """
+    index = _path(tree, link)[-1]
+    pose: FloatArray = body_pose(tree, joints, index) @ tree.frames[link][1]
+    return pose
+
+
 def joints_between(tree: BodyTree, link: str) -> tuple[str, ...]:
     """Name the joints between the root link and another.
 
@@ -119,10 +167,7 @@ def _path(tree: BodyTree, link: str) -> list[int]:
     """Indices of the bodies from the root to a link."""
     if link not in tree.frames:
         raise RobotError(f"the robot has no link {link!r}; {known_names(link, tree.frames)}")
-    path = [tree.frames[link][0]]
-    while tree.bodies[path[0]].parent >= 0:
-        path.insert(0, tree.bodies[path[0]].parent)
-    return path
+    return list(reversed(path_to_root(tree, tree.frames[link][0])))
 
 
 def root_state(base: FloatArray) -> BodyState:
@@ -159,11 +204,7 @@ def move_to(body: Body, parent: BodyState, joints: JointMotion, block: slice) ->
     dq = body.coordinate.multiplier * joints.velocity[block, column]
     ddq = body.coordinate.multiplier * joints.acceleration[block, column]
     z = np.array([0.0, 0.0, 1.0])
-    rotation, position = body.parent_R_joint, body.parent_p_joint
-    if body.connection is Connection.ROTARY:
-        rotation = rotation @ rotation_about_z(q)
-    else:
-        position = position + q[:, None] * rotation[:, 2]
+    rotation, position = _across(body, q)
     omega_parent, alpha_parent = parent.angular_velocity, parent.angular_acceleration
     at_joint = (
         parent.proper_acceleration
@@ -178,6 +219,14 @@ def move_to(body: Body, parent: BodyState, joints: JointMotion, block: slice) ->
     else:
         acceleration = acceleration + 2.0 * np.cross(omega, along) + along_rate
     return BodyState(rotation, position, omega, alpha, acceleration)
+
+
+def _across(body: Body, q: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Rotation (n, 3, 3) or (3, 3), and origin (3,) or (n, 3), of a body in its parent at joint coordinates (n,)."""
+    rotation, position = body.parent_R_joint, body.parent_p_joint
+    if body.connection is Connection.ROTARY:
+        return rotation @ rotation_about_z(q), position
+    return rotation, position + q[:, None] * rotation[:, 2]
 
 
 def _into(parent_R_body: FloatArray, parent_vector: FloatArray) -> FloatArray:

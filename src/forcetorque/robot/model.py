@@ -44,6 +44,21 @@ class Mimic:
     """Coordinate where the leader's is zero; rad or m."""
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class JointLimit:
+    """How far and how fast a joint goes, as its file says: it need not be plausible, nor in order.
+
+    Expected wrenches do not depend on it, so it is judged only where a motion is planned.
+    """
+
+    lower: float | None = None
+    """Lowest coordinate; rad or m; None if the file has none or the joint turns without end."""
+    upper: float | None = None
+    """Highest coordinate; rad or m; None if the file has none or the joint turns without end."""
+    velocity: float | None = None
+    """Largest speed; rad/s or m/s; None if the file has none; often a 0 that stands for unknown."""
+
+
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Joint:
     """A joint; at coordinate zero the child link's frame is at `parent_H_child`."""
@@ -62,6 +77,8 @@ class Joint:
     """Unit axis in the child link's frame; shape (3,)."""
     mimic: Mimic | None = None
     """What the coordinate follows, if it is not free."""
+    limit: JointLimit | None = None
+    """How far and how fast it goes; None if the file says nothing."""
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "parent_H_child", read_only(self.parent_H_child, name="parent_H_child", shape=(4, 4)))

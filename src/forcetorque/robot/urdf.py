@@ -13,8 +13,8 @@ import numpy as np
 
 from forcetorque.arrays import FloatArray
 from forcetorque.errors import FormatError, MissingFileError, RobotError
-from forcetorque.robot.model import Joint, JointType, Mimic, RobotModel
-from forcetorque.robot.urdf_attributes import UrdfPlace, number, numbers, origin, required
+from forcetorque.robot.model import Joint, JointLimit, JointType, Mimic, RobotModel
+from forcetorque.robot.urdf_attributes import UrdfPlace, number, numbers, optional_number, origin, required
 from forcetorque.robot.urdf_sensors import read_sensors
 from forcetorque.spatial import Inertia, split_pose
 from forcetorque.xml_file import read_xml
@@ -25,7 +25,8 @@ _Named = TypeVar("_Named")
 def read_urdf(path: Path | str) -> RobotModel:
     """Read a robot from a URDF file: its links, joints and force-torque sensors.
 
-    Geometry, limits, damping and friction are not read: they do not enter expected wrenches.
+    Geometry, damping and friction are not read: they do not enter expected wrenches. Limits are read as they
+    stand, for those who plan motions.
 
     Args:
         path: URDF file.
@@ -108,7 +109,7 @@ def _read_joint(place: UrdfPlace, joint: Element) -> Joint:
         if element is None:
             raise place.error(f"<{tag} link=...>", "none")
         links.append(required(place.inside(f"<{tag}>"), element, "link"))
-    mimic = joint.find("mimic")
+    mimic, limit = joint.find("mimic"), joint.find("limit")
     return Joint(
         name=required(place, joint, "name"),
         type=kind,
@@ -117,6 +118,7 @@ def _read_joint(place: UrdfPlace, joint: Element) -> Joint:
         parent_H_child=origin(place, joint),
         axis=_read_axis(place, joint) if kind.moves else np.array([1.0, 0.0, 0.0]),
         mimic=None if mimic is None or not kind.moves else _read_mimic(place.inside("<mimic>"), mimic),
+        limit=None if limit is None or not kind.moves else _read_limit(place.inside("<limit>"), limit, kind),
     )
 
 
@@ -137,3 +139,11 @@ def _read_mimic(place: UrdfPlace, mimic: Element) -> Mimic:
         multiplier=number(place, mimic, "multiplier", default=1.0),
         offset=number(place, mimic, "offset", default=0.0),
     )
+
+
+def _read_limit(place: UrdfPlace, limit: Element, kind: JointType) -> JointLimit:
+    # the specification reads an absent bound as 0; real files leave both out where they mean no bound
+    lower, upper, velocity = (optional_number(place, limit, name) for name in ("lower", "upper", "velocity"))
+    if kind is JointType.CONTINUOUS:
+        return JointLimit(velocity=velocity)
+    return JointLimit(lower=lower, upper=upper, velocity=velocity)

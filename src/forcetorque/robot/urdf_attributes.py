@@ -110,6 +110,23 @@ def number(place: UrdfPlace, element: Element, attribute: str, *, default: float
     return float(numbers(place, element, attribute, count=1)[0])
 
 
+def optional_number(place: UrdfPlace, element: Element, attribute: str) -> float | None:
+    """Give an attribute that holds one number, if it is there.
+
+    Args:
+        place: Where the element is.
+        element: The element.
+        attribute: Name of the attribute.
+
+    Returns:
+        The number; None where the attribute is absent.
+
+    Raises:
+        FormatError: If it is there and not one finite number.
+    """
+    return None if element.get(attribute) is None else number(place, element, attribute)
+
+
 def origin(place: UrdfPlace, element: Element | None) -> FloatArray:
     """Give the pose that an element's `<origin>` states; the identity where there is none.
 

@@ -1,15 +1,61 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Robots, motions and sensors with known truth, for users as much as for our tests."""
 
-from forcetorque.simulation.motion import random_smooth_motion
-from forcetorque.simulation.recording import ARM_URDF, simulate_recording
+from forcetorque.simulation.board import calibrated_by_board
+from forcetorque.simulation.family import FAMILIES, SensorFamily
+from forcetorque.simulation.load import with_load
+from forcetorque.simulation.motions import (
+    Movement,
+    MovementKind,
+    Stand,
+    Touch,
+    Waypoints,
+    balancing_movement,
+    contact_switching_movements,
+    grid_movement,
+    random_movement,
+    random_smooth_motion,
+    z_torque_movement,
+)
+from forcetorque.simulation.network import (
+    fail_groups,
+    jitter_stamps,
+    lose_messages,
+    offset_clocks,
+    repeat_stamps,
+    step_back,
+)
+from forcetorque.simulation.recording import record, simulate_recording
+from forcetorque.simulation.robots import ARM_URDF, BIPED_URDF
 from forcetorque.simulation.sensor import SimulatedSensor, distorted_by_mounting, y_shaped_matrix
 
 __all__ = [
     "ARM_URDF",
+    "BIPED_URDF",
+    "FAMILIES",
+    "Movement",
+    "MovementKind",
+    "SensorFamily",
     "SimulatedSensor",
+    "Stand",
+    "Touch",
+    "Waypoints",
+    "balancing_movement",
+    "calibrated_by_board",
+    "contact_switching_movements",
     "distorted_by_mounting",
+    "fail_groups",
+    "grid_movement",
+    "jitter_stamps",
+    "lose_messages",
+    "offset_clocks",
+    "random_movement",
     "random_smooth_motion",
+    "record",
+    "repeat_stamps",
     "simulate_recording",
+    "step_back",
+    "with_load",
     "y_shaped_matrix",
+    "z_torque_movement",
 ]

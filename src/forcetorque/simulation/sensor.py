@@ -3,46 +3,102 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
 from forcetorque.arrays import FloatArray, read_only
+from forcetorque.errors import SensorError
+from forcetorque.sensor.saturation import HeldCounts, hold_on_saturation
+from forcetorque.simulation.effects import Creep, Crosstalk, Noise, ThermalDrift
 
 _ARM_ANGLES = np.deg2rad([0.0, 120.0, 240.0])
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class SimulatedSensor:
-    """What turns a true wrench into counts: `matrix raw + offset = wrench`, then noise and rounding."""
+    """What turns a true wrench into counts: `matrix raw + offset = wrench`, then all that spoils it."""
 
     matrix: FloatArray
     """True calibration matrix as mounted; shape (6, 6); N/count, N m/count."""
     offset: FloatArray
-    """True offset in wrench space; shape (6,); N, N m."""
+    """True offset in wrench space, of one power-up; shape (6,); N, N m."""
     noise_counts: float
     """Standard deviation of white noise on every channel; counts."""
+    noise_corner_hz: float = 0.0
+    """Frequency below which 1/f noise prevails; Hz; 0 for none."""
     limit_counts: int = 32767
-    """Largest magnitude of a reading; counts."""
+    """Magnitude at which a channel is saturated; counts."""
+    drift: ThermalDrift | None = None
+    """Change with temperature."""
+    creep: Creep | None = None
+    """Slow response."""
+    crosstalk: Crosstalk | None = None
+    """Response that no matrix describes."""
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "matrix", read_only(self.matrix, name="matrix", shape=(6, 6)))
         object.__setattr__(self, "offset", read_only(self.offset, name="offset", shape=(6,)))
 
-    def read(self, wrench: FloatArray, rng: np.random.Generator) -> FloatArray:
-        """Turn true wrenches into readings.
+    def read(
+        self,
+        wrench: FloatArray,
+        rng: np.random.Generator,
+        *,
+        rate_hz: float,
+        temperature_degC: FloatArray | None = None,
+    ) -> HeldCounts:
+        """Turn true wrenches into what the board streams.
 
         Args:
-            wrench: True wrenches in the sensor's frame and direction; shape (n, 6); N, N m.
+            wrench: True wrenches in the sensor's frame and direction, evenly in time; shape (n, 6); N, N m.
             rng: Source of the noise.
+            rate_hz: Rate of the samples; Hz.
+            temperature_degC: Temperature of the sensor; shape (n,); degC; needed if it drifts.
 
         Returns:
-            Whole counts within the limits; shape (n, 6).
+            Whole counts within the limits, held while a channel is saturated, and the status.
+
+        Raises:
+            SensorError: If it drifts and there is no temperature.
         """
-        counts = np.linalg.solve(self.matrix, (wrench - self.offset).T).T
-        counts = counts + self.noise_counts * rng.standard_normal(counts.shape)
-        whole: FloatArray = np.clip(np.rint(counts), -self.limit_counts, self.limit_counts)
-        return whole
+        response = np.asarray(np.linalg.solve(self.matrix, wrench.T).T, dtype=np.float64)
+        if self.creep is not None:
+            response = self.creep.response(response, rate_hz=rate_hz)
+        counts = response - np.linalg.solve(self.matrix, self.offset)
+        if self.crosstalk is not None:
+            counts = counts + self.crosstalk.counts(wrench)
+        if self.drift is not None:
+            if temperature_degC is None:
+                raise SensorError("temperature_degC: expected the temperature of a sensor that drifts, got none")
+            counts = counts + self.drift.drift(temperature_degC, rate_hz=rate_hz)
+        noise = Noise(white_counts=self.noise_counts, corner_hz=self.noise_corner_hz)
+        counts = counts + noise.sample(*counts.shape, rate_hz=rate_hz, rng=rng)
+        whole = np.clip(np.rint(counts), -self.limit_counts, self.limit_counts)
+        return hold_on_saturation(whole, lowest=-self.limit_counts, highest=self.limit_counts)
+
+    def with_gains(self, ratio: Any) -> SimulatedSensor:
+        """Change the gains of the amplifier; noise is taken to come after it.
+
+        Args:
+            ratio: New gain of every channel over the present one; shape (6,).
+
+        Returns:
+            The sensor with other gains: the same wrenches, other counts.
+        """
+        factor = read_only(ratio, name="ratio", shape=(6,))
+        drift, crosstalk = self.drift, self.crosstalk
+        if drift is not None:
+            drift = replace(
+                drift,
+                slope=factor * drift.slope,
+                gradient_slope=None if drift.gradient_slope is None else factor * drift.gradient_slope,
+                hysteresis_slope=None if drift.hysteresis_slope is None else factor * drift.hysteresis_slope,
+            )
+        if crosstalk is not None:
+            crosstalk = replace(crosstalk, quadratic=factor[:, None, None] * crosstalk.quadratic)
+        return replace(self, matrix=self.matrix / factor, drift=drift, crosstalk=crosstalk)
 
 
 def y_shaped_matrix(*, arm_m: float, counts_per_newton: float) -> FloatArray:

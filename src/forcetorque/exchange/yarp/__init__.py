@@ -8,13 +8,18 @@ from forcetorque.exchange.yarp.measures import MeasuresList, MeasuresSensor, rea
 from forcetorque.exchange.yarp.reading import PortReading
 from forcetorque.exchange.yarp.state import read_state
 from forcetorque.exchange.yarp.state_ext import read_state_ext
+from forcetorque.exchange.yarp.writing import write_ports
+from forcetorque.exchange.yarp.written_port import DevicePort, StreamPort, WrittenPort
 
 __all__ = [
+    "DevicePort",
     "FoundPort",
     "MeasuresList",
     "MeasuresSensor",
     "PortKind",
     "PortReading",
+    "StreamPort",
+    "WrittenPort",
     "discover_ports",
     "read_analog",
     "read_inertial",
@@ -22,4 +27,5 @@ __all__ = [
     "read_port",
     "read_state",
     "read_state_ext",
+    "write_ports",
 ]

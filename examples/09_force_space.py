@@ -1,0 +1,36 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Draw the force space of a sensor: what the model demands, what it measured with its prior.
+
+    python examples/09_force_space.py OUTPUT.png SENSOR EXPERIMENT...
+
+The picture in docs/simulation.md is `docs/images/force_space.png l_leg_ft` of grid.toml and bsl_2.toml of
+`forcetorque simulate icub-insitu`. Other logs, such as examples/02_icub_yoga_forward.toml, are drawn the same way.
+"""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+import numpy as np
+
+from forcetorque import load_experiment
+from forcetorque.experiment import corrections_of, estimate_experiment
+from forcetorque.report import force_space_figure
+
+
+def main() -> None:
+    """Draw one row per experiment, all its intervals together."""
+    output, sensor, *files = sys.argv[1:]
+    clouds = {}
+    for file in files:
+        experiment = load_experiment(file)
+        spans = estimate_experiment(experiment, corrections_of(experiment, {}))
+        measured = np.concatenate([span.measured.of_name(sensor)[:, :3] for span in spans])
+        expected = np.concatenate([span.estimates.expected_of(sensor)[:, :3] for span in spans])
+        clouds[experiment.name] = [("prior matrix", measured), ("model", expected)]
+    Path(output).write_bytes(force_space_figure(clouds))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,128 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What every transfer function offers: prediction and inverse within the range it is valid for."""
+
+from __future__ import annotations
+
+import math
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from forcetorque.arrays import FloatArray
+from forcetorque.errors import SensorError
+
+_ROUNDING = 1e-9
+"""Part of the output's span by which an output may lie beyond the ends: what rounding does, and far below noise."""
+
+_HALVINGS = 80
+"""Halvings of the range in a search for the inverse: more than the 52 bits of a number between its ends."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class TransferFunction(ABC):
+    """`E = h(s)`: the output of a sensor for a stimulus, thesis (3.1), in the units that the caller fitted.
+
+    A fit is known to hold between the least and the greatest stimulus it was made from. Beyond them both
+    directions refuse. To go further on purpose, state the wider range: `dataclasses.replace(model, highest=...)`.
+    """
+
+    lowest: float
+    """Least stimulus for which the function is valid."""
+    highest: float
+    """Greatest stimulus for which the function is valid."""
+
+    def __post_init__(self) -> None:
+        if not -math.inf < self.lowest < self.highest < math.inf:
+            raise SensorError(
+                f"{type(self).__name__}: expected a finite range with lowest below highest, "
+                f"got {self.lowest:g} to {self.highest:g}"
+            )
+
+    def predict(self, stimulus: Any) -> FloatArray:
+        """Give the output of the sensor.
+
+        Args:
+            stimulus: Stimuli within the range; any shape.
+
+        Returns:
+            Outputs; same shape.
+
+        Raises:
+            SensorError: If a stimulus is outside the range.
+        """
+        values = np.asarray(stimulus, dtype=np.float64)
+        outside = ~((values >= self.lowest) & (values <= self.highest))
+        if outside.any():
+            raise SensorError(
+                f"{type(self).__name__}: {int(outside.sum())} stimuli outside the fitted range {self.lowest:g} to "
+                f"{self.highest:g}, such as {values[outside].flat[0]:g}; limit them with np.clip, or state a wider "
+                "range with dataclasses.replace"
+            )
+        return self._output(values)
+
+    def inverse(self, output: Any) -> FloatArray:
+        """Give the stimulus that an output tells.
+
+        Args:
+            output: Outputs between those at the ends of the range; any shape.
+
+        Returns:
+            Stimuli within the range; same shape.
+
+        Raises:
+            SensorError: If the function does not rise, or fall, all over its range, so that an output tells several
+                stimuli, or if an output is outside.
+        """
+        self._require_monotone()
+        values = np.asarray(output, dtype=np.float64)
+        low, high = sorted(self.output_ends())
+        slack = _ROUNDING * (high - low)
+        outside = ~((values >= low - slack) & (values <= high + slack))
+        if outside.any():
+            raise SensorError(
+                f"{type(self).__name__}: {int(outside.sum())} outputs outside those of the fitted range, {low:g} to "
+                f"{high:g}, such as {values[outside].flat[0]:g}; limit them with np.clip, or state a wider range "
+                "with dataclasses.replace"
+            )
+        stimuli: FloatArray = np.clip(self._stimulus(np.clip(values, low, high)), self.lowest, self.highest)
+        return stimuli
+
+    def output_ends(self) -> tuple[float, float]:
+        """Give the outputs at the ends of the range.
+
+        Returns:
+            Output at the lowest and at the highest stimulus.
+        """
+        return float(self._output(np.array(self.lowest))), float(self._output(np.array(self.highest)))
+
+    @abstractmethod
+    def _output(self, stimulus: FloatArray) -> FloatArray:
+        """Output for stimuli within the range."""
+
+    @abstractmethod
+    def _turning_points(self) -> FloatArray:
+        """Stimuli strictly within the range at which the function stops rising or falling; none if monotone."""
+
+    def _stimulus(self, output: FloatArray) -> FloatArray:
+        """Stimulus of outputs between the ends of a monotone function, by halving the range for all at once."""
+        below = np.full(output.shape, self.lowest)
+        above = np.full(output.shape, self.highest)
+        first, last = self.output_ends()
+        for _ in range(_HALVINGS):
+            middle = 0.5 * (below + above)
+            is_beyond = (self._output(middle) - output) * (last - first) > 0.0
+            below, above = np.where(is_beyond, below, middle), np.where(is_beyond, middle, above)
+        middle = 0.5 * (below + above)
+        return np.asarray(middle, dtype=np.float64)
+
+    def _require_monotone(self) -> None:
+        turns = self._turning_points()
+        first, last = self.output_ends()
+        if len(turns) or first == last:
+            where = f"turns at a stimulus of {turns[0]:g}" if len(turns) else "has the same output at both ends"
+            raise SensorError(
+                f"{type(self).__name__}: no inverse between {self.lowest:g} and {self.highest:g}, as the function "
+                f"{where}; state a narrower range with dataclasses.replace, or fit another kind"
+            )

@@ -1,0 +1,41 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Creep: under a constant load the strain keeps growing a little, and goes back as slowly."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.signal import lfilter
+
+from forcetorque.arrays import FloatArray
+from forcetorque.errors import ShapeError
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Creep:
+    """One relaxation: a step of load is followed by a share of itself with a time constant."""
+
+    share: float
+    """What creep adds in the end, relative to the load."""
+    time_constant_s: float
+    """Time in which 63 % of it has come; s."""
+
+    def __post_init__(self) -> None:
+        if not self.time_constant_s > 0.0:
+            raise ShapeError(f"creep: expected a positive time_constant_s, got {self.time_constant_s}")
+
+    def response(self, strain: FloatArray, *, rate_hz: float) -> FloatArray:
+        """Give the strain with creep; before the first sample the load was that of the first sample.
+
+        Args:
+            strain: Strain without creep, or what is proportional to it; shape (n, c).
+            rate_hz: Rate of the samples; Hz.
+
+        Returns:
+            The same with creep; shape (n, c).
+        """
+        keep = float(np.exp(-1.0 / (self.time_constant_s * rate_hz)))
+        follows = lfilter([1.0 - keep], [1.0, -keep], strain, axis=0, zi=keep * strain[:1])[0]
+        crept: FloatArray = strain + self.share * follows
+        return crept

@@ -1,0 +1,158 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Families of six-axis sensors: one design, and how its specimens differ.
+
+The design is a Y-shaped element whose frame of reference lies above the plane of the arms, so that
+a force in that plane also bends the arms out of it. Specimens differ by what production leaves
+free: the strength of the gauges, where the axis of the load runs, how straight gauges sit on their
+arm, and how thick the arms are. The figures are chosen so that specimens scatter as the workbench
+matrices of real sensors of that design do; tests compare both.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from forcetorque.arrays import FloatArray
+from forcetorque.sensor.elastic import (
+    Beam,
+    Bending,
+    ElasticElement,
+    GaugePlace,
+    Material,
+    RectangularSection,
+)
+from forcetorque.simulation.electronics import Electronics
+from forcetorque.spatial import make_pose, wrench_matrix
+
+_STEEL = Material.from_poisson_ratio(200e9, 0.3)
+_PLACES = tuple(
+    GaugePlace(arm=arm, position=position, bending=bending)
+    for arm in range(3)
+    for position, bending in ((0.81e-3, Bending.IN_PLANE), (1.96e-3, Bending.OUT_OF_PLANE))
+)
+Y_ELEMENT = ElasticElement(
+    beam=Beam(length=7.4e-3, section=RectangularSection(width=7.4e-3, height=7.0e-3), material=_STEEL),
+    hub_radius=14.9e-3,
+    arm_angles=np.deg2rad([0.0, 120.0, 240.0]),
+    places=_PLACES,
+)
+"""Three arms at 120 degrees; channels 0, 2, 4 bend in the plane, 1, 3, 5 out of it."""
+
+CHANNEL_ANGLES = Y_ELEMENT.arm_angles[[place.arm for place in _PLACES]]
+"""Direction of the arm of every channel about z; shape (6,); rad."""
+IN_PLANE = np.array([place.bending is Bending.IN_PLANE for place in _PLACES])
+"""Whether a channel sees its arm bend in the plane; shape (6,)."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Spread:
+    """Standard deviations between specimens, and between the gauges of one."""
+
+    sensitivity: float = 0.095
+    """Of the whole sensor, relative."""
+    thickness: float = 0.045
+    """Of the channels out of the plane against those in it, relative."""
+    gauge: float = 0.025
+    """Of each gauge, relative."""
+    axis_m: float = 0.6e-3
+    """Of the axis about which the channels out of the plane see moments, in x and in y; m."""
+    height_m: float = 0.4e-3
+    """Of the height of the frame above the arms; m."""
+    tilt: float = 0.035
+    """Of the share of the other bending of its arm that a gauge sees."""
+    turn_rad: float = 0.015
+    """Of the direction of an arm; rad."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class SensorFamily:
+    """A design with its electronics, and how its specimens scatter."""
+
+    name: str
+    """Name of the family."""
+    electronics: Electronics
+    """What turns strain into counts."""
+    height_m: float
+    """Height of the sensor's frame above the plane of the arms; m."""
+    axis_m: tuple[float, float] = (0.0, 0.0)
+    """Axis about which the channels out of the plane see moments, in x and y from that of the frame: unequal arms
+    move it; m."""
+    out_of_plane: tuple[float, float, float] = (1.0, 1.0, 1.0)
+    """Sensitivity of each arm's channel out of the plane, relative to that of the common design."""
+    spread: Spread = Spread()
+    """How specimens differ."""
+
+    def nominal(self) -> FloatArray:
+        """Give the response of the design.
+
+        Returns:
+            Counts of every channel per component of a wrench; shape (6, 6); counts/N, counts/(N m).
+        """
+        strain = self._in_frame(np.array(Y_ELEMENT.strain_matrix()), np.array([*self.axis_m, self.height_m]))
+        return self._gains(1.0) * self.electronics.counts_per_strain * strain
+
+    def draw(self, rng: np.random.Generator) -> FloatArray:
+        """Give the response of a specimen, as a perfect workbench would find it.
+
+        Args:
+            rng: Source of what differs.
+
+        Returns:
+            Counts of every channel per component of a wrench; shape (6, 6); counts/N, counts/(N m).
+        """
+        spread = self.spread
+        turned = np.array(Y_ELEMENT.strain_matrix())
+        for row, angle in zip(turned, spread.turn_rad * rng.standard_normal(6), strict=True):
+            cosine, sine = np.cos(angle), np.sin(angle)
+            turn = np.array([[cosine, -sine, 0.0], [sine, cosine, 0.0], [0.0, 0.0, 1.0]])
+            row[:3], row[3:] = turn @ row[:3], turn @ row[3:]
+        gains = self._gains(np.exp(spread.thickness * rng.standard_normal()))
+        # what the other gauges of the arm see, in the strength of this gauge
+        tilted = gains * turned + spread.tilt * rng.standard_normal((6, 1)) * (gains * turned)[[1, 0, 3, 2, 5, 4]]
+        scatter = np.array([spread.axis_m, spread.axis_m, spread.height_m]) * rng.standard_normal(3)
+        place = np.array([*self.axis_m, self.height_m]) + scatter
+        strength = np.exp(spread.sensitivity * rng.standard_normal() + spread.gauge * rng.standard_normal((6, 1)))
+        sensitivity: FloatArray = strength * self.electronics.counts_per_strain * self._in_frame(tilted, place)
+        return sensitivity
+
+    def _in_frame(self, strain: FloatArray, place: FloatArray) -> FloatArray:
+        """Strain per wrench in the sensor's frame, from that per wrench in the middle of the arms."""
+        middle = np.array([0.0, 0.0, place[2]])
+        return np.where(IN_PLANE[:, None], strain @ _arms_X_frame(middle), strain @ _arms_X_frame(place))
+
+    def _gains(self, thickness: float) -> FloatArray:
+        gains = np.ones(6)
+        gains[~IN_PLANE] = thickness * np.array(self.out_of_plane)
+        return gains[:, None]
+
+
+def _arms_X_frame(place: FloatArray) -> FloatArray:
+    """Express a wrench in a frame whose origin is at a place above the arms in the frame of the arms."""
+    return wrench_matrix(make_pose(np.eye(3), place))
+
+
+FAMILIES = {
+    family.name: family
+    for family in (
+        SensorFamily(name="standard", electronics=Electronics(amplifier_gain=113.0), height_m=8.6e-3),
+        SensorFamily(
+            name="double range",
+            electronics=Electronics(amplifier_gain=53.0),
+            height_m=10.1e-3,
+            axis_m=(2.1e-3, 0.4e-3),
+            out_of_plane=(1.08, 1.08, 1.08),
+            spread=Spread(sensitivity=0.12),
+        ),
+        SensorFamily(
+            name="stiff in z",
+            electronics=Electronics(amplifier_gain=112.0),
+            height_m=10.4e-3,
+            axis_m=(-0.7e-3, 1.2e-3),
+            out_of_plane=(0.375, 0.445, 0.445),
+            spread=Spread(sensitivity=0.025, thickness=0.03),
+        ),
+    )
+}
+"""Families by name: the usual one, one of about twice its range, and one of thrice the range along z."""

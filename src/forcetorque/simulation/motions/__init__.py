@@ -1,0 +1,28 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Motions of robots with exact derivatives: the data sets of in situ calibration, for any URDF robot."""
+
+from forcetorque.simulation.motions.balancing import balancing_movement
+from forcetorque.simulation.motions.contact_switching import contact_switching_movements
+from forcetorque.simulation.motions.grid import grid_movement
+from forcetorque.simulation.motions.limb import Limb, limb_of
+from forcetorque.simulation.motions.movement import Movement, MovementKind, Touch
+from forcetorque.simulation.motions.random_smooth import random_movement, random_smooth_motion
+from forcetorque.simulation.motions.stand import Stand
+from forcetorque.simulation.motions.waypoints import Waypoints
+from forcetorque.simulation.motions.z_torque import z_torque_movement
+
+__all__ = [
+    "Limb",
+    "Movement",
+    "MovementKind",
+    "Stand",
+    "Touch",
+    "Waypoints",
+    "balancing_movement",
+    "contact_switching_movements",
+    "grid_movement",
+    "limb_of",
+    "random_movement",
+    "random_smooth_motion",
+    "z_torque_movement",
+]

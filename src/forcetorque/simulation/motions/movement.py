@@ -1,0 +1,178 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A movement: what every joint of a robot does while one link stands still in the world."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from enum import StrEnum
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from forcetorque.arrays import FloatArray, read_only, require_shape
+from forcetorque.constants import STANDARD_GRAVITY
+from forcetorque.errors import RobotError
+from forcetorque.estimation import Contact, ContactType, Question, estimate
+from forcetorque.robot import BodyTree, JointMotion, RobotModel, RootMotion, Wrenches, build_tree, link_pose
+
+
+class MovementKind(StrEnum):
+    """Kinds of data sets (thesis 5.1.3), and two beside them."""
+
+    GRID = "grid"
+    """A stiff limb is carried over a grid of two joints."""
+    Z_TORQUE = "z_torque"
+    """A limb goes between postures with much moment about z of a sensor."""
+    BALANCING = "balancing"
+    """One foot stands, the other leg moves widely."""
+    RANDOM = "random"
+    """Every joint moves by itself, smoothly."""
+    CONTACT_SWITCHING = "contact_switching"
+    """The weight goes from one foot to the other."""
+
+
+class Touch(NamedTuple):
+    """A touch beside the support, whose wrench is known."""
+
+    contact: Contact
+    """Where; its type is `known`."""
+    wrench: Callable[[FloatArray], FloatArray]
+    """From instants (n,) in s to what the environment does to the robot, in the contact frame; (n, 6); N, N m."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Movement:
+    """What all free joints do over some seconds while the support stands still."""
+
+    name: str
+    """What it is called, such as the name of a data set."""
+    kind: MovementKind
+    """What it is good for."""
+    model: RobotModel
+    """The robot."""
+    support: str
+    """Link that stands still in the world and bears what the touches do not."""
+    world_H_support: FloatArray
+    """Pose of the support in the world, whose z points up; shape (4, 4); m."""
+    duration_s: float
+    """How long it takes; before and after, it is as its trajectory says; s."""
+    trajectory: Callable[[FloatArray], JointMotion]
+    """From instants (n,) in s to the motion of all joints that are free, with exact derivatives."""
+    external: tuple[Touch, ...] = ()
+    """Touches beside the support."""
+    gravity: float = STANDARD_GRAVITY
+    """Magnitude of gravity; m/s2."""
+    tree: BodyTree = field(init=False)
+    """The robot rooted at the support."""
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "kind", MovementKind(self.kind))
+        object.__setattr__(self, "external", tuple(self.external))
+        object.__setattr__(
+            self, "world_H_support", read_only(self.world_H_support, name="world_H_support", shape=(4, 4))
+        )
+        object.__setattr__(self, "tree", build_tree(self.model, self.support))
+        for touch in self.external:
+            if touch.contact.type is not ContactType.KNOWN:
+                raise RobotError(
+                    f"movement {self.name!r}, touch {touch.contact.name!r}: expected the contact type known, got "
+                    f"{touch.contact.type}; the support alone bears what is unknown"
+                )
+
+    @property
+    def gravity_direction(self) -> FloatArray:
+        """Unit vector along which things fall, in the axes of the support; shape (3,)."""
+        down: FloatArray = -self.world_H_support[2, :3]
+        return down
+
+    def joints(self, seconds: Any) -> JointMotion:
+        """Give the motion of the joints.
+
+        Args:
+            seconds: Instants since the start; shape (n,); s.
+
+        Returns:
+            Positions, velocities and accelerations of all joints that are free; those that mimic follow them.
+        """
+        return self.trajectory(_instants(seconds))
+
+    def root(self) -> RootMotion:
+        """Give the motion of the support.
+
+        Returns:
+            That of a frame at rest, for any number of samples.
+        """
+        return RootMotion.fixed(self.gravity_direction, gravity=self.gravity)
+
+    def base_pose(self, seconds: Any, link: str) -> FloatArray:
+        """Find where a link, such as the base of a floating-base model, is in the world.
+
+        Args:
+            seconds: Instants since the start; shape (n,); s.
+            link: The link.
+
+        Returns:
+            `world_H_link`; shape (n, 4, 4); m.
+
+        Raises:
+            RobotError: If the robot has no such link.
+        """
+        pose: FloatArray = self.world_H_support @ link_pose(self.tree, self.joints(seconds), link)
+        return pose
+
+    def external_wrenches(self, seconds: Any) -> Wrenches:
+        """Give what the touches beside the support do to the robot.
+
+        Args:
+            seconds: Instants since the start; shape (n,); s.
+
+        Returns:
+            Wrenches by the names of the contacts, in their frames; none where nothing touches.
+        """
+        at = _instants(seconds)
+        values = np.empty((len(at), len(self.external), 6))
+        for k, touch in enumerate(self.external):
+            values[:, k] = touch.wrench(at)
+        return Wrenches(names=tuple(touch.contact.name for touch in self.external), values=values)
+
+    def readings(self, seconds: Any, sensors: Sequence[str] | None = None) -> Wrenches:
+        """Compute what perfect sensors read, touches included.
+
+        Args:
+            seconds: Instants since the start; shape (n,); s.
+            sensors: Names of the sensors; all in fixed joints if None.
+
+        Returns:
+            The true readings, each in the sensor's frame and direction.
+
+        Raises:
+            RobotError: If the robot has no such sensor.
+        """
+        wanted = tuple(self.tree.cuts) if sensors is None else tuple(sensors)
+        question = Question(
+            tree=self.tree, contacts=tuple(touch.contact for touch in self.external), expected=wanted, equations=()
+        )
+        found = estimate(question, self.joints(seconds), self.root(), known=self.external_wrenches(seconds))
+        return Wrenches(names=wanted, values=found.expected)
+
+    def support_wrench(self, seconds: Any) -> FloatArray:
+        """Compute what the ground does to the robot at the support.
+
+        Args:
+            seconds: Instants since the start; shape (n,); s.
+
+        Returns:
+            The wrench in the support's frame; shape (n, 6); N, N m.
+        """
+        bearing = Contact(link=self.support, name=f"{self.support} (support)")  # a name that no touch has
+        touches = tuple(touch.contact for touch in self.external)
+        question = Question(tree=self.tree, contacts=(bearing, *touches))
+        known = self.external_wrenches(seconds)
+        return estimate(question, self.joints(seconds), self.root(), known=known).contact_wrenches[:, 0]
+
+
+def _instants(seconds: Any) -> FloatArray:
+    at = np.asarray(seconds, dtype=np.float64)
+    require_shape(at, name="seconds", shape=(None,))
+    return at

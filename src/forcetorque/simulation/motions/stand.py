@@ -1,0 +1,186 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A robot held at one link, ready to move: how far and how fast its joints may go."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field
+from types import MappingProxyType
+
+import numpy as np
+
+from forcetorque.arrays import FloatArray, read_only
+from forcetorque.constants import STANDARD_GRAVITY
+from forcetorque.errors import RobotError, ShapeError, known_names
+from forcetorque.robot import BodyTree, JointMotion, RobotModel, build_tree
+from forcetorque.simulation.motions.joint_range import free_joints, joint_range
+from forcetorque.simulation.motions.movement import Movement, MovementKind, Touch
+from forcetorque.simulation.motions.waypoints import Waypoints
+from forcetorque.spatial import make_pose, skew
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Stand:
+    """A robot on a pole or on a foot; the functions of this package make its movements."""
+
+    model: RobotModel
+    """The robot."""
+    support: str
+    """Link that stands still in the world."""
+    gravity_direction: FloatArray
+    """Unit vector along which things fall, in the axes of the support; shape (3,)."""
+    speed: float = 0.5
+    """Largest speed of any joint; its own limit holds where that is lower; rad/s or m/s."""
+    margin: float = 0.05
+    """Share of every joint's range that is left out at either end."""
+    ranges: Mapping[str, tuple[float, float]] = field(default_factory=dict)
+    """Lowest and highest position of joints, instead of those from limits and margin; rad or m."""
+    posture: Mapping[str, float] = field(default_factory=dict)
+    """Where joints rest; the others rest at zero, or as near to it as their range allows; rad or m."""
+    gravity: float = STANDARD_GRAVITY
+    """Magnitude of gravity; m/s2."""
+    tree: BodyTree = field(init=False)
+    """The robot rooted at the support."""
+    joints: tuple[str, ...] = field(init=False)
+    """Joints with a coordinate of their own; postures have a column for each."""
+    rest: FloatArray = field(init=False)
+    """Posture at rest; shape (j,); rad or m."""
+
+    def __post_init__(self) -> None:
+        for name in ("ranges", "posture"):
+            object.__setattr__(self, name, MappingProxyType(dict(getattr(self, name))))
+        object.__setattr__(self, "gravity_direction", _unit(self.gravity_direction))
+        object.__setattr__(self, "tree", build_tree(self.model, self.support))
+        object.__setattr__(self, "joints", free_joints(self.model))
+        if not 0.0 < self.speed < np.inf:
+            raise ShapeError(f"speed: expected a positive one in rad/s or m/s, got {self.speed:g}")
+        if not 0.0 <= self.margin < 0.5:
+            raise ShapeError(f"margin: expected a share of at least 0 and below 0.5, got {self.margin:g}")
+        self.columns((*self.ranges, *self.posture))
+        for name, (low, high) in self.ranges.items():
+            if not -np.inf < low <= high < np.inf:
+                raise RobotError(f"ranges: joint {name!r}: expected (lowest, highest), got ({low:g}, {high:g})")
+        object.__setattr__(
+            self, "rest", read_only([self._rest_of(name) for name in self.joints], name="rest", shape=(None,))
+        )
+
+    @property
+    def world_H_support(self) -> FloatArray:
+        """Pose of the support in a world of its own: at its origin, turned until gravity points down; shape (4, 4)."""
+        flip = np.diag([1.0, -1.0, -1.0]) if self.gravity_direction[2] > 0.0 else np.eye(3)
+        down = flip @ self.gravity_direction
+        # the shortest turn to straight down; the half turn before keeps it away from the singular one
+        hat = skew(np.cross(down, [0.0, 0.0, -1.0]))
+        return make_pose((np.eye(3) + hat + hat @ hat / (1.0 - down[2])) @ flip, np.zeros(3))
+
+    @property
+    def speeds(self) -> FloatArray:
+        """Largest speed of every joint; a limit of 0 is taken to be unknown; shape (j,); rad/s or m/s."""
+        limits = (self.model.joints[name].limit for name in self.joints)
+        own = (None if limit is None else limit.velocity for limit in limits)
+        return np.array([min(self.speed, speed) if speed else self.speed for speed in own])
+
+    def range_of(self, joint: str) -> tuple[float, float]:
+        """Give the positions that a joint may take.
+
+        Args:
+            joint: A free joint.
+
+        Returns:
+            Lowest and highest position; rad or m.
+
+        Raises:
+            RobotError: If there is no such joint, or its limits are missing or in the wrong order.
+        """
+        self.columns([joint])
+        if joint in self.ranges:
+            low, high = self.ranges[joint]
+            return float(low), float(high)
+        return joint_range(self.model, self.tree, joint, margin=self.margin)
+
+    def columns(self, joints: Iterable[str]) -> list[int]:
+        """Find the columns of joints in postures.
+
+        Args:
+            joints: Free joints.
+
+        Returns:
+            Their columns.
+
+        Raises:
+            RobotError: If one is not a free joint of the robot.
+        """
+        for joint in joints:
+            if joint not in self.joints:
+                raise RobotError(
+                    f"robot {self.model.name!r} has no free joint {joint!r}; {known_names(joint, self.joints)}"
+                )
+        return [self.joints.index(joint) for joint in joints]
+
+    def through(self, postures: FloatArray, *, hold_s: float = 0.0) -> Waypoints:
+        """Go from posture to posture.
+
+        Args:
+            postures: Postures of all free joints; shape (k, j); rad or m.
+            hold_s: How long to rest at each; s.
+
+        Returns:
+            The trajectory.
+        """
+        return Waypoints.at_speed(self.joints, postures, self.speeds, hold_s=hold_s)
+
+    def movement(
+        self,
+        name: str,
+        kind: MovementKind,
+        trajectory: Callable[[FloatArray], JointMotion],
+        duration_s: float,
+        *,
+        external: tuple[Touch, ...] = (),
+        world_H_support: FloatArray | None = None,
+    ) -> Movement:
+        """Make a movement of a trajectory.
+
+        Args:
+            name: What it is called.
+            kind: What it is good for.
+            trajectory: From instants (n,) to the motion of all free joints.
+            duration_s: How long it takes; s.
+            external: Touches beside the support.
+            world_H_support: Pose of the support in the world; `world_H_support` of the stand if None.
+
+        Returns:
+            The movement.
+        """
+        return Movement(
+            name=name,
+            kind=kind,
+            model=self.model,
+            support=self.support,
+            world_H_support=self.world_H_support if world_H_support is None else world_H_support,
+            duration_s=duration_s,
+            trajectory=trajectory,
+            external=external,
+            gravity=self.gravity,
+        )
+
+    def _rest_of(self, joint: str) -> float:
+        try:
+            low, high = self.range_of(joint)
+        except RobotError:  # limits that are missing or wrong matter only to those who move the joint
+            low, high = -np.inf, np.inf
+        wanted = self.posture.get(joint)
+        if wanted is not None and not low <= wanted <= high:
+            raise RobotError(
+                f"posture: joint {joint!r}: expected a position in its range {low:g} to {high:g} (margin "
+                f"{self.margin:g}), got {wanted:g}"
+            )
+        return float(np.clip(0.0 if wanted is None else wanted, low, high))
+
+
+def _unit(direction: object) -> FloatArray:
+    vector = read_only(direction, name="gravity_direction", shape=(3,))
+    length = float(np.linalg.norm(vector))
+    if not 0.0 < length < np.inf:
+        raise ShapeError(f"gravity_direction: expected a direction other than zero, got {vector.tolist()}")
+    return read_only(vector / length, name="gravity_direction", shape=(3,))

@@ -1,0 +1,105 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Moves from posture to posture that start and stop gently (minimum jerk)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from forcetorque.arrays import FloatArray, read_only
+from forcetorque.errors import ShapeError
+from forcetorque.robot import JointMotion
+
+_PEAK = 1.875
+"""Largest speed of a minimum-jerk move over its mean speed: 30 x^2 (1 - x)^2 at x = 1/2."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Waypoints:
+    """A trajectory through postures, at rest at each: `10 x^3 - 15 x^4 + 6 x^5` of the way in each move [1].
+
+    Position, velocity and acceleration are continuous; before the first and after the last move it is at rest.
+
+    References:
+        [1] Flash, Hogan, The coordination of arm movements, 1985.
+    """
+
+    names: tuple[str, ...]
+    """Joints."""
+    postures: FloatArray
+    """Postures in turn; shape (k, j); rad or m."""
+    departures_s: FloatArray
+    """When each posture but the last is left; shape (k - 1,); s."""
+    durations_s: FloatArray
+    """How long each move takes; shape (k - 1,); s."""
+    duration_s: float
+    """When all is over; s."""
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "names", tuple(self.names))
+        postures = read_only(self.postures, name="postures", shape=(None, len(self.names)))
+        object.__setattr__(self, "postures", postures)
+        if len(postures) == 0:
+            raise ShapeError("postures: expected at least one, got none")
+        for name in ("departures_s", "durations_s"):
+            object.__setattr__(self, name, read_only(getattr(self, name), name=name, shape=(len(postures) - 1,)))
+
+    @classmethod
+    def at_speed(cls, names: tuple[str, ...], postures: Any, speeds: Any, *, hold_s: float = 0.0) -> Waypoints:
+        """Move as fast as the speeds of the joints allow, all joints of a move together.
+
+        The move of a joint by d with the largest speed v accelerates by up to 1.64 v^2 / d: short moves are abrupt.
+
+        Args:
+            names: Joints.
+            postures: Postures in turn; shape (k, j); rad or m.
+            speeds: Largest speed of every joint; shape (j,); rad/s or m/s.
+            hold_s: How long it rests at every posture, the first and the last too; s.
+
+        Returns:
+            The trajectory; it starts at 0 s.
+
+        Raises:
+            ShapeError: If a speed is not positive, or the rest is negative.
+        """
+        postures = read_only(postures, name="postures", shape=(None, len(names)))
+        speeds = read_only(speeds, name="speeds", shape=(len(names),))
+        if not (speeds > 0.0).all():
+            slow = [f"{name!r} {speed:g}" for name, speed in zip(names, speeds, strict=True) if not speed > 0.0]
+            raise ShapeError(f"speeds: expected positive ones in rad/s or m/s, got {', '.join(slow)}")
+        if not 0.0 <= hold_s < np.inf:
+            raise ShapeError(f"hold_s: expected a time of at least 0 s, got {hold_s}")
+        durations = (_PEAK * np.abs(np.diff(postures, axis=0)) / speeds).max(axis=1, initial=0.0)
+        ends = np.cumsum(durations + hold_s)
+        return cls(
+            names=names,
+            postures=postures,
+            departures_s=hold_s + ends - (durations + hold_s),
+            durations_s=durations,
+            duration_s=float(hold_s + durations.sum() + hold_s * len(durations)),
+        )
+
+    def __call__(self, seconds: FloatArray) -> JointMotion:
+        """Give the motion of the joints.
+
+        Args:
+            seconds: Instants; shape (n,); s.
+
+        Returns:
+            The motion with its exact derivatives; n samples.
+        """
+        if len(self.postures) == 1:
+            return JointMotion.at_rest(self.names, np.repeat(self.postures, len(seconds), axis=0))
+        move = np.clip(np.searchsorted(self.departures_s, seconds, side="right") - 1, 0, len(self.durations_s) - 1)
+        # a move that goes nowhere takes no time; any duration will do
+        duration = np.where(self.durations_s > 0.0, self.durations_s, 1.0)[move][:, None]
+        x = np.clip((seconds - self.departures_s[move])[:, None] / duration, 0.0, 1.0)
+        way = np.diff(self.postures, axis=0)[move]  # (n, j)
+        return JointMotion(
+            names=self.names,
+            position=self.postures[move] + way * (x**3 * (10.0 - 15.0 * x + 6.0 * x**2)),
+            velocity=way * (30.0 * x**2 * (1.0 - x) ** 2) / duration,
+            acceleration=way * (60.0 * x * (1.0 - x) * (1.0 - 2.0 * x)) / duration**2,
+        )

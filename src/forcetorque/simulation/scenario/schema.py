@@ -1,0 +1,191 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The scenario file: a robot, what its sensors are made of, and what is recorded with them."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated, Literal
+
+import numpy as np
+from pydantic import Field, model_validator
+from pydantic_core import PydanticCustomError
+
+from forcetorque.array_field import ArrayField
+from forcetorque.arrays import FloatArray
+from forcetorque.constants import STANDARD_GRAVITY
+from forcetorque.recording import Use
+from forcetorque.simulation.motions import MovementKind
+from forcetorque.toml_table import Finite, Positive, Table, Text
+
+_Count = Annotated[int, Field(ge=0, strict=True)]
+_AtLeastZero = Annotated[float, Field(ge=0.0, allow_inf_nan=False, strict=True)]
+
+
+def _downwards() -> FloatArray:
+    return np.array([0.0, 0.0, -1.0])
+
+
+class Robot(Table):
+    """The robot."""
+
+    urdf: Path | None = None
+    """URDF file."""
+    model: Annotated[tuple[Text, ...], Field(min_length=1)] | None = None
+    """`arm`, `biped`, or a robot of the package icub-models (extra `icub`); the first that is installed."""
+    gravity: Positive = STANDARD_GRAVITY
+    """Magnitude of gravity; m/s2."""
+
+    @model_validator(mode="after")
+    def _one_of_two(self) -> Robot:
+        if (self.urdf is None) == (self.model is None):
+            raise PydanticCustomError("one_robot", "expected urdf, or model with a list of names")
+        return self
+
+
+class Load(Table):
+    """A known mass that is added to a link."""
+
+    link: Text
+    """The link."""
+    mass_kg: Positive
+    """Mass."""
+    centre_of_mass_m: Annotated[FloatArray, ArrayField((3,))]
+    """Centre of mass in the link's frame."""
+
+
+class Sensors(Table):
+    """What every sensor is made of; figures of the spread between sensors are standard deviations."""
+
+    names: Annotated[tuple[Text, ...], Field(min_length=1)] | None = None
+    """Sensors of the robot; all if left out."""
+    family: Text = "standard"
+    """Family that specimens are drawn from."""
+    noise_counts: _AtLeastZero = 3.0
+    """White noise; counts."""
+    noise_corner_hz: _AtLeastZero = 0.0
+    """Frequency below which 1/f noise prevails."""
+    offset_counts: _AtLeastZero = 3000.0
+    """Spread of the offset of a channel between sensors."""
+    power_up_counts: _AtLeastZero = 100.0
+    """Spread of its change from one power-up to the next."""
+    drift_counts_per_degC: _AtLeastZero = 0.0
+    """Spread of the linear drift with temperature."""
+    gradient_counts_per_degC: _AtLeastZero = 0.0
+    """Spread of the part with the difference between gauges."""
+    hysteresis_counts_per_degC: _AtLeastZero = 0.0
+    """Spread of the part with hysteresis."""
+    reference_degC: Finite = 25.0
+    """Temperature without drift."""
+    creep_share: Finite = 0.0
+    """What creep adds in the end, relative to the load."""
+    creep_time_s: Positive = 30.0
+    """Time constant of creep."""
+    crosstalk_counts: _AtLeastZero = 0.0
+    """Spread of the quadratic response at full scale."""
+    screw_torque_Nm: Annotated[tuple[_AtLeastZero, ...], Field(min_length=3)] = (2.0,) * 6
+    """Torques of the screws around the rim, evenly spaced from the x axis on."""
+    mounting_strength: _AtLeastZero = 0.0
+    """Relative change of an in-plane channel where the rim is tighter by 2 N m; even screws change nothing."""
+    mounting_spread: _AtLeastZero = 0.0
+    """Random change of each coefficient that mounting adds, relative to its row."""
+    limit_counts: Annotated[int, Field(gt=0, strict=True)] = 32767
+    """Magnitude at which a channel is saturated."""
+
+
+class Motion(Table):
+    """What the robot does."""
+
+    kind: MovementKind
+    """Kind of movement."""
+    sensor: Text | None = None
+    """grid, z_torque: sensor whose limb moves."""
+    swing: Text | None = None
+    """balancing: link at the end of the leg that moves; contact_switching: the other foot."""
+    duration_s: Positive | None = None
+    """random: how long it takes."""
+    speed: Positive = 0.5
+    """Largest speed of any joint; rad/s or m/s."""
+    postures: Annotated[int, Field(gt=1, strict=True)] | None = None
+    """grid: steps of each joint; z_torque, balancing: number of postures."""
+    hold_s: _AtLeastZero = 0.0
+    """grid, z_torque, balancing: rest at every posture."""
+    slowest_hz: Positive = 0.1
+    """random: about the frequency of the slowest sine."""
+
+    @model_validator(mode="after")
+    def _has_what_it_needs(self) -> Motion:
+        needed = {
+            MovementKind.GRID: "sensor",
+            MovementKind.Z_TORQUE: "sensor",
+            MovementKind.BALANCING: "swing",
+            MovementKind.CONTACT_SWITCHING: "swing",
+            MovementKind.RANDOM: "duration_s",
+        }[self.kind]
+        if getattr(self, needed) is None:
+            raise PydanticCustomError("motion_key", "{message}", {"message": f"a {self.kind} motion needs {needed}"})
+        return self
+
+
+class Recorded(Table):
+    """One recording."""
+
+    name: Text
+    """Name of its folder."""
+    motion: Motion
+    """What the robot does."""
+    support: Text | None = None
+    """Link that stands still; the root link if left out."""
+    gravity_direction: Annotated[FloatArray, ArrayField((3,))] = Field(default_factory=_downwards)
+    """Direction in which things fall, in the axes of the support."""
+    use: Use = Use.CALIBRATION
+    """What it is for, in the experiment file that is written beside it."""
+    power_up: _Count = 0
+    """Recordings of one number share their offsets: the board was not switched off in between."""
+    rate_hz: Positive = 100.0
+    """Rate of every stream."""
+    temperature_degC: tuple[Finite, Finite] | None = None
+    """Temperature at the start and at the end."""
+
+
+class Network(Table):
+    """What happens on the way to a yarpdatadumper folder, which is written if this table is there."""
+
+    jitter_s: _AtLeastZero = 0.001
+    """Largest change of a stamp."""
+    lost_messages: _Count = 0
+    """Messages of every port that do not arrive."""
+    failed_groups: _Count = 0
+    """Messages in which the control board marks its positions `[fail]`."""
+
+
+class ScenarioFile(Table):
+    """The whole file."""
+
+    schema_name: Literal["forcetorque/scenario/1"] = Field(alias="schema")
+    """Form of the file."""
+    name: Text
+    """Name of the scenario."""
+    seed: _Count
+    """Seed of everything that is random."""
+    robot: Robot
+    """The robot."""
+    sensors: Sensors = Sensors()
+    """What its sensors are made of."""
+    load: tuple[Load, ...] = ()
+    """Masses that are added."""
+    recording: Annotated[tuple[Recorded, ...], Field(min_length=1)]
+    """Recordings."""
+    network: Network | None = None
+    """Faults of the network; without it no YARP folder is written."""
+
+    @model_validator(mode="after")
+    def _names_are_folders(self) -> ScenarioFile:
+        names = [entry.name for entry in self.recording]
+        for name in names:
+            if names.count(name) > 1 or not name.replace("-", "_").isidentifier():
+                raise PydanticCustomError(
+                    "recording_name",
+                    "{message}",
+                    {"message": f"recording {name!r}: expected a name of letters, digits, - and _, each once"},
+                )
+        return self

@@ -1,0 +1,114 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""One sensor of a scenario: drawn from its family, mounted, and spoilt as the file says."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from forcetorque.arrays import FloatArray, read_only
+from forcetorque.errors import FormatError, known_names
+from forcetorque.simulation.effects import Creep, Crosstalk, ScrewPattern, ThermalDrift, mounted
+from forcetorque.simulation.family import CHANNEL_ANGLES, FAMILIES, IN_PLANE
+from forcetorque.simulation.scenario.schema import Sensors
+from forcetorque.simulation.sensor import SimulatedSensor, distorted_by_mounting
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Specimen:
+    """A sensor with its truth."""
+
+    serial: str
+    """Serial number."""
+    workbench: FloatArray
+    """Matrix before mounting, as a perfect workbench finds it; shape (6, 6); N/count, N m/count."""
+    sensor: SimulatedSensor
+    """The sensor as mounted, without the offset of a power-up."""
+    power_up_counts: float
+    """Spread of the offset of a channel from one power-up to the next; counts."""
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "workbench", read_only(self.workbench, name="workbench", shape=(6, 6)))
+
+    def powered_up(self, rng: np.random.Generator) -> SimulatedSensor:
+        """Switch the board on: every channel gets another offset.
+
+        Args:
+            rng: Source of the offset.
+
+        Returns:
+            The sensor with its offset.
+        """
+        change = self.sensor.matrix @ (self.power_up_counts * rng.standard_normal(6))
+        return replace(self.sensor, offset=self.sensor.offset - change)
+
+
+def draw_specimen(described: Sensors, serial: str, rng: np.random.Generator) -> Specimen:
+    """Draw a sensor.
+
+    Args:
+        described: What sensors are made of.
+        serial: Serial number.
+        rng: Source of what differs between sensors.
+
+    Returns:
+        The sensor.
+
+    Raises:
+        FormatError: If there is no such family.
+    """
+    if described.family not in FAMILIES:
+        raise FormatError(
+            f"sensors: no family is called {described.family!r}; {known_names(described.family, FAMILIES)}"
+        )
+    sensitivity = FAMILIES[described.family].draw(rng)
+    torque = np.array(described.screw_torque_Nm)
+    screws = ScrewPattern(angle_rad=2.0 * np.pi * np.arange(len(torque)) / len(torque), torque_Nm=torque)
+    bent = mounted(
+        sensitivity, screws, arm_angle_rad=CHANNEL_ANGLES, in_plane=IN_PLANE, strength=described.mounting_strength
+    )
+    matrix = distorted_by_mounting(
+        np.asarray(np.linalg.inv(bent), dtype=np.float64), relative=described.mounting_spread, rng=rng
+    )
+    return Specimen(
+        serial=serial,
+        workbench=np.asarray(np.linalg.inv(sensitivity), dtype=np.float64),
+        sensor=SimulatedSensor(
+            matrix=matrix,
+            offset=-matrix @ (described.offset_counts * rng.standard_normal(6)),
+            noise_counts=described.noise_counts,
+            noise_corner_hz=described.noise_corner_hz,
+            limit_counts=described.limit_counts,
+            drift=_drift(described, rng),
+            creep=Creep(share=described.creep_share, time_constant_s=described.creep_time_s)
+            if described.creep_share
+            else None,
+            crosstalk=_crosstalk(described, matrix, rng),
+        ),
+        power_up_counts=described.power_up_counts,
+    )
+
+
+def _drift(described: Sensors, rng: np.random.Generator) -> ThermalDrift | None:
+    slopes = (
+        described.drift_counts_per_degC,
+        described.gradient_counts_per_degC,
+        described.hysteresis_counts_per_degC,
+    )
+    drawn = [spread * rng.standard_normal(6) for spread in slopes]
+    if not any(slopes):
+        return None
+    return ThermalDrift(
+        slope=drawn[0],
+        reference_degC=described.reference_degC,
+        gradient_slope=drawn[1] if slopes[1] else None,
+        hysteresis_slope=drawn[2] if slopes[2] else None,
+    )
+
+
+def _crosstalk(described: Sensors, matrix: FloatArray, rng: np.random.Generator) -> Crosstalk | None:
+    quadratic = described.crosstalk_counts * rng.standard_normal((6, 6, 6))
+    if not described.crosstalk_counts:
+        return None
+    return Crosstalk(quadratic=quadratic, full_scale=np.abs(matrix).sum(axis=1) * described.limit_counts)

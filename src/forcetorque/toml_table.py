@@ -1,0 +1,96 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""TOML files with a checked form: unknown keys are errors, numbers are numbers, every error names its key."""
+
+from __future__ import annotations
+
+import tomllib
+from pathlib import Path
+from typing import Annotated, Any, TypeVar
+
+from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
+from pydantic_core import PydanticCustomError
+
+from forcetorque.errors import FormatError, MissingFileError, known_names
+
+
+class Table(BaseModel):
+    """A table of the file; a key that it does not know is an error that lists the known ones."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True, arbitrary_types_allowed=True, populate_by_name=True)
+
+    @model_validator(mode="before")
+    @classmethod
+    def _refuse_unknown_keys(cls, values: Any) -> Any:
+        known = {field.alias or name for name, field in cls.model_fields.items()}
+        for key in values if isinstance(values, dict) else ():
+            if key not in known:
+                raise PydanticCustomError(
+                    "unknown_key", "{message}", {"message": f"unknown key {key!r}; {known_names(key, known)}"}
+                )
+        return values
+
+
+Text = Annotated[str, Field(min_length=1)]
+# strict: a text or a flag is no number
+Positive = Annotated[float, Field(gt=0.0, allow_inf_nan=False, strict=True)]
+Finite = Annotated[float, Field(allow_inf_nan=False, strict=True)]
+
+_Content = TypeVar("_Content", bound=Table)
+
+
+def read_toml(path: Path | str, form: type[_Content], *, what: str) -> _Content:
+    """Read and check a TOML file, without opening what it points to.
+
+    Args:
+        path: TOML file.
+        form: Its form.
+        what: What the file is called in messages.
+
+    Returns:
+        Its content.
+
+    Raises:
+        MissingFileError: If there is no such file.
+        FormatError: If it is not TOML, or a key is unknown, missing or has a wrong value.
+    """
+    file = Path(path)
+    if not file.is_file():
+        raise MissingFileError(f"{file}: expected {what}, there is none")
+    try:
+        content = tomllib.loads(file.read_text(encoding="utf-8"))
+    except (ValueError, RecursionError) as error:  # not TOML, not UTF-8, or numbers and lists beyond all bounds
+        raise FormatError(f"{file}: expected TOML, got {error}") from error
+    try:
+        return form.model_validate(content)
+    except ValidationError as error:
+        raise FormatError(_one_line(file, content, error)) from error
+
+
+def _one_line(file: Path, content: dict[str, Any], error: ValidationError) -> str:
+    # a list that is too short because its only element is wrong is no second error
+    errors = error.errors()
+    places = [e["loc"] for e in errors]
+    first, *more = [
+        e for e in errors if e["type"] != "too_short" or not any(p[: len(e["loc"])] == e["loc"] != p for p in places)
+    ]
+    where = _place(content, first["loc"], missing=first["type"] == "missing") or "top level"
+    message = first["msg"]
+    if first["type"] == "tuple_type":
+        message = f"expected a list{f', written [[{where}]]' if isinstance(first['input'], dict) else ''}"
+    shown = first["type"] in ("missing", "unknown_key") or isinstance(first["input"], dict)
+    got = "" if shown else f", got {first['input']!r}"
+    rest = f" (and {len(more)} more)" if more else ""
+    return f"{file}: {where}: {message[:400]}{got[:200]}{rest}"
+
+
+def _place(content: Any, location: tuple[int | str, ...], *, missing: bool) -> str:
+    """Name a key as the file has it, such as `sensor[0].serial`; the names of alternatives are no keys."""
+    place = ""
+    for depth, part in enumerate(location, start=1):
+        if isinstance(part, int):
+            place, content = f"{place}[{part}]", content[part]
+        elif isinstance(content, dict) and part in content:
+            place, content = f"{place}.{part}", content[part]
+        elif missing and depth == len(location):
+            place = f"{place}.{part}"
+    return place.removeprefix(".")

@@ -1,0 +1,171 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""`forcetorque simulate`: files that the other commands read, a truth that they are held against, and refusals."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from forcetorque.calibration import read_calibration
+from forcetorque.experiment import load_experiment
+from forcetorque.recording import read_recording
+from forcetorque.simulation.scenario import load_scenario
+from tests.cli.json_schema import faults
+from tests.cli.outcome import Run
+from tests.experiments import edit, snapshot
+
+SMALL = """
+schema = "forcetorque/scenario/1"
+name = "small"
+seed = 3
+[robot]
+model = ["arm"]
+[sensors]
+noise_counts = 1.0
+offset_counts = 500.0
+mounting_spread = 0.05
+[[recording]]
+name = "fit"
+motion = { kind = "random", duration_s = 12.0, slowest_hz = 0.3, speed = 2.0 }
+[[recording]]
+name = "judge"
+motion = { kind = "random", duration_s = 12.0, slowest_hz = 0.3, speed = 2.0 }
+use = "validation"
+temperature_degC = [20.0, 21.0]
+[network]
+jitter_s = 0.001
+lost_messages = 4
+failed_groups = 2
+"""
+
+
+@pytest.fixture
+def scenario(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A scenario file in the working folder."""
+    monkeypatch.chdir(tmp_path)
+    file = tmp_path / "small.toml"
+    file.write_text(SMALL, encoding="utf-8")
+    return file
+
+
+def test_the_other_commands_read_what_was_written(scenario: Path, run: Run) -> None:
+    """Calibrated on one recording and judged on the other the mounted sensor is found, and the truth confirms it."""
+    result = run("simulate", scenario, "-o", "out", "--format", "json").result()
+    assert faults(result, run("schema", "simulate").result()) == []
+    assert [row["recording"] for row in result["recordings"]] == ["fit", "judge"]
+    assert run("calibrate", "out/fit.toml", "-o", "new.json").code == 0
+    verdicts = run("evaluate", "out/judge.toml", "-c", "new.json", "--format", "json").result()["verdicts"]
+    errors = {(row["candidate"], row["offset"]): row["force_error_mean_N"] for row in verdicts}
+    assert errors["new.json", "re-estimated"] < 0.1 * errors["prior", "re-estimated"]
+    truth = json.loads(Path("out/truth.json").read_text(encoding="utf-8"))["sensors"]["arm_ft"]
+    fitted = read_calibration(Path("new.json")).matrix
+    scale = np.linalg.norm(truth["matrix"], axis=1)
+    off = np.linalg.norm(np.array(truth["workbench_matrix"]) - truth["matrix"], axis=1) / scale
+    assert (np.linalg.norm(fitted - truth["matrix"], axis=1)[:3] / scale[:3] < 0.5 * off[:3]).all()
+
+
+def test_the_yarp_folder_is_the_same_session(scenario: Path, run: Run) -> None:
+    """Its readers give, through the board's matrix, the same counts; faults are found and counted."""
+    assert run("simulate", scenario, "-o", "out").code == 0
+    plain, yarp = load_experiment("out/fit.toml"), load_experiment("out/fit_yarp.toml")
+    raw = plain.recording.stream("arm_ft").signal("raw").values
+    wrench = yarp.recording.stream("arm_ft").signal("wrench").values
+    recovered = np.linalg.solve(yarp.sensors[0].prior, wrench.T).T
+    assert len(raw) - len(recovered) == 4
+    np.testing.assert_allclose(recovered[0], raw[0], atol=1e-6)
+    np.testing.assert_allclose(recovered[-1], raw[-1], atol=1e-6)
+    findings = run("inspect", "out/fit_yarp.toml", "--format", "json").result()["findings"]
+    lost = [row for row in findings if row["kind"] == "lost_messages" and row["stream"] == "arm_ft"]
+    assert sum(row["count"] for row in lost) == 4
+    missing = [row for row in findings if row["kind"] == "missing" and row["stream"] == "joints"]
+    assert sum(row["count"] for row in missing) == 2
+
+
+def test_the_same_file_gives_the_same_bytes(scenario: Path, run: Run) -> None:
+    """Everything random comes from the seed; another seed gives other recordings."""
+    for name in ("one", "two"):
+        assert run("simulate", scenario, "-o", name).code == 0
+    first, second = snapshot(Path("one")), snapshot(Path("two"))
+    assert first == second
+    assert len(first) > 15
+    edit(scenario, "seed = 3", "seed = 4")
+    assert run("simulate", scenario, "-o", "three").code == 0
+    third = snapshot(Path("three"))
+    assert third.keys() == first.keys()
+    assert third["fit/arm_ft.parquet"] != first["fit/arm_ft.parquet"]
+
+
+def test_saturation_is_found_in_every_saturated_sample_and_nowhere_else(scenario: Path, run: Run) -> None:
+    """`inspect` marks exactly the samples of the truth; none is fitted; a wide range has none."""
+    edit(scenario, "noise_counts = 1.0", "noise_counts = 1.0\nlimit_counts = 12000")
+    assert run("simulate", scenario, "-o", "out").code == 0
+    truth = json.loads(Path("out/truth.json").read_text(encoding="utf-8"))["recordings"]["fit"]["sensors"]["arm_ft"]
+    spans = [tuple(span) for span in truth["saturated_samples"]]
+    assert len(spans) > 2
+    stamps = read_recording("out/fit").stream("arm_ft").stamp_ns
+    result = run("inspect", "out/fit.toml", "--format", "json").result()
+    start = min(int(s.stamp_ns[0]) for s in read_recording("out/fit").streams.values())
+    found = [
+        (round(row["start_s"], 4), round(row["end_s"], 4))
+        for row in result["findings"]
+        if row["kind"] == "saturation" and row["stream"] == "arm_ft"
+    ]
+    seconds = (stamps - start) * 1e-9
+    assert found == [(round(float(seconds[a]), 4), round(float(seconds[b]), 4)) for a, b in spans]
+    held = sum(b - a + 1 for a, b in spans)
+    assert run("calibrate", "out/fit.toml", "-o", "new.json").code == 0
+    provenance = read_calibration(Path("new.json")).provenance
+    inside = (seconds >= 0.5) & (seconds < 11.5)
+    marked = np.zeros(len(stamps), dtype=bool)
+    for a, b in spans:
+        marked[a : b + 1] = True
+    assert held == marked.sum()
+    assert provenance.samples <= (inside & ~marked).sum() < inside.sum()
+
+
+@pytest.mark.parametrize("name", ["icub-insitu", "wrist"])
+def test_bundled_scenarios_are_whole(name: str) -> None:
+    """Each loads, its robot has the sensors, and all its motions can be planned for its robot or the fall-back."""
+    from forcetorque.cli.simulate import _file
+    from forcetorque.simulation.scenario.run import _movements
+
+    scenario = load_scenario(_file(name))
+    assert len(scenario.specimens) == {"icub-insitu": 6, "wrist": 1}[name]
+    kinds = set()
+    for entry in scenario.file.recording:
+        for movement in _movements(scenario, entry, np.random.default_rng(1)):
+            kinds.add(movement.kind.value)
+            assert movement.duration_s > 10.0
+    assert kinds == {"icub-insitu": {"grid", "z_torque", "balancing"}, "wrist": {"random"}}[name]
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        ('model = ["arm"]', 'model = ["arn"]', "no robot is called 'arn'; did you mean \"arm\""),
+        ("seed = 3", "seed = 3\nsede = 4", "unknown key 'sede'; did you mean \"seed\""),
+        ("noise_counts = 1.0", 'family = "standart"', "no family is called 'standart'; did you mean \"standard\""),
+        ('name = "judge"', 'name = "fit"', "recording 'fit': expected a name of letters, digits, - and _, each once"),
+        ('name = "judge"', 'name = "../judge"', "recording '../judge': expected a name of letters"),
+        (", duration_s = 12.0, slowest_hz = 0.3, speed = 2.0 }\nuse", " }\nuse", "a random motion needs duration_s"),
+        ("noise_counts = 1.0", 'names = ["arm_tf"]', "no force-torque sensor 'arm_tf'"),
+    ],
+)
+def test_files_that_are_refused(scenario: Path, run: Run, old: str, new: str, message: str) -> None:
+    """The message names the key; nothing is written."""
+    scenario.write_text(SMALL.replace(old, new, 1) if old in SMALL else SMALL, encoding="utf-8")
+    before = snapshot(scenario.parent)
+    error = run("simulate", scenario, "-o", "out").error()
+    assert message in error
+    assert snapshot(scenario.parent) == before
+
+
+def test_an_existing_folder_and_an_unknown_name_are_refused(scenario: Path, run: Run) -> None:
+    """Nothing is written over, and the bundled scenarios are listed."""
+    Path("out").mkdir()
+    assert "it is there already" in run("simulate", scenario, "-o", "out").error()
+    assert "known: icub-insitu, wrist" in run("simulate", "wirst", "-o", "new").error()
+    assert "expected a scenario file, there is none" in run("simulate", "absent.toml", "-o", "new").error()
