@@ -36,7 +36,7 @@ class _Announce(event.Listener):
 
     def on_start(self, event: Any) -> None:
         if not self.said:
-            _LOG.info("compiling the dynamics for this machine, once; it takes about half a minute")
+            _LOG.info("compiling the dynamics for this machine, once; it takes about a minute")
             self.said = True
 
     def on_end(self, event: Any) -> None:
