@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from forcetorque.estimation import Question
 from forcetorque.estimation.block.plan import Plan, plan_of
+from forcetorque.estimation.needs import needs_of
 
 _ADD, _DOT, _CROSS, _ROTATE, _TURN_Z = 3, 5, 9, 15, 6
 _SWING = _CROSS + 2 * _DOT + 4 * _ADD  # alpha x r + (omega . r) omega - (omega . omega) r
@@ -33,7 +34,7 @@ def operations_per_sample(question: Question) -> int:
     Raises:
         ValueError: If it has prismatic joints or sub-models that are solved in the least squares.
     """
-    plan, _ = plan_of(question, frozenset())
+    plan, _ = plan_of(question, needs_of(question), frozenset())
     bodies, parts = plan.bodies, plan.parts
     if bodies.slides.any() or not parts.closed.all() or (parts.column >= 0).any():
         raise ValueError("expected rotary joints, one full wrench per sub-model, and no equations")

@@ -8,9 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from forcetorque.arrays import BoolArray, FloatArray
-from forcetorque.estimation.inputs import Inputs, checked_inputs
-from forcetorque.estimation.needs import needs_of
+from forcetorque.arrays import BoolArray, FloatArray, IntArray
+from forcetorque.estimation.inputs import activity_of, checked_inputs
 from forcetorque.estimation.question import Question
 from forcetorque.estimation.reference import RANK_TOLERANCE, Block, body_states, contact_columns, weighted
 from forcetorque.robot import JointMotion, RootMotion, Wrenches
@@ -37,13 +36,22 @@ def indistinguishable(
         By sub-model with such unknowns, groups of them, each named `contact.component`; in a group every one
         depends on another in some of the poses.
     """
-    at_rest = JointMotion.at_rest(joints.names, joints.position)
+    activity = activity_of(question, active, len(joints))
+    picked = _picked(activity, switched=bool(active))
+    poses = JointMotion.at_rest(joints.names, joints.position[picked])
     still = RootMotion(proper_acceleration=np.zeros(3), angular_velocity=np.zeros(3), angular_acceleration=np.zeros(3))
-    nothing = {name: np.zeros((len(joints), 6)) for name in (*question.measured, *(c.name for c in question.known))}
+    nothing = {name: np.zeros((len(picked), 6)) for name in (*question.measured, *(c.name for c in question.known))}
     wrenches = Wrenches.of(nothing) if nothing else None
-    inputs = checked_inputs(question, at_rest, still, wrenches, wrenches, active)
-    block = _poses(question, inputs)
-    states = body_states(question, needs_of(question, switched=inputs.switched), block)
+    switches = {name: np.asarray(marks)[picked] for name, marks in (active or {}).items()}
+    inputs = checked_inputs(question, poses, still, wrenches, wrenches, switches)
+    block = Block(
+        joints=poses,
+        root=np.zeros((3, len(picked), 3)),
+        measured=np.zeros((len(picked), 0, 6)),
+        known=np.zeros((len(picked), 0, 6)),
+        active=activity[picked].astype(np.float64),
+    )
+    states = body_states(question, inputs.needs, block)
     found = {}
     for part in question.parts:
         if question.unknown_in(part):
@@ -54,20 +62,15 @@ def indistinguishable(
     return found
 
 
-def _poses(question: Question, inputs: Inputs) -> Block:
-    n = len(inputs.joints)
+def _picked(activity: BoolArray, *, switched: bool) -> IntArray:
+    """Samples to look at: some evenly over all, and one of every combination of contacts."""
+    n = len(activity)
     picked = np.unique(np.linspace(0, n - 1, min(n, _POSES)).astype(np.int64)) if n else np.empty(0, dtype=np.int64)
-    if inputs.switched:
-        # every combination of contacts, also one that is there for a moment only
-        _, first = np.unique(inputs.active, axis=0, return_index=True)
+    if switched:
+        # also one that is there for a moment only
+        _, first = np.unique(activity, axis=0, return_index=True)
         picked = np.union1d(picked, first)
-    return Block(
-        joints=JointMotion.at_rest(inputs.joints.names, inputs.joints.position[picked]),
-        root=np.zeros((3, len(picked), 3)),
-        measured=np.zeros((len(picked), 0, 6)),
-        known=np.zeros((len(picked), 0, 6)),
-        active=inputs.active[picked].astype(np.float64),
-    )
+    return picked
 
 
 def _hidden(columns: FloatArray) -> BoolArray:

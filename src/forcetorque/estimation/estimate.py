@@ -12,7 +12,6 @@ import numpy as np
 from forcetorque.errors import ShapeError
 from forcetorque.estimation.estimates import Estimates
 from forcetorque.estimation.inputs import Inputs, checked_inputs, refuse_infinite
-from forcetorque.estimation.needs import needs_of
 from forcetorque.estimation.question import Question
 from forcetorque.estimation.reference import Block, evaluate_block
 from forcetorque.robot import JointMotion, RootMotion
@@ -92,7 +91,6 @@ def estimate(
 
 
 def _run_readable(question: Question, inputs: Inputs, out: Estimates, progress: Callable[[int], None] | None) -> None:
-    needs = needs_of(question, switched=inputs.switched)
     for start in range(0, len(out), _BLOCK):
         block = slice(start, min(start + _BLOCK, len(out)))
         refuse_infinite(inputs, block)
@@ -100,7 +98,7 @@ def _run_readable(question: Question, inputs: Inputs, out: Estimates, progress: 
         root = [np.broadcast_to(v if len(v) == 1 else v[block], (count, 3)) for v in inputs.root]
         evaluate_block(
             question,
-            needs,
+            inputs.needs,
             Block(
                 joints=inputs.joints.samples(block),
                 root=np.stack(root),

@@ -11,7 +11,7 @@ import numpy as np
 
 from forcetorque.arrays import BoolArray, FloatArray, IntArray, require_shape
 from forcetorque.errors import EstimationError, RobotError, ShapeError, known_names
-from forcetorque.estimation.needs import required_joints_of
+from forcetorque.estimation.needs import Needs, needs_of
 from forcetorque.estimation.question import Question
 from forcetorque.robot import JointMotion, RootMotion
 from forcetorque.robot.kinematics import root_vectors
@@ -37,6 +37,8 @@ class Inputs:
     """Whether each unknown contact is there; shape (n, unknown contacts)."""
     switched: frozenset[str]
     """Contacts that are not there in every sample."""
+    needs: Needs
+    """What the answer depends on."""
     joint_columns: IntArray
     """Columns of `joints` that matter."""
     measured_columns: IntArray
@@ -69,16 +71,16 @@ def checked_inputs(
     Raises:
         RobotError: If a joint that is needed is not in `joints`.
     """
-    n, switches = len(joints), dict(active or {})
-    switched = frozenset(switches)
-    needed = required_joints_of(question, switched=switched)
+    n, switched = len(joints), frozenset(active or ())
+    needs = needs_of(question, switched=switched)
+    needed = needs.joints(question.tree)
     for joint in needed:
         if joint not in joints.names:
             raise RobotError(
                 f"what is asked needs joint {joint!r}, seen from {question.tree.root_link!r}, which the motion lacks; "
                 f"{known_names(joint, joints.names)}"
             )
-    activity = _activity(question, switches, n)
+    activity = activity_of(question, active, n)
     _require_determined(question, activity if switched else activity[:1])
     touched = [contact.name for contact in question.known]
     readings = _wrenches(measured, question.measured, "measured: reading of sensor", n)
@@ -90,6 +92,7 @@ def checked_inputs(
         known=given,
         active=activity,
         switched=switched,
+        needs=needs,
         joint_columns=_columns(joints.names, needed),
         measured_columns=_columns(readings.names, question.measured),
         known_columns=_columns(given.names, touched),
@@ -146,7 +149,22 @@ def _wrenches(given: Wrenches | None, wanted: Sequence[str], what: str, n: int) 
     return given
 
 
-def _activity(question: Question, switches: Mapping[str, Any], n: int) -> BoolArray:
+def activity_of(question: Question, active: Mapping[str, Any] | None, n: int) -> BoolArray:
+    """Tell which unknown contacts are there, sample by sample.
+
+    Args:
+        question: The question.
+        active: By the name of an unknown contact, whether it is there; shape (n,).
+        n: Number of samples.
+
+    Returns:
+        Whether each unknown contact is there; shape (n, unknown contacts).
+
+    Raises:
+        EstimationError: If the question has no such unknown contact.
+        ShapeError: If what is given is not bool.
+    """
+    switches = dict(active or {})
     unknown = [contact.name for contact in question.unknown]
     for name in switches:
         if name not in unknown:

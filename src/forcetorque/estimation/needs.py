@@ -11,6 +11,7 @@ import numpy as np
 from forcetorque.arrays import BoolArray
 from forcetorque.estimation.contact import ContactType
 from forcetorque.estimation.question import Question, TorqueSum
+from forcetorque.robot import BodyTree
 from forcetorque.robot.sub_model import SubModel, cut_of, outboard_bodies
 
 
@@ -26,6 +27,18 @@ class Needs:
     """Sub-models whose equation is solved, inboard ones first."""
     leaving: tuple[SubModel, ...]
     """Those of them beyond a sensor whose residual is part of a wanted torque, inboard ones first."""
+
+    def joints(self, tree: BodyTree) -> tuple[str, ...]:
+        """Name the joints whose motion is needed.
+
+        Args:
+            tree: The robot.
+
+        Returns:
+            Joints, each once, from the root outwards; leaders instead of joints that mimic.
+        """
+        bodies = (body for body, moves in zip(tree.bodies, self.moving, strict=True) if moves)
+        return tuple(dict.fromkeys(body.coordinate.joint for body in bodies if body.coordinate is not None))
 
 
 def needs_of(question: Question, *, switched: Collection[str] = ()) -> Needs:
@@ -77,9 +90,7 @@ def required_joints_of(question: Question, *, switched: Collection[str] = ()) ->
     Returns:
         Joints, each once, from the root outwards; leaders instead of joints that mimic.
     """
-    moving = needs_of(question, switched=switched).moving
-    bodies = (body for body, moves in zip(question.tree.bodies, moving, strict=True) if moves)
-    return tuple(dict.fromkeys(body.coordinate.joint for body in bodies if body.coordinate is not None))
+    return needs_of(question, switched=switched).joints(question.tree)
 
 
 def closed_form(question: Question, part: SubModel) -> bool:

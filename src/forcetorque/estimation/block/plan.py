@@ -10,7 +10,7 @@ import numpy as np
 
 from forcetorque.arrays import BoolArray, FloatArray, IntArray
 from forcetorque.estimation.contact import Contact
-from forcetorque.estimation.needs import Needs, closed_form, needs_of
+from forcetorque.estimation.needs import Needs, closed_form
 from forcetorque.estimation.question import Question
 from forcetorque.robot.sub_model import SubModel, path_to_root
 from forcetorque.robot.tree import Connection, Coordinate
@@ -109,17 +109,17 @@ class Plan(NamedTuple):
     length_scale: float
 
 
-def plan_of(question: Question, switched: frozenset[str]) -> tuple[Plan, tuple[str, ...]]:
+def plan_of(question: Question, needs: Needs, switched: frozenset[str]) -> tuple[Plan, tuple[str, ...]]:
     """Lay a question out as arrays.
 
     Args:
         question: The question.
+        needs: What it depends on.
         switched: Contacts that are not there in every sample.
 
     Returns:
         The arrays, and the joint of every coordinate.
     """
-    needs = needs_of(question, switched=switched)
     bodies, joints = _bodies(question, needs)
     sums, cuts = _sums(question, needs), question.tree.cuts
     plan = Plan(

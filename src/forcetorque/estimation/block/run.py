@@ -55,7 +55,7 @@ def run_compiled(
         threads: Number of threads; as many as there are processors if None.
         progress: Called with the number of samples done so far.
     """
-    plan, joints = plan_of(question, inputs.switched)
+    plan, joints = plan_of(question, inputs.needs, inputs.switched)
     joint_columns = np.array([inputs.joints.names.index(joint) for joint in joints], dtype=np.int64)
     measured_columns, known_columns = _six_columns(inputs.measured_columns), _six_columns(inputs.known_columns)
     motion = (inputs.joints.position, inputs.joints.velocity, inputs.joints.acceleration)
@@ -106,15 +106,7 @@ def _frozen(values: npt.NDArray[Any]) -> npt.NDArray[Any]:
 
 
 def _answer(out: Estimates) -> Answer:
-    return Answer(
-        expected=_writable(out.expected),
-        contact_wrenches=_writable(out.contact_wrenches),
-        torques=_writable(out.torques),
-        net_wrenches=_writable(out.net_wrenches),
-        rank=_writable(out.rank),
-        condition=_writable(out.condition),
-        residual=_writable(out.residual),
-    )
+    return Answer(**{name: _writable(getattr(out, name)) for name in Answer._fields})
 
 
 def _writable(values: npt.NDArray[Any]) -> npt.NDArray[Any]:
