@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from forcetorque.calibration import Calibration
-from forcetorque.errors import EstimationError, ExperimentError
+from forcetorque.errors import EstimationError, ExperimentError, RecordingError
 from forcetorque.experiment import (
     Experiment,
     calibrate_sensor,
@@ -224,3 +224,14 @@ def test_more_than_six_unknowns_need_a_length_scale(arm: Path, fitted: Calibrati
     )
     _, judge = estimate_experiment(again, corrections)
     assert judge.ambiguous
+
+
+def test_sensors_on_another_clock_are_not_combined(arm: Path) -> None:
+    """Readings that another clock stamped cannot be brought to these instants, so they are refused by name."""
+    second = read_recording(arm / "recording").stream("tool_ft")
+    _with_stream(arm, replace(second, clock="another machine"))
+    experiment = load_experiment(arm / TWO)
+    corrections = corrections_of_nothing(load_experiment(arm / PARQUET))
+    corrections["tool_ft"] = corrections["arm_ft"]
+    with pytest.raises(RecordingError, match=r"'arm_ft' and 'tool_ft' were stamped by the clocks .*'another machine'"):
+        estimate_experiment(experiment, corrections)

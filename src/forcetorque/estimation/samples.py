@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -11,6 +12,7 @@ from forcetorque.arrays import FloatArray, IntArray, read_only, require_shape
 from forcetorque.constants import STANDARD_GRAVITY
 from forcetorque.errors import RecordingError
 from forcetorque.estimation.estimate import estimate
+from forcetorque.estimation.needs import required_joints_of
 from forcetorque.estimation.question import Question
 from forcetorque.estimation.root_motion import joints_to_support, support_motion_at
 from forcetorque.recording import (
@@ -26,7 +28,7 @@ from forcetorque.recording import (
 from forcetorque.recording.alignment import require_overlap, usable_samples
 from forcetorque.recording.joints import joint_motion_at
 from forcetorque.recording.smoothing import smooth
-from forcetorque.robot import RobotModel, build_tree, required_joints
+from forcetorque.robot import JointMotion, RobotModel, RootMotion, build_tree
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -144,27 +146,49 @@ def _reference(
 ) -> tuple[FloatArray, tuple[str, ...]]:
     """Expected wrench of a sensor at given instants, and the joints that it needed."""
     name = model.sensor(sensor).name
-    tree = build_tree(model, support.frame)
-    joints = tuple(dict.fromkeys((*required_joints(tree, name), *joints_to_support(model, recording, support))))
+    question = Question(tree=build_tree(model, support.frame), expected=(name,), equations=())
+    joints, root = robot_motion_at(
+        recording, model, support, required_joints_of(question), source, at_ns, processing=processing
+    )
+    return estimate(question, joints, root).expected_of(name), joints.names
+
+
+def robot_motion_at(
+    recording: Recording,
+    model: RobotModel,
+    support: Support | MovingSupport,
+    joints: Sequence[str],
+    source: Stream,
+    at_ns: IntArray,
+    *,
+    processing: Processing,
+) -> tuple[JointMotion, RootMotion]:
+    """Give the motion of joints and support at instants of a stream.
+
+    Args:
+        recording: Streams of the joints and of the IMU, on the clock of `source`.
+        model: The robot.
+        support: The support.
+        joints: Joints whose motion is wanted.
+        source: Stream that the instants are of.
+        at_ns: Instants; shape (n,); ns.
+        processing: Filters and gravity.
+
+    Returns:
+        Motion of the joints, and of those between an IMU and the support; motion of the support frame.
+    """
+    needed = tuple(dict.fromkeys((*joints, *joints_to_support(model, recording, support))))
     for used in ("position", "velocity", "acceleration") if processing.logged_derivatives else ("position",):
         holders = recording.joint_signals(used)
-        for holder in dict.fromkeys(holders[joint][0].name for joint in joints if joint in holders):
+        for holder in dict.fromkeys(holders[joint][0].name for joint in needed if joint in holders):
             require_overlap(source, recording.stream(holder))
     if isinstance(support, MovingSupport):
         for stream in support.motion_streams:
             require_overlap(source, recording.stream(stream))
-    motion = joint_motion_at(
-        recording,
-        joints,
-        at_ns,
-        window=processing.derivative_window,
-        logged_derivatives=processing.logged_derivatives,
-    )
-    root = support_motion_at(
-        model, recording, support, motion, at_ns, window=processing.derivative_window, gravity=processing.gravity
-    )
-    answer = estimate(Question(tree=tree, expected=(name,), equations=()), motion, root)
-    return answer.expected_of(name), joints
+    window = processing.derivative_window
+    motion = joint_motion_at(recording, needed, at_ns, window=window, logged_derivatives=processing.logged_derivatives)
+    root = support_motion_at(model, recording, support, motion, at_ns, window=window, gravity=processing.gravity)
+    return motion, root
 
 
 def pick_samples(recording: Recording, source: Stream, interval: Interval) -> tuple[IntArray, int]:

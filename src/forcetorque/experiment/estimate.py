@@ -20,17 +20,14 @@ from forcetorque.estimation import (
     indistinguishable,
     moving_joints,
     required_joints_of,
-    support_motion_at,
 )
-from forcetorque.estimation.root_motion import joints_to_support
-from forcetorque.estimation.samples import pick_samples
+from forcetorque.estimation.samples import pick_samples, robot_motion_at
 from forcetorque.experiment.contacts import contacts_at_sensors
 from forcetorque.experiment.content import Experiment, ExperimentContact
 from forcetorque.experiment.feasible import narrowed
 from forcetorque.experiment.readings import Correction, wrench_at
 from forcetorque.recording import Interval, MovingSupport, SavitzkyGolay, Support, Use
-from forcetorque.recording.alignment import interpolate
-from forcetorque.recording.joints import joint_motion_at
+from forcetorque.recording.alignment import interpolate, require_overlap
 from forcetorque.recording.smoothing import smooth
 from forcetorque.robot import Wrenches, build_tree
 
@@ -113,26 +110,18 @@ def _over(
     available = set(experiment.recording.joint_signals("position"))
     question, left_out = narrowed(question, available, required={entry.contact.name for entry in present})
     processing = experiment.processing
-    joints = joint_motion_at(
+    source = experiment.recording.stream(experiment.sensors[0].stream)
+    joints, root = robot_motion_at(
         experiment.recording,
-        tuple(
-            dict.fromkeys(
-                (*required_joints_of(question), *joints_to_support(experiment.model, experiment.recording, support))
-            )
-        ),
-        at_ns,
-        window=processing.derivative_window,
-        logged_derivatives=processing.logged_derivatives,
-    )
-    root = support_motion_at(
         experiment.model,
-        experiment.recording,
         support,
-        joints,
+        required_joints_of(question),
+        source,
         at_ns,
-        window=processing.derivative_window,
-        gravity=processing.gravity,
+        processing=processing,
     )
+    for stream in (*(sensor.stream for sensor in experiment.sensors), *(e.stream for e in present if e.stream)):
+        require_overlap(source, experiment.recording.stream(stream))
     measured = Wrenches.of(
         {sensor.name: wrench_at(experiment, sensor, corrections[sensor.name], at_ns) for sensor in experiment.sensors}
     )
