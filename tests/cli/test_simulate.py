@@ -4,14 +4,18 @@
 from __future__ import annotations
 
 import json
+import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from forcetorque.calibration import read_calibration
+from forcetorque.errors import MissingExtraError
 from forcetorque.experiment import load_experiment
 from forcetorque.recording import read_recording
+from forcetorque.simulation import BIPED_URDF
+from forcetorque.simulation.robots import named_robot
 from forcetorque.simulation.scenario import load_scenario
 from tests.cli.json_schema import faults
 from tests.cli.outcome import Run
@@ -169,3 +173,37 @@ def test_an_existing_folder_and_an_unknown_name_are_refused(scenario: Path, run:
     assert "it is there already" in run("simulate", scenario, "-o", "out").error()
     assert "known: icub-insitu, wrist" in run("simulate", "wirst", "-o", "new").error()
     assert "expected a scenario file, there is none" in run("simulate", "absent.toml", "-o", "new").error()
+
+
+def test_clocks_of_ports_may_be_apart(scenario: Path, run: Run) -> None:
+    """Every port's stamps move by one time of its own, within the limit; the project's own form keeps the true ones."""
+    edit(scenario, "jitter_s = 0.001", "jitter_s = 0.0\nclock_offset_s = 0.2")
+    assert run("simulate", scenario, "-o", "out").code == 0
+    plain = load_experiment("out/fit.toml").recording.streams
+    yarp = load_experiment("out/fit_yarp.toml").recording.streams
+    ahead = {name: (int(yarp[name].stamp_ns[0]) - int(plain[name].stamp_ns[0])) * 1e-9 for name in ("joints", "arm_ft")}
+    assert all(0.001 < abs(seconds) <= 0.2 for seconds in ahead.values())
+    assert abs(ahead["joints"] - ahead["arm_ft"]) > 0.001
+    last = (int(yarp["arm_ft"].stamp_ns[-1]) - int(plain["arm_ft"].stamp_ns[-1])) * 1e-9
+    assert last == pytest.approx(ahead["arm_ft"], abs=1e-8)
+
+
+def test_a_motion_of_several_phases_gives_a_recording_for_each(tmp_path: Path, run: Run) -> None:
+    """Contact switching of the shipped humanoid: each phase has its support, and its experiment file loads."""
+    text = SMALL.replace('model = ["arm"]', 'model = ["biped"]').split("[[recording]]")[0]
+    text += (
+        '[[recording]]\nname = "walk"\nsupport = "l_sole"\nmotion = { kind = "contact_switching", swing = "r_sole" }\n'
+    )
+    (tmp_path / "walk.toml").write_text(text, encoding="utf-8")
+    rows = run("simulate", tmp_path / "walk.toml", "-o", tmp_path / "out", "--format", "json").result()["recordings"]
+    assert [row["recording"] for row in rows] == [f"walk_{k}" for k in range(len(rows))]
+    supports = {load_experiment(tmp_path / "out" / row["experiment"]).recording.intervals[0].support for row in rows}
+    assert {support.frame for support in supports if support is not None} == {"l_sole", "r_sole"}
+
+
+def test_without_icub_models_the_next_robot_is_taken(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The fall-back of the bundled scenario; without one the extra is named."""
+    monkeypatch.setitem(sys.modules, "icub_models", None)
+    assert named_robot(["iCubGazeboV2_7", "biped"]) == BIPED_URDF
+    with pytest.raises(MissingExtraError, match=r"pip install forcetorque\[icub\]"):
+        named_robot(["iCubGazeboV2_7"])

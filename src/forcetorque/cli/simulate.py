@@ -8,6 +8,7 @@ import shutil
 from dataclasses import replace
 from pathlib import Path
 from typing import Any, Literal
+from uuid import uuid4
 
 import numpy as np
 from pydantic import BaseModel, ConfigDict, Field
@@ -20,9 +21,12 @@ from forcetorque.exchange.yarp import StreamPort, write_ports
 from forcetorque.exchange.yarp.discover import PortKind
 from forcetorque.recording import Recording, write_recording
 from forcetorque.recording.quality import spans
-from forcetorque.simulation import calibrated_by_board, fail_groups, jitter_stamps, lose_messages
+from forcetorque.simulation import calibrated_by_board, fail_groups, jitter_stamps, lose_messages, offset_clocks
 from forcetorque.simulation.scenario import Scenario, SimulatedRecording, load_scenario, simulate
 from forcetorque.simulation.scenario.schema import Network
+
+_NETWORK = 4
+"""What the network's random numbers are for, beside those of a scenario's sensors, power-ups and recordings."""
 
 _BUNDLED = Path(__file__).parents[1] / "simulation" / "scenarios"
 
@@ -78,8 +82,7 @@ def run(scenario: str, *, output: Path, output_format: Format) -> None:
     loaded = load_scenario(_file(scenario))
     if output.exists():
         raise ForceTorqueError(f"--output {output}: expected a new folder, it is there already")
-    fresh = output.with_name(f".{output.name}.part")
-    shutil.rmtree(fresh, ignore_errors=True)
+    fresh = output.with_name(f".{uuid4().hex}.tmp")
     fresh.mkdir(parents=True)
     try:
         shutil.copyfile(loaded.urdf, fresh / "robot.urdf")
@@ -163,7 +166,7 @@ def _write(scenario: Scenario, made: SimulatedRecording, folder: Path) -> None:
 
 def _write_yarp(scenario: Scenario, made: SimulatedRecording, folder: Path, network: Network) -> None:
     """Write what a logger would have seen: wrenches that the boards compute, through a network with faults."""
-    rng = np.random.default_rng([scenario.file.seed, 4, *made.name.encode()])
+    rng = np.random.default_rng([scenario.file.seed, _NETWORK, *made.name.encode()])
     recording = made.recording
     for name, specimen in scenario.specimens.items():
         stored = read_matrix_file(folder / f"matrix_{specimen.serial}.txt").matrix
@@ -199,6 +202,9 @@ def _streamed(recording: Recording, name: str) -> Recording:
 def _through(recording: Recording, network: Network, rng: np.random.Generator) -> Recording:
     if network.jitter_s:
         recording = jitter_stamps(recording, largest_s=network.jitter_s, rng=rng)
+    if network.clock_offset_s:
+        ahead = rng.uniform(-network.clock_offset_s, network.clock_offset_s, len(recording.streams))
+        recording = offset_clocks(recording, dict(zip(recording.streams, ahead.tolist(), strict=True)))
     if network.lost_messages:
         recording = lose_messages(recording, bursts=network.lost_messages, rng=rng)
     if network.failed_groups:

@@ -152,6 +152,8 @@ class Network(Table):
 
     jitter_s: _AtLeastZero = 0.001
     """Largest change of a stamp."""
+    clock_offset_s: _AtLeastZero = 0.0
+    """Largest time by which the clock of a port is ahead or behind."""
     lost_messages: _Count = 0
     """Messages of every port that do not arrive."""
     failed_groups: _Count = 0
