@@ -156,7 +156,7 @@ def test_equals_pinocchio(robot: str, tmp_path: Path) -> None:
     assert model.sensors
     motion, down = random_motion(model, samples=SAMPLES, seed=3), _gravity_direction(4)
     motion = _without_mimics(model, motion)
-    root = next(iter(set(model.links) - {joint.child for joint in model.joints.values()}))
+    root = model.root_link
     ours = _ours(model, root, motion, down)
     theirs = _from_pinocchio(urdf, model, root, motion, down, tmp_path)
     assert set(ours) == set(theirs)

@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import math
 import sys
 from pathlib import Path
 from typing import Literal
@@ -13,7 +12,7 @@ from pydantic import BaseModel, ConfigDict, Field
 
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration import read_calibration
-from forcetorque.cli.output import Format, console, print_result, start_logging, table
+from forcetorque.cli.output import Format, console, finite_or_none, print_result, start_logging, table
 from forcetorque.errors import ForceTorqueError
 from forcetorque.evaluation import WrenchErrors, wrench_errors
 from forcetorque.exchange.estimates_table import SUFFIXES, EstimatedSpan, write_estimates
@@ -185,7 +184,7 @@ def _contact_rows(span: IntervalEstimates) -> list[ContactRow]:
                 contact=name,
                 samples=count,
                 force_mean_N=None if norms is None else norms.force_mean,
-                force_standard_error_N=None if norms is None else _or_none(norms.force_mean_error),
+                force_standard_error_N=None if norms is None else finite_or_none(norms.force_mean_error),
                 force_largest_N=None if norms is None else norms.force_largest,
                 moment_mean_Nm=None if norms is None else norms.moment_mean,
             )
@@ -218,10 +217,6 @@ def _norms(wrench: FloatArray) -> tuple[int, WrenchErrors | None]:
     """Number of samples without a gap, and their norms: errors against nothing touching."""
     whole = wrench[np.isfinite(wrench).all(axis=1)]
     return len(whole), wrench_errors(whole, np.zeros_like(whole)) if len(whole) else None
-
-
-def _or_none(value: float) -> float | None:
-    return value if math.isfinite(value) else None
 
 
 def _show(result: EstimateResult) -> None:

@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Literal
@@ -11,7 +10,7 @@ from typing import Literal
 from pydantic import BaseModel, ConfigDict, Field
 
 from forcetorque.calibration import Calibration, read_calibration
-from forcetorque.cli.output import Format, console, print_result, start_logging, table
+from forcetorque.cli.output import Format, console, finite_or_none, print_result, start_logging, table
 from forcetorque.errors import ExperimentError
 from forcetorque.experiment import Experiment, Verdict, evaluate_sensor, load_experiment
 from forcetorque.experiment.inputs import stated_in
@@ -113,16 +112,12 @@ def _row(verdict: Verdict) -> VerdictRow:
         bias=errors.bias.tolist(),
         largest=errors.largest.tolist(),
         force_error_mean_N=errors.force_mean,
-        force_error_standard_error_N=_or_none(errors.force_mean_error),
+        force_error_standard_error_N=finite_or_none(errors.force_mean_error),
         force_error_largest_N=errors.force_largest,
         moment_error_mean_Nm=errors.moment_mean,
-        moment_error_standard_error_Nm=_or_none(errors.moment_mean_error),
+        moment_error_standard_error_Nm=finite_or_none(errors.moment_mean_error),
         moment_error_largest_Nm=errors.moment_largest,
     )
-
-
-def _or_none(value: float) -> float | None:
-    return value if math.isfinite(value) else None
 
 
 def _flat(row: VerdictRow) -> dict[str, object]:

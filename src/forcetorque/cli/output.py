@@ -6,6 +6,7 @@ from __future__ import annotations
 import csv
 import json
 import logging
+import math
 import sys
 from collections.abc import Callable, Mapping, Sequence
 from enum import StrEnum
@@ -62,6 +63,18 @@ def console() -> Console:
     return Console(
         highlight=False, markup=False, emoji=False, soft_wrap=False, width=None if sys.stdout.isatty() else _PIPE_WIDTH
     )
+
+
+def finite_or_none(value: float) -> float | None:
+    """Give a number that JSON can hold.
+
+    Args:
+        value: The number; NaN or infinite where there is none.
+
+    Returns:
+        The same, or None.
+    """
+    return value if math.isfinite(value) else None
 
 
 def table(*headings: str, title: str | None = None) -> Table:

@@ -10,9 +10,9 @@ import numpy as np
 from forcetorque.arrays import BoolArray, IntArray
 from forcetorque.calibration import recover_raw
 from forcetorque.errors import ForceTorqueError
-from forcetorque.estimation import sensor_samples
 from forcetorque.evaluation import model_findings
 from forcetorque.experiment.content import Experiment, ExperimentSensor
+from forcetorque.experiment.samples import samples_over
 from forcetorque.recording import Finding, Interval, Recording, Use
 from forcetorque.recording.quality import saturation_findings, stream_findings
 
@@ -104,15 +104,7 @@ def _spans(experiment: Experiment) -> tuple[Interval, ...]:
 
 
 def _against_model(experiment: Experiment, sensor: ExperimentSensor, interval: Interval) -> tuple[Finding, ...]:
-    samples = sensor_samples(
-        experiment.recording,
-        experiment.model,
-        sensor=sensor.name,
-        stream=sensor.stream,
-        quantity=sensor.quantity,
-        interval=interval,
-        processing=replace(experiment.processing, smoothing=None),
-    )
+    samples = samples_over(experiment, sensor, interval, replace(experiment.processing, smoothing=None))
     measured = samples.reading.values
     if sensor.quantity == "raw":
         if sensor.prior is None:

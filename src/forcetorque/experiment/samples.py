@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration import DataSet, recover_raw
 from forcetorque.errors import ExperimentError
-from forcetorque.estimation import SensorSamples, sensor_samples
+from forcetorque.estimation import Processing, SensorSamples, sensor_samples
 from forcetorque.experiment.content import Experiment, ExperimentSensor
 from forcetorque.recording import Interval, Use
 
@@ -30,6 +30,31 @@ class IntervalSamples:
         return DataSet(label=self.interval.label, raw=self.raw, reference=self.samples.reference)
 
 
+def samples_over(
+    experiment: Experiment, sensor: ExperimentSensor, interval: Interval, processing: Processing
+) -> SensorSamples:
+    """Pair the readings of a sensor with what the model expects over one interval.
+
+    Args:
+        experiment: The experiment.
+        sensor: One of its sensors.
+        interval: An interval of its recording.
+        processing: Filters and gravity.
+
+    Returns:
+        Reading and reference at the same instants.
+    """
+    return sensor_samples(
+        experiment.recording,
+        experiment.model,
+        sensor=sensor.name,
+        stream=sensor.stream,
+        quantity=sensor.quantity,
+        interval=interval,
+        processing=processing,
+    )
+
+
 def samples_of(experiment: Experiment, sensor: ExperimentSensor, use: Use) -> list[IntervalSamples]:
     """Collect the samples of a sensor in all intervals of one use.
 
@@ -46,15 +71,7 @@ def samples_of(experiment: Experiment, sensor: ExperimentSensor, use: Use) -> li
     """
     collected = []
     for interval in experiment.intervals(use):
-        samples = sensor_samples(
-            experiment.recording,
-            experiment.model,
-            sensor=sensor.name,
-            stream=sensor.stream,
-            quantity=sensor.quantity,
-            interval=interval,
-            processing=experiment.processing,
-        )
+        samples = samples_over(experiment, sensor, interval, experiment.processing)
         raw = samples.reading.values
         if sensor.quantity == "wrench":
             if sensor.prior is None:

@@ -138,6 +138,12 @@ class RobotModel:
             object.__setattr__(self, field, MappingProxyType(dict(getattr(self, field))))
         _require_tree(self)
 
+    @property
+    def root_link(self) -> str:
+        """The one link that is no joint's child."""
+        (root,) = _roots(self)
+        return root
+
     def sensor(self, name: str) -> ForceTorqueSensor:
         """Find a force-torque sensor by its name or an alias.
 
@@ -200,6 +206,11 @@ def _identity_pose() -> FloatArray:
     return read_only([[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]], name="pose", shape=(4, 4))
 
 
+def _roots(model: RobotModel) -> list[str]:
+    children = {joint.child for joint in model.joints.values()}
+    return [link for link in model.links if link not in children]
+
+
 def _require_tree(model: RobotModel) -> None:
     """Check that joints join known links to one tree, and that sensors sit at joints.
 
@@ -225,7 +236,7 @@ def _require_tree(model: RobotModel) -> None:
                 f"{joint.name!r}; expected a tree without loops"
             )
         parent_joint[joint.child] = joint
-    roots = [link for link in model.links if link not in parent_joint]
+    roots = _roots(model)
     if len(roots) != 1:
         found = "none: the joints form a loop" if not roots else ", ".join(repr(r) for r in roots)
         raise RobotError(f"robot {model.name!r}: expected one root link that is no joint's child, found {found}")

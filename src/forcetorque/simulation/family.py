@@ -24,7 +24,7 @@ from forcetorque.sensor.elastic import (
     RectangularSection,
 )
 from forcetorque.simulation.electronics import Electronics
-from forcetorque.spatial import make_pose, wrench_matrix
+from forcetorque.spatial import make_pose, rotation_about_z, wrench_matrix
 
 _STEEL = Material.from_poisson_ratio(200e9, 0.3)
 _PLACES = tuple(
@@ -105,8 +105,7 @@ class SensorFamily:
         spread = self.spread
         turned = np.array(Y_ELEMENT.strain_matrix())
         for row, angle in zip(turned, spread.turn_rad * rng.standard_normal(6), strict=True):
-            cosine, sine = np.cos(angle), np.sin(angle)
-            turn = np.array([[cosine, -sine, 0.0], [sine, cosine, 0.0], [0.0, 0.0, 1.0]])
+            turn = rotation_about_z(angle)
             row[:3], row[3:] = turn @ row[:3], turn @ row[3:]
         gains = self._gains(np.exp(spread.thickness * rng.standard_normal()))
         # what the other gauges of the arm see, in the strength of this gauge

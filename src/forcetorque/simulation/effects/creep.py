@@ -5,11 +5,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-import numpy as np
-from scipy.signal import lfilter
-
 from forcetorque.arrays import FloatArray
 from forcetorque.errors import ShapeError
+from forcetorque.simulation.effects.lag import lagging
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -35,7 +33,4 @@ class Creep:
         Returns:
             The same with creep; shape (n, c).
         """
-        keep = float(np.exp(-1.0 / (self.time_constant_s * rate_hz)))
-        follows = lfilter([1.0 - keep], [1.0, -keep], strain, axis=0, zi=keep * strain[:1])[0]
-        crept: FloatArray = strain + self.share * follows
-        return crept
+        return strain + self.share * lagging(strain, self.time_constant_s, rate_hz=rate_hz)

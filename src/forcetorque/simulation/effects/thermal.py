@@ -6,10 +6,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.signal import lfilter
 
 from forcetorque.arrays import FloatArray, read_only, require_shape
 from forcetorque.errors import ShapeError
+from forcetorque.simulation.effects.lag import lagging
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -59,16 +59,11 @@ class ThermalDrift:
         require_shape(temperature_degC, name="temperature_degC", shape=(None,))
         change = np.outer(temperature_degC - self.reference_degC, self.slope)
         if self.gradient_slope is not None:
-            change = change + np.outer(temperature_degC - self._late(temperature_degC, rate_hz), self.gradient_slope)
+            late = lagging(temperature_degC, self.lag_s, rate_hz=rate_hz)
+            change = change + np.outer(temperature_degC - late, self.gradient_slope)
         if self.hysteresis_slope is not None:
             change = change + np.outer(self._play(temperature_degC) - self.reference_degC, self.hysteresis_slope)
         return change
-
-    def _late(self, temperature: FloatArray, rate_hz: float) -> FloatArray:
-        """The same temperature behind a first-order lag, at rest when the recording starts."""
-        keep = float(np.exp(-1.0 / (self.lag_s * rate_hz)))
-        late: FloatArray = lfilter([1.0 - keep], [1.0, -keep], temperature, zi=[keep * temperature[0]])[0]
-        return late
 
     def _play(self, temperature: FloatArray) -> FloatArray:
         """Play operator: a follower that is pushed only when the temperature reaches the end of its play."""

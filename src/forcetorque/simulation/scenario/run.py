@@ -132,7 +132,7 @@ def _sensors(scenario: Scenario, power_up: int) -> dict[str, SimulatedSensor]:
 
 def _movements(scenario: Scenario, entry: Recorded, rng: np.random.Generator) -> tuple[Movement, ...]:
     motion, model = entry.motion, scenario.model
-    support = entry.support or _root_link(model)
+    support = entry.support or model.root_link
     stand = Stand(
         model=model,
         support=support,
@@ -153,8 +153,3 @@ def _movements(scenario: Scenario, entry: Recorded, rng: np.random.Generator) ->
         return contact_switching_movements(stand, swing, rng=rng)
     duration = motion.duration_s or 0.0
     return (random_movement(stand, rng=rng, duration_s=duration, slowest_hz=motion.slowest_hz, name=entry.name),)
-
-
-def _root_link(model: RobotModel) -> str:
-    (root,) = set(model.links) - {joint.child for joint in model.joints.values()}
-    return root
