@@ -207,3 +207,19 @@ def test_without_icub_models_the_next_robot_is_taken(monkeypatch: pytest.MonkeyP
     assert named_robot(["iCubGazeboV2_7", "biped"]) == BIPED_URDF
     with pytest.raises(MissingExtraError, match=r"pip install forcetorque\[icub\]"):
         named_robot(["iCubGazeboV2_7"])
+
+
+def test_gains_sees_what_a_saturated_board_held(scenario: Path, run: Run) -> None:
+    """Held samples never reach the limit; the status alone tells `gains` that the motion is to be repeated."""
+    edit(scenario, "noise_counts = 1.0", "noise_counts = 1.0\nlimit_counts = 12000")
+    assert run("simulate", scenario, "-o", "out").code == 0
+    truth = json.loads(Path("out/truth.json").read_text(encoding="utf-8"))["recordings"]["fit"]["sensors"]["arm_ft"]
+    recording = read_recording("out/fit")
+    start = min(int(stream.stamp_ns[0]) for stream in recording.streams.values())
+    seconds = (recording.stream("arm_ft").stamp_ns - start) * 1e-9
+    held = [k for first, last in truth["saturated_samples"] for k in range(first, last + 1)]
+    inside = sum(0.5 <= seconds[k] < 11.5 for k in held)
+    done = run("gains", "out/fit.toml", "--format", "json")
+    (found,) = done.result()["sensors"]
+    assert found["frozen"] == inside > 100
+    assert any("WARNING" in line and str(inside) in line for line in done.log)

@@ -103,7 +103,7 @@ class SensorRow(BaseModel):
     missing: int
     """Samples without a reading."""
     frozen: int
-    """Samples in stretches of one reading, as of a board that saturates and repeats its last value."""
+    """Samples that a saturated board held, by its status; without one, samples in long stretches of one reading."""
     recovered: bool
     """Whether counts came through the inverse of the prior; an offset of the electronics is not in them."""
     limit_counts: float

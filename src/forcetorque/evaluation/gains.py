@@ -22,6 +22,7 @@ from forcetorque.arrays import FloatArray, IntArray, read_only, require_shape
 from forcetorque.errors import ForceTorqueError, ShapeError
 from forcetorque.recording import Stream
 from forcetorque.recording.quality import saturation_findings
+from forcetorque.sensor.full_scale import axis_resolution as largest_step
 
 MARGIN = 0.2
 """Share of the limit that is kept free for forces that the recording does not hold."""
@@ -209,7 +210,7 @@ def axis_resolution(matrix: FloatArray, *, factors: Sequence[float] | None = Non
         The resolution of each axis.
     """
     per_count = matrix if factors is None else matrix / np.asarray(factors, dtype=np.float64)
-    return AxisResolution(worst=np.abs(per_count).sum(axis=1), rms=np.linalg.norm(per_count, axis=1))
+    return AxisResolution(worst=largest_step(per_count), rms=np.linalg.norm(per_count, axis=1))
 
 
 def strongest_samples(counts: FloatArray) -> tuple[IntArray, int]:

@@ -82,7 +82,7 @@ class SensorGains:
     missing: int
     """Samples of these intervals without a reading."""
     frozen: int
-    """Samples in stretches of one reading, as of a board that saturates and repeats its last value."""
+    """Samples that a saturated board held, by its status; without one, samples in long stretches of one reading."""
     ranges: tuple[ChannelRange, ...]
     """What each channel read."""
     advice: tuple[GainAdvice, ...]
@@ -133,7 +133,7 @@ def select_gains(
     Raises:
         ExperimentError: If all intervals are ignored, the counts are not known, or no sample has a reading.
     """
-    source, missing = _readings(experiment, sensor)
+    source, missing, held = _readings(experiment, sensor)
     signal = source.signal(sensor.quantity)
     recovered = sensor.quantity == "wrench"
     counts = _counts(sensor, signal.values)
@@ -159,7 +159,7 @@ def select_gains(
         time_s=seconds_since(source.stamp_ns, experiment.recording.start_ns),
         counts=counts,
         missing=missing,
-        frozen=sum(finding.count for finding in stream_findings(source) if finding.kind == "frozen"),
+        frozen=held,
         ranges=ranges,
         advice=advice,
         matrix_source=matrix_source,
@@ -169,8 +169,8 @@ def select_gains(
     )
 
 
-def _readings(experiment: Experiment, sensor: ExperimentSensor) -> tuple[Stream, int]:
-    """The sensor's reading alone, over all intervals that are not ignored, and how many samples lack it."""
+def _readings(experiment: Experiment, sensor: ExperimentSensor) -> tuple[Stream, int, int]:
+    """The sensor's reading over all intervals that are not ignored; how many samples lack it, how many repeat one."""
     stream = experiment.recording.stream(sensor.stream)
     used = [interval for interval in experiment.recording.intervals if interval.use is not Use.IGNORE]
     if not used:
@@ -187,7 +187,13 @@ def _readings(experiment: Experiment, sensor: ExperimentSensor) -> tuple[Stream,
         sequence=None,
         signals={signal.quantity: replace(signal, values=signal.values[kept])},
     )
-    return picked, len(rows) - len(kept)
+    return picked, len(rows) - len(kept), _held(stream, rows, picked)
+
+
+def _held(stream: Stream, rows: IntArray, picked: Stream) -> int:
+    if "saturated" in stream.signals:
+        return int(np.count_nonzero(stream.held[rows]))
+    return sum(finding.count for finding in stream_findings(picked) if finding.kind == "frozen")
 
 
 def _counts(sensor: ExperimentSensor, values: FloatArray) -> FloatArray:
