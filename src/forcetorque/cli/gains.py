@@ -16,6 +16,7 @@ from forcetorque.cli.output import Format, console, print_result, start_logging,
 from forcetorque.errors import ForceTorqueError
 from forcetorque.evaluation import GainChange
 from forcetorque.experiment import Experiment, ExperimentSensor, SensorGains, load_experiment, select_gains
+from forcetorque.experiment.fitness import one_per_sensor
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -89,14 +90,10 @@ def _by_sensor(
     experiment: Experiment, chosen: Sequence[ExperimentSensor], loaded: dict[str, Calibration]
 ) -> dict[str, tuple[str, Calibration]]:
     """Calibrations with their names, by sensor."""
-    found: dict[str, tuple[str, Calibration]] = {}
-    for file, calibration in loaded.items():
-        name = experiment.sensor(calibration.sensor.name).name
+    found = one_per_sensor(experiment, loaded)
+    for name, (file, _) in found.items():
         if name not in {sensor.name for sensor in chosen}:
             raise ForceTorqueError(f"{file}: calibrates {name!r}, which --sensor leaves out")
-        if name in found:
-            raise ForceTorqueError(f"{file}: {found[name][0]} calibrates {name!r} too; give one")
-        found[name] = (file, calibration)
     return found
 
 

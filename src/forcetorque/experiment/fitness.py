@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import numpy as np
 
 from forcetorque.calibration import Calibration
@@ -29,6 +31,30 @@ def require_fit(name: str, calibration: Calibration, experiment: Experiment, sen
         calibration.require_serial(sensor.serial)
     _refuse_other_reading(name, calibration, experiment, sensor)
     _refuse_other_counts(name, calibration, sensor)
+
+
+def one_per_sensor(
+    experiment: Experiment, calibrations: Mapping[str, Calibration]
+) -> dict[str, tuple[str, Calibration]]:
+    """Sort calibrations by the sensor that they are of.
+
+    Args:
+        experiment: The experiment.
+        calibrations: Calibrations by name of their file.
+
+    Returns:
+        Name and calibration by sensor.
+
+    Raises:
+        ExperimentError: If two calibrations are of one sensor, or of none of the experiment's.
+    """
+    chosen: dict[str, tuple[str, Calibration]] = {}
+    for name, calibration in calibrations.items():
+        sensor = experiment.sensor(calibration.sensor.name).name
+        if sensor in chosen:
+            raise ExperimentError(f"{name}: {chosen[sensor][0]} calibrates {sensor!r} too; give one")
+        chosen[sensor] = (name, calibration)
+    return chosen
 
 
 def _refuse_other_reading(

@@ -12,7 +12,7 @@ from forcetorque.arrays import FloatArray, IntArray, read_only
 from forcetorque.calibration import Calibration, recover_raw
 from forcetorque.errors import ExperimentError
 from forcetorque.experiment.content import Experiment, ExperimentSensor
-from forcetorque.experiment.fitness import require_fit
+from forcetorque.experiment.fitness import one_per_sensor, require_fit
 from forcetorque.experiment.samples import samples_of
 from forcetorque.recording import Use
 from forcetorque.recording.alignment import interpolate
@@ -47,19 +47,14 @@ def corrections_of(experiment: Experiment, calibrations: Mapping[str, Calibratio
         Corrections by sensor.
 
     Raises:
-        ExperimentError: If two calibrations are of one sensor, or raw counts have neither calibration nor prior.
+        ExperimentError: If a calibration may not be applied, or raw counts have neither calibration nor prior.
     """
-    chosen: dict[str, tuple[str, Calibration]] = {}
-    for name, calibration in calibrations.items():
-        sensor = experiment.sensor(calibration.sensor.name)
-        require_fit(name, calibration, experiment, sensor)
-        if sensor.name in chosen:
-            raise ExperimentError(f"{name}: {chosen[sensor.name][0]} calibrates {sensor.name!r} too; give one")
-        chosen[sensor.name] = (name, calibration)
+    chosen = one_per_sensor(experiment, calibrations)
     corrections = {}
     for sensor in experiment.sensors:
         if sensor.name in chosen:
             name, calibration = chosen[sensor.name]
+            require_fit(name, calibration, experiment, sensor)
             correction = Correction(matrix=calibration.matrix, offset=calibration.offset, source=name)
         else:
             correction = _uncalibrated(experiment, sensor)
