@@ -15,6 +15,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from forcetorque.calibration import (
+    CalibratedVariable,
     Calibration,
     Prior,
     Provenance,
@@ -24,7 +25,14 @@ from forcetorque.calibration import (
     read_calibration,
     write_calibration,
 )
-from forcetorque.errors import ForceTorqueError, FormatError, MissingFileError, SerialNumberError, ShapeError
+from forcetorque.errors import (
+    ForceTorqueError,
+    FormatError,
+    MissingFileError,
+    RecordingError,
+    SerialNumberError,
+    ShapeError,
+)
 from forcetorque.spatial import MeasureDirection
 
 ROUNDING = 1e-13
@@ -85,6 +93,50 @@ def test_applies_matrix_then_offset() -> None:
         np.testing.assert_allclose(row, by_hand, rtol=ROUNDING)
         np.testing.assert_allclose(calibration.apply(one, serial="SN1"), by_hand, rtol=ROUNDING)
     assert len(wrench) == 4
+
+
+def _with_temperature() -> Calibration:
+    temperature = CalibratedVariable(
+        name="temperature",
+        unit="degC",
+        reference_value=29.5,
+        coefficients=np.arange(6.0),
+        standard_error=None,
+        minimum=29.0,
+        maximum=42.0,
+    )
+    return _calibration().model_copy(update={"variables": (temperature,), "estimation_type": "OwTrTO"})
+
+
+def test_temperature_counts_from_its_reference_value(tmp_path: Path) -> None:
+    """A degree above the reference adds the coefficients once, for one temperature or one per reading."""
+    write_calibration(tmp_path / "c.json", _with_temperature())
+    calibration = read_calibration(tmp_path / "c.json")
+    raw = np.random.default_rng(2).normal(size=(4, 6))
+    without = raw @ calibration.matrix.T + calibration.offset
+    one = calibration.apply(raw, serial="SN1", variables={"temperature": 30.5})
+    np.testing.assert_allclose(one, without + np.arange(6.0), rtol=ROUNDING)
+    rising = calibration.apply(raw, serial="SN1", variables={"temperature": 29.5 + np.arange(4.0)})
+    np.testing.assert_allclose(rising, without + np.outer(np.arange(4.0), np.arange(6.0)), rtol=ROUNDING)
+    with pytest.raises(RecordingError, match=r"expected values of the variables \['temperature'\], got \[\]"):
+        calibration.apply(raw, serial="SN1")
+    with pytest.raises(RecordingError, match=r"variables \[\], got \['temperature'\]"):
+        _calibration().apply(raw, serial="SN1", variables={"temperature": 30.0})
+    with pytest.raises(ShapeError, match="'temperature'"):
+        calibration.apply(raw, serial="SN1", variables={"temperature": np.zeros(3)})
+
+
+def test_a_file_from_before_there_were_variables_is_read(tmp_path: Path) -> None:
+    """Version 1 is the same form without variables; one with variables under that name is still complete."""
+    path = tmp_path / "c.json"
+    write_calibration(path, _calibration())
+    content = json.loads(path.read_text())
+    assert content["schema"] == "forcetorque/calibration/2"
+    for key in ("variables", "estimation_type", "raw_offset_counts"):
+        del content[key]
+    path.write_text(json.dumps(content | {"schema": "forcetorque/calibration/1"}))
+    read = read_calibration(path)
+    assert read.model_dump_json() == _calibration().model_dump_json()
 
 
 def test_refuses_a_foreign_sensor_unless_told() -> None:

@@ -10,8 +10,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from forcetorque.calibration import Moments, fit_matrix
-from forcetorque.calibration.fit import solve_matrix
+from forcetorque.calibration import Estimation, Moments, WrenchModel, fit_matrix, solve
 from forcetorque.errors import FitError, ShapeError
 from forcetorque.spatial import make_pose, rotation_from_rpy, wrench_matrix
 
@@ -31,14 +30,21 @@ def _moments(seed: int, *, noise: float = 0.0, n: int = 400) -> Moments:
     return Moments.of(raw, raw @ matrix.T + offset + noise * rng.normal(size=(n, 6)))
 
 
+def _solved(moments: Moments, prior: np.ndarray | None, lam: float) -> tuple[np.ndarray, np.ndarray]:
+    model = solve(moments, Estimation(prior=prior), lam)
+    return model.matrix, model.offset
+
+
 def _objective(moments: Moments, prior: np.ndarray, lam: float, matrix: np.ndarray, offset: np.ndarray) -> float:
-    return float(moments.squared_error(matrix, offset).sum() + lam * ((matrix - prior) ** 2).sum())
+    return float(
+        moments.squared_error(WrenchModel(matrix=matrix, offset=offset)).sum() + lam * ((matrix - prior) ** 2).sum()
+    )
 
 
 def test_noise_free_data_give_the_true_matrix() -> None:
     """Lambda 0 on exact data returns matrix and offset."""
     matrix, offset = _truth(1)
-    fit = fit_matrix(_moments(1), None, 0.0)
+    fit = fit_matrix(_moments(1), Estimation(), 0.0)
     np.testing.assert_allclose(fit.matrix, matrix, rtol=EXACT, atol=EXACT * np.abs(matrix).max())
     np.testing.assert_allclose(fit.offset, offset, atol=1e-6)
     assert fit.excitation.rank == 6
@@ -50,7 +56,7 @@ def test_noise_free_data_give_the_true_matrix() -> None:
 def test_no_small_step_improves_the_objective(lam: float, seed: int) -> None:
     """The solution is the minimum of thesis (5.4) with the mean over samples: every step away is worse."""
     moments, prior = _moments(2, noise=0.5), _truth(3)[0]
-    matrix, offset = solve_matrix(moments, prior, lam)
+    matrix, offset = _solved(moments, prior, lam)
     best = _objective(moments, prior, lam, matrix, offset)
     rng = np.random.default_rng(seed)
     step, shift = 1e-4 * rng.normal(size=(6, 6)), 1e-2 * rng.normal(size=6)
@@ -61,17 +67,17 @@ def test_no_small_step_improves_the_objective(lam: float, seed: int) -> None:
 def test_a_lambda_of_other_convention_is_not_the_minimum() -> None:
     """Negative control: forgetting the 1/N of the mean misses the minimum."""
     moments, prior = _moments(2, noise=0.5), _truth(3)[0]
-    right = _objective(moments, prior, 1e4, *solve_matrix(moments, prior, 1e4))
-    wrong = _objective(moments, prior, 1e4, *solve_matrix(moments, prior, 1e4 / moments.count))
+    right = _objective(moments, prior, 1e4, *_solved(moments, prior, 1e4))
+    wrong = _objective(moments, prior, 1e4, *_solved(moments, prior, 1e4 / moments.count))
     assert wrong > right * 1.01
 
 
 def test_infinite_lambda_keeps_the_prior() -> None:
     """The limit of large lambda is the prior matrix with the offset that the data give."""
     moments, prior = _moments(4, noise=0.1), _truth(5)[0]
-    matrix, offset = solve_matrix(moments, prior, math.inf)
+    matrix, offset = _solved(moments, prior, math.inf)
     np.testing.assert_array_equal(matrix, prior)
-    large, large_offset = solve_matrix(moments, prior, 1e16)
+    large, large_offset = _solved(moments, prior, 1e16)
     np.testing.assert_allclose(large, matrix, atol=1e-8)
     np.testing.assert_allclose(large_offset, offset, atol=1e-3)
 
@@ -79,7 +85,7 @@ def test_infinite_lambda_keeps_the_prior() -> None:
 def test_distance_to_the_prior_falls_with_lambda() -> None:
     """A larger lambda is never further from the prior."""
     moments, prior = _moments(6, noise=0.3), _truth(7)[0]
-    distances = [np.linalg.norm(solve_matrix(moments, prior, lam)[0] - prior) for lam in np.logspace(-2, 10, 40)]
+    distances = [np.linalg.norm(_solved(moments, prior, lam)[0] - prior) for lam in np.logspace(-2, 10, 40)]
     assert all(b <= a * (1 + EXACT) for a, b in zip(distances, distances[1:], strict=False))
     assert distances[-1] < 0.01 * distances[0]
 
@@ -89,8 +95,8 @@ def test_units_of_counts_do_not_matter() -> None:
     prior = _truth(9)[0]
     rng = np.random.default_rng(10)
     raw, reference = 1000 * rng.normal(size=(300, 6)), rng.normal(size=(300, 6))
-    one = solve_matrix(Moments.of(raw, reference), prior, 50.0)
-    other = solve_matrix(Moments.of(7.0 * raw, reference), prior / 7.0, 49.0 * 50.0)
+    one = _solved(Moments.of(raw, reference), prior, 50.0)
+    other = _solved(Moments.of(7.0 * raw, reference), prior / 7.0, 49.0 * 50.0)
     np.testing.assert_allclose(7.0 * other[0], one[0], rtol=EXACT, atol=1e-15)
     np.testing.assert_allclose(other[1], one[1], rtol=EXACT, atol=1e-12)
 
@@ -102,8 +108,8 @@ def test_an_unpenalised_fit_follows_the_sensor_frame() -> None:
     raw = 1000 * rng.normal(size=(300, 6))
     reference = raw @ matrix.T + offset + rng.normal(size=(300, 6))
     a_X_b = wrench_matrix(make_pose(rotation_from_rpy([0.3, -0.7, 1.1]), [0.1, -0.2, 0.05]))
-    here = solve_matrix(Moments.of(raw, reference), None, 0.0)
-    there = solve_matrix(Moments.of(raw, reference @ a_X_b.T), None, 0.0)
+    here = _solved(Moments.of(raw, reference), None, 0.0)
+    there = _solved(Moments.of(raw, reference @ a_X_b.T), None, 0.0)
     np.testing.assert_allclose(there[0], a_X_b @ here[0], rtol=1e-8, atol=1e-12)
     np.testing.assert_allclose(there[1], a_X_b @ here[1], rtol=1e-8, atol=1e-10)
 
@@ -115,7 +121,7 @@ def test_an_unexcited_direction_without_penalty_is_named() -> None:
     raw[:, 4] = 3.0 * rng.normal(size=500)  # only noise, no part of the reference
     reference = raw * [1, 1, 1, 1, 0, 1] @ _truth(14)[0].T
     with pytest.raises(FitError, match=r"do not excite 1 of 6 directions.*1\.00 ch4"):
-        fit_matrix(Moments.of(raw, reference), None, 0.0)
+        fit_matrix(Moments.of(raw, reference), Estimation(), 0.0)
 
 
 def test_few_samples_of_noise_are_not_excitation() -> None:
@@ -125,7 +131,7 @@ def test_few_samples_of_noise_are_not_excitation() -> None:
     for _ in range(20):
         moments = Moments.of(rng.normal(size=(7, 6)), rng.normal(size=(7, 6)))
         with pytest.raises(FitError, match="do not excite"):
-            fit_matrix(moments, None, 0.0)
+            fit_matrix(moments, Estimation(), 0.0)
         refused += 1
     assert refused == 20
 
@@ -137,7 +143,7 @@ def test_a_prior_turns_the_refusal_into_a_report() -> None:
     raw[:, 4] = 3.0 * rng.normal(size=500)
     reference = raw * [1, 1, 1, 1, 0, 1] @ _truth(14)[0].T
     prior = _truth(16)[0]
-    fit = fit_matrix(Moments.of(raw, reference), prior, 1e3)
+    fit = fit_matrix(Moments.of(raw, reference), Estimation(prior=prior), 1e3)
     assert fit.excitation.excited.count(False) == 1
     assert np.linalg.norm(fit.matrix[:, 4] - prior[:, 4]) < 0.05 * np.linalg.norm(prior[:, 4])
 
@@ -155,4 +161,4 @@ def test_a_prior_turns_the_refusal_into_a_report() -> None:
 def test_bad_requests_are_refused(prior: np.ndarray | None, lam: float, error: type[Exception], match: str) -> None:
     """A lambda without prior is never silently 0, and nonsense is refused."""
     with pytest.raises(error, match=match):
-        solve_matrix(_moments(1), prior, lam)
+        _solved(_moments(1), prior, lam)

@@ -8,8 +8,8 @@ import math
 import numpy as np
 import pytest
 
-from forcetorque.calibration import DataSet, Moments, calibrate, choose_lambda
-from forcetorque.calibration.held_out import candidate_lambdas, jackknife_error
+from forcetorque.calibration import DataSet, Estimation, Moments, calibrate, choose_lambda
+from forcetorque.calibration.held_out import candidate_lambdas, jackknife_errors
 from forcetorque.errors import FitError, ShapeError
 
 TRUTH = 0.02 * (np.eye(6) + 0.2 * np.random.default_rng(1).normal(size=(6, 6)))
@@ -34,7 +34,7 @@ def _moments(blocks: list) -> list[Moments]:
 def test_good_data_overrule_a_wrong_prior() -> None:
     """With rich blocks and little noise the choice is a lambda that recovers the true matrix."""
     blocks = _moments(_blocks(matrix=TRUTH, drift=0.0))
-    curve = choose_lambda(blocks, PRIOR)
+    curve = choose_lambda(blocks, Estimation(prior=PRIOR))
     fit = calibrate([DataSet(label="a", raw=r, reference=f) for r, f in _blocks(matrix=TRUTH, drift=0.0)], PRIOR)
     assert math.isfinite(curve.chosen)
     assert np.linalg.norm(fit.fit.matrix - TRUTH) < 0.02 * np.linalg.norm(PRIOR - TRUTH)
@@ -43,7 +43,7 @@ def test_good_data_overrule_a_wrong_prior() -> None:
 def test_a_right_prior_is_kept_against_disturbed_data() -> None:
     """Where the prior is the truth and blocks hardly move but drift, the choice stays with the prior."""
     blocks = _moments(_blocks(matrix=TRUTH, drift=5.0, amplitude=30.0, seed=4))
-    curve = choose_lambda(blocks, TRUTH)
+    curve = choose_lambda(blocks, Estimation(prior=TRUTH))
     matrix_error = np.linalg.norm(
         calibrate(
             [
@@ -61,7 +61,7 @@ def test_a_right_prior_is_kept_against_disturbed_data() -> None:
 def test_no_block_gets_worse_than_with_the_prior() -> None:
     """The chosen lambda harms no held-out block, which smaller ones do on disturbed data."""
     blocks = _moments(_blocks(matrix=TRUTH, drift=3.0, amplitude=100.0, seed=6))
-    curve = choose_lambda(blocks, PRIOR)
+    curve = choose_lambda(blocks, Estimation(prior=PRIOR))
     chosen = int(np.flatnonzero(curve.regularisations == curve.chosen)[0])
     assert curve.worst_ratio[chosen] <= 1.0
     assert curve.worst_ratio.max() > 1.0
@@ -70,7 +70,7 @@ def test_no_block_gets_worse_than_with_the_prior() -> None:
 
 def test_the_choice_is_the_smallest_harmless_mean() -> None:
     """The rule as stated, evaluated again from the curve."""
-    curve = choose_lambda(_moments(_blocks(matrix=TRUTH, drift=0.5, seed=7)), PRIOR)
+    curve = choose_lambda(_moments(_blocks(matrix=TRUTH, drift=0.5, seed=7)), Estimation(prior=PRIOR))
     harmless = curve.worst_ratio <= 1.0
     best = curve.regularisations[harmless][np.argmin(curve.held_out_error[harmless])]
     assert curve.chosen == best
@@ -79,8 +79,8 @@ def test_the_choice_is_the_smallest_harmless_mean() -> None:
 def test_lambda_follows_the_unit_of_counts() -> None:
     """Counts in other units choose the same lambda in the new unit."""
     blocks = _blocks(matrix=TRUTH, drift=0.5, seed=8)
-    one = choose_lambda(_moments(blocks), PRIOR).chosen
-    other = choose_lambda(_moments([(8.0 * r, f) for r, f in blocks]), PRIOR / 8.0).chosen
+    one = choose_lambda(_moments(blocks), Estimation(prior=PRIOR)).chosen
+    other = choose_lambda(_moments([(8.0 * r, f) for r, f in blocks]), Estimation(prior=PRIOR / 8.0)).chosen
     assert other == pytest.approx(64.0 * one, rel=1e-9)
 
 
@@ -94,7 +94,7 @@ def test_jackknife_covers_the_truth() -> None:
             None,
             regularisation=0.0,
         )
-        error, _ = jackknife_error(blocks, None, 0.0)
+        error = jackknife_errors(blocks, Estimation(), 0.0).matrix
         ratios.append(((fit.fit.matrix - TRUTH) ** 2).sum() / (error**2).sum())
     # five blocks leave a factor of about two in the estimate of a variance
     assert 0.3 < float(np.median(ratios)) < 3.0
@@ -103,7 +103,7 @@ def test_jackknife_covers_the_truth() -> None:
 def test_the_error_of_a_mean_is_that_of_block_means() -> None:
     """With the prior kept the offset is a mean, whose jackknife error is the scatter of block means over root n."""
     blocks = _moments(_blocks(matrix=TRUTH, drift=1.0, seed=12))
-    _, error = jackknife_error(blocks, PRIOR, math.inf)
+    error = jackknife_errors(blocks, Estimation(prior=PRIOR), math.inf).offset
     means = np.stack([block.reference_mean - PRIOR @ block.raw_mean for block in blocks])
     np.testing.assert_allclose(error, means.std(axis=0, ddof=1) / np.sqrt(len(blocks)), rtol=1e-10)
 
@@ -112,16 +112,16 @@ def test_blocks_too_small_to_fit_alone_are_refused() -> None:
     """Seven samples of six channels fit exactly and say nothing: no lambda is chosen on them."""
     short = [(raw[:7], reference[:7]) for raw, reference in _blocks(matrix=TRUTH, drift=0.1)]
     with pytest.raises(FitError, match="at least 8 samples in each of 5 blocks"):
-        choose_lambda(_moments(short), PRIOR)
+        choose_lambda(_moments(short), Estimation(prior=PRIOR))
 
 
 def test_one_block_has_no_choice_and_no_spread() -> None:
     """A choice needs two blocks; a single sample cannot be divided."""
     raw, reference = _blocks(matrix=TRUTH, drift=0.0)[0]
     with pytest.raises(FitError, match="two blocks"):
-        choose_lambda([Moments.of(raw, reference)], PRIOR)
-    fit = calibrate([DataSet(label="a", raw=raw[:1], reference=reference[:1])], PRIOR, regularisation=1.0)
-    assert fit.matrix_standard_error is None
+        choose_lambda([Moments.of(raw, reference)], Estimation(prior=PRIOR))
+    fit = calibrate([DataSet(label="a", raw=raw[:1], reference=reference[:1])], PRIOR, regularisation=math.inf)
+    assert fit.standard_errors is None
 
 
 def test_bad_requests_are_refused() -> None:

@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from forcetorque.calibration import Moments, pooled
+from forcetorque.calibration import Moments, WrenchModel, pooled
 from forcetorque.errors import FitError, ShapeError
 
 ROUNDING = 1e-12
@@ -55,8 +55,9 @@ def test_squared_error_equals_that_of_the_samples() -> None:
     raw, reference = _samples(4, 200)
     rng = np.random.default_rng(5)
     matrix, offset = 0.01 * rng.normal(size=(6, 6)), rng.normal(size=6)
+    model = WrenchModel(matrix=matrix, offset=offset)
     direct = ((raw @ matrix.T + offset - reference) ** 2).mean(axis=0)
-    np.testing.assert_allclose(Moments.of(raw, reference).squared_error(matrix, offset), direct, rtol=1e-10)
+    np.testing.assert_allclose(Moments.of(raw, reference).squared_error(model), direct, rtol=1e-10)
 
 
 def test_large_offsets_cost_no_accuracy() -> None:

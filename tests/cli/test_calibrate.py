@@ -69,7 +69,7 @@ def test_the_table_is_the_default(arm: Path, run: Run) -> None:
     assert made.out == run("calibrate", PARQUET, "-o", "made.json", "--format", "table").out
     first, *_, last = made.out.splitlines()
     fitted = read_calibration("made.json")
-    assert first.startswith(f"arm_ft (SIM001): {fitted.provenance.samples} samples of fit, 0 left out; lambda ")
+    assert first.startswith(f"arm_ft (SIM001): {fitted.provenance.samples} samples of fit, 0 left out; OnTdTO, lambda ")
     assert last == "written to made.json"
     found = re.search(r"^ fz, N +(.*)$", made.out, re.MULTILINE)
     assert found is not None

@@ -164,7 +164,7 @@ def _set(path: str, value: Any) -> Callable[[dict[str, Any]], None]:
 
 
 CORRUPT: dict[str, tuple[Callable[[dict[str, Any]], None], str]] = {
-    "another schema": (_set("schema", "forcetorque/calibration/2"), "cut.json: expected the schema 'forcetorque/cali"),
+    "another schema": (_set("schema", "forcetorque/calibration/9"), "cut.json: expected the schema 'forcetorque/cali"),
     "NaN": (_set("matrix", [[float("nan")] * 6] * 6), "cut.json: matrix: Value error, expected finite numbers"),
     "five rows": (
         _set("matrix", [[0.0] * 6] * 5),
@@ -214,10 +214,10 @@ def test_a_corrupt_or_foreign_calibration_is_refused(arm: Path, run: Run, name: 
     [
         ("", "cut.json: expected JSON, got Expecting value: line 1 column 1"),
         (
-            '{"schema": "forcetorque/calibration/1",\n "sensor": ',
+            '{"schema": "forcetorque/calibration/2",\n "sensor": ',
             "cut.json: expected JSON, got Expecting value: line 2",
         ),
-        ("[1, 2]", "cut.json: expected the schema 'forcetorque/calibration/1', got None"),
+        ("[1, 2]", "cut.json: expected the schema 'forcetorque/calibration/2', got None"),
         ("[" * 9999, "cut.json: expected JSON, got maximum recursion depth"),
         ("\udcff", "cut.json: expected JSON, got 'utf-8' codec can't decode byte 0xff in position 0"),
     ],

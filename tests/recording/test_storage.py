@@ -47,7 +47,7 @@ def _signals(draw: st.DrawFn, count: int) -> Signal:
     columns, units = quantity.columns, quantity.units
     if quantity.labels is not Labels.FIXED:
         columns = tuple(draw(st.lists(st.text(max_size=5), min_size=1, max_size=3, unique=True)))
-        units = tuple(draw(st.sampled_from(quantity.units)) for _ in columns)
+        units = tuple(draw(st.sampled_from(quantity.units or ("V", "1"))) for _ in columns)
     values = draw(arrays(np.uint64, (count, len(columns)))).view(np.float64)
     frame = draw(st.text(max_size=5)) if quantity.has_frame else None
     return Signal(quantity=quantity.name, values=values, columns=columns, units=units, frame=frame)

@@ -167,10 +167,10 @@ def test_nobody_can_change_a_recording() -> None:
 
 
 def test_every_quantity_is_complete() -> None:
-    """Fixed columns have one unit each, free ones have a choice of units; every name is its key."""
+    """Fixed columns have one unit each, free ones a choice of units, a scalar any; every name is its key."""
     assert len(QUANTITIES) >= 8
     for key, quantity in QUANTITIES.items():
         assert quantity.name == key
-        assert quantity.units
+        assert bool(quantity.units) is (quantity.name != "scalar")
         assert quantity.description.endswith(".")
         assert len(quantity.columns) == (len(quantity.units) if quantity.labels is Labels.FIXED else 0)

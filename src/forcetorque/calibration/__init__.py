@@ -2,6 +2,7 @@
 """Calibration: data set to moments to fit, the choice of lambda, and the `Calibration` artefact."""
 
 from forcetorque.calibration.artefact import (
+    CalibratedVariable,
     Calibration,
     FittedInterval,
     Prior,
@@ -12,31 +13,53 @@ from forcetorque.calibration.artefact import (
     read_calibration,
     write_calibration,
 )
-from forcetorque.calibration.calibrate import CalibrationFit, DataSet, calibrate
+from forcetorque.calibration.calibrate import CalibrationFit, calibrate, estimation_of
+from forcetorque.calibration.data_set import DataSet
+from forcetorque.calibration.estimation import Estimation
+from forcetorque.calibration.estimation_type import (
+    ESTIMATION_TYPES,
+    EstimationType,
+    OffsetStrategy,
+    estimation_type,
+)
 from forcetorque.calibration.excitation import Excitation, excitation_of
 from forcetorque.calibration.fit import MatrixFit, fit_matrix
 from forcetorque.calibration.held_out import RULE, LambdaCurve, choose_lambda
+from forcetorque.calibration.linear_variable import LinearVariable
 from forcetorque.calibration.moments import Moments, pooled
 from forcetorque.calibration.raw import is_invertible, recover_raw
-from forcetorque.calibration.secondary import secondary_matrix
+from forcetorque.calibration.regression import Regression, solve
+from forcetorque.calibration.secondary import secondary_matrix, secondary_model
+from forcetorque.calibration.sphere import sphere_centre
+from forcetorque.calibration.wrench_model import WrenchModel
 
 __all__ = [
+    "ESTIMATION_TYPES",
     "RULE",
+    "CalibratedVariable",
     "Calibration",
     "CalibrationFit",
     "DataSet",
+    "Estimation",
+    "EstimationType",
     "Excitation",
     "FittedInterval",
     "LambdaCurve",
+    "LinearVariable",
     "MatrixFit",
     "Moments",
+    "OffsetStrategy",
     "Prior",
     "Provenance",
+    "Regression",
     "Selection",
     "SensorIdentity",
     "Validity",
+    "WrenchModel",
     "calibrate",
     "choose_lambda",
+    "estimation_of",
+    "estimation_type",
     "excitation_of",
     "fit_matrix",
     "is_invertible",
@@ -44,5 +67,8 @@ __all__ = [
     "read_calibration",
     "recover_raw",
     "secondary_matrix",
+    "secondary_model",
+    "solve",
+    "sphere_centre",
     "write_calibration",
 ]

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import json
 import math
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Annotated, Any, Final, Literal
 
@@ -20,14 +21,18 @@ from pydantic import (
 )
 
 from forcetorque.array_field import ArrayField
-from forcetorque.arrays import FloatArray, require_last_axis
+from forcetorque.arrays import FloatArray
 from forcetorque.atomic import write_bytes_atomically
 from forcetorque.calibration.secondary import secondary_matrix
-from forcetorque.errors import FormatError, MissingFileError, SerialNumberError, ShapeError
+from forcetorque.calibration.wrench_model import WrenchModel
+from forcetorque.errors import FormatError, MissingFileError, RecordingError, SerialNumberError, ShapeError
 from forcetorque.spatial import MeasureDirection
 
-SCHEMA: Final = "forcetorque/calibration/1"
+SCHEMA: Final = "forcetorque/calibration/2"
 """Name and version of the file's form."""
+
+_WITHOUT_VARIABLES: Final = "forcetorque/calibration/1"
+"""The form before there were variables: the same without them, so it is read too."""
 
 
 def _lambda_from_file(value: Any) -> Any:
@@ -72,6 +77,27 @@ class Prior(_Part):
     """Offset that the fitted data give with the prior matrix; shape (6,); N, N m."""
     source: str
     """File that it came from."""
+
+
+class CalibratedVariable(_Part):
+    """What a linear variable, such as temperature, adds to the wrench."""
+
+    name: str
+    """Name."""
+    unit: str
+    """Unit."""
+    reference_value: float
+    """Value at which it contributes nothing."""
+    coefficients: Annotated[FloatArray, ArrayField((6,))]
+    """What is added per unit above that; shape (6,); N, N m per unit."""
+    standard_error: Annotated[FloatArray, ArrayField((6,))] | None
+    """Standard error of the coefficients by leaving out blocks."""
+    prior: Annotated[FloatArray, ArrayField((6,))] | None = None
+    """Coefficients that the fit was pulled towards."""
+    minimum: float
+    """Smallest fitted value."""
+    maximum: float
+    """Largest fitted value."""
 
 
 class Validity(_Part):
@@ -141,18 +167,24 @@ class Provenance(_Part):
 
 
 class Calibration(_Part):
-    """A fitted sensor: `wrench = matrix raw + offset`."""
+    """A fitted sensor: `wrench = matrix raw + sum of coefficients (variable - reference value) + offset`."""
 
     model_config = ConfigDict(extra="forbid", frozen=True, arbitrary_types_allowed=True, populate_by_name=True)
 
-    schema_name: Literal["forcetorque/calibration/1"] = Field(default=SCHEMA, alias="schema")
+    schema_name: Literal["forcetorque/calibration/2"] = Field(default=SCHEMA, alias="schema")
     """Form of the file."""
     sensor: SensorIdentity
     """The sensor."""
     matrix: Annotated[FloatArray, ArrayField((6, None))]
     """Calibration matrix; shape (6, c); N/count, N m/count."""
     offset: Annotated[FloatArray, ArrayField((6,))]
-    """Offset in wrench space; shape (6,); N, N m."""
+    """Offset in wrench space, where every variable has its reference value; shape (6,); N, N m."""
+    variables: tuple[CalibratedVariable, ...] = ()
+    """Linear variables; none for a type without."""
+    estimation_type: str = "OnTdTO"
+    """Estimation type of thesis 5.1.4."""
+    raw_offset_counts: Annotated[FloatArray, ArrayField((None,))] | None = None
+    """Raw reading without load that a sphere type found; shape (c,)."""
     matrix_standard_error: Annotated[FloatArray, ArrayField((6, None))] | None
     """Standard error of the matrix by leaving out blocks, without the pull of the prior; None where it was kept."""
     offset_standard_error: Annotated[FloatArray, ArrayField((6,))] | None
@@ -170,12 +202,26 @@ class Calibration(_Part):
     provenance: Provenance
     """What the fit was made from."""
 
-    def apply(self, raw: Any, *, serial: str, allow_foreign: bool = False) -> FloatArray:
+    @property
+    def model(self) -> WrenchModel:
+        """Matrix, offset and coefficients of the variables."""
+        coefficients = [variable.coefficients for variable in self.variables]
+        return WrenchModel(
+            matrix=self.matrix,
+            offset=self.offset,
+            coefficients=np.column_stack(coefficients) if coefficients else np.zeros((6, 0)),
+            reference_values=np.array([variable.reference_value for variable in self.variables]),
+        )
+
+    def apply(
+        self, raw: Any, *, serial: str, variables: Mapping[str, Any] | None = None, allow_foreign: bool = False
+    ) -> FloatArray:
         """Turn raw readings of the sensor into wrenches.
 
         Args:
             raw: Raw readings; shape (..., c); counts.
             serial: Serial number of the sensor that gave them.
+            variables: Values of the linear variables by name, such as `temperature`; shape (...) or one for all.
             allow_foreign: Whether another sensor's readings are to be accepted.
 
         Returns:
@@ -183,13 +229,24 @@ class Calibration(_Part):
 
         Raises:
             SerialNumberError: If the readings are of another sensor and that was not allowed.
-            ShapeError: If the number of channels differs.
+            ShapeError: If the number of channels differs, or values of a variable do not fit the readings.
+            RecordingError: If a variable is missing, or unknown to the calibration.
         """
         self.require_serial(serial, allow_foreign=allow_foreign)
         counts = np.asarray(raw, dtype=np.float64)
-        require_last_axis(counts, name="raw", length=self.matrix.shape[1])
-        wrench: FloatArray = counts @ self.matrix.T + self.offset
-        return wrench
+        given = {} if variables is None else variables
+        names = [variable.name for variable in self.variables]
+        if set(given) != set(names):
+            raise RecordingError(
+                f"calibration of sensor {self.sensor.serial!r}: expected values of the variables {names}, "
+                f"got {sorted(given)}; its offset holds only with them"
+            )
+        values = [np.asarray(given[name], dtype=np.float64) for name in names]
+        for name, value in zip(names, values, strict=True):
+            if value.shape not in ((), counts.shape[:-1]):
+                raise ShapeError(f"variable {name!r}: expected shape () or {counts.shape[:-1]}, got {value.shape}")
+        stacked = np.stack([np.broadcast_to(v, counts.shape[:-1]) for v in values], axis=-1) if values else None
+        return self.model.wrench(counts, stacked)
 
     def require_serial(self, serial: str, *, allow_foreign: bool = False) -> None:
         """Refuse a sensor that is not the calibrated one.
@@ -250,6 +307,8 @@ def read_calibration(path: Path | str) -> Calibration:
     except (json.JSONDecodeError, UnicodeDecodeError, RecursionError) as error:
         raise FormatError(f"{file}: expected JSON, got {error}") from error
     schema = content.get("schema") if isinstance(content, dict) else None
+    if schema == _WITHOUT_VARIABLES:
+        content["schema"] = schema = SCHEMA
     if schema != SCHEMA:
         raise FormatError(f"{file}: expected the schema {SCHEMA!r}, got {schema!r}; fit again with this version")
     try:

@@ -4,33 +4,22 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray, read_only
-from forcetorque.calibration.fit import MatrixFit, fit_matrix, solve_matrix
-from forcetorque.calibration.held_out import BLOCKS, LambdaCurve, choose_lambda, jackknife_error
+from forcetorque.arrays import FloatArray
+from forcetorque.calibration.data_set import DataSet
+from forcetorque.calibration.estimation import Estimation
+from forcetorque.calibration.estimation_type import EstimationType, OffsetStrategy
+from forcetorque.calibration.fit import MatrixFit, fit_matrix, require_determined
+from forcetorque.calibration.held_out import BLOCKS, LambdaCurve, StandardErrors, choose_lambda, jackknife_errors
+from forcetorque.calibration.linear_variable import LinearVariable
 from forcetorque.calibration.moments import Moments, pooled
-from forcetorque.errors import FitError, ShapeError
-
-
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class DataSet:
-    """Raw readings and reference wrenches of one stretch of time."""
-
-    label: str
-    """Label of the interval."""
-    raw: FloatArray
-    """Raw readings in the order of time; shape (n, c); counts."""
-    reference: FloatArray
-    """Reference wrenches; shape (n, 6); N, N m."""
-
-    def __post_init__(self) -> None:
-        raw = read_only(self.raw, name="raw", shape=(None, None))
-        object.__setattr__(self, "raw", raw)
-        object.__setattr__(self, "reference", read_only(self.reference, name="reference", shape=(len(raw), 6)))
+from forcetorque.calibration.regression import solve
+from forcetorque.calibration.sphere import sphere_centre
+from forcetorque.errors import FitError, ShapeError, known_names
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -38,64 +27,128 @@ class CalibrationFit:
     """A fit with the choice of lambda and its uncertainty."""
 
     fit: MatrixFit
-    """Matrix, offset, residual and excitation."""
+    """The model, its residual and excitation."""
+    estimation: Estimation
+    """What was estimated: type, prior, variables, their reference values and the raw offset of the sphere types."""
     curve: LambdaCurve | None
     """Held-out error over lambda; None where lambda was given."""
-    matrix_standard_error: FloatArray | None
-    """Standard error of the matrix by leaving out blocks; shape (6, c); None with one block or a kept prior."""
-    offset_standard_error: FloatArray | None
-    """Standard error of the offset by leaving out blocks; shape (6,); N, N m."""
+    standard_errors: StandardErrors | None
+    """Standard errors by leaving out blocks; None with one block."""
     prior_offset: FloatArray | None
     """Offset that the same data give with the prior matrix; shape (6,); N, N m; None without prior."""
 
 
 def calibrate(
-    data_sets: Sequence[DataSet], prior: FloatArray | None, *, regularisation: float | None = None
+    data_sets: Sequence[DataSet],
+    prior: FloatArray | None,
+    *,
+    regularisation: float | None = None,
+    kind: EstimationType | None = None,
+    variables: Sequence[LinearVariable] = (),
+    sphere: Collection[str] | None = None,
 ) -> CalibrationFit:
-    """Fit matrix and offset of a sensor to the reference wrenches.
+    """Fit matrix, offset and linear variables of a sensor to the reference wrenches.
 
     Args:
         data_sets: Stretches of calibration data, at least one; they share one offset.
         prior: Matrix to stay close to; shape (6, c); None for a sensor without one.
         regularisation: Lambda; counts2; None to choose it on held-out blocks.
+        kind: Estimation type; if None, one-shot, with variables from their reference values if there are any.
+        variables: What the columns of `variables` in the data sets are.
+        sphere: For the sphere types, labels of the data sets that draw the sphere; may be None if there is only one.
 
     Returns:
         The fit, the choice of lambda and standard errors.
 
     Raises:
         FitError: If there are no data, lambda is to be chosen without a prior, or the data leave an
-            unpenalised direction unexcited.
-        ShapeError: If the data sets have different numbers of channels.
+            unpenalised unknown undetermined.
+        ShapeError: If the data sets have different numbers of channels or variables.
     """
-    if not data_sets:
-        raise FitError("expected at least one calibration interval, got none")
-    channels = {data.raw.shape[1] for data in data_sets}
-    if len(channels) > 1:
-        raise ShapeError(f"data sets: expected one number of raw channels, got {sorted(channels)}")
+    if kind is None:
+        kind = EstimationType(with_variables=bool(variables), from_reference=bool(variables))
+    estimation = estimation_of(data_sets, prior, kind=kind, variables=variables, sphere=sphere)
     blocks = _blocks(data_sets)
     moments = pooled(blocks)
     curve = None
     if regularisation is None:
         if prior is None:
             raise FitError("lambda cannot be chosen without a prior matrix; give a prior, or lambda 0")
-        curve = choose_lambda(blocks, prior)
+        require_determined(moments, estimation, 0.0)
+        curve = choose_lambda(blocks, estimation)
         regularisation = curve.chosen
-    fit = fit_matrix(moments, prior, regularisation)
-    matrix_error, offset_error = jackknife_error(blocks, prior, regularisation) if len(blocks) > 1 else (None, None)
+    fit = fit_matrix(moments, estimation, regularisation)
     return CalibrationFit(
         fit=fit,
+        estimation=estimation,
         curve=curve,
-        matrix_standard_error=None if math.isinf(regularisation) else matrix_error,
-        offset_standard_error=offset_error,
-        prior_offset=None if prior is None else solve_matrix(moments, prior, math.inf)[1],
+        standard_errors=jackknife_errors(blocks, estimation, regularisation) if len(blocks) > 1 else None,
+        prior_offset=None if prior is None else solve(moments, Estimation(prior=prior), math.inf).offset,
     )
+
+
+def estimation_of(
+    data_sets: Sequence[DataSet],
+    prior: FloatArray | None,
+    *,
+    kind: EstimationType,
+    variables: Sequence[LinearVariable] = (),
+    sphere: Collection[str] | None = None,
+) -> Estimation:
+    """Settle what a type takes from the data: reference values of variables, and the raw offset of the sphere.
+
+    Args:
+        data_sets: Stretches of calibration data; variables without a reference value of their own get that of the
+            first sample of the first one.
+        prior: Matrix to stay close to; shape (6, c); None for a sensor without one.
+        kind: Estimation type.
+        variables: What the columns of `variables` in the data sets are.
+        sphere: Labels of the data sets that draw the sphere; may be None if there is only one data set.
+
+    Returns:
+        Settings of the fit.
+
+    Raises:
+        FitError: If there are no data, or the data sets that draw the sphere are not known.
+        ShapeError: If the data sets have different numbers of channels or variables.
+    """
+    if not data_sets:
+        raise FitError("expected at least one calibration interval, got none")
+    shapes = {(data.raw.shape[1], data.variables.shape[1]) for data in data_sets}
+    if len(shapes) > 1:
+        raise ShapeError(f"data sets: expected one number of raw channels and of variables, got {sorted(shapes)}")
+    found = shapes.pop()[1]
+    if found != len(variables):
+        raise ShapeError(f"variables: {len(variables)} are described, the data sets have {found}")
+    values = np.zeros(found)
+    if kind.from_reference:
+        first = data_sets[0].variables[0]
+        values = np.array(
+            [first[k] if v.reference_value is None else v.reference_value for k, v in enumerate(variables)]
+        )
+    centre = None
+    if kind.offset is OffsetStrategy.SPHERE:
+        centre = sphere_centre(pooled(Moments.of(data.raw, data.reference) for data in _drawn(data_sets, sphere)))
+    return Estimation(kind=kind, prior=prior, variables=tuple(variables), reference_values=values, raw_offset=centre)
+
+
+def _drawn(data_sets: Sequence[DataSet], sphere: Collection[str] | None) -> list[DataSet]:
+    labels = [data.label for data in data_sets]
+    if sphere is None:
+        if len(data_sets) > 1:
+            raise FitError(f"sphere offset: name the data sets that draw the sphere, out of {', '.join(labels)}")
+        return list(data_sets)
+    for label in sphere:
+        if label not in labels:
+            raise FitError(f"sphere offset: no data set is called {label!r}; {known_names(label, labels)}")
+    return [data for data in data_sets if data.label in sphere]
 
 
 def _blocks(data_sets: Sequence[DataSet]) -> list[Moments]:
     """Divide every stretch in equal contiguous pieces, so that there are at least `BLOCKS` in all."""
     pieces = math.ceil(BLOCKS / len(data_sets))
     return [
-        Moments.of(data.raw[part], data.reference[part])
+        Moments.of(data.raw[part], data.reference[part], data.variables[part])
         for data in data_sets
         for part in np.array_split(np.arange(len(data.raw)), min(pieces, max(len(data.raw), 1)))
     ]

@@ -1,12 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The regularised fit: matrix and offset from moments, towards a prior matrix.
-
-    C*, o* = argmin  mean |f - C r - o|^2  +  lambda |C - C_prior|_F^2        thesis (5.4)
-
-The mean over samples is part of the convention, so lambda has the unit counts2 and does not depend
-on the number of samples. The offset is not penalised: eliminating it centres the moments, and the
-six rows of C share one c x c system,  C (R + lambda 1) = B + lambda C_prior.
-"""
+"""One fit with what the data said about it, refused where nothing determines it."""
 
 from __future__ import annotations
 
@@ -16,79 +9,63 @@ from dataclasses import dataclass
 import numpy as np
 
 from forcetorque.arrays import FloatArray, read_only
+from forcetorque.calibration.estimation import Estimation
 from forcetorque.calibration.excitation import Excitation, excitation_of
 from forcetorque.calibration.moments import Moments
-from forcetorque.errors import FitError, ShapeError
+from forcetorque.calibration.regression import Regression
+from forcetorque.calibration.wrench_model import WrenchModel
+from forcetorque.errors import FitError
+
+_STILL = 1e-24
+"""Variance of a variable, relative to its squared mean, below which it is a constant."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class MatrixFit:
-    """A matrix with its offset, and what the data said about it."""
+    """A model of a sensor, and what the data said about it."""
 
-    matrix: FloatArray
-    """Calibration matrix; shape (6, c); N/count, N m/count."""
-    offset: FloatArray
-    """Offset in wrench space; shape (6,); N, N m."""
+    model: WrenchModel
+    """Matrix, offset and coefficients of variables."""
     regularisation: float
     """Lambda of the fit; counts2; infinite where the prior was kept."""
     residual: FloatArray
     """Root mean square residual per component on the fitted samples; shape (6,); N, N m."""
     excitation: Excitation
-    """Rank, conditioning and directions of the fitted samples."""
+    """Rank, conditioning and directions of the fitted samples, without what variables explain."""
 
     def __post_init__(self) -> None:
-        channels = np.asarray(self.matrix).shape[-1]
-        for field, shape in (("matrix", (6, channels)), ("offset", (6,)), ("residual", (6,))):
-            object.__setattr__(self, field, read_only(getattr(self, field), name=field, shape=shape))
+        object.__setattr__(self, "residual", read_only(self.residual, name="residual", shape=(6,)))
+
+    @property
+    def matrix(self) -> FloatArray:
+        """Calibration matrix; shape (6, c); N/count, N m/count."""
+        return self.model.matrix
+
+    @property
+    def offset(self) -> FloatArray:
+        """Offset in wrench space; shape (6,); N, N m."""
+        return self.model.offset
 
 
-def solve_matrix(moments: Moments, prior: FloatArray | None, regularisation: float) -> tuple[FloatArray, FloatArray]:
-    """Solve for matrix and offset, without asking whether the data determine them.
-
-    Args:
-        moments: Moments of the fitted samples.
-        prior: Matrix to stay close to; shape (6, c); None only for lambda = 0.
-        regularisation: Lambda, at least 0; counts2; infinite keeps the prior and fits the offset.
-
-    Returns:
-        Matrix of shape (6, c) and offset of shape (6,).
-
-    Raises:
-        FitError: If lambda is negative or not a number, or positive without a prior.
-        ShapeError: If the prior does not have one column per channel.
-    """
-    if not regularisation >= 0.0:
-        raise FitError(f"lambda: expected a number of at least 0 counts2, got {regularisation}")
-    if prior is None and regularisation > 0.0:
-        raise FitError(f"lambda: {regularisation:g} counts2 needs a prior matrix to pull towards; give one or lambda 0")
-    if prior is not None and prior.shape != (6, moments.channels):
-        raise ShapeError(f"prior: expected shape (6, {moments.channels}), got {prior.shape}")
-    if prior is not None and math.isinf(regularisation):
-        matrix = np.array(prior)
-    else:
-        system = moments.raw_raw + regularisation * np.eye(moments.channels)
-        target = moments.reference_raw + (regularisation * prior if prior is not None else 0.0)
-        matrix = np.asarray(np.linalg.lstsq(system, target.T, rcond=None)[0].T, dtype=np.float64)
-    return matrix, moments.reference_mean - matrix @ moments.raw_mean
-
-
-def fit_matrix(moments: Moments, prior: FloatArray | None, regularisation: float) -> MatrixFit:
-    """Fit matrix and offset, and refuse where nothing determines a direction of the matrix.
+def fit_matrix(moments: Moments, estimation: Estimation, regularisation: float) -> MatrixFit:
+    """Fit matrix, offset and variables, and refuse where nothing determines a direction of the matrix.
 
     Args:
         moments: Moments of the fitted samples.
-        prior: Matrix to stay close to; shape (6, c); None only for lambda = 0.
+        estimation: Offset strategy, variables and prior.
         regularisation: Lambda; counts2.
 
     Returns:
         The fit.
 
     Raises:
-        FitError: If lambda is 0 and the loads leave a direction of the raw readings unexcited; the
-            message names it.
+        FitError: If there are fewer samples than unknowns, a variable does not change, or lambda is 0 and
+            the loads leave a direction of the raw readings unexcited; the message names it.
     """
-    excitation = excitation_of(moments)
-    matrix, offset = solve_matrix(moments, prior, regularisation)
+    regression = Regression.of(moments, estimation)
+    require_determined(moments, estimation, regularisation)
+    excitation = excitation_of(moments.without_variables() if estimation.kind.with_variables else moments)
+    model = regression.at(regularisation)
     if regularisation == 0.0 and not all(excitation.excited):
         names = tuple(f"ch{k}" for k in range(moments.channels))
         still = ", ".join(excitation.unmoved_components())
@@ -100,9 +77,36 @@ def fit_matrix(moments: Moments, prior: FloatArray | None, regularisation: float
             "move the limb so that these loads change, or give a prior matrix and lambda > 0"
         )
     return MatrixFit(
-        matrix=matrix,
-        offset=offset,
+        model=model,
         regularisation=regularisation,
-        residual=np.sqrt(moments.squared_error(matrix, offset)),
+        residual=np.sqrt(moments.squared_error(model)),
         excitation=excitation,
     )
+
+
+def require_determined(moments: Moments, estimation: Estimation, regularisation: float) -> None:
+    """Refuse data that cannot tell the unknowns apart, even with a prior matrix.
+
+    Args:
+        moments: Moments of the fitted samples.
+        estimation: Offset strategy, variables and prior.
+        regularisation: Lambda; counts2; infinite leaves only offset and variables unknown.
+
+    Raises:
+        FitError: If there are fewer samples than unknowns of one axis, or a variable without a prior does not change.
+    """
+    variables = estimation.variables if estimation.kind.with_variables else ()
+    matrix = 0 if math.isinf(regularisation) else moments.channels
+    unknowns = matrix + len(variables) + (estimation.raw_offset is None)
+    if moments.count < unknowns:
+        raise FitError(
+            f"expected at least {unknowns} samples for {unknowns} unknowns of every axis, got {moments.count}; "
+            "give longer intervals"
+        )
+    for k, variable in enumerate(variables):
+        mean, place = moments.variable_mean[k], moments.channels + k
+        if variable.prior is None and moments.second[place, place] <= _STILL * mean**2:
+            raise FitError(
+                f"variable {variable.name!r}: its value is {mean:g} {variable.unit} throughout the fitted data, so its "
+                "coefficients cannot be told from the offset; fit data at several values, or a type without variables"
+            )

@@ -5,20 +5,23 @@ A slow motion has a few independent postures, not thousands of samples. Its bloc
 stretches of time. Each block ALONE is fitted and judged, with its own offset, on all the others:
 that asks what a validation will ask, whether a fit on few postures holds on others. (Leaving one
 block out asks the reverse, whether a fit on nearly everything holds in between, and trusts the data
-too much.) The prior, with the offset of the same block, is judged likewise.
+too much.) The prior, with the offset of the same block, is judged likewise. Coefficients of variables,
+which a block alone does not know, are those that all fitted data have with the matrix.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from forcetorque.arrays import FloatArray, read_only
-from forcetorque.calibration.fit import solve_matrix
+from forcetorque.calibration.estimation import Estimation
 from forcetorque.calibration.moments import Moments, pooled
+from forcetorque.calibration.regression import Regression, solve
+from forcetorque.calibration.wrench_model import WrenchModel
 from forcetorque.errors import FitError
 
 RULE = (
@@ -73,12 +76,12 @@ def candidate_lambdas(moments: Moments) -> FloatArray:
     return np.append(finite, np.inf)
 
 
-def choose_lambda(blocks: Sequence[Moments], prior: FloatArray) -> LambdaCurve:
+def choose_lambda(blocks: Sequence[Moments], estimation: Estimation) -> LambdaCurve:
     """Choose lambda by `RULE`.
 
     Args:
         blocks: Moments of contiguous stretches of the fitted data, at least two.
-        prior: Matrix to stay close to; shape (6, c).
+        estimation: Offset strategy, variables and prior, which must be given.
 
     Returns:
         The curve and the choice.
@@ -94,12 +97,16 @@ def choose_lambda(blocks: Sequence[Moments], prior: FloatArray) -> LambdaCurve:
             f"choosing lambda: expected at least {least} samples in each of {len(blocks)} blocks, which are fitted "
             f"alone, got {smallest}; give more data, or a lambda"
         )
-    candidates = candidate_lambdas(pooled(blocks))
+    total = pooled(blocks)
+    candidates = candidate_lambdas(total.without_variables() if estimation.kind.with_variables else total)
+    everything = Regression.of(total, estimation)
     errors = np.empty((len(blocks), len(candidates)))
     for b, block in enumerate(blocks):
         others = pooled([other for o, other in enumerate(blocks) if o != b])
+        alone = Regression.of(block, estimation)
         for k, regularisation in enumerate(candidates):
-            errors[b, k] = others.squared_error(*solve_matrix(block, prior, float(regularisation))).sum()
+            model = _with_common_coefficients(alone.at(float(regularisation)), block, everything)
+            errors[b, k] = others.squared_error(model).sum()
     mean = errors.mean(axis=0)
     with np.errstate(divide="ignore", invalid="ignore"):
         ratio = np.nan_to_num((errors / errors[:, -1:]).max(axis=0), nan=1.0, posinf=math.inf)
@@ -113,26 +120,51 @@ def choose_lambda(blocks: Sequence[Moments], prior: FloatArray) -> LambdaCurve:
     )
 
 
-def jackknife_error(
-    blocks: Sequence[Moments], prior: FloatArray | None, regularisation: float
-) -> tuple[FloatArray, FloatArray]:
-    """Estimate standard errors of matrix and offset by leaving out one block at a time.
+def _with_common_coefficients(model: WrenchModel, block: Moments, everything: Regression) -> WrenchModel:
+    """A model of one block, with the coefficients of variables that all data have with its matrix."""
+    # temperature hardly changes within a block, so a block alone does not know them
+    if not model.coefficients.shape[1]:
+        return model
+    coefficients = everything.completed(model.matrix).coefficients
+    if everything.estimation.raw_offset is not None:
+        return replace(model, coefficients=coefficients)
+    change = (coefficients - model.coefficients) @ (block.variable_mean - model.reference_values)
+    return replace(model, coefficients=coefficients, offset=model.offset - change)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class StandardErrors:
+    """Standard errors by leaving out one block at a time."""
+
+    matrix: FloatArray
+    """Of the matrix; shape (6, c); N/count, N m/count."""
+    offset: FloatArray
+    """Of the offset; shape (6,); N, N m."""
+    coefficients: FloatArray
+    """Of the coefficients of variables; shape (6, v); N, N m per unit."""
+
+
+def jackknife_errors(blocks: Sequence[Moments], estimation: Estimation, regularisation: float) -> StandardErrors:
+    """Estimate standard errors by leaving out one block at a time.
 
     Blocks, not samples, because neighbouring samples repeat each other. With few blocks it is a
     rough figure; a pull towards a wrong prior is not in it.
 
     Args:
         blocks: Moments of contiguous stretches of the fitted data, at least two.
-        prior: Matrix that the fit was pulled towards; shape (6, c); None only for lambda = 0.
+        estimation: Offset strategy, variables and prior.
         regularisation: Lambda of the fit; counts2.
 
     Returns:
-        Standard errors of the matrix, shape (6, c), and of the offset, shape (6,).
+        The standard errors.
     """
     fits = [
-        solve_matrix(pooled([other for o, other in enumerate(blocks) if o != b]), prior, regularisation)
+        solve(pooled([other for o, other in enumerate(blocks) if o != b]), estimation, regularisation)
         for b in range(len(blocks))
     ]
     scale = np.sqrt(len(blocks) - 1)  # of the standard deviation with divisor n
-    matrices, offsets = np.stack([fit[0] for fit in fits]), np.stack([fit[1] for fit in fits])
-    return scale * matrices.std(axis=0), scale * offsets.std(axis=0)
+    return StandardErrors(
+        matrix=scale * np.stack([fit.matrix for fit in fits]).std(axis=0),
+        offset=scale * np.stack([fit.offset for fit in fits]).std(axis=0),
+        coefficients=scale * np.stack([fit.coefficients for fit in fits]).std(axis=0),
+    )

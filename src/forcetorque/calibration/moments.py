@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Centred second moments of raw readings and reference wrenches: all that a linear fit needs.
+"""Centred second moments of raw readings, linear variables and reference wrenches: all that a linear fit needs.
 
-A data set is reduced once; every lambda, subset and leave-one-out fit is then small algebra. Moments
-of parts add up to those of the whole, so recordings may be larger than memory.
+A data set is reduced once; every estimation type, lambda, subset and leave-one-out fit is then small
+algebra. Moments of parts add up to those of the whole, so recordings may be larger than memory.
 """
 
 from __future__ import annotations
@@ -15,48 +15,47 @@ from typing import Any
 import numpy as np
 
 from forcetorque.arrays import FloatArray, read_only
+from forcetorque.calibration.wrench_model import WrenchModel
 from forcetorque.errors import FitError, ShapeError
+
+_BLOCK = 8192
+"""Samples per pass: what is made of them stays in the processor's cache."""
+
+_SINGULAR = 1e-14
+"""Eigenvalues of scaled second moments below this part of the largest are rounding."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Moments:
-    """Count, means and centred second moments of c raw channels and the six reference components."""
+    """Count, mean and centred second moment of m = c + v + 6 columns: raw channels, variables, reference."""
 
     count: int
     """Number of samples."""
-    raw_mean: FloatArray
-    """Mean raw reading; shape (c,); counts."""
-    reference_mean: FloatArray
-    """Mean reference wrench; shape (6,); N, N m."""
-    raw_raw: FloatArray
-    """Mean product of centred raw readings; shape (c, c); counts2."""
-    reference_raw: FloatArray
-    """Mean product of centred reference and raw; shape (6, c); N counts, N m counts."""
-    reference_reference: FloatArray
-    """Mean product of centred references; shape (6, 6)."""
+    channels: int
+    """Number c of raw channels."""
+    variables: int
+    """Number v of linear variables."""
+    mean: FloatArray
+    """Mean of every column; shape (m,)."""
+    second: FloatArray
+    """Mean product of centred columns; shape (m, m)."""
 
     def __post_init__(self) -> None:
-        channels = np.asarray(self.raw_mean).shape[-1]
-        shapes = {
-            "raw_mean": (channels,),
-            "reference_mean": (6,),
-            "raw_raw": (channels, channels),
-            "reference_raw": (6, channels),
-            "reference_reference": (6, 6),
-        }
-        for field, shape in shapes.items():
-            object.__setattr__(self, field, read_only(getattr(self, field), name=field, shape=shape))
+        width = self.channels + self.variables + 6
+        object.__setattr__(self, "mean", read_only(self.mean, name="mean", shape=(width,)))
+        object.__setattr__(self, "second", read_only(self.second, name="second", shape=(width, width)))
 
     @classmethod
-    def of(cls, raw: Any, reference: Any) -> Moments:
+    def of(cls, raw: Any, reference: Any, variables: Any = None) -> Moments:
         """Reduce samples to their moments.
 
-        Centring before multiplying keeps the accuracy of an orthogonal factorisation: offsets of
-        24 000 counts otherwise cost it eight digits.
+        A rough mean is taken off before multiplying. That keeps the accuracy of an orthogonal
+        factorisation: offsets of 24 000 counts otherwise cost it eight digits.
 
         Args:
             raw: Raw readings; shape (n, c); counts.
             reference: Reference wrenches; shape (n, 6); N, N m.
+            variables: Linear variables; shape (n, v); each in its own unit; None for none.
 
         Returns:
             The moments of the n samples.
@@ -68,61 +67,140 @@ class Moments:
         r, f = np.asarray(raw, dtype=np.float64), np.asarray(reference, dtype=np.float64)
         if r.ndim != 2 or f.shape != (len(r), 6):
             raise ShapeError(f"expected raw (n, c) and reference (n, 6), got {r.shape} and {f.shape}")
-        if not len(r) or not (np.isfinite(r).all() and np.isfinite(f).all()):
-            raise FitError(f"expected at least one sample and finite values only, got {len(r)} samples; leave out gaps")
-        raw_mean, reference_mean = r.mean(axis=0), f.mean(axis=0)
-        r, f = r - raw_mean, f - reference_mean
-        return cls(
-            count=len(r),
-            raw_mean=raw_mean,
-            reference_mean=reference_mean,
-            raw_raw=r.T @ r / len(r),
-            reference_raw=f.T @ r / len(r),
-            reference_reference=f.T @ f / len(r),
-        )
+        v = np.empty((len(r), 0)) if variables is None else np.asarray(variables, dtype=np.float64)
+        if v.ndim != 2 or len(v) != len(r):
+            raise ShapeError(f"variables: expected shape ({len(r)}, v), got {v.shape}")
+        if not len(r):
+            raise FitError("expected at least one sample, got none")
+        rough, step, second = _reduce((r, v, f))
+        if not np.isfinite(second).all():
+            raise FitError("expected finite values only, got others; leave out gaps")
+        return cls(count=len(r), channels=r.shape[1], variables=v.shape[1], mean=rough + step, second=second)
 
     @property
-    def channels(self) -> int:
-        """Number of raw channels."""
-        return len(self.raw_mean)
+    def raw_mean(self) -> FloatArray:
+        """Mean raw reading; shape (c,); counts."""
+        return self.mean[: self.channels]
+
+    @property
+    def variable_mean(self) -> FloatArray:
+        """Mean of every variable; shape (v,)."""
+        return self.mean[self.channels : -6]
+
+    @property
+    def reference_mean(self) -> FloatArray:
+        """Mean reference wrench; shape (6,); N, N m."""
+        return self.mean[-6:]
+
+    @property
+    def raw_raw(self) -> FloatArray:
+        """Mean product of centred raw readings; shape (c, c); counts2."""
+        return self.second[: self.channels, : self.channels]
+
+    @property
+    def reference_raw(self) -> FloatArray:
+        """Mean product of centred reference and raw; shape (6, c); N counts, N m counts."""
+        return self.second[-6:, : self.channels]
+
+    @property
+    def reference_reference(self) -> FloatArray:
+        """Mean product of centred references; shape (6, 6)."""
+        return self.second[-6:, -6:]
 
     def __add__(self, other: Moments) -> Moments:
+        if (self.channels, self.variables) != (other.channels, other.variables):
+            raise ShapeError(
+                f"moments: expected {self.channels} channels and {self.variables} variables in every part, "
+                f"got {other.channels} and {other.variables}"
+            )
         count = self.count + other.count
         mine, theirs = self.count / count, other.count / count
-        raw_step = other.raw_mean - self.raw_mean
-        reference_step = other.reference_mean - self.reference_mean
-        between = mine * theirs
+        step = other.mean - self.mean
         return Moments(
             count=count,
-            raw_mean=self.raw_mean + theirs * raw_step,
-            reference_mean=self.reference_mean + theirs * reference_step,
-            raw_raw=mine * self.raw_raw + theirs * other.raw_raw + between * np.outer(raw_step, raw_step),
-            reference_raw=mine * self.reference_raw
-            + theirs * other.reference_raw
-            + between * np.outer(reference_step, raw_step),
-            reference_reference=mine * self.reference_reference
-            + theirs * other.reference_reference
-            + between * np.outer(reference_step, reference_step),
+            channels=self.channels,
+            variables=self.variables,
+            mean=self.mean + theirs * step,
+            second=mine * self.second + theirs * other.second + mine * theirs * np.outer(step, step),
         )
 
-    def squared_error(self, matrix: FloatArray, offset: FloatArray) -> FloatArray:
-        """Mean squared error of a calibration on these samples, per component.
+    def about(self, origin: FloatArray) -> FloatArray:
+        """Give the mean product of the columns' differences from a point other than their mean.
 
         Args:
-            matrix: Calibration matrix; shape (6, c); N/count, N m/count.
-            offset: Offset; shape (6,); N, N m.
+            origin: The point; shape (m,).
+
+        Returns:
+            Second moment about it; shape (m, m).
+        """
+        step = self.mean - origin
+        moved: FloatArray = self.second + np.outer(step, step)
+        return moved
+
+    def without_variables(self) -> Moments:
+        """Take out of raw readings and reference what the variables explain of them.
+
+        Returns:
+            Moments of what is left, without variables.
+        """
+        v = slice(self.channels, self.channels + self.variables)
+        kept = np.r_[: self.channels, self.channels + self.variables : len(self.mean)]
+        shared = self.second[kept][:, v]
+        left = self.second[np.ix_(kept, kept)] - shared @ symmetric_pseudo_inverse(self.second[v, v]) @ shared.T
+        return Moments(count=self.count, channels=self.channels, variables=0, mean=self.mean[kept], second=left)
+
+    def squared_error(self, model: WrenchModel) -> FloatArray:
+        """Mean squared error of a model on these samples, per component.
+
+        Args:
+            model: The model, of all variables of the samples or of none.
 
         Returns:
             Mean of the squared error of every component; shape (6,); N2, (N m)2.
         """
-        bias = matrix @ self.raw_mean + offset - self.reference_mean
-        spread = (
-            np.einsum("ij,jk,ik->i", matrix, self.raw_raw, matrix)
-            - 2.0 * np.einsum("ij,ij->i", matrix, self.reference_raw)
-            + np.diag(self.reference_reference)
-        )
+        coefficients = np.zeros((6, self.variables))
+        if model.coefficients.shape[1]:
+            coefficients = model.coefficients
+        error_of = np.hstack([model.matrix, coefficients, -np.eye(6)])  # (6, m)
+        shift = coefficients @ model.reference_values if model.coefficients.shape[1] else 0.0
+        bias = error_of @ self.mean + model.offset - shift
+        spread = np.einsum("ij,jk,ik->i", error_of, self.second, error_of)
         error: FloatArray = np.maximum(spread, 0.0) + bias**2
         return error
+
+
+def _reduce(parts: tuple[FloatArray, ...]) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """A rough mean of the columns, what their mean is beyond it, and their centred second moment."""
+    rough = np.concatenate([part[:_BLOCK].mean(axis=0) for part in parts])
+    width, n = len(rough), len(parts[0])
+    # a column of ones beside the others gives their sums in the same product
+    block = np.ones((min(_BLOCK, n), width + 1))
+    total = np.zeros((width + 1, width + 1))
+    with np.errstate(invalid="ignore", over="ignore"):  # what is not finite is found in the sums
+        for start in range(0, n, _BLOCK):
+            stop, column = min(start + _BLOCK, n), 0
+            for part in parts:
+                end = column + part.shape[1]
+                np.subtract(part[start:stop], rough[column:end], out=block[: stop - start, column:end])
+                column = end
+            total += block[: stop - start].T @ block[: stop - start]
+        step = total[-1, :-1] / n
+        return rough, step, total[:-1, :-1] / n - np.outer(step, step)
+
+
+def symmetric_pseudo_inverse(second: FloatArray) -> FloatArray:
+    """Invert a second moment whose columns have different units.
+
+    Args:
+        second: Second moment; shape (k, k).
+
+    Returns:
+        Its inverse; zero along columns that do not move, or that repeat others; shape (k, k).
+    """
+    diagonal = np.sqrt(np.diag(second))
+    scale = np.where(diagonal > 0.0, diagonal, 1.0)
+    unit = np.outer(scale, scale)
+    return np.asarray(np.linalg.pinv(second / unit, rcond=_SINGULAR, hermitian=True) / unit, dtype=np.float64)
 
 
 def pooled(parts: Iterable[Moments]) -> Moments:

@@ -3,12 +3,14 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration.raw import is_invertible
+from forcetorque.calibration.wrench_model import WrenchModel
 from forcetorque.errors import FitError, ShapeError
 
 
@@ -33,3 +35,38 @@ def secondary_matrix(matrix: Any, prior: Any) -> FloatArray:
     if not is_invertible(old):
         raise FitError("the prior matrix is singular, so no matrix corrects what it made")
     return np.asarray(np.linalg.solve(old.T, new.T).T, dtype=np.float64)
+
+
+def secondary_model(new: WrenchModel, stream: WrenchModel) -> WrenchModel:
+    """Give what turns a stream that is already calibrated, temperature and offset included, into a new calibration.
+
+    The stream is `f_in = C_w r + c_w (t - t_w) + o_w`, the new one `f = C r + c (t - t0) + o`. So
+    `f = S f_in + c_s (t - t0) + o_s` with `S = C C_w^-1`, `c_s = c - S c_w`, `o_s = o - S [o_w + c_w (t0 - t_w)]`
+    (thesis 5.20 carried on to variables and offset).
+
+    Args:
+        new: New model of the sensor, of six channels.
+        stream: Model with which the stream is made, of the same variables in the same order, or of none.
+
+    Returns:
+        Model whose "raw readings" are the stream's wrenches: S, o_s, c_s and the new reference values.
+
+    Raises:
+        ShapeError: If a matrix is not 6 x 6, or the stream depends on variables that the new model does not have.
+        FitError: If the matrix of the stream cannot be inverted.
+    """
+    matrix = secondary_matrix(new.matrix, stream.matrix)
+    if not len(stream.reference_values):
+        return replace(new, matrix=matrix, offset=new.offset - matrix @ stream.offset)
+    if len(stream.reference_values) != len(new.reference_values):
+        raise ShapeError(
+            f"stream: expected the {len(new.reference_values)} variables of the new model or none, "
+            f"got {len(stream.reference_values)}"
+        )
+    made = stream.offset + stream.coefficients @ (new.reference_values - stream.reference_values)
+    return replace(
+        new,
+        matrix=matrix,
+        offset=new.offset - matrix @ made,
+        coefficients=new.coefficients - matrix @ stream.coefficients,
+    )

@@ -15,7 +15,7 @@ from pydantic import BaseModel, ConfigDict, Field
 from rich.table import Table
 
 from forcetorque.arrays import FloatArray
-from forcetorque.calibration import Calibration, write_calibration
+from forcetorque.calibration import Calibration, estimation_type, write_calibration
 from forcetorque.cli.output import Format, console, print_result, start_logging, table
 from forcetorque.errors import ExperimentError, FitError
 from forcetorque.experiment import Experiment, ExperimentSensor, calibrate_sensor, doubtful_spans, load_experiment
@@ -49,7 +49,13 @@ class CalibrateResult(BaseModel):
 
 
 def run(
-    path: Path, *, output: Path, sensors: list[str] | None, regularisation: str | None, output_format: Format
+    path: Path,
+    *,
+    output: Path,
+    sensors: list[str] | None,
+    regularisation: str | None,
+    kind: str | None,
+    output_format: Format,
 ) -> None:
     """Fit every sensor that was asked for, then write all files.
 
@@ -58,9 +64,11 @@ def run(
         output: A .json file for one sensor, else a folder.
         sensors: Names of the sensors; all if None.
         regularisation: Lambda, or `held-out`; None for what the experiment says.
+        kind: Estimation type by name; None for what the experiment says.
         output_format: Form of the result.
     """
     log = start_logging()
+    chosen_kind = None if kind is None else estimation_type(kind)
     log.info("reading %s", path)
     experiment = load_experiment(path)
     for finding in experiment.recording.findings:
@@ -91,7 +99,12 @@ def run(
         log.info("fitting %s (%s)", sensor.name, sensor.serial)
         with stated_in(f"{path}: sensor {sensor.name!r}"):
             calibration = calibrate_sensor(
-                experiment, sensor, code_version=version("forcetorque"), created=created, regularisation=given
+                experiment,
+                sensor,
+                code_version=version("forcetorque"),
+                created=created,
+                regularisation=given,
+                kind=chosen_kind,
             )
             secondary = calibration.secondary_matrix()
         reversed_axes = () if secondary is None else _reversed_axes(secondary)
@@ -168,6 +181,7 @@ def _rows(entry: WrittenCalibration) -> list[dict[str, object]]:
             "unit": WRENCH_UNITS[k],
         }
         row |= {f"c{j}_per_count": float(value) for j, value in enumerate(calibration.matrix[k])}
+        row |= {f"{v.name}_per_{v.unit}": float(v.coefficients[k]) for v in calibration.variables}
         row |= {"offset": float(calibration.offset[k]), "residual_rms": float(calibration.residual_rms[k])}
         rows.append(row | {"lambda_counts2": calibration.lambda_counts2, "samples": calibration.provenance.samples})
     return rows
@@ -181,9 +195,11 @@ def _show(written: list[WrittenCalibration]) -> None:
         screen.print(
             f"{calibration.sensor.name} ({calibration.sensor.serial}): {source.samples} samples of "
             f"{', '.join(interval.label for interval in source.intervals)}, {source.dropped} left out; "
-            f"lambda {_lambda_text(calibration)}"
+            f"{calibration.estimation_type}, lambda {_lambda_text(calibration)}"
         )
         screen.print(_matrix_table(calibration))
+        if calibration.variables:
+            screen.print(_variable_table(calibration))
         screen.print(_excitation_table(calibration))
         screen.print(f"written to {entry.file}", soft_wrap=True)
 
@@ -199,6 +215,23 @@ def _matrix_table(calibration: Calibration) -> Table:
             f"{calibration.offset[k]:.3f}",
             "-" if spread is None else f"{spread[k]:.3f}",
             f"{calibration.residual_rms[k]:.3f}",
+        )
+    return made
+
+
+def _variable_table(calibration: Calibration) -> Table:
+    headings = [f"{component}, {unit}" for component, unit in zip(WRENCH_COMPONENTS, WRENCH_UNITS, strict=True)]
+    made = table("variable", "from", "fitted range", *headings, title="what one unit of a variable adds, ± by blocks")
+    for variable in calibration.variables:
+        spread = variable.standard_error
+        cells = [f"{value:.4f}" for value in variable.coefficients]
+        if spread is not None:
+            cells = [f"{cell} ±{error:.4f}" for cell, error in zip(cells, spread, strict=True)]
+        made.add_row(
+            f"{variable.name}, {variable.unit}",
+            f"{variable.reference_value:.2f}",
+            f"{variable.minimum:.2f} to {variable.maximum:.2f}",
+            *cells,
         )
     return made
 

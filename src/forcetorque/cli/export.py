@@ -16,6 +16,7 @@ from forcetorque.calibration import Calibration, read_calibration
 from forcetorque.cli.output import ExportFormat, Format, console, print_result, start_logging, table
 from forcetorque.errors import ExperimentError, ForceTorqueError
 from forcetorque.exchange.calibration_table import write_calibration_table
+from forcetorque.exchange.coefficient_table import write_coefficient_table
 from forcetorque.exchange.icub import encode_matrix, serial_number_in_name, write_matrix_file
 from forcetorque.exchange.wholebodydynamics import from_calibration, write_groups
 from forcetorque.experiment.inputs import stated_in
@@ -26,6 +27,7 @@ _OFFSET_HANDLING = {
     ExportFormat.WHOLEBODYDYNAMICS: "stored as FT_OFFSET, which the device ADDS, and only after the RPC command "
     "usePreEstimatedOffset",
     ExportFormat.CSV: "stored: add it to the product of matrix and raw counts",
+    ExportFormat.COEFFICIENTS: "not stored, the file is for the variables: store it with the matrix",
 }
 
 
@@ -44,6 +46,10 @@ class ExportedCalibration(BaseModel):
     """Offset of the calibration, to be added; N, N m."""
     offset_stored: bool
     """Whether the file holds the offset."""
+    variables: dict[str, list[float]]
+    """Coefficients of each linear variable of the calibration; N, N m per unit."""
+    variables_stored: bool
+    """Whether the file holds them."""
     full_scale: list[int] | None = None
     """icub-matrix: full scale; N, N m."""
     largest_rounding_error: list[float] | None = None
@@ -74,6 +80,7 @@ def run(
     output: Path,
     full_scale: Sequence[int] | None,
     sensor_name: str | None,
+    stream: Path | None,
     output_format: Format,
 ) -> None:
     """Write calibrations in another program's format.
@@ -84,20 +91,26 @@ def run(
         output: File to write or to replace.
         full_scale: Full scales for fx, fy, fz, tx, ty, tz of icub-matrix; N, N m; None to choose them.
         sensor_name: Name of the sensor for wholebodydynamics; that of the calibration if None.
+        stream: Calibration that the robot's stream is already made with, for wholebodydynamics.
         output_format: Form of the result.
     """
     log = start_logging()
-    _require_consistent(paths, to=to, output=output, full_scale=full_scale, sensor_name=sensor_name)
+    _require_consistent(paths, to=to, output=output, full_scale=full_scale, sensor_name=sensor_name, stream=stream)
     loaded = {path: read_calibration(path) for path in paths}
+    made_with = None if stream is None else read_calibration(stream)
     writers: dict[ExportFormat, Callable[[], list[ExportedCalibration]]] = {
         ExportFormat.ICUB_MATRIX: lambda: _to_icub_matrix(loaded, output, full_scale),
-        ExportFormat.WHOLEBODYDYNAMICS: lambda: _to_wholebodydynamics(loaded, output, sensor_name),
+        ExportFormat.WHOLEBODYDYNAMICS: lambda: _to_wholebodydynamics(loaded, output, sensor_name, made_with),
         ExportFormat.CSV: lambda: _to_csv(loaded, output),
+        ExportFormat.COEFFICIENTS: lambda: _to_coefficients(loaded, output),
     }
     result = ExportResult(format=to, file=str(output), offset_handling=_OFFSET_HANDLING[to], calibrations=writers[to]())
     for entry in result.calibrations:
         report = log.info if entry.offset_stored else log.warning
         report("%s: offset %s: %s", entry.calibration, _offset_text(entry.offset), result.offset_handling)
+        if entry.variables and not entry.variables_stored:
+            names = ", ".join(entry.variables)
+            log.warning("%s: the coefficients of %s are not in this file: --to coefficients", entry.calibration, names)
         if to is ExportFormat.WHOLEBODYDYNAMICS and not any(entry.offset):
             log.warning("%s: the device ignores an FT_OFFSET of six zeros and keeps its own", entry.calibration)
     rows = [row for entry in result.calibrations for row in _rows(entry)]
@@ -105,7 +118,13 @@ def run(
 
 
 def _require_consistent(
-    paths: list[Path], *, to: ExportFormat, output: Path, full_scale: Sequence[int] | None, sensor_name: str | None
+    paths: list[Path],
+    *,
+    to: ExportFormat,
+    output: Path,
+    full_scale: Sequence[int] | None,
+    sensor_name: str | None,
+    stream: Path | None,
 ) -> None:
     if to is ExportFormat.ICUB_MATRIX and len(paths) != 1:
         raise ForceTorqueError(
@@ -115,9 +134,10 @@ def _require_consistent(
         raise ForceTorqueError(
             f"--full-scale: only files of --to {ExportFormat.ICUB_MATRIX} hold full scales, not {to}"
         )
-    if sensor_name is not None and (to is not ExportFormat.WHOLEBODYDYNAMICS or len(paths) != 1):
+    for_one = "--sensor-name" if sensor_name is not None else None if stream is None else "--stream"
+    if for_one is not None and (to is not ExportFormat.WHOLEBODYDYNAMICS or len(paths) != 1):
         raise ForceTorqueError(
-            f"--sensor-name: expected --to {ExportFormat.WHOLEBODYDYNAMICS} and one calibration, "
+            f"{for_one}: expected --to {ExportFormat.WHOLEBODYDYNAMICS} and one calibration, "
             f"got --to {to} and {len(paths)}"
         )
     if output.is_dir():
@@ -141,7 +161,7 @@ def _to_icub_matrix(
         file = encode_matrix(calibration.matrix, full_scale=full_scale)
         error = _largest_in_range(file.matrix - calibration.matrix, calibration)
     write_matrix_file(output, file)
-    entry = _entry(path, calibration, matrix=file.matrix, offset_stored=False)
+    entry = _entry(path, calibration, matrix=file.matrix, offset_stored=False, variables_stored=False)
     rounding = {"full_scale": list(file.full_scale), "largest_rounding_error": error.tolist()}
     return [entry.model_copy(update=rounding)]
 
@@ -157,15 +177,16 @@ def _largest_in_range(matrix: FloatArray, calibration: Calibration) -> FloatArra
 
 
 def _to_wholebodydynamics(
-    loaded: Mapping[Path, Calibration], output: Path, sensor_name: str | None
+    loaded: Mapping[Path, Calibration], output: Path, sensor_name: str | None, stream: Calibration | None
 ) -> list[ExportedCalibration]:
     corrections = {}
     for path, calibration in loaded.items():
         with stated_in(str(path)):
-            corrections[path] = from_calibration(calibration, sensor_name=sensor_name)
+            corrections[path] = from_calibration(calibration, sensor_name=sensor_name, stream=stream)
     write_groups(output, corrections.values())
     return [
-        _entry(path, loaded[path], matrix=one.secondary_matrix, sensor=one.sensor) for path, one in corrections.items()
+        _entry(path, loaded[path], matrix=one.secondary_matrix, sensor=one.sensor, offset=one.offset)
+        for path, one in corrections.items()
     ]
 
 
@@ -174,16 +195,30 @@ def _to_csv(loaded: Mapping[Path, Calibration], output: Path) -> list[ExportedCa
     return [_entry(path, one, matrix=one.matrix) for path, one in loaded.items()]
 
 
+def _to_coefficients(loaded: Mapping[Path, Calibration], output: Path) -> list[ExportedCalibration]:
+    write_coefficient_table(output, loaded.values())
+    return [_entry(path, one, matrix=one.matrix, offset_stored=False) for path, one in loaded.items()]
+
+
 def _entry(
-    path: Path, calibration: Calibration, *, matrix: FloatArray, sensor: str | None = None, offset_stored: bool = True
+    path: Path,
+    calibration: Calibration,
+    *,
+    matrix: FloatArray,
+    sensor: str | None = None,
+    offset: FloatArray | None = None,
+    offset_stored: bool = True,
+    variables_stored: bool = True,
 ) -> ExportedCalibration:
     return ExportedCalibration(
         calibration=str(path),
         sensor=calibration.sensor.name if sensor is None else sensor,
         serial=calibration.sensor.serial,
         matrix=matrix.tolist(),
-        offset=calibration.offset.tolist(),
+        offset=(calibration.offset if offset is None else offset).tolist(),
         offset_stored=offset_stored,
+        variables={variable.name: variable.coefficients.tolist() for variable in calibration.variables},
+        variables_stored=variables_stored,
     )
 
 
@@ -204,6 +239,7 @@ def _rows(entry: ExportedCalibration) -> list[dict[str, object]]:
         }
         row |= {f"m{j}": value for j, value in enumerate(entry.matrix[k])}
         row |= {"offset": entry.offset[k], "offset_stored": entry.offset_stored}
+        row |= {f"{name}_coefficient": values[k] for name, values in entry.variables.items()}
         if entry.full_scale is not None and entry.largest_rounding_error is not None:
             row |= {"full_scale": entry.full_scale[k], "largest_rounding_error": entry.largest_rounding_error[k]}
         rows.append(row)

@@ -58,6 +58,10 @@ def _calibrate(
         str | None,
         typer.Option("--lambda", help="Lambda in counts2, or `held-out`. Default: what the experiment file says."),
     ] = None,
+    kind: Annotated[
+        str | None,
+        typer.Option("--type", help="Estimation type, SnTdTO to OwTrTO. Default: what the experiment file says."),
+    ] = None,
     output_format: FormatOption = Format.TABLE,
 ) -> None:
     """Fit the matrix and offset of each sensor on the calibration intervals.
@@ -66,7 +70,14 @@ def _calibrate(
     """
     from forcetorque.cli.calibrate import run
 
-    run(experiment, output=output, sensors=sensor, regularisation=regularisation, output_format=output_format)
+    run(
+        experiment,
+        output=output,
+        sensors=sensor,
+        regularisation=regularisation,
+        kind=kind,
+        output_format=output_format,
+    )
 
 
 @app.command("estimate")
@@ -131,7 +142,8 @@ def _export(
         ExportFormat,
         typer.Option(
             "--to",
-            help="Matrix file for the sensor's DSP, XML groups for wholebodydynamics, or a plain table.",
+            help="Matrix file for the sensor's DSP, XML groups for wholebodydynamics, a plain table, or the "
+            "coefficients of temperature and other variables by themselves.",
         ),
     ],
     output: Annotated[Path, typer.Option("--output", "-o", help="File to write.")],
@@ -144,6 +156,12 @@ def _export(
     sensor_name: Annotated[
         str | None,
         typer.Option("--sensor-name", help="Name of the sensor in the robot's configuration, for wholebodydynamics."),
+    ] = None,
+    stream: Annotated[
+        Path | None,
+        typer.Option(
+            "--stream", help="Calibration that the stream is already made with. Default: the prior matrix alone."
+        ),
     ] = None,
     output_format: FormatOption = Format.TABLE,
 ) -> None:
@@ -159,6 +177,7 @@ def _export(
         output=output,
         full_scale=full_scale,
         sensor_name=sensor_name,
+        stream=stream,
         output_format=output_format,
     )
 

@@ -34,6 +34,7 @@ class ExportFormat(StrEnum):
     ICUB_MATRIX = "icub-matrix"
     WHOLEBODYDYNAMICS = "wholebodydynamics"
     CSV = "csv"
+    COEFFICIENTS = "coefficients"
 
 
 def start_logging() -> logging.Logger:

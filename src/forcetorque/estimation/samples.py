@@ -20,6 +20,7 @@ from forcetorque.recording import (
     MovingSupport,
     Recording,
     SavitzkyGolay,
+    ScalarSource,
     Signal,
     Stream,
     Support,
@@ -61,6 +62,8 @@ class SensorSamples:
     """What the sensor read, `raw` or `wrench`; n samples."""
     reference: FloatArray
     """Expected wrench in the sensor's frame and direction; shape (n, 6); N, N m."""
+    variables: FloatArray
+    """Linear variables, in the order asked for; shape (n, v)."""
     dropped: int
     """Samples of the interval left out: missing values, gaps in a joint, stamps that do not step forward, values that
     a saturated board held."""
@@ -70,6 +73,7 @@ class SensorSamples:
         stamps.setflags(write=False)
         object.__setattr__(self, "stamp_ns", stamps)
         object.__setattr__(self, "reference", read_only(self.reference, name="reference", shape=(len(stamps), 6)))
+        object.__setattr__(self, "variables", read_only(self.variables, name="variables", shape=(len(stamps), None)))
         require_shape(self.reading.values, name="reading", shape=(len(stamps), None))
 
     def __len__(self) -> int:
@@ -85,6 +89,7 @@ def sensor_samples(
     quantity: str,
     interval: Interval,
     processing: Processing,
+    variables: Sequence[ScalarSource] = (),
 ) -> SensorSamples:
     """Pair the readings of a sensor in an interval with the wrenches expected from the robot model.
 
@@ -98,9 +103,10 @@ def sensor_samples(
         quantity: `raw` or `wrench`.
         interval: Interval with a support frame.
         processing: Filters and gravity.
+        variables: Where linear variables, such as the temperature, come from.
 
     Returns:
-        Samples of the interval that lie in no ignored interval and have a finite reading and reference.
+        Samples of the interval that lie in no ignored interval and have a finite reading, reference and variables.
 
     Raises:
         RecordingError: If the interval has no support or lies outside the log, a needed joint is in no
@@ -114,14 +120,16 @@ def sensor_samples(
     reference, joints = _reference(recording, model, sensor, source, interval.support, at_ns, processing)
     reading = source.signal(quantity)
     values = np.where(source.held[picked, None], np.nan, reading.values[picked])
+    extra = _variables(recording, source, variables, at_ns)
     if processing.smoothing is not None:
         # after the cut, so that nothing leaks in from outside; together, because a sample that only one
         # of the two lacks would give them two different filters
-        both = smooth(at_ns, np.hstack([values, reference]), processing.smoothing)
-        values, reference = np.split(both, [values.shape[1]], axis=1)
-    complete = np.isfinite(reference).all(axis=1) & np.isfinite(values).all(axis=1)
+        channels = values.shape[1]
+        both = smooth(at_ns, np.hstack([values, reference, extra]), processing.smoothing)
+        values, reference, extra = np.split(both, [channels, channels + 6], axis=1)
+    complete = np.isfinite(np.hstack([values, reference, extra])).all(axis=1)
     if not complete.any():
-        needed = ", ".join(joints) or "motion of the support"
+        needed = ", ".join((*joints, *(f"{v.stream} {v.column}" for v in variables))) or "motion of the support"
         raise RecordingError(
             f"interval {interval.label!r}: none of {len(picked)} samples of {stream!r} has both a reading and the "
             f"joint(s) {needed}; the streams have gaps or missing values all over it"
@@ -131,8 +139,15 @@ def sensor_samples(
         stamp_ns=at_ns[complete],
         reading=replace(reading, values=values[complete]),
         reference=reference[complete],
+        variables=extra[complete],
         dropped=wanted - int(np.count_nonzero(complete)),
     )
+
+
+def _variables(recording: Recording, source: Stream, variables: Sequence[ScalarSource], at_ns: IntArray) -> FloatArray:
+    for variable in variables:
+        require_overlap(source, recording.stream(variable.stream))
+    return np.column_stack([np.empty((len(at_ns), 0)), *(variable.at(recording, at_ns) for variable in variables)])
 
 
 def _reference(

@@ -9,8 +9,10 @@ import numpy as np
 
 from forcetorque.calibration import (
     RULE,
+    CalibratedVariable,
     Calibration,
     CalibrationFit,
+    EstimationType,
     FittedInterval,
     Prior,
     Provenance,
@@ -31,6 +33,7 @@ def calibrate_sensor(
     code_version: str,
     created: str,
     regularisation: float | None = None,
+    kind: EstimationType | None = None,
 ) -> Calibration:
     """Fit a sensor on the calibration intervals of an experiment.
 
@@ -40,29 +43,32 @@ def calibrate_sensor(
         code_version: Version of this library, for the record.
         created: Date and time, ISO 8601, for the record.
         regularisation: Lambda; counts2; None to choose it on held-out blocks.
+        kind: Estimation type; None for that of the experiment.
 
     Returns:
         The calibration, with everything that tells how far to trust it.
     """
-    parts = samples_of(experiment, sensor, Use.CALIBRATION)
+    if kind is None:
+        kind = experiment.fit_options.kind(has_variables=bool(sensor.variables))
+    parts = samples_of(experiment, sensor, Use.CALIBRATION, with_variables=kind.with_variables)
     result = calibrate(
         [part.data_set for part in parts],
         sensor.prior,
         regularisation=regularisation,
+        kind=kind,
+        variables=[variable.linear for variable in sensor.variables] if kind.with_variables else (),
+        sphere=experiment.sphere_intervals,
     )
-    tag = experiment.model.sensor(sensor.name)
+    errors, kept = result.standard_errors, math.isinf(result.fit.regularisation)
     return Calibration(
-        sensor=SensorIdentity(
-            name=sensor.name,
-            serial=sensor.serial,
-            robot=experiment.model.name,
-            frame=tag.frame.value,
-            measure_direction=tag.direction,
-        ),
+        sensor=identity_of(experiment, sensor),
         matrix=result.fit.matrix,
         offset=result.fit.offset,
-        matrix_standard_error=result.matrix_standard_error,
-        offset_standard_error=result.offset_standard_error,
+        variables=_variables(parts, result),
+        estimation_type=kind.name,
+        raw_offset_counts=result.estimation.raw_offset,
+        matrix_standard_error=None if errors is None or kept else errors.matrix,
+        offset_standard_error=None if errors is None else errors.offset,
         residual_rms=result.fit.residual,
         lambda_counts2=result.fit.regularisation,
         prior=None
@@ -82,6 +88,43 @@ def calibrate_sensor(
             dropped=sum(p.samples.dropped for p in parts),
             inputs_sha256=experiment.inputs_sha256,
         ),
+    )
+
+
+def identity_of(experiment: Experiment, sensor: ExperimentSensor) -> SensorIdentity:
+    """Tell which sensor it is, where it is mounted and how it reads.
+
+    Args:
+        experiment: The experiment.
+        sensor: One of its sensors.
+
+    Returns:
+        Its identity.
+    """
+    tag = experiment.model.sensor(sensor.name)
+    return SensorIdentity(
+        name=sensor.name,
+        serial=sensor.serial,
+        robot=experiment.model.name,
+        frame=tag.frame.value,
+        measure_direction=tag.direction,
+    )
+
+
+def _variables(parts: list[IntervalSamples], result: CalibrationFit) -> tuple[CalibratedVariable, ...]:
+    values, model = np.concatenate([p.samples.variables for p in parts]), result.fit.model
+    return tuple(
+        CalibratedVariable(
+            name=variable.name,
+            unit=variable.unit,
+            reference_value=float(model.reference_values[k]),
+            coefficients=model.coefficients[:, k],
+            standard_error=None if result.standard_errors is None else result.standard_errors.coefficients[:, k],
+            prior=variable.prior,
+            minimum=float(values[:, k].min()),
+            maximum=float(values[:, k].max()),
+        )
+        for k, variable in enumerate(result.estimation.variables)
     )
 
 

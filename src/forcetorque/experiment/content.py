@@ -3,13 +3,60 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 from forcetorque.arrays import FloatArray
+from forcetorque.calibration import EstimationType, LinearVariable, OffsetStrategy
 from forcetorque.errors import ExperimentError, known_names
 from forcetorque.estimation import Contact, Payload, Processing
-from forcetorque.recording import Interval, Recording, Use
+from forcetorque.recording import Interval, Recording, ScalarSource, Use
 from forcetorque.robot import RobotModel
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class SensorVariable:
+    """A linear variable of a sensor and where its values come from."""
+
+    linear: LinearVariable
+    """Name, unit, reference value and prior coefficients."""
+    source: ScalarSource
+    """Its column in the recording."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FitOptions:
+    """Estimation type as the file states it; what it leaves open depends on the sensor."""
+
+    offset: OffsetStrategy = OffsetStrategy.ONE_SHOT
+    """How the offset is found."""
+    with_variables: bool | None = None
+    """Whether variables are fitted; None for where the sensor has any."""
+    from_reference: bool | None = None
+    """Whether they count from their reference value; None for yes."""
+
+    def kind(self, *, has_variables: bool) -> EstimationType:
+        """Settle the estimation type for a sensor.
+
+        Args:
+            has_variables: Whether the sensor has linear variables.
+
+        Returns:
+            The type.
+        """
+        used = has_variables if self.with_variables is None else self.with_variables
+        counted = used if self.from_reference is None else self.from_reference and used
+        return EstimationType(offset=self.offset, with_variables=used, from_reference=counted)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Role:
+    """What an interval is to a study."""
+
+    kind: str
+    """Kind of motion."""
+    session: str
+    """Stretch of time in which nothing was switched off."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -34,6 +81,29 @@ class ExperimentSensor:
     """Gain of each channel's amplifier while it was recorded; None if it is not known."""
     allowed_gains: tuple[float, ...] | None = None
     """Gains that its amplifiers can be set to; None if they are not known."""
+    variables: tuple[SensorVariable, ...] = ()
+    """Linear variables that may be fitted with the matrix."""
+
+    def variable(self, name: str) -> SensorVariable:
+        """Find a linear variable of the sensor.
+
+        Args:
+            name: Its name.
+
+        Returns:
+            The variable.
+
+        Raises:
+            ExperimentError: If the experiment states none of that name for the sensor.
+        """
+        for variable in self.variables:
+            if variable.linear.name == name:
+                return variable
+        known = ", ".join(variable.linear.name for variable in self.variables) or "none"
+        raise ExperimentError(
+            f"sensor {self.name!r}: expected the variable {name!r}, the experiment states {known}; "
+            "add it as [[sensor.variable]]"
+        )
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -68,6 +138,12 @@ class Experiment:
     """Filters and gravity."""
     regularisation: float | None
     """Lambda; counts2; None to choose it on held-out blocks."""
+    fit_options: FitOptions
+    """Estimation type."""
+    sphere_intervals: tuple[str, ...] | None
+    """Labels of the intervals that give the offset of the sphere types."""
+    roles: Mapping[str, Role]
+    """What each interval is to a study, by label."""
     payload: Payload | None
     """What hangs on a wrist sensor, estimated on the calibration intervals; None for a robot or a given load."""
     inputs_sha256: dict[str, str]

@@ -4,12 +4,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray, require_shape
-from forcetorque.calibration import Calibration, Prior
+from forcetorque.arrays import require_shape
+from forcetorque.calibration import Calibration, Prior, WrenchModel
 from forcetorque.errors import ExperimentError
 from forcetorque.evaluation import WrenchErrors, offset_removed, wrench_errors
 from forcetorque.experiment.content import Experiment, ExperimentSensor
@@ -59,13 +59,18 @@ def evaluate_sensor(
     for name, calibration in calibrations.items():
         require_fit(name, calibration, experiment, sensor)
         _refuse_fitted(name, calibration, experiment)
-    parts = samples_of(experiment, sensor, Use.VALIDATION)
+    # every candidate is judged on the same samples: those that have all variables that any of them needs
+    needed = {variable.name for calibration in calibrations.values() for variable in calibration.variables}
+    used = replace(sensor, variables=tuple(v for v in sensor.variables if v.linear.name in needed))
+    parts = samples_of(experiment, used, Use.VALIDATION, with_variables=True)
     raw = np.concatenate([p.raw for p in parts])
     reference = np.concatenate([p.samples.reference for p in parts])
+    values = np.concatenate([p.samples.variables for p in parts])
+    column = {variable.linear.name: k for k, variable in enumerate(used.variables)}
     verdicts = []
-    for candidate, matrix, offset in _candidates(calibrations):
-        require_shape(matrix, name=f"{candidate}: matrix", shape=(6, raw.shape[1]))
-        measured = raw @ matrix.T + offset
+    for candidate, model, names in _candidates(calibrations):
+        require_shape(model.matrix, name=f"{candidate}: matrix", shape=(6, raw.shape[1]))
+        measured = model.wrench(raw, values[:, [column[name] for name in names]])
         for kind, values in (("fitted", measured), ("re-estimated", offset_removed(measured, reference))):
             verdicts.append(
                 Verdict(
@@ -79,19 +84,20 @@ def evaluate_sensor(
     return verdicts
 
 
-def _candidates(calibrations: Mapping[str, Calibration]) -> list[tuple[str, FloatArray, FloatArray]]:
-    priors: list[tuple[str, FloatArray, FloatArray]] = []
+def _candidates(calibrations: Mapping[str, Calibration]) -> list[tuple[str, WrenchModel, tuple[str, ...]]]:
+    priors: list[tuple[str, WrenchModel, tuple[str, ...]]] = []
     for name, calibration in calibrations.items():
         prior = calibration.prior
-        if prior is not None and not any(_same(prior, matrix, offset) for _, matrix, offset in priors):
+        if prior is not None and not any(_same(prior, model) for _, model, _ in priors):
             label = "prior" if len(calibrations) == 1 else f"prior of {name}"
-            priors.append((label, prior.matrix, prior.offset))
-    return [*priors, *((name, c.matrix, c.offset) for name, c in calibrations.items())]
+            priors.append((label, WrenchModel(matrix=prior.matrix, offset=prior.offset), ()))
+    return [*priors, *((name, c.model, tuple(v.name for v in c.variables)) for name, c in calibrations.items())]
 
 
-def _same(prior: Prior, matrix: FloatArray, offset: FloatArray) -> bool:
+def _same(prior: Prior, model: WrenchModel) -> bool:
     # the last bits of a mean depend on where its numbers lie in memory
-    return np.array_equal(prior.matrix, matrix) and np.allclose(prior.offset, offset, rtol=0.0, atol=_SAME_OFFSET)
+    close = np.allclose(prior.offset, model.offset, rtol=0.0, atol=_SAME_OFFSET)
+    return close and np.array_equal(prior.matrix, model.matrix)
 
 
 def _refuse_fitted(name: str, calibration: Calibration, experiment: Experiment) -> None:

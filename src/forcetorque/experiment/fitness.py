@@ -31,6 +31,13 @@ def require_fit(name: str, calibration: Calibration, experiment: Experiment, sen
         calibration.require_serial(sensor.serial)
     _refuse_other_reading(name, calibration, experiment, sensor)
     _refuse_other_counts(name, calibration, sensor)
+    for variable in calibration.variables:
+        stated = sensor.variable(variable.name).linear
+        if stated.unit != variable.unit:
+            raise ExperimentError(
+                f"calibration {name!r} has the variable {variable.name!r} in {variable.unit}, "
+                f"the experiment in {stated.unit}; convert when reading"
+            )
 
 
 def one_per_sensor(

@@ -5,11 +5,12 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from forcetorque.calibration import ESTIMATION_TYPES, OffsetStrategy
 from forcetorque.errors import ExperimentError
 from forcetorque.estimation import Processing
 from forcetorque.experiment import schema
 from forcetorque.experiment.contacts import read_contacts
-from forcetorque.experiment.content import Experiment
+from forcetorque.experiment.content import Experiment, FitOptions, Role
 from forcetorque.experiment.inputs import Inputs, stated_in
 from forcetorque.experiment.intervals import read_intervals, read_supports
 from forcetorque.experiment.parse import parse_experiment
@@ -60,6 +61,9 @@ def _of_robot(parsed: schema.ExperimentFile, file: Path) -> Experiment:
         length_scale=parsed.estimation.length_scale_m,
         processing=_processing(parsed, gravity=parsed.robot.gravity),
         regularisation=parsed.calibration.lambda_counts2,
+        fit_options=_fit_options(parsed.calibration),
+        sphere_intervals=parsed.calibration.sphere_intervals,
+        roles=_roles(parsed),
         payload=None,
         inputs_sha256=inputs.sha256(),
     )
@@ -96,6 +100,9 @@ def _of_wrist(parsed: schema.ExperimentFile, file: Path) -> Experiment:
         length_scale=parsed.estimation.length_scale_m,
         processing=processing,
         regularisation=parsed.calibration.lambda_counts2,
+        fit_options=_fit_options(parsed.calibration),
+        sphere_intervals=parsed.calibration.sphere_intervals,
+        roles=_roles(parsed),
         payload=payload,
         inputs_sha256=inputs.sha256(),
     )
@@ -112,3 +119,20 @@ def _processing(parsed: schema.ExperimentFile, *, gravity: float) -> Processing:
         smoothing=None if smoothing is None else SavitzkyGolay(window_s=smoothing.window_s, order=smoothing.order),
         gravity=gravity,
     )
+
+
+def _fit_options(table: schema.CalibrationTable) -> FitOptions:
+    if table.type is not None:
+        kind = ESTIMATION_TYPES[table.type]
+        return FitOptions(offset=kind.offset, with_variables=kind.with_variables, from_reference=kind.from_reference)
+    return FitOptions(
+        offset=table.offset or OffsetStrategy.ONE_SHOT,
+        with_variables=table.with_variables,
+        from_reference=table.from_reference,
+    )
+
+
+def _roles(parsed: schema.ExperimentFile) -> dict[str, Role]:
+    return {
+        span.label: Role(kind=span.kind or span.label, session=span.session or span.label) for span in parsed.interval
+    }

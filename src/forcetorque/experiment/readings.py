@@ -8,8 +8,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray, IntArray, read_only
-from forcetorque.calibration import Calibration, recover_raw
+from forcetorque.arrays import FloatArray, IntArray
+from forcetorque.calibration import Calibration, WrenchModel, recover_raw
 from forcetorque.errors import ExperimentError
 from forcetorque.experiment.content import Experiment, ExperimentSensor
 from forcetorque.experiment.fitness import one_per_sensor, require_fit
@@ -22,15 +22,14 @@ from forcetorque.recording.alignment import interpolate
 class Correction:
     """How raw counts become a wrench."""
 
-    matrix: FloatArray | None
-    """Matrix; shape (6, c); N/count, N m/count; None where the logged wrench is taken."""
-    offset: FloatArray
-    """Offset that is added; shape (6,); N, N m."""
+    model: WrenchModel
+    """What is done to the reading."""
     source: str
-    """Where they come from, in words."""
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "offset", read_only(self.offset, name="offset", shape=(6,)))
+    """Where it comes from, in words."""
+    of_wrench: bool = False
+    """Whether the model is for the logged wrench, not for raw counts."""
+    variables: tuple[str, ...] = ()
+    """Variables of the sensor that the model needs, in its order."""
 
 
 def corrections_of(experiment: Experiment, calibrations: Mapping[str, Calibration]) -> dict[str, Correction]:
@@ -55,7 +54,8 @@ def corrections_of(experiment: Experiment, calibrations: Mapping[str, Calibratio
         if sensor.name in chosen:
             name, calibration = chosen[sensor.name]
             require_fit(name, calibration, experiment, sensor)
-            correction = Correction(matrix=calibration.matrix, offset=calibration.offset, source=name)
+            names = tuple(variable.name for variable in calibration.variables)
+            correction = Correction(model=calibration.model, source=name, variables=names)
         else:
             correction = _uncalibrated(experiment, sensor)
         corrections[sensor.name] = correction
@@ -77,11 +77,10 @@ def wrench_at(experiment: Experiment, sensor: ExperimentSensor, correction: Corr
     stream = experiment.recording.stream(sensor.stream)
     logged = np.where(stream.held[:, None], np.nan, stream.signal(sensor.quantity).values)
     values = interpolate(stream, logged, at_ns)
-    if correction.matrix is None:
-        return values + correction.offset
-    if sensor.quantity == "wrench" and sensor.prior is not None:
+    if not correction.of_wrench and sensor.quantity == "wrench" and sensor.prior is not None:
         values = recover_raw(values, sensor.prior)
-    return values @ correction.matrix.T + correction.offset
+    columns = [sensor.variable(name).source.at(experiment.recording, at_ns) for name in correction.variables]
+    return correction.model.wrench(values, np.stack(columns, axis=-1) if columns else None)
 
 
 def _uncalibrated(experiment: Experiment, sensor: ExperimentSensor) -> Correction:
@@ -90,14 +89,16 @@ def _uncalibrated(experiment: Experiment, sensor: ExperimentSensor) -> Correctio
         raise ExperimentError(f"sensor {sensor.name!r}: raw counts become wrenches by --calibration or a prior matrix")
     words = "the logged wrench" if matrix is None else f"the prior {sensor.prior_source}"
     if not any(interval.use is Use.CALIBRATION for interval in experiment.recording.intervals):
-        return Correction(matrix=matrix, offset=np.zeros(6), source=f"{words}, no offset removed")
+        return _with_prior(matrix, np.zeros(6), f"{words}, no offset removed")
     parts = samples_of(experiment, sensor, Use.CALIBRATION)
     read = np.concatenate([p.samples.reading.values for p in parts])
     wrench = read if matrix is None else read @ matrix.T
     reference = np.concatenate([p.samples.reference for p in parts])
     labels = ", ".join(repr(part.interval.label) for part in parts)
-    return Correction(
-        matrix=matrix,
-        offset=(reference - wrench).mean(axis=0),
-        source=f"{words}, offset over {labels} ({len(read)} samples)",
-    )
+    offset = (reference - wrench).mean(axis=0)
+    return _with_prior(matrix, offset, f"{words}, offset over {labels} ({len(read)} samples)")
+
+
+def _with_prior(matrix: FloatArray | None, offset: FloatArray, source: str) -> Correction:
+    model = WrenchModel(matrix=np.eye(6) if matrix is None else matrix, offset=offset)
+    return Correction(model=model, source=source, of_wrench=matrix is None)

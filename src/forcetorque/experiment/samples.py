@@ -27,11 +27,21 @@ class IntervalSamples:
     @property
     def data_set(self) -> DataSet:
         """The same as data to fit."""
-        return DataSet(label=self.interval.label, raw=self.raw, reference=self.samples.reference)
+        return DataSet(
+            label=self.interval.label,
+            raw=self.raw,
+            reference=self.samples.reference,
+            variables=self.samples.variables,
+        )
 
 
 def samples_over(
-    experiment: Experiment, sensor: ExperimentSensor, interval: Interval, processing: Processing
+    experiment: Experiment,
+    sensor: ExperimentSensor,
+    interval: Interval,
+    processing: Processing,
+    *,
+    with_variables: bool = False,
 ) -> SensorSamples:
     """Pair the readings of a sensor with what the model expects over one interval.
 
@@ -40,6 +50,7 @@ def samples_over(
         sensor: One of its sensors.
         interval: An interval of its recording.
         processing: Filters and gravity.
+        with_variables: Whether the sensor's linear variables are wanted; samples without one are then left out.
 
     Returns:
         Reading and reference at the same instants.
@@ -52,16 +63,20 @@ def samples_over(
         quantity=sensor.quantity,
         interval=interval,
         processing=processing,
+        variables=[variable.source for variable in sensor.variables] if with_variables else (),
     )
 
 
-def samples_of(experiment: Experiment, sensor: ExperimentSensor, use: Use) -> list[IntervalSamples]:
+def samples_of(
+    experiment: Experiment, sensor: ExperimentSensor, use: Use, *, with_variables: bool = False
+) -> list[IntervalSamples]:
     """Collect the samples of a sensor in all intervals of one use.
 
     Args:
         experiment: The experiment.
         sensor: One of its sensors.
         use: Use of the intervals.
+        with_variables: Whether the sensor's linear variables are wanted; samples without one are then left out.
 
     Returns:
         Samples per interval, in the order of the file.
@@ -71,7 +86,7 @@ def samples_of(experiment: Experiment, sensor: ExperimentSensor, use: Use) -> li
     """
     collected = []
     for interval in experiment.intervals(use):
-        samples = samples_over(experiment, sensor, interval, experiment.processing)
+        samples = samples_over(experiment, sensor, interval, experiment.processing, with_variables=with_variables)
         raw = samples.reading.values
         if sensor.quantity == "wrench":
             if sensor.prior is None:

@@ -18,7 +18,9 @@ from pydantic_core import PydanticCustomError
 
 from forcetorque.array_field import ArrayField
 from forcetorque.arrays import FloatArray
+from forcetorque.calibration import ESTIMATION_TYPES, OffsetStrategy
 from forcetorque.constants import STANDARD_GRAVITY
+from forcetorque.errors import known_names
 from forcetorque.estimation import ContactType
 from forcetorque.experiment.log_schema import Log
 from forcetorque.recording import Use
@@ -57,6 +59,23 @@ class Load(Table):
         return self
 
 
+class Variable(Table):
+    """Something beside the load that moves the reading of a sensor, such as its temperature."""
+
+    name: Text
+    """Name, unique for the sensor."""
+    stream: Text | None = None
+    """Stream that holds it; that of the sensor if left out."""
+    quantity: Text = "temperature"
+    """Quantity of the stream."""
+    column: Text | None = None
+    """Column of the quantity; needed where it has several."""
+    reference_value: Finite | None = None
+    """Value at which it contributes nothing; that of the first fitted sample if left out."""
+    prior_coefficients: Annotated[FloatArray, ArrayField((6,))] | None = None
+    """Coefficients that the fit is pulled towards; N, N m per unit; not penalised if left out."""
+
+
 class Sensor(Table):
     """A force-torque sensor to calibrate or evaluate."""
 
@@ -75,6 +94,8 @@ class Sensor(Table):
     """Gain of the amplifier of each channel while it was recorded, for `forcetorque gains`."""
     allowed_gains: Annotated[tuple[Positive, ...], Field(min_length=1)] | None = None
     """Gains that its amplifiers can be set to."""
+    variable: tuple[Variable, ...] = ()
+    """Linear variables that may be fitted with the matrix."""
     joint: Text | None = None
     """Fixed joint of a sensor without a tag."""
     measure_direction: MeasureDirection | None = None
@@ -171,6 +192,11 @@ class Interval(Table):
     """End, itself excluded; s from the earliest stamp over all streams; the end of the log if left out."""
     use: Use
     """calibration, validation or ignore."""
+    kind: Text | None = None
+    """Kind of motion, such as grid or balancing; a study combines the data by kind; the label if left out."""
+    session: Text | None = None
+    """Stretch of time in which nothing was switched off, such as a day; a study chooses on some sessions and scores on
+    others; the label if left out."""
     support: Text | None = None
     """Support frame; required unless the use is ignore."""
 
@@ -215,6 +241,29 @@ class CalibrationTable(Table):
         WithJsonSchema({"anyOf": [{"type": "number", "minimum": 0}, {"const": "held-out"}]}),
     ] = None
     """Lambda in the convention of thesis (5.4); `held-out` to choose it on held-out blocks."""
+    type: Annotated[str, Field(json_schema_extra={"enum": list(ESTIMATION_TYPES)})] | None = None
+    """Estimation type by its name in the thesis, such as OwTrTO; in place of the next three."""
+    offset: OffsetStrategy | None = None
+    """How the offset is found: one-shot, the default, gives the same as centralised; sphere needs a grid motion."""
+    with_variables: bool | None = None
+    """Whether the variables of the sensors are fitted; by default where there are any."""
+    from_reference: bool | None = None
+    """Whether variables count from their reference value, the default, or from zero."""
+    sphere_intervals: Annotated[tuple[Text, ...], Field(min_length=1)] | None = None
+    """Labels of the grid motions that give the offset of the sphere types; may be left out if there is one interval."""
+
+    @model_validator(mode="after")
+    def _by_name_or_by_options(self) -> CalibrationTable:
+        plain = (self.offset, self.with_variables, self.from_reference)
+        if self.type is not None and any(option is not None for option in plain):
+            raise PydanticCustomError(
+                "type_twice", "type stands for offset, with_variables and from_reference; give the one or the others"
+            )
+        if self.type is not None and self.type not in ESTIMATION_TYPES:
+            raise PydanticCustomError("type_name", "{message}", {"message": known_names(self.type, ESTIMATION_TYPES)})
+        if self.with_variables is False and self.from_reference:
+            raise PydanticCustomError("no_variables", "from_reference belongs to with_variables = true")
+        return self
 
 
 class ExperimentFile(Table):

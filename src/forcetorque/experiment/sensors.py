@@ -8,12 +8,13 @@ from pathlib import Path
 import numpy as np
 
 from forcetorque.arrays import FloatArray
+from forcetorque.calibration import LinearVariable
 from forcetorque.errors import ExperimentError
-from forcetorque.exchange.icub import read_matrix_file
+from forcetorque.exchange.icub import read_matrix_file, serial_number_in_name
 from forcetorque.experiment import schema
-from forcetorque.experiment.content import ExperimentSensor
+from forcetorque.experiment.content import ExperimentSensor, SensorVariable
 from forcetorque.experiment.inputs import Inputs, stated_in
-from forcetorque.recording import Recording
+from forcetorque.recording import Recording, ScalarSource
 from forcetorque.robot import RobotModel, SensorFrame
 
 
@@ -102,15 +103,48 @@ def _sensor(
         serial=entry.serial,
         stream=entry.stream,
         quantity=present[0],
-        prior=_prior(entry, inputs),
+        prior=_prior(where, entry, inputs),
         prior_source=None if entry.prior is None else Path(entry.prior).as_posix(),
         limit_counts=entry.limit_counts,
         amplifier_gain=entry.amplifier_gain,
         allowed_gains=entry.allowed_gains,
+        variables=tuple(
+            _variable(f"{where}: variable[{k}]", variable, entry, recording)
+            for k, variable in enumerate(entry.variable)
+        ),
     )
 
 
-def _prior(entry: schema.Sensor, inputs: Inputs) -> FloatArray | None:
+def _variable(where: str, variable: schema.Variable, entry: schema.Sensor, recording: Recording) -> SensorVariable:
+    if [other.name for other in entry.variable].count(variable.name) > 1:
+        raise ExperimentError(f"{where}: the name {variable.name!r} comes twice; name the variables apart")
+    with stated_in(where):
+        signal = recording.stream(variable.stream or entry.stream).signal(variable.quantity)
+        if variable.column is None and len(signal.columns) > 1:
+            raise ExperimentError(f"expected column, one of {', '.join(signal.columns)}")
+        source = ScalarSource(
+            stream=variable.stream or entry.stream,
+            quantity=variable.quantity,
+            column=variable.column or signal.columns[0],
+        )
+        linear = LinearVariable(
+            name=variable.name,
+            unit=source.unit(recording),
+            reference_value=variable.reference_value,
+            prior=variable.prior_coefficients,
+        )
+    return SensorVariable(linear=linear, source=source)
+
+
+def _prior(where: str, entry: schema.Sensor, inputs: Inputs) -> FloatArray | None:
     if entry.prior is None:
         return None
-    return np.eye(6) if entry.prior == "identity" else read_matrix_file(inputs.file(Path(entry.prior))).matrix
+    if entry.prior == "identity":
+        return np.eye(6)
+    serial = serial_number_in_name(entry.prior)
+    if serial is not None and serial != entry.serial:
+        raise ExperimentError(
+            f"{where}: expected the prior matrix of the sensor {entry.serial!r}, got that of {serial!r} "
+            f"({entry.prior}); every sensor has its own"
+        )
+    return read_matrix_file(inputs.file(Path(entry.prior))).matrix

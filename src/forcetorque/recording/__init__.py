@@ -5,6 +5,7 @@ from forcetorque.recording.finding import Finding
 from forcetorque.recording.interval import Interval, MovingSupport, Support, Use
 from forcetorque.recording.quantity import QUANTITIES, Labels, Quantity
 from forcetorque.recording.recording import Recording
+from forcetorque.recording.scalar_source import ScalarSource
 from forcetorque.recording.schema import recording_schema
 from forcetorque.recording.smoothing import SavitzkyGolay
 from forcetorque.recording.storage import read_recording, write_recording
@@ -19,6 +20,7 @@ __all__ = [
     "Quantity",
     "Recording",
     "SavitzkyGolay",
+    "ScalarSource",
     "Signal",
     "Stream",
     "Support",

@@ -35,7 +35,7 @@ class Quantity:
     columns: tuple[str, ...] = ()
     """Column names where they are fixed."""
     units: tuple[str, ...] = ()
-    """Allowed units: one per column where the columns are fixed, else the choice that each column has."""
+    """Allowed units: one per column where the columns are fixed, else the choice that each column has; any if empty."""
     has_frame: bool = False
     """Whether the values are along the axes of a frame, which must then be named."""
     description: str
@@ -121,6 +121,11 @@ QUANTITIES = {
             columns=("saturated",),
             units=("0 or 1",),
             description="Status of a board: 1 while a channel is at its limit and the last valid sample is held.",
+        ),
+        Quantity(
+            name="scalar",
+            labels=Labels.CHANNELS,
+            description="Anything else that may move a reading, such as a supply voltage; names and units of the log.",
         ),
         Quantity(
             name="device_stamp",

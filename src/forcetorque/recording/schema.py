@@ -36,7 +36,7 @@ def recording_schema() -> dict[str, Any]:
                 "columns": list(quantity.columns) or _LABELS[quantity.labels],
                 "units": list(quantity.units)
                 if quantity.labels is Labels.FIXED
-                else {"one per column out of": list(quantity.units)},
+                else {"one per column out of": list(quantity.units) or "any"},
                 "frame": "named" if quantity.has_frame else "none",
                 "description": quantity.description,
             }

@@ -56,7 +56,7 @@ class Signal:
                 f"{self.quantity}: expected the columns {quantity.columns} in {quantity.units}, "
                 f"got {columns} in {units}; convert or reorder them when reading"
             )
-        if len(units) != len(columns) or not set(units) <= set(quantity.units):
+        if len(units) != len(columns) or (quantity.units and not set(units) <= set(quantity.units)):
             raise RecordingError(
                 f"{self.quantity}: expected one unit out of {quantity.units} for each of {len(columns)} columns, "
                 f"got {units}; convert when reading"

@@ -138,10 +138,12 @@ def _signal(file: Path, declared: TableSignal, table: Any, first_line: int) -> S
             f"{file}: {declared.quantity}: expected {len(quantity.columns)} columns "
             f"({', '.join(quantity.columns)}), got {len(declared.columns)}"
         )
-    factors = [si_factor(unit) for unit in declared.units]
+    # a scalar of any unit is taken as it stands
+    free = not fixed and not quantity.units
+    factors = [(unit, 1.0) if free else si_factor(unit) for unit in declared.units]
     for k, (unit, _) in enumerate(factors):
         allowed = (quantity.units[k],) if fixed else quantity.units
-        if unit not in allowed:
+        if not free and unit not in allowed:
             raise UnitError(
                 f"{file}: column {declared.columns[k]!r}: expected a unit of {declared.quantity} that converts to "
                 f"{' or '.join(allowed)}, got {declared.units[k]!r}"

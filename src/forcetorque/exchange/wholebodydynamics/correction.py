@@ -10,13 +10,15 @@ from typing import Any
 import numpy as np
 
 from forcetorque.arrays import FloatArray, read_only, require_last_axis
-from forcetorque.calibration import Calibration, is_invertible
+from forcetorque.calibration import Calibration, WrenchModel, is_invertible, secondary_model
 from forcetorque.errors import FitError, FormatError, RecordingError, ShapeError
 
 # The device gets "(NAME (NUMBERS))" as text and splits it again, so the name must come out as one
 # word of text: these characters end or quote a word, and these words become numbers or booleans.
 _SPLITS_A_NAME = re.compile(r"[\s,()\[\]{}\"\\]")
 _READS_AS_A_VALUE = re.compile(r"[-+.0-9][-+.0-9eE]*|[-+0]+[xX][-+.0-9a-fA-F]*|true|false|null|nan|-?inf")
+_TEMPERATURE = ("temperature", "degC")
+"""Name and unit of the only variable that the device knows."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -91,39 +93,66 @@ def corrected(correction: SensorCorrection, f_in: Any, temperature: Any = None) 
     return wrench + change[..., np.newaxis] * correction.temperature_coefficients
 
 
-def from_calibration(calibration: Calibration, *, sensor_name: str | None = None) -> SensorCorrection:
+def from_calibration(
+    calibration: Calibration, *, sensor_name: str | None = None, stream: Calibration | None = None
+) -> SensorCorrection:
     """Give the correction that turns the sensor's present readings into those of a calibration.
 
-    The sensor sends `f_in = C_prior raw`, and the calibration is `f = C raw + o`; so `f = S f_in + o` with
-    `S = C C_prior^-1` (5.20).
+    The sensor sends `f_in = C_prior raw`, and the calibration is `f = C raw + c (T - T0) + o`; so
+    `f = S f_in + c (T - T0) + o` with `S = C C_prior^-1` (5.20). A stream that is already made with another
+    calibration, offset and temperature included, is taken back to raw counts first.
 
     Args:
-        calibration: Calibration whose prior is the matrix that the sensor holds.
+        calibration: Calibration whose prior is the matrix that the sensor holds, or whose sensor `stream` is of.
         sensor_name: Name of the sensor in the device's robot model; that of the calibration if None.
+        stream: Calibration that makes the readings now; None for the prior matrix alone.
 
     Returns:
-        The correction, without temperature.
+        The correction.
 
     Raises:
-        FormatError: If the calibration has no prior of six channels.
-        FitError: If the prior cannot be inverted.
+        FormatError: If the calibration has no prior of six channels, or a variable that the device does not know.
+        FitError: If the matrix of the stream cannot be inverted.
+        SerialNumberError: If the stream is of another sensor.
     """
     where = f"sensor {calibration.sensor.name!r} ({calibration.sensor.serial!r})"
-    prior = calibration.prior
-    if prior is None or prior.matrix.shape != (6, 6) or calibration.matrix.shape != (6, 6):
-        got = "none" if prior is None else f"{calibration.matrix.shape} and {prior.matrix.shape}"
+    made = _made_with(calibration, stream, where)
+    if made.matrix.shape != (6, 6) or calibration.matrix.shape != (6, 6):
         raise FormatError(
-            f"{where}: expected a matrix and a prior matrix of shape (6, 6), got {got}; "
-            "calibrated readings can be corrected only if the matrix that made them is known"
+            f"{where}: expected a matrix and a prior matrix of shape (6, 6), got {calibration.matrix.shape} and "
+            f"{made.matrix.shape}; calibrated readings can be corrected only if the matrix that made them is known"
         )
-    if not is_invertible(prior.matrix):
+    if not is_invertible(made.matrix):
         raise FitError(f"{where}: expected a prior matrix that can be inverted, got a singular one")
-    secondary = calibration.secondary_matrix()
+    variables = [(variable.name, variable.unit) for variable in calibration.variables]
+    if variables not in ([], [_TEMPERATURE]):
+        raise FormatError(
+            f"{where}: expected no variable but {_TEMPERATURE[0]!r} in {_TEMPERATURE[1]}, got {variables}; "
+            "wholebodydynamics knows no other; use --to coefficients"
+        )
+    if stream is not None and stream.variables and [(v.name, v.unit) for v in stream.variables] != variables:
+        raise FormatError(f"{where}: the stream depends on variables that the calibration does not have; fit with them")
+    correction = secondary_model(calibration.model, made)
     return SensorCorrection(
         sensor=calibration.sensor.name if sensor_name is None else sensor_name,
-        secondary_matrix=np.asarray(secondary),
-        offset=calibration.offset,
+        secondary_matrix=correction.matrix,
+        offset=correction.offset,
+        temperature_coefficients=correction.coefficients[:, 0] if variables else None,
+        reference_temperature=float(correction.reference_values[0]) if variables else None,
     )
+
+
+def _made_with(calibration: Calibration, stream: Calibration | None, where: str) -> WrenchModel:
+    """The model with which the present readings are made."""
+    if stream is not None:
+        stream.require_serial(calibration.sensor.serial)
+        return stream.model
+    if calibration.prior is None:
+        raise FormatError(
+            f"{where}: expected a matrix and a prior matrix of shape (6, 6), got none; "
+            "calibrated readings can be corrected only if the matrix that made them is known"
+        )
+    return WrenchModel(matrix=calibration.prior.matrix, offset=np.zeros(6))
 
 
 def _require_usable_name(name: str) -> None:

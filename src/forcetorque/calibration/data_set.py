@@ -1,0 +1,32 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Data to fit: raw readings, reference wrenches and linear variables at the same instants."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from forcetorque.arrays import FloatArray, read_only
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class DataSet:
+    """Readings and reference of one stretch of time."""
+
+    label: str
+    """Label of the interval."""
+    raw: FloatArray
+    """Raw readings in the order of time; shape (n, c); counts."""
+    reference: FloatArray
+    """Reference wrenches; shape (n, 6); N, N m."""
+    variables: Any = None
+    """Linear variables; shape (n, v), an array also where None was given: v is then 0."""
+
+    def __post_init__(self) -> None:
+        raw = read_only(self.raw, name="raw", shape=(None, None))
+        variables = np.empty((len(raw), 0)) if self.variables is None else self.variables
+        object.__setattr__(self, "raw", raw)
+        object.__setattr__(self, "reference", read_only(self.reference, name="reference", shape=(len(raw), 6)))
+        object.__setattr__(self, "variables", read_only(variables, name="variables", shape=(len(raw), None)))

@@ -1,0 +1,195 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The regularised regression: one eigenvalue problem per data and type, then any lambda at once.
+
+    C*, c*, o* = argmin  mean |f - C r - c (v - v0) - o|^2  +  lambda |C - C_prior|^2  +  lambda |c - c_prior|^2
+
+(thesis 5.4, 5.9 with separate norms; errata of 5.9). The mean over samples is part of the convention:
+lambda has the unit counts2 and does not depend on the number of samples. The offset, and coefficients
+without a prior, are not penalised. The thesis writes the six rows as one system of size 6 c with a
+Kronecker product (5.8); they share one c x c system, `C (A + lambda 1) = B + lambda C_prior`, so with
+`A = V s V'` every lambda costs one product.
+
+The offset strategies differ in the point about which the columns are taken: the raw offset of the
+sphere and zero load, the means, or a point from which a constant is estimated.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from forcetorque.arrays import BoolArray, FloatArray
+from forcetorque.calibration.estimation import Estimation
+from forcetorque.calibration.estimation_type import OffsetStrategy
+from forcetorque.calibration.linear_variable import LinearVariable
+from forcetorque.calibration.moments import Moments, symmetric_pseudo_inverse
+from forcetorque.calibration.wrench_model import WrenchModel
+from forcetorque.errors import FitError, ShapeError
+
+_SINGULAR = 1e-14
+"""Eigenvalues below this part of the largest are rounding: at lambda 0 the prior is kept along them."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Regression:
+    """Normal equations of one estimation on one data set, ready for any lambda."""
+
+    estimation: Estimation
+    """Offset strategy, variables and prior."""
+    channels: int
+    """Number c of raw channels."""
+    eigenvalues: FloatArray
+    """Of the second moment of the p penalised columns, free of what the others explain; shape (p,)."""
+    vectors: FloatArray
+    """Its eigenvectors, one per column; shape (p, p)."""
+    target: FloatArray
+    """Mean product of the reference with the penalised columns, likewise free; shape (6, p)."""
+    penalised: BoolArray
+    """Which of the columns - raw, variables, constant - are penalised; shape (q,)."""
+    free_solution: FloatArray
+    """Coefficients of the q - p free columns if the penalised ones were zero; shape (6, q - p)."""
+    free_change: FloatArray
+    """How they change with the coefficients of the penalised ones; shape (p, q - p)."""
+    origin: FloatArray
+    """Point about which raw, variables and reference were taken; shape (c + v + 6,)."""
+
+    @classmethod
+    def of(cls, moments: Moments, estimation: Estimation) -> Regression:
+        """Prepare the fit of a data set.
+
+        Args:
+            moments: Moments of the fitted samples.
+            estimation: Offset strategy, variables and prior.
+
+        Returns:
+            The regression.
+
+        Raises:
+            ShapeError: If prior, raw offset or variables do not fit the samples.
+        """
+        _require_fit(moments, estimation)
+        origin, gram, penalised = _columns(moments, estimation)
+        p, u = np.flatnonzero(penalised), np.flatnonzero(~penalised)
+        f = np.arange(len(penalised), len(gram))
+        inverse = symmetric_pseudo_inverse(gram[np.ix_(u, u)])
+        change = gram[np.ix_(p, u)] @ inverse
+        eigenvalues, vectors = np.linalg.eigh(gram[np.ix_(p, p)] - change @ gram[np.ix_(u, p)])
+        return cls(
+            estimation=estimation,
+            channels=moments.channels,
+            eigenvalues=np.maximum(eigenvalues, 0.0),
+            vectors=vectors,
+            target=gram[np.ix_(f, p)] - gram[np.ix_(f, u)] @ change.T,
+            penalised=penalised,
+            free_solution=gram[np.ix_(f, u)] @ inverse,
+            free_change=change,
+            origin=origin,
+        )
+
+    def at(self, regularisation: float) -> WrenchModel:
+        """Solve for one lambda, without asking whether the data determine the answer.
+
+        Args:
+            regularisation: Lambda, at least 0; counts2; infinite keeps the prior and fits the rest.
+
+        Returns:
+            The model.
+
+        Raises:
+            FitError: If lambda is negative or not a number, or positive without a prior.
+        """
+        if not regularisation >= 0.0:
+            raise FitError(f"lambda: expected a number of at least 0 counts2, got {regularisation}")
+        if self.estimation.prior is None and regularisation > 0.0:
+            raise FitError(
+                f"lambda: {regularisation:g} counts2 needs a prior matrix to pull towards; give one or lambda 0"
+            )
+        prior = np.zeros((6, self.channels)) if self.estimation.prior is None else self.estimation.prior
+        pulled = np.column_stack([prior, *self._prior_coefficients()])
+        if math.isinf(regularisation):
+            return self._model(pulled)
+        system = self.eigenvalues + regularisation
+        determined = system > _SINGULAR * self.eigenvalues[-1]
+        inverse = np.divide(1.0, system, out=np.zeros_like(system), where=determined)
+        along = (self.target + regularisation * pulled) @ self.vectors * inverse
+        return self._model((along + np.where(determined, 0.0, pulled @ self.vectors)) @ self.vectors.T)
+
+    def completed(self, matrix: FloatArray) -> WrenchModel:
+        """Give a matrix the offset and the coefficients that the data have with it.
+
+        Args:
+            matrix: Calibration matrix; shape (6, c); N/count, N m/count.
+
+        Returns:
+            The model; coefficients with a prior keep it.
+        """
+        return self._model(np.column_stack([matrix, *self._prior_coefficients()]))
+
+    def _prior_coefficients(self) -> list[FloatArray]:
+        return [variable.prior for variable in _fitted(self.estimation) if variable.prior is not None]
+
+    def _model(self, solved: FloatArray) -> WrenchModel:
+        """From the coefficients of the penalised columns to all of them."""
+        c, variables = self.channels, len(_fitted(self.estimation))
+        columns = np.empty((6, len(self.penalised)))
+        columns[:, self.penalised] = solved
+        columns[:, ~self.penalised] = self.free_solution - solved @ self.free_change
+        matrix, coefficients = columns[:, :c], columns[:, c : c + variables]
+        values = self.estimation.reference_values[:variables]
+        # the wrench at the origin of the raw readings, with every variable at its reference value
+        offset = self.origin[-6:] - matrix @ self.origin[:c] - coefficients @ (self.origin[c : c + variables] - values)
+        if self.estimation.kind.offset is OffsetStrategy.ONE_SHOT:
+            offset = offset + columns[:, -1]
+        return WrenchModel(matrix=matrix, offset=offset, coefficients=coefficients, reference_values=values)
+
+
+def solve(moments: Moments, estimation: Estimation, regularisation: float) -> WrenchModel:
+    """Solve for one lambda; see `Regression`, which serves many.
+
+    Args:
+        moments: Moments of the fitted samples.
+        estimation: Offset strategy, variables and prior.
+        regularisation: Lambda, at least 0; counts2; infinite keeps the prior and fits the rest.
+
+    Returns:
+        The model.
+    """
+    return Regression.of(moments, estimation).at(regularisation)
+
+
+def _require_fit(moments: Moments, estimation: Estimation) -> None:
+    c, v = moments.channels, moments.variables
+    if estimation.prior is not None and estimation.prior.shape != (6, c):
+        raise ShapeError(f"prior: expected shape (6, {c}), got {estimation.prior.shape}")
+    if estimation.raw_offset is not None and estimation.raw_offset.shape != (c,):
+        raise ShapeError(f"raw_offset: expected shape ({c},), got {estimation.raw_offset.shape}")
+    if len(_fitted(estimation)) not in (0, v):
+        raise ShapeError(f"variables: expected the {len(estimation.variables)} of the estimation, the data have {v}")
+
+
+def _fitted(estimation: Estimation) -> tuple[LinearVariable, ...]:
+    return estimation.variables if estimation.kind.with_variables else ()
+
+
+def _columns(moments: Moments, estimation: Estimation) -> tuple[FloatArray, FloatArray, BoolArray]:
+    """Origin of the columns, their second moment about it with the reference last, and which are penalised."""
+    c, fitted = moments.channels, _fitted(estimation)
+    values = estimation.reference_values if fitted else moments.variable_mean
+    zero = np.zeros(6)
+    if estimation.kind.offset is OffsetStrategy.SPHERE and estimation.raw_offset is not None:
+        origin = np.concatenate([estimation.raw_offset, values, zero])
+    elif estimation.kind.offset is OffsetStrategy.CENTRALISED:
+        origin = moments.mean
+    else:
+        # a constant takes up any shift of the columns; from the raw mean no digits are lost to large offsets
+        origin = np.concatenate([moments.raw_mean, values, zero])
+    gram, step = moments.about(origin), moments.mean - origin
+    kept = np.r_[: c + len(fitted), len(origin) - 6 : len(origin)]
+    gram, step, constants = gram[np.ix_(kept, kept)], step[kept], 0
+    if estimation.kind.offset is OffsetStrategy.ONE_SHOT:
+        constants, place = 1, c + len(fitted)
+        gram = np.insert(np.insert(gram, place, step, axis=0), place, np.insert(step, place, 1.0), axis=1)
+    penalised = [True] * c + [variable.prior is not None for variable in fitted] + [False] * constants
+    return origin, gram, np.array(penalised)

@@ -1,0 +1,65 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The linear model of a sensor: `wrench = matrix raw + coefficients (variables - reference values) + offset`."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from forcetorque.arrays import FloatArray, read_only, require_last_axis, require_shape
+
+
+def _no_coefficients() -> FloatArray:
+    return np.zeros((6, 0))
+
+
+def _no_values() -> FloatArray:
+    return np.zeros(0)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class WrenchModel:
+    """What turns raw readings, and linear variables such as temperature, into a wrench (thesis 5.1, 5.9)."""
+
+    matrix: FloatArray
+    """Calibration matrix; shape (6, c); N/count, N m/count."""
+    offset: FloatArray
+    """Offset in wrench space, where every variable has its reference value; shape (6,); N, N m."""
+    coefficients: FloatArray = field(default_factory=_no_coefficients)
+    """Wrench per unit of every variable; shape (6, v); N, N m per unit."""
+    reference_values: FloatArray = field(default_factory=_no_values)
+    """Values at which the variables contribute nothing; shape (v,)."""
+
+    def __post_init__(self) -> None:
+        variables = len(np.asarray(self.reference_values))
+        for name, shape in (
+            ("matrix", (6, None)),
+            ("offset", (6,)),
+            ("coefficients", (6, variables)),
+            ("reference_values", (variables,)),
+        ):
+            object.__setattr__(self, name, read_only(getattr(self, name), name=name, shape=shape))
+
+    def wrench(self, raw: Any, variables: Any = None) -> FloatArray:
+        """Turn readings into wrenches.
+
+        Args:
+            raw: Raw readings; shape (..., c); counts.
+            variables: Values of the variables at the same instants; shape (..., v); may be None if there is none.
+
+        Returns:
+            Wrenches; shape (..., 6); N, N m.
+
+        Raises:
+            ShapeError: If the shapes are not these.
+        """
+        counts = np.asarray(raw, dtype=np.float64)
+        require_last_axis(counts, name="raw", length=self.matrix.shape[1])
+        wrench: FloatArray = counts @ self.matrix.T + self.offset
+        if not len(self.reference_values):
+            return wrench
+        values = np.empty((*counts.shape[:-1], 0)) if variables is None else np.asarray(variables, dtype=np.float64)
+        require_shape(values, name="variables", shape=(*counts.shape[:-1], len(self.reference_values)))
+        return wrench + (values - self.reference_values) @ self.coefficients.T
