@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from forcetorque.calibration import Calibration, DataSet, calibrate, read_calibration, write_calibration
     from forcetorque.errors import ForceTorqueError
-    from forcetorque.evaluation import wrench_errors
+    from forcetorque.evaluation.wrench_errors import wrench_errors  # of the package, mypy may take it for the module
     from forcetorque.experiment import Experiment, calibrate_sensor, evaluate_sensor, load_experiment, samples_of
     from forcetorque.recording import Recording, read_recording, write_recording
     from forcetorque.robot import RobotModel, expected_wrenches, read_urdf

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from forcetorque.errors import ShapeError
-from forcetorque.evaluation import offset_removed, wrench_errors
+from forcetorque.evaluation import errors_from_zero, offset_removed, wrench_errors
 
 
 def test_by_hand() -> None:
@@ -18,10 +18,12 @@ def test_by_hand() -> None:
     np.testing.assert_allclose(errors.bias, [1.5, 2.0, 0, 0, 0, 0])
     np.testing.assert_allclose(errors.rmse, [np.sqrt(4.5), np.sqrt(8.0), 0, 0, 0, 1.0])
     np.testing.assert_allclose(errors.largest, [3.0, 4.0, 0, 0, 0, 1.0])
+    np.testing.assert_allclose(errors.mean_absolute, [1.5, 2.0, 0, 0, 0, 1.0])
     assert (errors.force_mean, errors.force_largest) == (2.5, 5.0)
     assert (errors.moment_mean, errors.moment_largest) == (1.0, 1.0)
     # two blocks of one sample: means 5 and 0, standard deviation 5 / sqrt 2, over sqrt 2
     assert errors.force_mean_error == pytest.approx(2.5)
+    np.testing.assert_allclose(errors.mean_absolute_error, [1.5, 2.0, 0, 0, 0, 0])
 
 
 def test_the_standard_error_sees_slow_changes() -> None:
@@ -31,7 +33,10 @@ def test_the_standard_error_sees_slow_changes() -> None:
     slow, white = zero.copy(), zero.copy()
     slow[:, 0] = np.linspace(0.0, 4.0, 1000)
     white[:, 0] = rng.permutation(slow[:, 0])
-    assert wrench_errors(slow, zero).force_mean_error > 5 * wrench_errors(white, zero).force_mean_error
+    of_slow, of_white = wrench_errors(slow, zero), wrench_errors(white, zero)
+    assert of_slow.force_mean_error > 5 * of_white.force_mean_error
+    # one axis alone moves: its mean absolute value is the mean norm
+    assert of_slow.mean_absolute_error[0] == pytest.approx(of_slow.force_mean_error)
 
 
 def test_removing_the_offset_leaves_no_bias() -> None:
@@ -46,7 +51,9 @@ def test_removing_the_offset_leaves_no_bias() -> None:
 
 def test_a_single_sample_has_no_standard_error() -> None:
     """One sample says nothing about its own scatter."""
-    assert np.isnan(wrench_errors(np.ones((1, 6)), np.zeros((1, 6))).force_mean_error)
+    errors = wrench_errors(np.ones((1, 6)), np.zeros((1, 6)))
+    assert np.isnan(errors.force_mean_error)
+    assert np.isnan(errors.mean_absolute_error).all()
 
 
 @pytest.mark.parametrize(("a", "b"), [((0, 6), (0, 6)), ((3, 6), (2, 6)), ((3, 5), (3, 5)), ((6,), (6,))])
@@ -54,3 +61,21 @@ def test_shapes_are_checked(a: tuple[int, ...], b: tuple[int, ...]) -> None:
     """No samples, or shapes that do not fit, are refused."""
     with pytest.raises(ShapeError, match="expected"):
         wrench_errors(np.zeros(a), np.zeros(b))
+
+
+def test_samples_with_a_gap_are_left_out_of_wrenches_that_should_be_zero() -> None:
+    """The statistics are those of the other samples; one component that is missing spoils its sample."""
+    wrenches = np.random.default_rng(3).normal(size=(40, 6))
+    gappy = wrenches.copy()
+    gappy[[3, 17], [2, 5]] = np.nan
+    found, wanted = errors_from_zero(gappy), wrench_errors(np.delete(wrenches, [3, 17], axis=0), np.zeros((38, 6)))
+    assert found.count == 38
+    np.testing.assert_array_equal(found.mean_absolute, wanted.mean_absolute)
+    assert (found.force_mean, found.moment_mean_error) == (wanted.force_mean, wanted.moment_mean_error)
+
+
+@pytest.mark.parametrize("wrenches", [np.full((3, 6), np.nan), np.zeros((0, 6)), np.zeros((3, 5))])
+def test_nothing_to_sum_up_is_refused(wrenches: np.ndarray) -> None:
+    """Gaps alone, no samples, or another shape."""
+    with pytest.raises(ShapeError, match="wrenches: expected"):
+        errors_from_zero(wrenches)

@@ -1,6 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """How far a calibration can be trusted, on motions that were not fitted, and how well a sensor uses its range."""
 
+from forcetorque.evaluation.contact_force import (
+    ContactForces,
+    ContactForceValidation,
+    OtherSensors,
+    contact_forces,
+)
 from forcetorque.evaluation.gains import (
     MARGIN,
     AxisResolution,
@@ -13,18 +19,23 @@ from forcetorque.evaluation.gains import (
     strongest_samples,
 )
 from forcetorque.evaluation.model_findings import model_findings
-from forcetorque.evaluation.wrench_errors import WrenchErrors, offset_removed, wrench_errors
+from forcetorque.evaluation.wrench_errors import WrenchErrors, errors_from_zero, offset_removed, wrench_errors
 
 __all__ = [
     "MARGIN",
     "AxisResolution",
     "ChannelRange",
+    "ContactForceValidation",
+    "ContactForces",
     "GainAdvice",
     "GainChange",
+    "OtherSensors",
     "WrenchErrors",
     "advise_gains",
     "axis_resolution",
     "channel_ranges",
+    "contact_forces",
+    "errors_from_zero",
     "model_findings",
     "offset_removed",
     "strongest_samples",

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray, read_only
+from forcetorque.arrays import FloatArray, read_only, require_shape
 from forcetorque.errors import ShapeError
 
 _BLOCKS = 10
@@ -27,6 +27,10 @@ class WrenchErrors:
     """Root mean square error per component; shape (6,); N, N m."""
     largest: FloatArray
     """Largest absolute error per component; shape (6,); N, N m."""
+    mean_absolute: FloatArray
+    """Mean absolute error per component; shape (6,); N, N m."""
+    mean_absolute_error: FloatArray
+    """Standard error of these means, from contiguous blocks; shape (6,); N, N m."""
     force_mean: float
     """Mean norm of the force error; N."""
     force_mean_error: float
@@ -41,7 +45,7 @@ class WrenchErrors:
     """Largest norm of the moment error; N m."""
 
     def __post_init__(self) -> None:
-        for field in ("bias", "rmse", "largest"):
+        for field in ("bias", "rmse", "largest", "mean_absolute", "mean_absolute_error"):
             object.__setattr__(self, field, read_only(getattr(self, field), name=field, shape=(6,)))
 
 
@@ -62,28 +66,53 @@ def wrench_errors(measured: Any, reference: Any) -> WrenchErrors:
     if first.ndim != 2 or first.shape[1] != 6 or first.shape != second.shape or not len(first):
         raise ShapeError(f"expected measured and reference of one shape (n, 6), got {first.shape} and {second.shape}")
     error = first - second
+    absolute = np.abs(error)
     force, moment = np.linalg.norm(error[:, :3], axis=1), np.linalg.norm(error[:, 3:], axis=1)
     return WrenchErrors(
         count=len(error),
         bias=error.mean(axis=0),
         rmse=np.sqrt((error**2).mean(axis=0)),
-        largest=np.abs(error).max(axis=0),
+        largest=absolute.max(axis=0),
+        mean_absolute=absolute.mean(axis=0),
+        mean_absolute_error=_mean_error(absolute),
         force_mean=float(force.mean()),
-        force_mean_error=_mean_error(force),
+        force_mean_error=float(_mean_error(force)),
         force_largest=float(force.max()),
         moment_mean=float(moment.mean()),
-        moment_mean_error=_mean_error(moment),
+        moment_mean_error=float(_mean_error(moment)),
         moment_largest=float(moment.max()),
     )
 
 
-def _mean_error(values: FloatArray) -> float:
-    """Standard error of a mean from the scatter of the means of contiguous blocks; NaN for one sample."""
+def errors_from_zero(wrenches: Any) -> WrenchErrors:
+    """Sum up wrenches that should be zero, such as those of contacts where nothing touches.
+
+    Args:
+        wrenches: Wrenches in the order of time, those of several recordings one after the other; shape (n, 6); N, N m;
+            samples with a gap (NaN) are left out.
+
+    Returns:
+        Their statistics.
+
+    Raises:
+        ShapeError: If the shape is another, or every sample has a gap.
+    """
+    given = np.asarray(wrenches, dtype=np.float64)
+    require_shape(given, name="wrenches", shape=(None, 6))
+    whole = given[~np.isnan(given).any(axis=1)]
+    if not len(whole):
+        raise ShapeError(f"wrenches: expected at least one sample without a gap, got none among {len(given)}")
+    return wrench_errors(whole, np.zeros_like(whole))
+
+
+def _mean_error(values: FloatArray) -> FloatArray:
+    """Standard error of the mean of values (n, ...) from the scatter of the means of contiguous blocks; NaN for one."""
     blocks = np.array_split(values, min(_BLOCKS, len(values)))
     if len(blocks) < 2:
-        return float("nan")
-    means = np.array([block.mean() for block in blocks])
-    return float(means.std(ddof=1) / np.sqrt(len(means)))
+        return np.full(values.shape[1:], np.nan)
+    means = np.array([block.mean(axis=0) for block in blocks])
+    error: FloatArray = np.asarray(means.std(axis=0, ddof=1) / np.sqrt(len(means)))
+    return error
 
 
 def offset_removed(measured: Any, reference: Any) -> FloatArray:
