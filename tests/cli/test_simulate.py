@@ -16,7 +16,7 @@ from forcetorque.experiment import load_experiment
 from forcetorque.recording import read_recording
 from forcetorque.simulation import BIPED_URDF
 from forcetorque.simulation.robots import named_robot
-from forcetorque.simulation.scenario import load_scenario
+from forcetorque.simulation.scenario import bundled_scenario, load_scenario
 from tests.cli.json_schema import faults
 from tests.cli.outcome import Run
 from tests.experiments import edit, snapshot
@@ -43,6 +43,13 @@ temperature_degC = [20.0, 21.0]
 jitter_s = 0.001
 lost_messages = 4
 failed_groups = 2
+"""
+
+ERROR = """[sensors.workbench_error]
+sensor = "arm_ft"
+mean_force_N = [2.0, 3.0, 1.0]
+mean_moment_Nm = [0.2, 0.1, 0.05]
+[[recording]]
 """
 
 
@@ -133,16 +140,11 @@ def test_saturation_is_found_in_every_saturated_sample_and_nowhere_else(scenario
 @pytest.mark.parametrize("name", ["icub-insitu", "wrist"])
 def test_bundled_scenarios_are_whole(name: str) -> None:
     """Each loads, its robot has the sensors, and all its motions can be planned for its robot or the fall-back."""
-    from forcetorque.cli.simulate import _file
-    from forcetorque.simulation.scenario.run import _movements
-
-    scenario = load_scenario(_file(name))
+    scenario = load_scenario(bundled_scenario(name))
     assert len(scenario.specimens) == {"icub-insitu": 6, "wrist": 1}[name]
-    kinds = set()
-    for entry in scenario.file.recording:
-        for movement in _movements(scenario, entry, np.random.default_rng(1)):
-            kinds.add(movement.kind.value)
-            assert movement.duration_s > 10.0
+    assert [plan.name for plan in scenario.plans] == [entry.name for entry in scenario.file.recording]
+    assert all(plan.movement.duration_s > 10.0 for plan in scenario.plans)
+    kinds = {plan.movement.kind.value for plan in scenario.plans}
     assert kinds == {"icub-insitu": {"grid", "z_torque", "balancing"}, "wrist": {"random"}}[name]
 
 
@@ -156,6 +158,13 @@ def test_bundled_scenarios_are_whole(name: str) -> None:
         ('name = "judge"', 'name = "../judge"', "recording '../judge': expected a name of letters"),
         (", duration_s = 12.0, slowest_hz = 0.3, speed = 2.0 }\nuse", " }\nuse", "a random motion needs duration_s"),
         ("noise_counts = 1.0", 'names = ["arm_tf"]', "no force-torque sensor 'arm_tf'"),
+        ("[[recording]]", ERROR.replace("arm_ft", "arm_tf"), "no force-torque sensor 'arm_tf'"),
+        ("[[recording]]", ERROR.replace("3.0, 1.0]", "3.0]"), "sensors.workbench_error.mean_force_N"),
+        (
+            "mounting_spread = 0.05\n[[recording]]",
+            ERROR,
+            "2 N in fx, but mounting as drawn gives none",
+        ),
     ],
 )
 def test_files_that_are_refused(scenario: Path, run: Run, old: str, new: str, message: str) -> None:
@@ -165,6 +174,26 @@ def test_files_that_are_refused(scenario: Path, run: Run, old: str, new: str, me
     error = run("simulate", scenario, "-o", "out").error()
     assert message in error
     assert snapshot(scenario.parent) == before
+
+
+def test_an_error_that_is_set_needs_recordings_to_take_it_over(scenario: Path, run: Run) -> None:
+    """Without a recording for validation there is nothing whose mean could be set."""
+    scenario.write_text(SMALL.replace("[[recording]]", ERROR, 1).replace('"validation"', '"calibration"'))
+    error = run("simulate", scenario, "-o", "out").error()
+    assert 'sensors.workbench_error is taken over recordings with use = "validation"' in error
+
+
+def test_the_workbench_matrix_errs_by_what_the_file_says(scenario: Path, run: Run) -> None:
+    """`evaluate` finds the force error that was set: its mean norm lies between what the means of the axes allow."""
+    scenario.write_text(SMALL.replace("[[recording]]", ERROR, 1), encoding="utf-8")
+    assert run("simulate", scenario, "-o", "out").code == 0
+    assert run("calibrate", "out/fit.toml", "-o", "new.json").code == 0
+    verdicts = run("evaluate", "out/judge.toml", "-c", "new.json", "--format", "json").result()["verdicts"]
+    errors = {(row["candidate"], row["offset"]): row["force_error_mean_N"] for row in verdicts}
+    lowest, highest = float(np.linalg.norm([2.0, 3.0, 1.0])), 6.0
+    # a twentieth for the half seconds at either end that are not judged
+    assert 0.95 * lowest < errors["prior", "re-estimated"] < highest
+    assert errors["new.json", "re-estimated"] < 0.05 * lowest
 
 
 def test_an_existing_folder_and_an_unknown_name_are_refused(scenario: Path, run: Run) -> None:

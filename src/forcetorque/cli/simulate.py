@@ -15,20 +15,18 @@ from pydantic import BaseModel, ConfigDict, Field
 
 from forcetorque.atomic import write_bytes_atomically
 from forcetorque.cli.output import Format, console, print_result, start_logging, table
-from forcetorque.errors import ForceTorqueError, known_names
+from forcetorque.errors import ForceTorqueError
 from forcetorque.exchange.icub import encode_matrix, read_matrix_file, write_matrix_file
 from forcetorque.exchange.yarp import StreamPort, write_ports
 from forcetorque.exchange.yarp.discover import PortKind
 from forcetorque.recording import Recording, write_recording
 from forcetorque.recording.quality import spans
 from forcetorque.simulation import calibrated_by_board, fail_groups, jitter_stamps, lose_messages, offset_clocks
-from forcetorque.simulation.scenario import Scenario, SimulatedRecording, load_scenario, simulate
+from forcetorque.simulation.scenario import Scenario, SimulatedRecording, bundled_scenario, load_scenario, simulate
 from forcetorque.simulation.scenario.schema import Network
 
 _NETWORK = 4
-"""What the network's random numbers are for, beside those of a scenario's sensors, power-ups and recordings."""
-
-_BUNDLED = Path(__file__).parents[1] / "simulation" / "scenarios"
+"""What the network's random numbers are for, beside those of a scenario's plans and sensors."""
 
 
 class RecordingRow(BaseModel):
@@ -79,9 +77,10 @@ def run(scenario: str, *, output: Path, output_format: Format) -> None:
         ForceTorqueError: If the folder is there already.
     """
     log = start_logging()
-    loaded = load_scenario(_file(scenario))
+    file = _file(scenario)
     if output.exists():
         raise ForceTorqueError(f"--output {output}: expected a new folder, it is there already")
+    loaded = load_scenario(file)
     fresh = output.with_name(f".{uuid4().hex}.tmp")
     fresh.mkdir(parents=True)
     try:
@@ -113,14 +112,7 @@ def run(scenario: str, *, output: Path, output_format: Format) -> None:
 
 def _file(scenario: str) -> Path:
     path = Path(scenario)
-    if path.suffix == ".toml":
-        return path
-    known = [file.stem for file in _BUNDLED.glob("*.toml")]
-    if scenario not in known:
-        raise ForceTorqueError(
-            f"no scenario is called {scenario!r}; {known_names(scenario, known)}; or give a .toml file"
-        )
-    return _BUNDLED / f"{scenario}.toml"
+    return path if path.suffix == ".toml" else bundled_scenario(scenario)
 
 
 def _sensor_truth(scenario: Scenario, name: str, folder: Path) -> dict[str, Any]:

@@ -28,6 +28,7 @@ from forcetorque.simulation.network import (
 from forcetorque.simulation.recording import record, simulate_recording
 from forcetorque.simulation.robots import ARM_URDF, BIPED_URDF
 from forcetorque.simulation.sensor import SimulatedSensor, distorted_by_mounting, y_shaped_matrix
+from forcetorque.simulation.trace import Trace, trace_movement
 
 __all__ = [
     "ARM_URDF",
@@ -39,6 +40,7 @@ __all__ = [
     "SimulatedSensor",
     "Stand",
     "Touch",
+    "Trace",
     "Waypoints",
     "balancing_movement",
     "calibrated_by_board",
@@ -55,6 +57,7 @@ __all__ = [
     "repeat_stamps",
     "simulate_recording",
     "step_back",
+    "trace_movement",
     "with_load",
     "y_shaped_matrix",
     "z_torque_movement",

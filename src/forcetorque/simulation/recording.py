@@ -8,17 +8,12 @@ from typing import Any
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray, IntArray
-from forcetorque.recording import Recording, Signal, Stream
-from forcetorque.recording.alignment import seconds_since
+from forcetorque.arrays import FloatArray
+from forcetorque.recording import Recording
 from forcetorque.robot import JointMotion, RobotModel
 from forcetorque.simulation.motions import Movement, MovementKind, Stand, random_smooth_motion
 from forcetorque.simulation.sensor import SimulatedSensor
-
-EPOCH_NS = 1_700_000_000_000_000_000
-"""When a simulated recording starts unless somebody says otherwise; ns."""
-
-_ENCODER_STEP = 2.0 * np.pi / 2**16
+from forcetorque.simulation.trace import EPOCH_NS, trace_movement
 
 
 def record(
@@ -48,41 +43,8 @@ def record(
         A stream `joints` with positions, and a stream per sensor, under its name, with raw counts, the board's
         status and, if given, the temperature.
     """
-
-    def seconds(stamps: IntArray) -> FloatArray:
-        return seconds_since(stamps, start_ns)
-
-    joint_stamps = _stamps(movement.duration_s, rate_hz, rng) + start_ns
-    motion = movement.joints(seconds(joint_stamps))
-    measured = np.rint(motion.position / _ENCODER_STEP) * _ENCODER_STEP
-    units = tuple(movement.model.joints[name].type.unit for name in motion.names)
-    position = Signal(quantity="position", values=measured, columns=motion.names, units=units)
-    streams = {"joints": _stream("joints", joint_stamps, position)}
-    for name, sensor in sensors.items():
-        stamps = _stamps(movement.duration_s, rate_hz, rng) + start_ns
-        truth = movement.readings(seconds(stamps), [name]).of_name(name)
-        temperature = _temperature(seconds(stamps) / movement.duration_s, temperature_degC)
-        held = sensor.read(truth, rng, rate_hz=rate_hz, temperature_degC=temperature)
-        signals = [
-            Signal(
-                quantity="raw",
-                values=held.counts,
-                columns=tuple(f"ch{k}" for k in range(6)),
-                units=("counts",) * 6,
-            ),
-            Signal(
-                quantity="saturated",
-                values=held.saturated.astype(np.float64)[:, None],
-                columns=("saturated",),
-                units=("0 or 1",),
-            ),
-        ]
-        if temperature is not None:
-            signals.append(
-                Signal(quantity="temperature", values=temperature[:, None], columns=("temperature",), units=("degC",))
-            )
-        streams[name] = _stream(name, stamps, *signals)
-    return Recording(streams=streams, origin={"format": "simulation", "robot": movement.model.name})
+    trace = trace_movement(movement, sensors, rate_hz=rate_hz, rng=rng, start_ns=start_ns)
+    return trace.recorded(sensors, rng=rng, temperature_degC=temperature_degC)
 
 
 def simulate_recording(
@@ -122,24 +84,3 @@ def simulate_recording(
     stand = Stand(model=model, support=support, gravity_direction=gravity_direction, ranges=ranges)
     movement = stand.movement("random", MovementKind.RANDOM, trajectory, duration_s)
     return record(movement, sensors, rate_hz=rate_hz, rng=rng)
-
-
-def _stamps(duration_s: float, rate_hz: float, rng: np.random.Generator) -> IntArray:
-    period_ns = 1e9 / rate_hz
-    count = int(duration_s * rate_hz)
-    jitter = rng.uniform(-0.2, 0.2, count)
-    ticks = np.rint((np.arange(count) + rng.uniform(0.2, 0.8) + jitter) * period_ns)
-    return ticks.astype(np.int64)
-
-
-def _stream(name: str, stamps: IntArray, *signals: Signal) -> Stream:
-    return Stream(
-        name=name, clock="simulation", stamp_ns=stamps, signals={signal.quantity: signal for signal in signals}
-    )
-
-
-def _temperature(share: FloatArray, ends: tuple[float, float] | None) -> FloatArray | None:
-    if ends is None:
-        return None
-    linear: FloatArray = ends[0] + (ends[1] - ends[0]) * share
-    return linear

@@ -1,7 +1,25 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Scenarios: files that say what is simulated, and what comes of them."""
 
-from forcetorque.simulation.scenario.run import Scenario, SimulatedRecording, load_scenario, simulate
-from forcetorque.simulation.scenario.schema import ScenarioFile
+from forcetorque.simulation.scenario.bundled import bundled_scenario
+from forcetorque.simulation.scenario.run import (
+    Scenario,
+    SimulatedRecording,
+    build_scenario,
+    load_scenario,
+    simulate,
+    trace_recordings,
+)
+from forcetorque.simulation.scenario.schema import LINEAR_ONLY, ScenarioFile
 
-__all__ = ["Scenario", "ScenarioFile", "SimulatedRecording", "load_scenario", "simulate"]
+__all__ = [
+    "LINEAR_ONLY",
+    "Scenario",
+    "ScenarioFile",
+    "SimulatedRecording",
+    "build_scenario",
+    "bundled_scenario",
+    "load_scenario",
+    "simulate",
+    "trace_recordings",
+]

@@ -3,42 +3,33 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
-from forcetorque.errors import RobotError
+from forcetorque.errors import FormatError, RobotError, known_names
 from forcetorque.recording import Recording, Use
 from forcetorque.robot import RobotModel, read_urdf
 from forcetorque.simulation.load import with_load
-from forcetorque.simulation.motions import (
-    Movement,
-    MovementKind,
-    Stand,
-    balancing_movement,
-    contact_switching_movements,
-    grid_movement,
-    random_movement,
-    z_torque_movement,
-)
-from forcetorque.simulation.recording import EPOCH_NS, record
+from forcetorque.simulation.motions import Movement
 from forcetorque.simulation.robots import named_robot
-from forcetorque.simulation.scenario.schema import Recorded, ScenarioFile
+from forcetorque.simulation.scenario.plan import Plan, plan_recordings, validation_loads
+from forcetorque.simulation.scenario.schema import ScenarioFile
 from forcetorque.simulation.scenario.specimen import Specimen, draw_specimen
 from forcetorque.simulation.sensor import SimulatedSensor
+from forcetorque.simulation.trace import Trace
 from forcetorque.toml_table import read_toml
 
-_SENSORS, _POWER_UPS, _RECORDINGS = 1, 2, 3
-"""What a stream of random numbers is for: each has its own, so that one more recording changes no other."""
-
-_DAY_NS = 86_400_000_000_000
+_SENSORS, _POWER_UPS, _NOISE = 1, 2, 6
+"""What a stream of random numbers is for, beside those of plans: one more recording changes no other."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Scenario:
-    """A scenario file with its robot and its sensors."""
+    """A scenario file with its robot, what that does, and its sensors."""
 
     file: ScenarioFile
     """Content of the file."""
@@ -46,8 +37,22 @@ class Scenario:
     """Model of the robot, without added loads."""
     model: RobotModel
     """The robot with its added loads."""
+    plans: tuple[Plan, ...]
+    """Recordings that are to be made."""
     specimens: dict[str, Specimen]
     """Sensors by name."""
+
+    def with_sensors(self, **changes: Any) -> Scenario:
+        """Let the same robot do the same with other sensors.
+
+        Args:
+            **changes: Keys of `[sensors]` that change, such as `seed`, `names`, or those of `LINEAR_ONLY`.
+
+        Returns:
+            The scenario with sensors drawn anew and the motions of this one, so that traces of this one fit it.
+        """
+        file = self.file.with_sensors(**changes)
+        return replace(self, file=file, specimens=_specimens(file, self.model, self.plans))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -67,7 +72,7 @@ class SimulatedRecording:
 
 
 def load_scenario(path: Path | str) -> Scenario:
-    """Read a scenario file and draw its sensors.
+    """Read a scenario file, plan its motions and draw its sensors.
 
     Args:
         path: TOML file; the paths in it are relative to its folder.
@@ -79,77 +84,106 @@ def load_scenario(path: Path | str) -> Scenario:
         RobotError: If the robot has no force-torque sensor, or not those that the file names.
     """
     file = Path(path)
-    content = read_toml(file, ScenarioFile, what="a scenario file")
+    return build_scenario(read_toml(file, ScenarioFile, what="a scenario file"), folder=file.parent)
+
+
+def build_scenario(content: ScenarioFile, *, folder: Path | str = ".") -> Scenario:
+    """Plan the motions and draw the sensors of a scenario that is in memory.
+
+    Args:
+        content: What a file would say.
+        folder: Folder that the paths in it are relative to.
+
+    Returns:
+        The scenario.
+
+    Raises:
+        RobotError: If the robot has no force-torque sensor, or not those that are named.
+    """
     robot = content.robot
-    urdf = file.parent / robot.urdf if robot.urdf is not None else named_robot(robot.model or ())
+    urdf = Path(folder) / robot.urdf if robot.urdf is not None else named_robot(robot.model or ())
     model = read_urdf(urdf)
-    names = list(model.sensors) if content.sensors.names is None else list(content.sensors.names)
-    if not names:
-        raise RobotError(f"{file}: robot {model.name!r} has no force-torque sensor; a scenario needs one")
-    specimens = {}
-    for index, name in enumerate(names):
-        rng = np.random.default_rng([content.seed, _SENSORS, index])
-        specimens[model.sensor(name).name] = draw_specimen(content.sensors, f"SIM{index + 1:03d}", rng)
+    if not model.sensors:
+        raise RobotError(
+            f"scenario {content.name!r}: robot {model.name!r} has no force-torque sensor; a scenario needs one"
+        )
     for load in content.load:
         model = with_load(model, load.link, mass_kg=load.mass_kg, centre_of_mass_m=load.centre_of_mass_m)
-    return Scenario(file=content, urdf=urdf, model=model, specimens=specimens)
+    plans = tuple(plan_recordings(content, model))
+    specimens = _specimens(content, model, plans)
+    return Scenario(file=content, urdf=urdf, model=model, plans=plans, specimens=specimens)
 
 
-def simulate(scenario: Scenario) -> Iterator[SimulatedRecording]:
-    """Make the recordings of a scenario, one after the other.
+def trace_recordings(scenario: Scenario) -> dict[str, Trace]:
+    """Find the loads on all sensors in all recordings, to read any number of sensors under them.
 
     Args:
         scenario: The scenario.
 
+    Returns:
+        Traces by the names of the recordings; eight bytes per sample of every joint and component of a load.
+    """
+    names = tuple(scenario.specimens)
+    return {plan.name: plan.trace(names, seed=scenario.file.seed) for plan in scenario.plans}
+
+
+def simulate(scenario: Scenario, traces: Mapping[str, Trace] | None = None) -> Iterator[SimulatedRecording]:
+    """Make the recordings of a scenario, one after the other.
+
+    Args:
+        scenario: The scenario.
+        traces: What `trace_recordings` gave for it, or for another with the same motions and sensors of the same
+            names; computed one after the other if None.
+
     Yields:
         Recordings; a motion of several phases gives one for each, named with its number.
+
+    Raises:
+        RobotError: If a trace is one of other motions, or lacks a sensor.
     """
-    for index, entry in enumerate(scenario.file.recording):
-        rng = np.random.default_rng([scenario.file.seed, _RECORDINGS, index])
-        sensors = _sensors(scenario, entry.power_up)
-        movements = _movements(scenario, entry, rng)
-        start_ns = EPOCH_NS + entry.power_up * _DAY_NS + index * 3_600_000_000_000
-        for phase, movement in enumerate(movements):
-            recording = record(
-                movement,
-                sensors,
-                rate_hz=entry.rate_hz,
-                rng=rng,
-                temperature_degC=entry.temperature_degC,
-                start_ns=start_ns,
-            )
-            start_ns += round(movement.duration_s * 1e9)
-            name = entry.name if len(movements) == 1 else f"{entry.name}_{phase}"
-            yield SimulatedRecording(name=name, recording=recording, movement=movement, sensors=sensors, use=entry.use)
+    names = tuple(scenario.specimens)
+    for plan in scenario.plans:
+        trace = plan.trace(names, seed=scenario.file.seed) if traces is None else traces.get(plan.name)
+        if trace is None or trace.movement is not plan.movement:
+            raise RobotError(f"trace of {plan.name!r}: expected one of this scenario's own motions; trace it anew")
+        sensors = _powered_up(scenario, plan.entry.power_up)
+        recording = trace.recorded(
+            sensors,
+            rng=np.random.default_rng([scenario.file.sensor_seed, _NOISE, *plan.number]),
+            temperature_degC=plan.entry.temperature_degC,
+        )
+        yield SimulatedRecording(
+            name=plan.name, recording=recording, movement=plan.movement, sensors=sensors, use=plan.entry.use
+        )
 
 
-def _sensors(scenario: Scenario, power_up: int) -> dict[str, SimulatedSensor]:
+def _powered_up(scenario: Scenario, power_up: int) -> dict[str, SimulatedSensor]:
+    seed = scenario.file.sensor_seed
     return {
-        name: specimen.powered_up(np.random.default_rng([scenario.file.seed, _POWER_UPS, index, power_up]))
-        for index, (name, specimen) in enumerate(scenario.specimens.items())
+        name: specimen.powered_up(np.random.default_rng([seed, _POWER_UPS, specimen.number, power_up]))
+        for name, specimen in scenario.specimens.items()
     }
 
 
-def _movements(scenario: Scenario, entry: Recorded, rng: np.random.Generator) -> tuple[Movement, ...]:
-    motion, model = entry.motion, scenario.model
-    support = entry.support or model.root_link
-    stand = Stand(
-        model=model,
-        support=support,
-        gravity_direction=entry.gravity_direction,
-        speed=motion.speed,
-        gravity=scenario.file.robot.gravity,
-    )
-    sensor, swing = motion.sensor or "", motion.swing or ""
-    if motion.kind is MovementKind.GRID:
-        return (grid_movement(stand, sensor, steps=motion.postures or 7, hold_s=motion.hold_s, name=entry.name),)
-    if motion.kind is MovementKind.Z_TORQUE:
-        postures = motion.postures or 12
-        return (z_torque_movement(stand, sensor, rng=rng, postures=postures, hold_s=motion.hold_s, name=entry.name),)
-    if motion.kind is MovementKind.BALANCING:
-        postures = motion.postures or 12
-        return (balancing_movement(stand, swing, rng=rng, postures=postures, hold_s=motion.hold_s, name=entry.name),)
-    if motion.kind is MovementKind.CONTACT_SWITCHING:
-        return contact_switching_movements(stand, swing, rng=rng)
-    duration = motion.duration_s or 0.0
-    return (random_movement(stand, rng=rng, duration_s=duration, slowest_hz=motion.slowest_hz, name=entry.name),)
+def _specimens(content: ScenarioFile, model: RobotModel, plans: Sequence[Plan]) -> dict[str, Specimen]:
+    described = content.sensors
+    names = [model.sensor(name).name for name in described.names or model.sensors]
+    loads = {}
+    if described.workbench_error is not None:
+        judged = model.sensor(described.workbench_error.sensor).name
+        if judged not in names:
+            raise FormatError(
+                f"sensors.workbench_error: sensor {judged!r} is not among those that are simulated; "
+                f"{known_names(judged, names)}"
+            )
+        loads[judged] = validation_loads(plans, judged)
+    every = list(model.sensors)
+    return {
+        name: draw_specimen(
+            described,
+            every.index(name),
+            np.random.default_rng([content.sensor_seed, _SENSORS, every.index(name)]),
+            loads=loads.get(name),
+        )
+        for name in names
+    }

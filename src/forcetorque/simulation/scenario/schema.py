@@ -3,8 +3,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
-from typing import Annotated, Literal
+from types import MappingProxyType
+from typing import Annotated, Any, Literal
 
 import numpy as np
 from pydantic import Field, model_validator
@@ -53,9 +55,32 @@ class Load(Table):
     """Centre of mass in the link's frame."""
 
 
+class WorkbenchError(Table):
+    """How much the workbench matrix of one mounted sensor errs; the other sensors stay as they are drawn.
+
+    Means of the absolute error over all recordings with `use = "validation"`, on the true loads, with an offset
+    for each recording that leaves no mean error. What mounting does to the sensor is scaled to that.
+    """
+
+    sensor: Text
+    """The sensor."""
+    mean_force_N: Annotated[tuple[_AtLeastZero, ...], Field(min_length=3, max_length=3)]
+    """Of f_x, f_y and f_z; N."""
+    mean_moment_Nm: Annotated[tuple[_AtLeastZero, ...], Field(min_length=3, max_length=3)]
+    """Of tau_x, tau_y and tau_z; N m."""
+
+    @property
+    def mean_absolute(self) -> tuple[float, ...]:
+        """All six; N, N m."""
+        return self.mean_force_N + self.mean_moment_Nm
+
+
 class Sensors(Table):
     """What every sensor is made of; figures of the spread between sensors are standard deviations."""
 
+    seed: _Count | None = None
+    """Seed of the sensors, of their offsets and noise; that of the scenario, which also moves the robot, if left
+    out."""
     names: Annotated[tuple[Text, ...], Field(min_length=1)] | None = None
     """Sensors of the robot; all if left out."""
     family: Text = "standard"
@@ -90,6 +115,21 @@ class Sensors(Table):
     """Random change of each coefficient that mounting adds, relative to its row."""
     limit_counts: Annotated[int, Field(gt=0, strict=True)] = 32767
     """Magnitude at which a channel is saturated."""
+    workbench_error: WorkbenchError | None = None
+    """How much the workbench matrix of one sensor errs; as it is drawn if left out."""
+
+
+LINEAR_ONLY: Mapping[str, Any] = MappingProxyType(
+    {
+        "limit_counts": 10_000_000,
+        "gradient_counts_per_degC": 0.0,
+        "hysteresis_counts_per_degC": 0.0,
+        "creep_share": 0.0,
+        "crosstalk_counts": 0.0,
+    }
+)
+"""Changes of `Sensors` after which a matrix, an offset per power-up and a coefficient of the temperature tell all but
+noise: nothing saturates, lags, creeps or is quadratic. Matrices, offsets and linear drift are drawn as without them."""
 
 
 class Motion(Table):
@@ -179,6 +219,31 @@ class ScenarioFile(Table):
     """Recordings."""
     network: Network | None = None
     """Faults of the network; without it no YARP folder is written."""
+
+    @property
+    def sensor_seed(self) -> int:
+        """Seed of the sensors."""
+        return self.seed if self.sensors.seed is None else self.sensors.seed
+
+    def with_sensors(self, **changes: Any) -> ScenarioFile:
+        """Describe other sensors; all is checked again, as when a file is read.
+
+        Args:
+            **changes: Keys of `[sensors]` that change, such as those of `LINEAR_ONLY`.
+
+        Returns:
+            The file with these changes; pydantic's `ValidationError` is raised if one is unknown or out of range.
+        """
+        content = self.model_dump(by_alias=True)
+        content["sensors"] |= changes
+        return ScenarioFile.model_validate(content)
+
+    @model_validator(mode="after")
+    def _has_what_the_error_is_taken_over(self) -> ScenarioFile:
+        if self.sensors.workbench_error is not None and all(r.use is not Use.VALIDATION for r in self.recording):
+            message = 'sensors.workbench_error is taken over recordings with use = "validation", there is none'
+            raise PydanticCustomError("workbench_error", "{message}", {"message": message})
+        return self
 
     @model_validator(mode="after")
     def _names_are_folders(self) -> ScenarioFile:

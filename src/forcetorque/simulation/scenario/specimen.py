@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -12,6 +13,7 @@ from forcetorque.errors import FormatError, known_names
 from forcetorque.simulation.effects import Creep, Crosstalk, ScrewPattern, ThermalDrift, mounted
 from forcetorque.simulation.family import CHANNEL_ANGLES, FAMILIES, IN_PLANE
 from forcetorque.simulation.scenario.schema import Sensors
+from forcetorque.simulation.scenario.workbench_error import mounted_with_error
 from forcetorque.simulation.sensor import SimulatedSensor, distorted_by_mounting
 
 
@@ -19,6 +21,8 @@ from forcetorque.simulation.sensor import SimulatedSensor, distorted_by_mounting
 class Specimen:
     """A sensor with its truth."""
 
+    number: int
+    """Its place among the sensors of the robot."""
     serial: str
     """Serial number."""
     workbench: FloatArray
@@ -44,13 +48,17 @@ class Specimen:
         return replace(self.sensor, offset=self.sensor.offset - change)
 
 
-def draw_specimen(described: Sensors, serial: str, rng: np.random.Generator) -> Specimen:
+def draw_specimen(
+    described: Sensors, number: int, rng: np.random.Generator, *, loads: Sequence[FloatArray] | None = None
+) -> Specimen:
     """Draw a sensor.
 
     Args:
         described: What sensors are made of.
-        serial: Serial number.
+        number: Its place among the sensors of the robot, from which its serial number comes.
         rng: Source of what differs between sensors.
+        loads: Its true wrenches in every validation recording, if the error of its workbench matrix is set; shapes
+            (n, 6); N, N m.
 
     Returns:
         The sensor.
@@ -71,9 +79,14 @@ def draw_specimen(described: Sensors, serial: str, rng: np.random.Generator) -> 
     matrix = distorted_by_mounting(
         np.asarray(np.linalg.inv(bent), dtype=np.float64), relative=described.mounting_spread, rng=rng
     )
+    workbench = np.asarray(np.linalg.inv(sensitivity), dtype=np.float64)
+    if described.workbench_error is not None and loads is not None:
+        wanted = described.workbench_error.mean_absolute
+        matrix = mounted_with_error(workbench, matrix, loads, mean_absolute=wanted)
     return Specimen(
-        serial=serial,
-        workbench=np.asarray(np.linalg.inv(sensitivity), dtype=np.float64),
+        number=number,
+        serial=f"SIM{number + 1:03d}",
+        workbench=workbench,
         sensor=SimulatedSensor(
             matrix=matrix,
             offset=-matrix @ (described.offset_counts * rng.standard_normal(6)),

@@ -1,0 +1,125 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What a robot does in the recordings of a scenario; sensors have no part in it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from forcetorque.arrays import FloatArray
+from forcetorque.recording import Use
+from forcetorque.robot import RobotModel
+from forcetorque.simulation.motions import (
+    Movement,
+    MovementKind,
+    Stand,
+    balancing_movement,
+    contact_switching_movements,
+    grid_movement,
+    random_movement,
+    z_torque_movement,
+)
+from forcetorque.simulation.scenario.schema import Recorded, ScenarioFile
+from forcetorque.simulation.trace import EPOCH_NS, Trace, trace_movement
+
+_MOVEMENTS, _STAMPS = 3, 5
+"""What a stream of random numbers is for: each has its own, so that one more recording changes no other."""
+
+_DAY_NS = 86_400_000_000_000
+_HOUR_NS = 3_600_000_000_000
+
+_JUDGED_HZ = 10.0
+"""Rate at which loads are averaged: every tenth sample of a recording has the same mean within some tenths of a
+percent, for a tenth of the time."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Plan:
+    """One recording that is to be made."""
+
+    name: str
+    """Name of the recording."""
+    entry: Recorded
+    """What the file says of it."""
+    number: tuple[int, int]
+    """Place of its entry in the file, and phase of its motion."""
+    start_ns: int
+    """When it starts; ns."""
+    movement: Movement
+    """What the robot does."""
+
+    def trace(self, sensors: Sequence[str], *, seed: int) -> Trace:
+        """Find the loads on sensors.
+
+        Args:
+            sensors: Their names.
+            seed: Seed of the scenario.
+
+        Returns:
+            Joints and loads at the instants at which they are read.
+        """
+        rng = np.random.default_rng([seed, _STAMPS, *self.number])
+        return trace_movement(self.movement, sensors, rate_hz=self.entry.rate_hz, rng=rng, start_ns=self.start_ns)
+
+
+def plan_recordings(content: ScenarioFile, model: RobotModel) -> Iterator[Plan]:
+    """Plan the motions of a scenario.
+
+    Args:
+        content: The scenario.
+        model: Its robot, with its added loads.
+
+    Yields:
+        Recordings to make; a motion of several phases gives one for each, named with its number.
+    """
+    for index, entry in enumerate(content.recording):
+        rng = np.random.default_rng([content.seed, _MOVEMENTS, index])
+        movements = _movements(entry, model, gravity=content.robot.gravity, rng=rng)
+        start_ns = EPOCH_NS + entry.power_up * _DAY_NS + index * _HOUR_NS
+        for phase, movement in enumerate(movements):
+            name = entry.name if len(movements) == 1 else f"{entry.name}_{phase}"
+            yield Plan(name=name, entry=entry, number=(index, phase), start_ns=start_ns, movement=movement)
+            start_ns += round(movement.duration_s * 1e9)
+
+
+def validation_loads(plans: Sequence[Plan], sensor: str) -> list[FloatArray]:
+    """Compute the true loads of a sensor in the recordings that are for validation.
+
+    Args:
+        plans: All recordings.
+        sensor: The sensor.
+
+    Returns:
+        Its wrenches in each of them, evenly in time; shapes (n, 6); N, N m.
+    """
+    return [
+        plan.movement.readings(np.arange(0.0, plan.movement.duration_s, 1.0 / _JUDGED_HZ), [sensor]).of_name(sensor)
+        for plan in plans
+        if plan.entry.use is Use.VALIDATION
+    ]
+
+
+def _movements(entry: Recorded, model: RobotModel, *, gravity: float, rng: np.random.Generator) -> tuple[Movement, ...]:
+    motion = entry.motion
+    stand = Stand(
+        model=model,
+        support=entry.support or model.root_link,
+        gravity_direction=entry.gravity_direction,
+        speed=motion.speed,
+        gravity=gravity,
+    )
+    sensor, swing = motion.sensor or "", motion.swing or ""
+    if motion.kind is MovementKind.GRID:
+        return (grid_movement(stand, sensor, steps=motion.postures or 7, hold_s=motion.hold_s, name=entry.name),)
+    if motion.kind is MovementKind.Z_TORQUE:
+        postures = motion.postures or 12
+        return (z_torque_movement(stand, sensor, rng=rng, postures=postures, hold_s=motion.hold_s, name=entry.name),)
+    if motion.kind is MovementKind.BALANCING:
+        postures = motion.postures or 12
+        return (balancing_movement(stand, swing, rng=rng, postures=postures, hold_s=motion.hold_s, name=entry.name),)
+    if motion.kind is MovementKind.CONTACT_SWITCHING:
+        return contact_switching_movements(stand, swing, rng=rng)
+    duration = motion.duration_s or 0.0
+    return (random_movement(stand, rng=rng, duration_s=duration, slowest_hz=motion.slowest_hz, name=entry.name),)

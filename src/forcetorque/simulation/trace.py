@@ -1,0 +1,164 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What a movement does to joints and sensors at the instants at which they are read: all but the sensors themselves."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from types import MappingProxyType
+
+import numpy as np
+
+from forcetorque.arrays import FloatArray, IntArray, read_only
+from forcetorque.errors import RobotError, known_names
+from forcetorque.recording import Recording, Signal, Stream
+from forcetorque.recording.alignment import seconds_since
+from forcetorque.simulation.motions import Movement
+from forcetorque.simulation.sensor import SimulatedSensor
+
+EPOCH_NS = 1_700_000_000_000_000_000
+"""When a simulated recording starts unless somebody says otherwise; ns."""
+
+_ENCODER_STEP = 2.0 * np.pi / 2**16
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Trace:
+    """A movement as joints and perfect sensors see it, from which any number of real sensors can be read."""
+
+    movement: Movement
+    """What the robot did."""
+    rate_hz: float
+    """Rate of every stream; Hz."""
+    start_ns: int
+    """When it started; ns."""
+    joints: Stream
+    """Positions of the joints as their encoders read them."""
+    stamp_ns: Mapping[str, IntArray]
+    """Stamps of every sensor; shape (n,); ns."""
+    loads: Mapping[str, FloatArray]
+    """True wrenches at those stamps, each in the sensor's frame and direction; shape (n, 6); N, N m."""
+
+    def __post_init__(self) -> None:
+        loads = {name: read_only(load, name=name, shape=(None, 6)) for name, load in self.loads.items()}
+        stamps = {name: np.array(own, dtype=np.int64) for name, own in self.stamp_ns.items()}
+        for own in stamps.values():
+            own.setflags(write=False)
+        object.__setattr__(self, "stamp_ns", MappingProxyType(stamps))
+        object.__setattr__(self, "loads", MappingProxyType(loads))
+
+    def recorded(
+        self,
+        sensors: Mapping[str, SimulatedSensor],
+        *,
+        rng: np.random.Generator,
+        temperature_degC: tuple[float, float] | None = None,
+    ) -> Recording:
+        """Read sensors under these loads.
+
+        Args:
+            sensors: What each sensor is made of, by its name in the robot.
+            rng: Source of noise.
+            temperature_degC: Temperature of the sensors at the start and at the end, linear in between; None where
+                nobody measures it.
+
+        Returns:
+            A stream `joints` with positions, and a stream per sensor, under its name, with raw counts, the board's
+            status and, if given, the temperature.
+        """
+        streams = {"joints": self.joints}
+        for name, sensor in sensors.items():
+            streams[name] = self._sensor_stream(name, sensor, rng, temperature_degC)
+        return Recording(streams=streams, origin={"format": "simulation", "robot": self.movement.model.name})
+
+    def _sensor_stream(
+        self, name: str, sensor: SimulatedSensor, rng: np.random.Generator, ends: tuple[float, float] | None
+    ) -> Stream:
+        if name not in self.loads:
+            raise RobotError(
+                f"movement {self.movement.name!r} was traced without sensor {name!r}; {known_names(name, self.loads)}"
+            )
+        stamps = self.stamp_ns[name]
+        temperature = _temperature(seconds_since(stamps, self.start_ns) / self.movement.duration_s, ends)
+        held = sensor.read(self.loads[name], rng, rate_hz=self.rate_hz, temperature_degC=temperature)
+        signals = [
+            Signal(
+                quantity="raw",
+                values=held.counts,
+                columns=tuple(f"ch{k}" for k in range(6)),
+                units=("counts",) * 6,
+            ),
+            Signal(
+                quantity="saturated",
+                values=held.saturated.astype(np.float64)[:, None],
+                columns=("saturated",),
+                units=("0 or 1",),
+            ),
+        ]
+        if temperature is not None:
+            signals.append(
+                Signal(quantity="temperature", values=temperature[:, None], columns=("temperature",), units=("degC",))
+            )
+        return _stream(name, stamps, *signals)
+
+
+def trace_movement(
+    movement: Movement,
+    sensors: Iterable[str],
+    *,
+    rate_hz: float,
+    rng: np.random.Generator,
+    start_ns: int = EPOCH_NS,
+) -> Trace:
+    """Find what a movement does to the joints and sensors of a robot at the instants at which they are read.
+
+    Joints and sensors have their own stamps, out of step and with jitter, as on a real network.
+    Joints are read with encoders of 16 bits a turn.
+
+    Args:
+        movement: What the robot does.
+        sensors: Names of sensors of the robot.
+        rate_hz: Rate of every stream; Hz.
+        rng: Source of stamps.
+        start_ns: When it starts; ns.
+
+    Returns:
+        Positions of the joints, and the true loads of the sensors.
+    """
+    joint_stamps = _stamps(movement.duration_s, rate_hz, rng) + start_ns
+    motion = movement.joints(seconds_since(joint_stamps, start_ns))
+    measured = np.rint(motion.position / _ENCODER_STEP) * _ENCODER_STEP
+    units = tuple(movement.model.joints[name].type.unit for name in motion.names)
+    position = Signal(quantity="position", values=measured, columns=motion.names, units=units)
+    stamps = {name: _stamps(movement.duration_s, rate_hz, rng) + start_ns for name in sensors}
+    return Trace(
+        movement=movement,
+        rate_hz=rate_hz,
+        start_ns=start_ns,
+        joints=_stream("joints", joint_stamps, position),
+        stamp_ns=stamps,
+        loads={
+            name: movement.readings(seconds_since(own, start_ns), [name]).of_name(name) for name, own in stamps.items()
+        },
+    )
+
+
+def _stamps(duration_s: float, rate_hz: float, rng: np.random.Generator) -> IntArray:
+    period_ns = 1e9 / rate_hz
+    count = int(duration_s * rate_hz)
+    jitter = rng.uniform(-0.2, 0.2, count)
+    ticks = np.rint((np.arange(count) + rng.uniform(0.2, 0.8) + jitter) * period_ns)
+    return ticks.astype(np.int64)
+
+
+def _stream(name: str, stamps: IntArray, *signals: Signal) -> Stream:
+    return Stream(
+        name=name, clock="simulation", stamp_ns=stamps, signals={signal.quantity: signal for signal in signals}
+    )
+
+
+def _temperature(share: FloatArray, ends: tuple[float, float] | None) -> FloatArray | None:
+    if ends is None:
+        return None
+    linear: FloatArray = ends[0] + (ends[1] - ends[0]) * share
+    return linear
