@@ -150,7 +150,9 @@ def _recording_truth(made: SimulatedRecording) -> dict[str, Any]:
 
 def _write(scenario: Scenario, made: SimulatedRecording, folder: Path) -> None:
     write_recording(folder / made.name, made.recording)
-    text = _experiment(scenario, made, f'format = "parquet"\npath = "{made.name}"\n')
+    measured = any("temperature" in made.recording.stream(name).signals for name in scenario.specimens)
+    log = f'format = "parquet"\npath = "{made.name}"\n'
+    text = _experiment(scenario, made, log, temperature=measured)
     (folder / f"{made.name}.toml").write_text(text, encoding="utf-8")
     if scenario.file.network is not None:
         _write_yarp(scenario, made, folder, scenario.file.network)
@@ -174,7 +176,7 @@ def _write_yarp(scenario: Scenario, made: SimulatedRecording, folder: Path, netw
     )
     for name in scenario.specimens:
         lines.append(f'\n[[recording.stream]]\nkind = "analog"\nname = "{name}"\nport = "{name}/analog:o"\n')
-    text = _experiment(scenario, made, "".join(lines))
+    text = _experiment(scenario, made, "".join(lines), temperature=False)
     (folder / f"{made.name}_yarp.toml").write_text(text, encoding="utf-8")
 
 
@@ -206,7 +208,7 @@ def _through(recording: Recording, network: Network, rng: np.random.Generator) -
     return recording
 
 
-def _experiment(scenario: Scenario, made: SimulatedRecording, log: str) -> str:
+def _experiment(scenario: Scenario, made: SimulatedRecording, log: str, *, temperature: bool) -> str:
     down = ", ".join(repr(float(value)) for value in made.movement.gravity_direction)
     text = [
         f'schema = "forcetorque/experiment/1"\nname = "{scenario.file.name}, {made.name}"\n',
@@ -217,10 +219,13 @@ def _experiment(scenario: Scenario, made: SimulatedRecording, log: str) -> str:
             f'\n[[sensor]]\nname = "{name}"\nstream = "{name}"\nserial = "{specimen.serial}"\n'
             f'prior = "matrix_{specimen.serial}.txt"\nlimit_counts = {float(specimen.sensor.limit_counts)!r}\n'
         )
+        if temperature:
+            text.append('\n[[sensor.variable]]\nname = "temperature"\n')
     text.append(f'\n[[support]]\nframe = "{made.movement.support}"\ngravity_direction = [{down}]\n')
     text.append(
         f'\n[[interval]]\nlabel = "{made.name}"\nstart_s = 0.5\nuse = "{made.use.value}"\n'
         f'support = "{made.movement.support}"\nend_s = {made.movement.duration_s - 0.5:.3f}\n'
+        f"kind = {json.dumps(made.kind)}\nsession = {json.dumps(made.session)}\n"
     )
     return "".join(text)
 

@@ -69,6 +69,10 @@ class SimulatedRecording:
     """The sensors, with the offsets of this power-up."""
     use: Use
     """What it is for."""
+    kind: str
+    """Kind of data to a study."""
+    session: str
+    """Session to a study."""
 
 
 def load_scenario(path: Path | str) -> Scenario:
@@ -153,7 +157,13 @@ def simulate(scenario: Scenario, traces: Mapping[str, Trace] | None = None) -> I
             temperature_degC=plan.entry.temperature_degC,
         )
         yield SimulatedRecording(
-            name=plan.name, recording=recording, movement=plan.movement, sensors=sensors, use=plan.entry.use
+            name=plan.name,
+            recording=recording,
+            movement=plan.movement,
+            sensors=sensors,
+            use=plan.entry.use,
+            kind=plan.entry.kind or plan.movement.kind.value,
+            session=plan.entry.session or f"power-up {plan.entry.power_up}",
         )
 
 

@@ -179,6 +179,10 @@ class Recorded(Table):
     """Direction in which things fall, in the axes of the support."""
     use: Use = Use.CALIBRATION
     """What it is for, in the experiment file that is written beside it."""
+    kind: Text | None = None
+    """Kind of data to a study, in the experiment file that is written beside it; that of the motion if left out."""
+    session: Text | None = None
+    """Session to a study, in the same file; named after the power-up if left out."""
     power_up: _Count = 0
     """Recordings of one number share their offsets: the board was not switched off in between."""
     rate_hz: Positive = 100.0
