@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """How far a calibration can be trusted, on motions that were not fitted, and how well a sensor uses its range."""
 
+from forcetorque.evaluation.candidate_errors import CandidateErrors, PooledErrors, candidate_errors
 from forcetorque.evaluation.gains import (
     MARGIN,
     AxisResolution,
@@ -18,12 +19,15 @@ from forcetorque.evaluation.wrench_errors import WrenchErrors, offset_removed, w
 __all__ = [
     "MARGIN",
     "AxisResolution",
+    "CandidateErrors",
     "ChannelRange",
     "GainAdvice",
     "GainChange",
+    "PooledErrors",
     "WrenchErrors",
     "advise_gains",
     "axis_resolution",
+    "candidate_errors",
     "channel_ranges",
     "model_findings",
     "offset_removed",
