@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """How far a calibration can be trusted, on motions that were not fitted, and how well a sensor uses its range."""
 
+from forcetorque.evaluation.candidate_errors import CandidateErrors, PooledErrors, candidate_errors
 from forcetorque.evaluation.contact_force import (
     ContactForces,
     ContactForceValidation,
@@ -24,15 +25,18 @@ from forcetorque.evaluation.wrench_errors import WrenchErrors, errors_from_zero,
 __all__ = [
     "MARGIN",
     "AxisResolution",
+    "CandidateErrors",
     "ChannelRange",
     "ContactForceValidation",
     "ContactForces",
     "GainAdvice",
     "GainChange",
     "OtherSensors",
+    "PooledErrors",
     "WrenchErrors",
     "advise_gains",
     "axis_resolution",
+    "candidate_errors",
     "channel_ranges",
     "contact_forces",
     "errors_from_zero",

@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import hashlib
 from collections.abc import Callable
 from functools import cache
 from pathlib import Path
@@ -11,10 +10,11 @@ from typing import NamedTuple
 
 from numba import njit
 
-import forcetorque.robot.block
 from forcetorque.arrays import FloatArray, IntArray
+from forcetorque.compiled import source_digest
 from forcetorque.estimation.block import stages
 from forcetorque.estimation.block.scratch import make_scratch
+from forcetorque.robot.block import lanes
 from forcetorque.robot.block.lanes import DRIVER, LANES
 
 
@@ -38,9 +38,7 @@ def driver() -> Callable[..., bool]:
         A function of a plan and the arrays of a chunk that fills an `Answer` and tells whether any of
         it is not finite.
     """
-    # the copy on disk is looked up by this file and by what the function closes over, so that a
-    # change in another file must be part of the latter
-    source = _source_digest()
+    source = source_digest(Path(__file__).parent, Path(lanes.__file__).parent)
 
     @njit(cache=True, **DRIVER)
     def drive(plan, joint_columns, motion, root, measured_columns, measured, known_columns, known, active, out):
@@ -88,11 +86,3 @@ def driver() -> Callable[..., bool]:
 
     evaluator: Callable[..., bool] = drive
     return evaluator
-
-
-def _source_digest() -> str:
-    digest = hashlib.sha256()
-    for folder in (Path(__file__).parent, Path(forcetorque.robot.block.__file__).parent):
-        for file in sorted(folder.glob("*.py")):
-            digest.update(file.read_bytes())
-    return digest.hexdigest()

@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import logging
 import math
 import os
 from collections.abc import Callable
@@ -12,9 +11,9 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
-from numba.core import event
 
 from forcetorque.arrays import IntArray
+from forcetorque.compiled import announced, frozen
 from forcetorque.estimation.block.drive import Answer, driver
 from forcetorque.estimation.block.plan import plan_of
 from forcetorque.estimation.estimates import Estimates
@@ -24,23 +23,6 @@ from forcetorque.robot.block.lanes import LANES
 
 _CHUNK = 16384
 """Most samples of one task: long against the cost of starting it, and small in memory."""
-
-_LOG = logging.getLogger(__name__)
-
-
-class _Announce(event.Listener):
-    """Says so when a compilation starts; a copy on disk starts none."""
-
-    def __init__(self) -> None:
-        self.said = False
-
-    def on_start(self, event: Any) -> None:
-        if not self.said:
-            _LOG.info("compiling the dynamics for this machine, once; it takes about a minute")
-            self.said = True
-
-    def on_end(self, event: Any) -> None:
-        pass
 
 
 def run_compiled(
@@ -62,19 +44,19 @@ def run_compiled(
 
     def task(block: slice) -> int:
         arrays = (
-            tuple(_frozen(values[block]) for values in motion),
-            tuple(_frozen(values if len(values) == 1 else values[block]) for values in inputs.root),
+            tuple(frozen(values[block]) for values in motion),
+            tuple(frozen(values if len(values) == 1 else values[block]) for values in inputs.root),
             measured_columns,
-            _frozen(_flat(inputs.measured.values[block])),
+            frozen(_flat(inputs.measured.values[block])),
             known_columns,
-            _frozen(_flat(inputs.known.values[block])),
-            _frozen(inputs.active[block] if inputs.switched else np.empty((0, 0), dtype=bool)),
+            frozen(_flat(inputs.known.values[block])),
+            frozen(inputs.active[block] if inputs.switched else np.empty((0, 0), dtype=bool)),
         )
         if driver()(plan, joint_columns, *arrays, _answer(out.samples(block))):
             refuse_infinite(inputs, block)
         return int(block.stop)
 
-    with event.install_listener("numba:compile", _Announce()):
+    with announced("compiling the dynamics for this machine, once; it takes about a minute"):
         task(slice(0, 0))  # two threads would compile the same
     workers = threads or os.cpu_count() or 1
     with ThreadPoolExecutor(workers) as pool:
@@ -96,13 +78,6 @@ def _six_columns(wrenches: IntArray) -> IntArray:
 
 def _flat(wrenches: npt.NDArray[Any]) -> npt.NDArray[Any]:
     return wrenches.reshape(len(wrenches), 6 * wrenches.shape[1])
-
-
-def _frozen(values: npt.NDArray[Any]) -> npt.NDArray[Any]:
-    """A read-only, C-ordered view: every other kind of array would be compiled for by itself."""
-    view = np.ascontiguousarray(values).view(np.ndarray)
-    view.flags.writeable = False
-    return view
 
 
 def _answer(out: Estimates) -> Answer:

@@ -1,0 +1,165 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Errors of many candidate calibrations on the same samples, for choosing among hundreds or thousands.
+
+The mean norm of an error is no function of the moments of the samples, so every candidate meets every
+sample. (Root mean square errors are: `calibration.Moments.squared_error`.)
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from forcetorque.arrays import FloatArray, IntArray, read_only
+from forcetorque.estimation import Evaluator
+from forcetorque.evaluation.candidate_inputs import CandidateInputs, checked_candidates
+
+BLOCKS = 10
+"""Contiguous blocks from whose means the standard error comes: neighbouring samples repeat each other."""
+
+_FEW = 10_000_000
+"""Fewer samples times candidates than this take the readable evaluator no longer than loading the compiled one."""
+
+_SAMPLES, _NUMBERS = 2048, 65536
+"""Most samples, and numbers, of a pass of the readable evaluator: its working arrays stay in the processor's cache."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class PooledErrors:
+    """Mean errors of k candidates over all samples, or the standard errors of these means."""
+
+    mean_absolute: FloatArray
+    """Of the absolute error per component; shape (k, 6); N, N m."""
+    force_mean: FloatArray
+    """Of the norm of the force error; shape (k,); N."""
+    moment_mean: FloatArray
+    """Of the norm of the moment error; shape (k,); N m."""
+
+    def __post_init__(self) -> None:
+        k = len(self.force_mean)
+        for field, shape in (("mean_absolute", (k, 6)), ("force_mean", (k,)), ("moment_mean", (k,))):
+            object.__setattr__(self, field, read_only(getattr(self, field), name=field, shape=shape))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class CandidateErrors:
+    """Mean errors of k candidates in each of b contiguous blocks of time."""
+
+    count: IntArray
+    """Number of samples of each block; shape (b,)."""
+    mean_absolute: FloatArray
+    """Mean absolute error per component; shape (k, b, 6); N, N m."""
+    force_mean: FloatArray
+    """Mean norm of the force error; shape (k, b); N."""
+    moment_mean: FloatArray
+    """Mean norm of the moment error; shape (k, b); N m."""
+
+    def __post_init__(self) -> None:
+        count = np.array(self.count, dtype=np.int64)
+        count.setflags(write=False)
+        object.__setattr__(self, "count", count)
+        k, b = len(self.force_mean), len(count)
+        for field, shape in (("mean_absolute", (k, b, 6)), ("force_mean", (k, b)), ("moment_mean", (k, b))):
+            object.__setattr__(self, field, read_only(getattr(self, field), name=field, shape=shape))
+
+    def pooled(self) -> PooledErrors:
+        """Take the means over all samples.
+
+        Returns:
+            Means of the blocks, weighted by their number of samples.
+        """
+        return self._over_blocks(lambda means: np.average(means, axis=1, weights=self.count))
+
+    def standard_error(self) -> PooledErrors:
+        """Take the standard errors of the means over all samples.
+
+        Returns:
+            Scatter of the means of the blocks over the root of their number; NaN for a single block.
+        """
+        b = len(self.count)
+        if b < 2:
+            return self._over_blocks(lambda means: np.full_like(means[:, 0], np.nan))
+        return self._over_blocks(lambda means: means.std(axis=1, ddof=1) / np.sqrt(b))
+
+    def _over_blocks(self, take: Callable[[FloatArray], FloatArray]) -> PooledErrors:
+        return PooledErrors(
+            mean_absolute=take(self.mean_absolute),
+            force_mean=take(self.force_mean),
+            moment_mean=take(self.moment_mean),
+        )
+
+
+def candidate_errors(
+    raw: Any,
+    reference: Any,
+    matrices: Any,
+    offsets: Any,
+    *,
+    variables: Any = None,
+    coefficients: Any = None,
+    blocks: int = BLOCKS,
+    evaluator: Evaluator | None = None,
+    threads: int | None = None,
+    progress: Callable[[int], None] | None = None,
+) -> CandidateErrors:
+    """Judge candidate calibrations by their mean errors.
+
+    The error of a candidate in a sample is matrix raw + coefficients variables + offset - reference.
+
+    Args:
+        raw: Raw readings in the order of time; shape (n, c), n and c at least 1; counts.
+        reference: Wrenches that mechanics demands; shape (n, 6); N, N m.
+        matrices: Calibration matrices; shape (k, 6, c), k at least 1; N/count, N m/count.
+        offsets: Offsets in wrench space; shape (k, 6); N, N m.
+        variables: Extra variables, such as the temperature less a reference temperature; shape (n, v); None for none.
+        coefficients: Coefficients of the extra variables; shape (k, 6, v).
+        blocks: Contiguous blocks of time, at least 1; there are no more than samples.
+        evaluator: Who computes; by the amount of work if None.
+        threads: Threads of the compiled evaluator; as many as there are processors if None.
+        progress: Called with the number of samples done so far, by all candidates.
+
+    Returns:
+        Mean errors of every candidate in every block, in the order of the candidates.
+
+    Raises:
+        ShapeError: If the shapes are not these, or a value is not finite.
+    """
+    inputs = checked_candidates(
+        raw, reference, matrices, offsets, variables=variables, coefficients=coefficients, blocks=blocks
+    )
+    k, n = len(inputs.matrices), len(inputs.raw)
+    sums = np.zeros((k, len(inputs.blocks), 8))
+    if evaluator is None:
+        evaluator = Evaluator.READABLE if k * n < _FEW else Evaluator.COMPILED
+    if Evaluator(evaluator) is Evaluator.READABLE:
+        _run_readable(inputs, sums, progress)
+    else:
+        # imported here: it loads the compiler
+        from forcetorque.evaluation.block.run import run_compiled
+
+        run_compiled(inputs, sums, threads=threads, progress=progress)
+    count = np.array([block.stop - block.start for block in inputs.blocks])
+    means = sums / count[:, None]
+    return CandidateErrors(
+        count=count, mean_absolute=means[:, :, :6], force_mean=means[:, :, 6], moment_mean=means[:, :, 7]
+    )
+
+
+def _run_readable(inputs: CandidateInputs, sums: FloatArray, progress: Callable[[int], None] | None) -> None:
+    """Add up absolute errors, six, and the norms of force and moment errors; sums of shape (k, b, 8)."""
+    group = max(_NUMBERS // (6 * min(_SAMPLES, len(inputs.raw))), 1)
+    for b, block in enumerate(inputs.blocks):
+        for first in range(block.start, block.stop, _SAMPLES):
+            last = min(first + _SAMPLES, block.stop)
+            columns, reference = inputs.centred(slice(first, last))
+            for start in range(0, len(sums), group):
+                some = slice(start, start + group)
+                error = inputs.matrices[some] @ columns + inputs.constants[some, :, None] - reference  # (group, 6, n)
+                sums[some, b, :6] += np.abs(error).sum(axis=2)
+                sums[some, b, 6] += np.linalg.norm(error[:, :3], axis=1).sum(axis=1)
+                sums[some, b, 7] += np.linalg.norm(error[:, 3:], axis=1).sum(axis=1)
+            if progress is not None:
+                progress(last)
