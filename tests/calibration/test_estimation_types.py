@@ -21,6 +21,7 @@ from forcetorque.calibration import (
     estimation_type,
     solve,
     sphere_centre,
+    sphere_labels,
 )
 from forcetorque.errors import FitError, ShapeError
 
@@ -64,7 +65,11 @@ def _two_sets() -> list[DataSet]:
 
 def _settled(name: str, data: list[DataSet], sphere: tuple[str, ...] | None = None) -> Estimation:
     kind = ESTIMATION_TYPES[name]
-    return estimation_of(data, PRIOR, kind=kind, variables=[TEMPERATURE], sphere=sphere)
+    centre = None
+    if kind.offset is OffsetStrategy.SPHERE:
+        drawn = sphere_labels([d.label for d in data], sphere)
+        centre = sphere_centre(_moments([d for d in data if d.label in drawn]))
+    return estimation_of(data[0], PRIOR, kind=kind, variables=[TEMPERATURE], raw_offset=centre)
 
 
 def _moments(data: list[DataSet]) -> Moments:
@@ -240,7 +245,7 @@ def test_coefficients_with_a_prior_are_pulled_and_those_without_are_not() -> Non
     moments, large = _moments(data), 1e12
 
     def solved(variable: LinearVariable) -> WrenchModel:
-        estimation = estimation_of(data, PRIOR, kind=ESTIMATION_TYPES["OwTrTO"], variables=[variable])
+        estimation = estimation_of(data[0], PRIOR, kind=ESTIMATION_TYPES["OwTrTO"], variables=[variable])
         return solve(moments, estimation, large)
 
     np.testing.assert_allclose(solved(pulled).coefficients[:, 0], wrong, rtol=1e-6)

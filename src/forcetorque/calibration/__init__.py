@@ -13,7 +13,7 @@ from forcetorque.calibration.artefact import (
     read_calibration,
     write_calibration,
 )
-from forcetorque.calibration.calibrate import CalibrationFit, calibrate, estimation_of
+from forcetorque.calibration.calibrate import CalibrationFit, calibrate, estimation_of, sphere_labels
 from forcetorque.calibration.data_set import DataSet
 from forcetorque.calibration.estimation import Estimation
 from forcetorque.calibration.estimation_type import (
@@ -23,7 +23,7 @@ from forcetorque.calibration.estimation_type import (
     estimation_type,
 )
 from forcetorque.calibration.excitation import Excitation, excitation_of
-from forcetorque.calibration.fit import MatrixFit, fit_matrix
+from forcetorque.calibration.fit import MatrixFit, fit_matrix, require_determined
 from forcetorque.calibration.held_out import RULE, LambdaCurve, choose_lambda
 from forcetorque.calibration.linear_variable import LinearVariable
 from forcetorque.calibration.moments import Moments, pooled
@@ -66,9 +66,11 @@ __all__ = [
     "pooled",
     "read_calibration",
     "recover_raw",
+    "require_determined",
     "secondary_matrix",
     "secondary_model",
     "solve",
     "sphere_centre",
+    "sphere_labels",
     "write_calibration",
 ]

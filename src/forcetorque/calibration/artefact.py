@@ -123,6 +123,17 @@ class Validity(_Part):
     """Whether the loads move the direction more than anything else does."""
 
 
+class FittedInterval(_Part):
+    """A stretch of time that was fitted."""
+
+    label: str
+    """Label of the interval."""
+    start_ns: int
+    """Start; ns on the recording's clock."""
+    end_ns: int
+    """End; ns on the recording's clock."""
+
+
 class Selection(_Part):
     """How lambda came about."""
 
@@ -134,17 +145,8 @@ class Selection(_Part):
     """Held-out error of every candidate; 1 N counted like 1 N m."""
     worst_ratio_to_prior: tuple[float, ...] = ()
     """Largest ratio over the blocks of held-out squared error to that of the prior."""
-
-
-class FittedInterval(_Part):
-    """A stretch of time that was fitted."""
-
-    label: str
-    """Label of the interval."""
-    start_ns: int
-    """Start; ns on the recording's clock."""
-    end_ns: int
-    """End; ns on the recording's clock."""
+    chosen_on: tuple[FittedInterval, ...] = ()
+    """Intervals that were not fitted but that the choice was made on: a verdict on them flatters."""
 
 
 class Provenance(_Part):
@@ -182,7 +184,7 @@ class Calibration(_Part):
     variables: tuple[CalibratedVariable, ...] = ()
     """Linear variables; none for a type without."""
     estimation_type: str = "OnTdTO"
-    """Estimation type of thesis 5.1.4."""
+    """Estimation type of thesis 5.1.4; `by axis` where every row has its own, see `selection`."""
     raw_offset_counts: Annotated[FloatArray, ArrayField((None,))] | None = None
     """Raw reading without load that a sphere type found; shape (c,)."""
     matrix_standard_error: Annotated[FloatArray, ArrayField((6, None))] | None
@@ -191,8 +193,8 @@ class Calibration(_Part):
     """Standard error of the offset by leaving out blocks; N, N m."""
     residual_rms: Annotated[FloatArray, ArrayField((6,))]
     """Root mean square residual on the FITTED samples; N, N m."""
-    lambda_counts2: Lambda
-    """Lambda of the fit, convention of thesis (5.4)."""
+    lambda_counts2: Lambda | None
+    """Lambda of the fit, convention of thesis (5.4); None where every row has its own, see `selection`."""
     prior: Prior | None
     """Prior; None for the first calibration of a sensor."""
     validity: Validity

@@ -67,7 +67,13 @@ def calibrate(
     """
     if kind is None:
         kind = EstimationType(with_variables=bool(variables), from_reference=bool(variables))
-    estimation = estimation_of(data_sets, prior, kind=kind, variables=variables, sphere=sphere)
+    if not data_sets:
+        raise FitError("expected at least one calibration interval, got none")
+    shapes = {(data.raw.shape[1], data.variables.shape[1]) for data in data_sets}
+    if len(shapes) > 1:
+        raise ShapeError(f"data sets: expected one number of raw channels and of variables, got {sorted(shapes)}")
+    raw_offset = _raw_offset(data_sets, sphere) if kind.offset is OffsetStrategy.SPHERE else None
+    estimation = estimation_of(data_sets[0], prior, kind=kind, variables=variables, raw_offset=raw_offset)
     blocks = _blocks(data_sets)
     moments = pooled(blocks)
     curve = None
@@ -88,60 +94,65 @@ def calibrate(
 
 
 def estimation_of(
-    data_sets: Sequence[DataSet],
+    first: DataSet,
     prior: FloatArray | None,
     *,
     kind: EstimationType,
     variables: Sequence[LinearVariable] = (),
-    sphere: Collection[str] | None = None,
+    raw_offset: FloatArray | None = None,
 ) -> Estimation:
-    """Settle what a type takes from the data: reference values of variables, and the raw offset of the sphere.
+    """Settle what a type takes from the data: the reference values of variables.
 
     Args:
-        data_sets: Stretches of calibration data; variables without a reference value of their own get that of the
-            first sample of the first one.
+        first: First data set; variables without a reference value of their own get that of its first sample.
         prior: Matrix to stay close to; shape (6, c); None for a sensor without one.
         kind: Estimation type.
-        variables: What the columns of `variables` in the data sets are.
-        sphere: Labels of the data sets that draw the sphere; may be None if there is only one data set.
+        variables: What the columns of `variables` in the data are.
+        raw_offset: Raw reading without load, for the sphere types; shape (c,); counts.
 
     Returns:
         Settings of the fit.
 
     Raises:
-        FitError: If there are no data, or the data sets that draw the sphere are not known.
-        ShapeError: If the data sets have different numbers of channels or variables.
+        ShapeError: If the data have another number of variables.
     """
-    if not data_sets:
-        raise FitError("expected at least one calibration interval, got none")
-    shapes = {(data.raw.shape[1], data.variables.shape[1]) for data in data_sets}
-    if len(shapes) > 1:
-        raise ShapeError(f"data sets: expected one number of raw channels and of variables, got {sorted(shapes)}")
-    found = shapes.pop()[1]
+    found = first.variables.shape[1]
     if found != len(variables):
         raise ShapeError(f"variables: {len(variables)} are described, the data sets have {found}")
     values = np.zeros(found)
     if kind.from_reference:
-        first = data_sets[0].variables[0]
-        values = np.array(
-            [first[k] if v.reference_value is None else v.reference_value for k, v in enumerate(variables)]
-        )
-    centre = None
-    if kind.offset is OffsetStrategy.SPHERE:
-        centre = sphere_centre(pooled(Moments.of(data.raw, data.reference) for data in _drawn(data_sets, sphere)))
-    return Estimation(kind=kind, prior=prior, variables=tuple(variables), reference_values=values, raw_offset=centre)
+        own = [variable.reference_value for variable in variables]
+        pairs = zip(first.variables[0], own, strict=True)
+        values = np.array([value if given is None else given for value, given in pairs])
+    return Estimation(
+        kind=kind, prior=prior, variables=tuple(variables), reference_values=values, raw_offset=raw_offset
+    )
 
 
-def _drawn(data_sets: Sequence[DataSet], sphere: Collection[str] | None) -> list[DataSet]:
-    labels = [data.label for data in data_sets]
-    if sphere is None:
-        if len(data_sets) > 1:
-            raise FitError(f"sphere offset: name the data sets that draw the sphere, out of {', '.join(labels)}")
-        return list(data_sets)
-    for label in sphere:
+def sphere_labels(labels: Sequence[str], named: Collection[str] | None) -> tuple[str, ...]:
+    """Tell which data sets draw the sphere of the sphere types.
+
+    Args:
+        labels: Labels of the data sets.
+        named: Those that the user names; None if there is only one data set.
+
+    Returns:
+        Their labels.
+
+    Raises:
+        FitError: If there are several and none is named, or a name is unknown.
+    """
+    if named is None and len(labels) > 1:
+        raise FitError(f"sphere offset: name the data sets that draw the sphere, out of {', '.join(labels)}")
+    for label in named or ():
         if label not in labels:
             raise FitError(f"sphere offset: no data set is called {label!r}; {known_names(label, labels)}")
-    return [data for data in data_sets if data.label in sphere]
+    return tuple(label for label in labels if named is None or label in named)
+
+
+def _raw_offset(data_sets: Sequence[DataSet], sphere: Collection[str] | None) -> FloatArray:
+    chosen = sphere_labels([data.label for data in data_sets], sphere)
+    return sphere_centre(pooled(Moments.of(data.raw, data.reference) for data in data_sets if data.label in chosen))
 
 
 def _blocks(data_sets: Sequence[DataSet]) -> list[Moments]:

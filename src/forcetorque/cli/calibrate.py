@@ -238,6 +238,8 @@ def _variable_table(calibration: Calibration) -> Table:
 
 def _lambda_text(calibration: Calibration) -> str:
     value = calibration.lambda_counts2
+    if value is None:
+        return "by row"
     text = "infinite: the prior matrix was kept" if math.isinf(value) else f"{value:.4g} counts2"
     return f"{text} ({'given' if calibration.selection.rule == 'given' else 'chosen on held-out blocks'})"
 

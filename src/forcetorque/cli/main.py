@@ -257,7 +257,7 @@ def _schema(
         str,
         typer.Argument(
             help="experiment, scenario, recording, calibration, calibrate, estimate, evaluate, export, gains, inspect, "
-            "payload or simulate."
+            "payload, simulate or study."
         ),
     ],
 ) -> None:
@@ -283,3 +283,56 @@ def _simulate(
     from forcetorque.cli.simulate import run
 
     run(scenario, output=output, output_format=output_format)
+
+
+@app.command("study")
+def _study(
+    experiments: Annotated[list[Path], typer.Argument(help="Experiment files (TOML) with the same sensors.")],
+    output: Annotated[Path, typer.Option("--output", "-o", help="Folder to make, with a folder per sensor.")],
+    sensor: SensorOption = None,
+    data_set: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--data-set",
+            help="NAME=LABEL,LABEL: intervals, by label or kind, that are fitted together; repeat for more. Default: "
+            "every combination of kinds.",
+        ),
+    ] = None,
+    kind: Annotated[
+        list[str] | None,
+        typer.Option("--type", help="Estimation type, SnTdTO to OwTrTO; repeat for more. Default: all nine."),
+    ] = None,
+    regularisation: Annotated[
+        list[float] | None,
+        typer.Option(
+            "--lambda",
+            help="Lambda as the thesis' tables count it, a sixth of that of its equation (5.4); repeat for more. "
+            "Default: the thirteen of the tables.",
+        ),
+    ] = None,
+    sphere: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--sphere",
+            help="Interval whose motion draws a sphere, for the types S...; repeat for more. Default: what the files "
+            "say.",
+        ),
+    ] = None,
+    output_format: FormatOption = Format.TABLE,
+) -> None:
+    """Fit every estimation type and lambda on combinations of data sets, and choose.
+
+    Example: forcetorque study simulated/*.toml --sensor l_leg_ft --sphere grid -o study
+    """
+    from forcetorque.cli.study import run
+
+    run(
+        experiments,
+        output=output,
+        sensors=sensor,
+        data_sets=data_set,
+        kinds=kind,
+        lambdas=regularisation,
+        sphere=sphere,
+        output_format=output_format,
+    )

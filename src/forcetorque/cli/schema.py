@@ -33,6 +33,7 @@ def run(name: str) -> None:
         "payload": _payload,
         "scenario": _scenario,
         "simulate": _simulate,
+        "study": _study,
     }
     if name not in known:
         raise ForceTorqueError(f"no schema is called {name!r}; {known_names(name, known)}")
@@ -109,3 +110,9 @@ def _simulate() -> dict[str, Any]:
     from forcetorque.cli.simulate import SimulateResult
 
     return SimulateResult.model_json_schema()
+
+
+def _study() -> dict[str, Any]:
+    from forcetorque.cli.study_result import StudyResult
+
+    return StudyResult.model_json_schema()

@@ -8,21 +8,27 @@ import shutil
 from dataclasses import replace
 from pathlib import Path
 from typing import Any, Literal
-from uuid import uuid4
 
 import numpy as np
 from pydantic import BaseModel, ConfigDict, Field
 
 from forcetorque.atomic import write_bytes_atomically
+from forcetorque.cli.new_folder import new_folder, refuse_existing
 from forcetorque.cli.output import Format, console, print_result, start_logging, table
-from forcetorque.errors import ForceTorqueError
 from forcetorque.exchange.icub import encode_matrix, read_matrix_file, write_matrix_file
 from forcetorque.exchange.yarp import StreamPort, write_ports
 from forcetorque.exchange.yarp.discover import PortKind
 from forcetorque.recording import Recording, write_recording
 from forcetorque.recording.quality import spans
 from forcetorque.simulation import calibrated_by_board, fail_groups, jitter_stamps, lose_messages, offset_clocks
-from forcetorque.simulation.scenario import Scenario, SimulatedRecording, bundled_scenario, load_scenario, simulate
+from forcetorque.simulation.scenario import (
+    INTERVAL_MARGIN_S,
+    Scenario,
+    SimulatedRecording,
+    bundled_scenario,
+    load_scenario,
+    simulate,
+)
 from forcetorque.simulation.scenario.schema import Network
 
 _NETWORK = 4
@@ -72,27 +78,21 @@ def run(scenario: str, *, output: Path, output_format: Format) -> None:
         scenario: Scenario file, or the name of a bundled one.
         output: Folder to make.
         output_format: Form of the result.
-
-    Raises:
-        ForceTorqueError: If the folder is there already.
     """
     log = start_logging()
     file = _file(scenario)
-    if output.exists():
-        raise ForceTorqueError(f"--output {output}: expected a new folder, it is there already")
+    refuse_existing(output)
     loaded = load_scenario(file)
-    fresh = output.with_name(f".{uuid4().hex}.tmp")
-    fresh.mkdir(parents=True)
-    try:
+    truth: dict[str, Any] = {
+        "schema": "forcetorque/truth/1",
+        "scenario": loaded.file.name,
+        "seed": loaded.file.seed,
+    }
+    rows = []
+    with new_folder(output) as fresh:
         shutil.copyfile(loaded.urdf, fresh / "robot.urdf")
-        truth: dict[str, Any] = {
-            "schema": "forcetorque/truth/1",
-            "scenario": loaded.file.name,
-            "seed": loaded.file.seed,
-        }
         truth["sensors"] = {name: _sensor_truth(loaded, name, fresh) for name in loaded.specimens}
         truth["recordings"] = {}
-        rows = []
         for made in simulate(loaded):
             log.info("writing %s: %s, %.0f s", made.name, made.movement.kind, made.movement.duration_s)
             _write(loaded, made, fresh)
@@ -100,9 +100,6 @@ def run(scenario: str, *, output: Path, output_format: Format) -> None:
             rows.append(_row(made))
         text = json.dumps(truth, indent=2, allow_nan=False) + "\n"
         write_bytes_atomically(fresh / "truth.json", text.encode())
-        fresh.rename(output)
-    finally:
-        shutil.rmtree(fresh, ignore_errors=True)
     result = SimulateResult(
         scenario=loaded.file.name, folder=str(output), truth=str(output / "truth.json"), recordings=rows
     )
@@ -223,8 +220,8 @@ def _experiment(scenario: Scenario, made: SimulatedRecording, log: str, *, tempe
             text.append('\n[[sensor.variable]]\nname = "temperature"\n')
     text.append(f'\n[[support]]\nframe = "{made.movement.support}"\ngravity_direction = [{down}]\n')
     text.append(
-        f'\n[[interval]]\nlabel = "{made.name}"\nstart_s = 0.5\nuse = "{made.use.value}"\n'
-        f'support = "{made.movement.support}"\nend_s = {made.movement.duration_s - 0.5:.3f}\n'
+        f'\n[[interval]]\nlabel = "{made.name}"\nstart_s = {INTERVAL_MARGIN_S}\nuse = "{made.use.value}"\n'
+        f'support = "{made.movement.support}"\nend_s = {made.movement.duration_s - INTERVAL_MARGIN_S:.3f}\n'
         f"kind = {json.dumps(made.kind)}\nsession = {json.dumps(made.session)}\n"
     )
     return "".join(text)

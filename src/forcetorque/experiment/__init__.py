@@ -12,6 +12,8 @@ from forcetorque.experiment.parse import parse_experiment
 from forcetorque.experiment.readings import Correction, corrections_of
 from forcetorque.experiment.samples import IntervalSamples, samples_of
 from forcetorque.experiment.schema import ExperimentFile
+from forcetorque.experiment.study import SensorStudy, study_sensor
+from forcetorque.experiment.study_data import StudyData, read_study_data
 
 __all__ = [
     "Correction",
@@ -22,7 +24,9 @@ __all__ = [
     "IntervalSamples",
     "JointPosition",
     "SensorGains",
+    "SensorStudy",
     "StrongestSample",
+    "StudyData",
     "Verdict",
     "calibrate_sensor",
     "corrections_of",
@@ -33,6 +37,8 @@ __all__ = [
     "inspect_recording",
     "load_experiment",
     "parse_experiment",
+    "read_study_data",
     "samples_of",
     "select_gains",
+    "study_sensor",
 ]

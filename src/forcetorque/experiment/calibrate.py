@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
@@ -59,13 +60,51 @@ def calibrate_sensor(
         variables=[variable.linear for variable in sensor.variables] if kind.with_variables else (),
         sphere=experiment.sphere_intervals,
     )
+    return artefact(
+        result,
+        parts,
+        sensor=sensor,
+        identity=identity_of(experiment, sensor),
+        code_version=code_version,
+        created=created,
+        experiment=experiment.name,
+        inputs_sha256=experiment.inputs_sha256,
+    )
+
+
+def artefact(
+    result: CalibrationFit,
+    parts: Sequence[IntervalSamples],
+    *,
+    sensor: ExperimentSensor,
+    identity: SensorIdentity,
+    code_version: str,
+    created: str,
+    experiment: str,
+    inputs_sha256: Mapping[str, str],
+) -> Calibration:
+    """Make the calibration that a fit leaves on disk.
+
+    Args:
+        result: The fit.
+        parts: The fitted samples.
+        sensor: The sensor.
+        identity: Which sensor it is.
+        code_version: Version of this library, for the record.
+        created: Date and time, ISO 8601, for the record.
+        experiment: Name of the experiment.
+        inputs_sha256: SHA-256 of every input file, by its path.
+
+    Returns:
+        The calibration.
+    """
     errors, kept = result.standard_errors, math.isinf(result.fit.regularisation)
     return Calibration(
-        sensor=identity_of(experiment, sensor),
+        sensor=identity,
         matrix=result.fit.matrix,
         offset=result.fit.offset,
         variables=_variables(parts, result),
-        estimation_type=kind.name,
+        estimation_type=result.estimation.kind.name,
         raw_offset_counts=result.estimation.raw_offset,
         matrix_standard_error=None if errors is None or kept else errors.matrix,
         offset_standard_error=None if errors is None else errors.offset,
@@ -79,14 +118,14 @@ def calibrate_sensor(
         provenance=Provenance(
             code_version=code_version,
             created=created,
-            experiment=experiment.name,
+            experiment=experiment,
             intervals=tuple(
                 FittedInterval(label=p.interval.label, start_ns=p.interval.start_ns, end_ns=p.interval.end_ns)
                 for p in parts
             ),
             samples=sum(len(p.samples) for p in parts),
             dropped=sum(p.samples.dropped for p in parts),
-            inputs_sha256=experiment.inputs_sha256,
+            inputs_sha256=dict(inputs_sha256),
         ),
     )
 
@@ -111,7 +150,7 @@ def identity_of(experiment: Experiment, sensor: ExperimentSensor) -> SensorIdent
     )
 
 
-def _variables(parts: list[IntervalSamples], result: CalibrationFit) -> tuple[CalibratedVariable, ...]:
+def _variables(parts: Sequence[IntervalSamples], result: CalibrationFit) -> tuple[CalibratedVariable, ...]:
     values, model = np.concatenate([p.samples.variables for p in parts]), result.fit.model
     return tuple(
         CalibratedVariable(
@@ -128,7 +167,7 @@ def _variables(parts: list[IntervalSamples], result: CalibrationFit) -> tuple[Ca
     )
 
 
-def _validity(parts: list[IntervalSamples], result: CalibrationFit) -> Validity:
+def _validity(parts: Sequence[IntervalSamples], result: CalibrationFit) -> Validity:
     raw, excitation = np.concatenate([p.raw for p in parts]), result.fit.excitation
     return Validity(
         raw_minimum_counts=raw.min(axis=0),

@@ -2,6 +2,7 @@
 """Scenarios: files that say what is simulated, and what comes of them."""
 
 from forcetorque.simulation.scenario.bundled import bundled_scenario
+from forcetorque.simulation.scenario.plan import INTERVAL_MARGIN_S
 from forcetorque.simulation.scenario.run import (
     Scenario,
     SimulatedRecording,
@@ -13,6 +14,7 @@ from forcetorque.simulation.scenario.run import (
 from forcetorque.simulation.scenario.schema import LINEAR_ONLY, ScenarioFile
 
 __all__ = [
+    "INTERVAL_MARGIN_S",
     "LINEAR_ONLY",
     "Scenario",
     "ScenarioFile",

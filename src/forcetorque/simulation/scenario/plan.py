@@ -23,12 +23,16 @@ from forcetorque.simulation.motions import (
 )
 from forcetorque.simulation.scenario.schema import Recorded, ScenarioFile
 from forcetorque.simulation.trace import EPOCH_NS, Trace, trace_movement
+from forcetorque.study import OFFSET_S
 
 _MOVEMENTS, _STAMPS = 3, 5
 """What a stream of random numbers is for: each has its own, so that one more recording changes no other."""
 
 _DAY_NS = 86_400_000_000_000
 _HOUR_NS = 3_600_000_000_000
+
+INTERVAL_MARGIN_S = 0.5
+"""What the interval of a recording leaves out at either end: derivatives of the joints are poor there; s."""
 
 _JUDGED_HZ = 10.0
 """Rate at which loads are averaged: every tenth sample of a recording has the same mean within some tenths of a
@@ -85,20 +89,23 @@ def plan_recordings(content: ScenarioFile, model: RobotModel) -> Iterator[Plan]:
 
 
 def validation_loads(plans: Sequence[Plan], sensor: str) -> list[FloatArray]:
-    """Compute the true loads of a sensor in the recordings that are for validation.
+    """Compute how the true loads of a sensor change in the recordings that are for validation.
 
     Args:
         plans: All recordings.
         sensor: The sensor.
 
     Returns:
-        Its wrenches in each of them, evenly in time; shapes (n, 6); N, N m.
+        Its wrenches in the interval of each of them, evenly in time, less their mean over the first second, from which
+        a study takes the offset; shapes (n, 6); N, N m.
     """
-    return [
-        plan.movement.readings(np.arange(0.0, plan.movement.duration_s, 1.0 / _JUDGED_HZ), [sensor]).of_name(sensor)
-        for plan in plans
-        if plan.entry.use is Use.VALIDATION
-    ]
+    changes = []
+    for plan in plans:
+        if plan.entry.use is Use.VALIDATION:
+            time_s = np.arange(INTERVAL_MARGIN_S, plan.movement.duration_s - INTERVAL_MARGIN_S, 1.0 / _JUDGED_HZ)
+            load = plan.movement.readings(time_s, [sensor]).of_name(sensor)
+            changes.append(load - load[time_s < INTERVAL_MARGIN_S + OFFSET_S].mean(axis=0))
+    return changes
 
 
 def _movements(entry: Recorded, model: RobotModel, *, gravity: float, rng: np.random.Generator) -> tuple[Movement, ...]:

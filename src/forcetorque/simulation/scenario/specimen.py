@@ -57,8 +57,8 @@ def draw_specimen(
         described: What sensors are made of.
         number: Its place among the sensors of the robot, from which its serial number comes.
         rng: Source of what differs between sensors.
-        loads: Its true wrenches in every validation recording, if the error of its workbench matrix is set; shapes
-            (n, 6); N, N m.
+        loads: Changes of its true wrench in every validation recording, if the error of its workbench matrix is set;
+            shapes (n, 6); N, N m.
 
     Returns:
         The sensor.

@@ -16,25 +16,23 @@ _LEAST_SHARE = 1e-6
 """A drawn error below this share of the wanted one is rounding and no mounting."""
 
 
-def workbench_errors(workbench: FloatArray, mounted: FloatArray, loads: Sequence[FloatArray]) -> FloatArray:
+def workbench_errors(workbench: FloatArray, mounted: FloatArray, changes: Sequence[FloatArray]) -> FloatArray:
     """Give what a workbench matrix gets wrong on a mounted sensor that has no other fault.
 
     Args:
         workbench: Matrix of the workbench; shape (6, 6); N/count, N m/count.
         mounted: True matrix; shape (6, 6); N/count, N m/count.
-        loads: True wrenches of every recording; shapes (n, 6); N, N m.
+        changes: Changes of the true wrench of every recording since the offset was taken; shapes (n, 6); N, N m.
 
     Returns:
-        Measured minus true wrenches of all recordings, each with an offset of its own that makes its mean zero;
-        shape (sum of n, 6); N, N m.
+        Measured minus true wrenches of all recordings; shape (sum of n, 6); N, N m.
     """
-    centred = np.concatenate([load - load.mean(axis=0) for load in loads])
-    errors: FloatArray = centred @ _relative_error(workbench, mounted).T
+    errors: FloatArray = np.concatenate(list(changes)) @ _relative_error(workbench, mounted).T
     return errors
 
 
 def mounted_with_error(
-    workbench: FloatArray, mounted: FloatArray, loads: Sequence[FloatArray], *, mean_absolute: Any
+    workbench: FloatArray, mounted: FloatArray, changes: Sequence[FloatArray], *, mean_absolute: Any
 ) -> FloatArray:
     """Scale what mounting did to a sensor until its workbench matrix errs by as much as is wanted.
 
@@ -48,7 +46,8 @@ def mounted_with_error(
     Args:
         workbench: Matrix of the workbench; shape (6, 6); N/count, N m/count.
         mounted: True matrix as drawn; shape (6, 6); N/count, N m/count.
-        loads: True wrenches of every recording over which the error is taken; shapes (n, 6); N, N m.
+        changes: Changes of the true wrench of every recording over which the error is taken, since its offset was
+            taken; shapes (n, 6); N, N m.
         mean_absolute: Mean absolute error of every component, as `workbench_errors` has it; shape (6,); N, N m.
 
     Returns:
@@ -58,7 +57,7 @@ def mounted_with_error(
         FormatError: If there is nothing to scale in a component, or no mounting can do so much.
     """
     wanted = read_only(mean_absolute, name="mean_absolute", shape=(6,))
-    drawn = np.abs(workbench_errors(workbench, mounted, loads)).mean(axis=0)
+    drawn = np.abs(workbench_errors(workbench, mounted, changes)).mean(axis=0)
     for name, unit, want, have in zip(WRENCH_COMPONENTS, WRENCH_UNITS, wanted, drawn, strict=True):
         if have < _LEAST_SHARE * want:
             raise FormatError(

@@ -1,0 +1,45 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A folder of results that is there as a whole or not at all."""
+
+from __future__ import annotations
+
+import shutil
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from uuid import uuid4
+
+from forcetorque.errors import ForceTorqueError
+
+
+def refuse_existing(output: Path) -> None:
+    """Refuse a folder that is there already, before any work is done.
+
+    Args:
+        output: Folder to make.
+
+    Raises:
+        ForceTorqueError: If it is there.
+    """
+    if output.exists():
+        raise ForceTorqueError(f"--output {output}: expected a new folder, it is there already")
+
+
+@contextmanager
+def new_folder(output: Path) -> Iterator[Path]:
+    """Make a folder under a name that nobody has, and give it its own at the end.
+
+    Args:
+        output: Folder to make.
+
+    Yields:
+        Folder to write to; it is removed on any error.
+    """
+    refuse_existing(output)
+    fresh = output.with_name(f".{uuid4().hex}.tmp")
+    fresh.mkdir(parents=True)
+    try:
+        yield fresh
+        fresh.rename(output)
+    finally:
+        shutil.rmtree(fresh, ignore_errors=True)

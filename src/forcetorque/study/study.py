@@ -1,0 +1,139 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Fit everything, judge everything, choose: chapter 5.3 of the thesis for one sensor."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from forcetorque.arrays import FloatArray
+from forcetorque.calibration import (
+    ESTIMATION_TYPES,
+    DataSet,
+    EstimationType,
+    LinearVariable,
+    WrenchModel,
+)
+from forcetorque.errors import FitError
+from forcetorque.study.fitting import Fits, fit_candidates
+from forcetorque.study.judging import Judgement, OffsetSource, judge
+from forcetorque.study.lambdas import TABLE_LAMBDAS
+from forcetorque.study.selection import SessionScore, best_by_axis, best_by_magnitude, choosable, scored_across_sessions
+from forcetorque.study.validation_set import ValidationSet
+
+WORKBENCH = "workbench"
+"""Name of the prior among the candidates."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Choice:
+    """What is best in one offset mode, on all validation data."""
+
+    by_magnitude: int
+    """Candidate with the smallest mean contact force."""
+    by_axis: tuple[int, ...]
+    """Candidate with the smallest mean absolute value, for every component."""
+    across_sessions: tuple[SessionScore, ...]
+    """The same choice made on other sessions and scored on each: what may be expected on another day."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Study:
+    """All candidates of a sensor, how they do, and which are best."""
+
+    fits: Fits
+    """What was fitted."""
+    workbench: WrenchModel | None
+    """The prior matrix, judged with an offset from the judged interval in both modes; None for a new sensor."""
+    judgements: Mapping[OffsetSource, Judgement]
+    """Errors by offset mode, of the candidates in their order, then of the workbench matrix."""
+    choices: Mapping[OffsetSource, Choice]
+    """The best by offset mode."""
+
+    @property
+    def models(self) -> tuple[WrenchModel, ...]:
+        """Models in the order of the judgements."""
+        fitted = tuple(candidate.model for candidate in self.fits.candidates)
+        return fitted if self.workbench is None else (*fitted, self.workbench)
+
+    def name(self, index: int) -> str:
+        """Name a model.
+
+        Args:
+            index: Its index.
+
+        Returns:
+            Name of the candidate, or that of the workbench.
+        """
+        return self.fits.candidates[index].name if index < len(self.fits.candidates) else WORKBENCH
+
+
+def run_study(
+    calibration: Sequence[DataSet],
+    combinations: Mapping[str, Collection[str]],
+    validation: Sequence[ValidationSet],
+    *,
+    prior: FloatArray | None,
+    variables: Sequence[LinearVariable] = (),
+    kinds: Sequence[EstimationType] = tuple(ESTIMATION_TYPES.values()),
+    table_lambdas: Sequence[float] = TABLE_LAMBDAS,
+    sphere: Collection[str] | None = None,
+    progress: Callable[[str], None] | None = None,
+) -> Study:
+    """Study a sensor.
+
+    Args:
+        calibration: Calibration data in the order of the files.
+        combinations: Labels of the data that are fitted together, by the name of the combination.
+        validation: Data to judge on.
+        prior: Matrix to stay close to, the workbench's; shape (6, c); None for a sensor without one.
+        variables: What the columns of `variables` in the data are.
+        kinds: Estimation types.
+        table_lambdas: Lambdas as the tables of the thesis count them, a sixth of (5.4); counts2.
+        sphere: Labels of the data that draw the sphere of the sphere types.
+        progress: Called with a line for people at every step.
+
+    Returns:
+        The study.
+
+    Raises:
+        FitError: If there is nothing to judge on, or nothing can be fitted.
+    """
+    if not validation:
+        raise FitError('expected at least one interval with use = "validation", got none')
+    say = progress or (lambda line: None)
+    say(f"fitting {len(combinations)} combinations of data sets, {len(kinds)} types, {len(table_lambdas)} lambdas")
+    fits = fit_candidates(
+        calibration,
+        combinations,
+        prior=prior,
+        variables=variables,
+        kinds=kinds,
+        table_lambdas=table_lambdas,
+        sphere=sphere,
+    )
+    models = [candidate.model for candidate in fits.candidates]
+    workbench = None
+    if prior is not None:
+        # its offset is taken from every judged interval, so the zeros here are never used
+        workbench = WrenchModel(matrix=prior, offset=np.zeros(6))
+        models.append(workbench)
+    judgements, choices = {}, {}
+    for source in OffsetSource:
+        say(f"judging {len(models)} matrices on {len(validation)} intervals, offset {source}")
+        sources = [source] * len(fits.candidates) + [OffsetSource.RE_ESTIMATED] * (workbench is not None)
+        judgements[source] = judge(models, sources, validation, progress=say)
+        choices[source] = _choice(judgements[source], fits)
+    return Study(fits=fits, workbench=workbench, judgements=judgements, choices=choices)
+
+
+def _choice(judgement: Judgement, fits: Fits) -> Choice:
+    determined = np.array([candidate.determined for candidate in fits.candidates])
+    candidates = choosable(judgement.over(), determined)
+    return Choice(
+        by_magnitude=best_by_magnitude(candidates),
+        by_axis=best_by_axis(candidates),
+        across_sessions=tuple(scored_across_sessions(judgement, determined)),
+    )
