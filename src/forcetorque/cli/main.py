@@ -322,7 +322,7 @@ def _study(
 ) -> None:
     """Fit every estimation type, lambda and data set, and choose.
 
-    Example: forcetorque study simulated/*.toml --sensor l_leg_ft --sphere grid -o study
+    Example: forcetorque study simulated/*.toml --sphere grid -o study
     """
     from forcetorque.cli.study import run
 
