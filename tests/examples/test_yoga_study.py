@@ -17,7 +17,7 @@ pytestmark = pytest.mark.real_data
 
 
 def test_a_choice_on_one_block_halves_the_force_on_the_other(data_dir: Path, tmp_path: Path) -> None:
-    """For both sensors; without temperature in the log there are three types, and only sets with the grid have the S."""
+    """For both sensors; without temperature there are three types, and only sets with the grid have the S."""
     copy = tmp_path / EXAMPLE.name
     copy.write_text(EXAMPLE.read_text(encoding="utf-8").replace("../../shared/data", data_dir.as_posix()))
     found = read_study_data([copy], None)
