@@ -150,7 +150,7 @@ def _contact_figure(made: SensorStudy, axes: slice, unit: str) -> bytes:
         for name, (model, source) in _judged_models(made).items()
     }
     time, spans = _joined_time(sets)
-    return contact_figure(time, candidates, unit, spans)
+    return contact_figure(time, candidates, unit=unit, spans=spans)
 
 
 def _joined_time(sets: Sequence[ValidationSet]) -> tuple[FloatArray, list[tuple[str, int, int]]]:
