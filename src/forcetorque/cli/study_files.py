@@ -83,7 +83,7 @@ def write_figures(made: SensorStudy, folder: Path) -> list[str]:
     chosen = study.choices[OffsetSource.RE_ESTIMATED].by_magnitude
     data_set = study.fits.candidates[chosen].data_set
     names, differences = tables.matrix_differences(study, data_set)
-    unit = f"{tables.DIFFERENCE_UNIT:g} N/count"
+    unit = "1e-4 N/count"  # that of `tables.DIFFERENCE_UNIT`
     draw: dict[str, Callable[[], bytes]] = {
         "figure_5_2_wrench_space.png": lambda: report.space_figure(_clouds(made)),
         "figure_5_3_matrix_differences.png": lambda: report.difference_figure(names, differences, unit=unit),

@@ -19,7 +19,9 @@ if TYPE_CHECKING:
 
 LAMBDA_LABEL = "lambda, counts²"
 """Label of the axis."""
-LAMBDA_MEANING = "lambda: weight of the prior in mean |f - C r - o|² + lambda |C - C_prior|²"
+LAMBDA_MEANING = (
+    "lambda as the tables of the thesis count it: 6 lambda weighs |C - C_prior|² beside mean |f - C r - o|²"
+)
 """The number means nothing without its convention."""
 
 _ZERO_DECADES = 0.7
