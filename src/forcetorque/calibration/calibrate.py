@@ -136,7 +136,10 @@ def _drawn(data_sets: Sequence[DataSet], sphere: Collection[str] | None) -> list
     labels = [data.label for data in data_sets]
     if sphere is None:
         if len(data_sets) > 1:
-            raise FitError(f"sphere offset: name the data sets that draw the sphere, out of {', '.join(labels)}")
+            raise FitError(
+                f"sphere offset: name the data sets that draw the sphere, out of {', '.join(labels)}; "
+                "in an experiment file they are sphere_intervals of [calibration]"
+            )
         return list(data_sets)
     for label in sphere:
         if label not in labels:
