@@ -6,7 +6,15 @@ from __future__ import annotations
 import numpy as np
 
 from forcetorque.arrays import FloatArray
-from forcetorque.calibration import Calibration, Prior, Provenance, Selection, SensorIdentity, Validity
+from forcetorque.calibration import (
+    CalibratedVariable,
+    Calibration,
+    Prior,
+    Provenance,
+    Selection,
+    SensorIdentity,
+    Validity,
+)
 from forcetorque.simulation import distorted_by_mounting, y_shaped_matrix
 from forcetorque.spatial import MeasureDirection
 
@@ -15,6 +23,27 @@ FACTORY = y_shaped_matrix(arm_m=0.02, counts_per_newton=60.0)
 MOUNTED = distorted_by_mounting(FACTORY, relative=0.05, rng=np.random.default_rng(7))
 """Another matrix of the same sensor."""
 OFFSET = np.array([8.0, -5.0, 20.0, 0.3, -0.2, 0.1])
+COEFFICIENTS = np.array([-0.4, 0.3, -1.2, 0.02, 0.01, -1.0 / 3.0])
+"""What a variable adds per unit; the last has no short decimal form."""
+
+
+def make_variable(
+    *,
+    name: str = "temperature",
+    unit: str = "degC",
+    reference_value: float = 29.3,
+    coefficients: FloatArray = COEFFICIENTS,
+) -> CalibratedVariable:
+    """Make a linear variable of a calibration."""
+    return CalibratedVariable(
+        name=name,
+        unit=unit,
+        reference_value=reference_value,
+        coefficients=coefficients,
+        standard_error=None,
+        minimum=reference_value - 1.0,
+        maximum=reference_value + 12.0,
+    )
 
 
 def make_calibration(
@@ -24,6 +53,8 @@ def make_calibration(
     matrix: FloatArray = MOUNTED,
     prior: FloatArray | None = FACTORY,
     offset: FloatArray = OFFSET,
+    variables: tuple[CalibratedVariable, ...] = (),
+    prior_source: str = "matrix.txt",
 ) -> Calibration:
     """Make a calibration whose fitted raw range is -3000 j to 2000 j counts for channel j = 1, 2, ..."""
     channels = matrix.shape[1]
@@ -33,11 +64,13 @@ def make_calibration(
         ),
         matrix=matrix,
         offset=offset,
+        variables=variables,
+        estimation_type="OwTrTO" if variables else "OnTdTO",
         matrix_standard_error=None,
         offset_standard_error=None,
         residual_rms=np.ones(6),
         lambda_counts2=0.0,
-        prior=None if prior is None else Prior(matrix=prior, offset=np.zeros(6), source="matrix.txt"),
+        prior=None if prior is None else Prior(matrix=prior, offset=np.zeros(6), source=prior_source),
         validity=Validity(
             raw_minimum_counts=-3000.0 * np.arange(1, channels + 1),
             raw_maximum_counts=2000.0 * np.arange(1, channels + 1),

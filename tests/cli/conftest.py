@@ -16,6 +16,7 @@ from forcetorque.cli.main import main
 from forcetorque.experiment import calibrate_sensor, load_experiment
 from tests.cli.outcome import Outcome, Run
 from tests.experiments import PARQUET, write_experiments
+from tests.warm_experiments import TEMPERATURE, warm_up, with_variables
 
 
 @pytest.fixture(scope="session")
@@ -34,6 +35,29 @@ def intact(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def arm(intact: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """Folder with a copy of the experiment, to damage; it is the working folder."""
     folder = Path(shutil.copytree(intact, tmp_path / "arm"))
+    monkeypatch.chdir(folder)
+    return folder
+
+
+@pytest.fixture(scope="session")
+def intact_warm(intact: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Folder of the experiment whose sensor drifts with temperature, which its file states; nobody changes it.
+
+    The calibration `warm.json` is the exact one.
+    """
+    folder = warm_up(intact, tmp_path_factory.mktemp("warm") / "arm")
+    experiment = load_experiment(with_variables(folder / PARQUET, TEMPERATURE))
+    fitted = calibrate_sensor(
+        experiment, experiment.sensors[0], code_version="1", created="2020-01-01T00:00:00+00:00", regularisation=0.0
+    )
+    write_calibration(folder / "warm.json", fitted)
+    return folder
+
+
+@pytest.fixture
+def warm(intact_warm: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """Folder with a copy of the drifting experiment, to damage; it is the working folder."""
+    folder = Path(shutil.copytree(intact_warm, tmp_path / "warm"))
     monkeypatch.chdir(folder)
     return folder
 

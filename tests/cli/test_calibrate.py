@@ -5,15 +5,18 @@ from __future__ import annotations
 
 import json
 import re
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from forcetorque.calibration import read_calibration
+from forcetorque.calibration import ESTIMATION_TYPES, read_calibration
+from forcetorque.recording import read_recording
 from tests.cli.json_schema import faults
 from tests.cli.outcome import Run
-from tests.experiments import PARQUET, TWO, YARP, add, edit, snapshot
+from tests.experiments import MOUNTED, PARQUET, TWO, YARP, add, edit, snapshot
+from tests.warm_experiments import EXACT, PER_DEGREE, TEMPERATURE, fixed_signal, put, with_variables
 
 COMPONENTS = ("fx", "fy", "fz", "tx", "ty", "tz")
 
@@ -181,3 +184,99 @@ def test_reversed_gravity_is_warned_of(arm: Path, run: Run) -> None:
     edit(arm / PARQUET, "gravity_direction = [0.0, 0.0, -1.0]", "gravity_direction = [0.0, 0.0, 1.0]")
     wrong = run("calibrate", PARQUET, "-o", "wrong.json", "--lambda", "0.01")
     assert [line for line in wrong.log if "sign of the prior reversed" in line]
+
+
+def test_the_temperature_is_fitted_and_shown(warm: Path, run: Run) -> None:
+    """File, JSON, CSV and table hold the exact coefficients with their unit and reference value."""
+    words = ("calibrate", PARQUET, "-o", "made.json", "--lambda", "0", "--format")
+    result = run(*words, "json").result()
+    assert faults(result, run("schema", "calibrate").result()) == []
+    fitted = read_calibration("made.json")
+    (variable,) = fitted.variables
+    assert np.abs(fitted.matrix - MOUNTED).max() < EXACT * np.abs(MOUNTED).max()
+    assert np.abs(variable.coefficients - PER_DEGREE).max() < EXACT * np.abs(PER_DEGREE).max()
+    assert result["calibrations"][0]["calibration"]["estimation_type"] == fitted.estimation_type == "OwTrTO"
+    rows = run(*words, "csv").rows()
+    assert [float(row["temperature_per_degC"]) for row in rows] == variable.coefficients.tolist()
+    assert {float(row["temperature_reference_degC"]) for row in rows} == {variable.reference_value}
+    shown = run(*words, "table").out
+    assert "OwTrTO, lambda 0 counts2 (given)" in shown
+    found = re.search(r"temperature,? +([\d.]+) .*?(-0\.4000)", shown)
+    assert found is not None
+    assert abs(float(found[1]) - variable.reference_value) < 0.005001
+
+
+def test_sensors_with_and_without_temperature_share_a_result(warm: Path, run: Run) -> None:
+    """Columns that a sensor does not have are empty in the CSV, and each file names its own type."""
+    with_variables(warm / TWO, TEMPERATURE)
+    rows = run("calibrate", TWO, "-o", "made", "--lambda", "5", "--format", "csv").rows()
+    assert [bool(row["temperature_per_degC"]) for row in rows] == [True] * 6 + [False] * 6
+    kinds = {path.name: read_calibration(path).estimation_type for path in Path("made").iterdir()}
+    assert kinds == {"arm_ft_SIM001.json": "OwTrTO", "tool_ft_SIM%2F002.json": "OnTdTO"}
+
+
+@pytest.mark.parametrize("name", ESTIMATION_TYPES)
+def test_the_type_comes_from_the_command_or_the_file(warm: Path, run: Run, name: str) -> None:
+    """--type is the same fit as the file's type, and rules over it."""
+    words = ("calibrate", PARQUET, "-o", "a.json", "--lambda", "6e4", "--format", "json")
+    asked = run(*words, "--type", name).result()["calibrations"][0]["calibration"]
+    add(warm / PARQUET, f'\n[calibration]\ntype = "{name}"\n')
+    stated = run(*words).result()["calibrations"][0]["calibration"]
+    assert asked["estimation_type"] == stated["estimation_type"] == name
+    for key in ("matrix", "offset", "variables", "raw_offset_counts", "matrix_standard_error", "residual_rms"):
+        assert asked[key] == stated[key], key
+    other = "CnTdTO" if name != "CnTdTO" else "SwTdTO"
+    ruled = run(*words, "--type", other).result()["calibrations"][0]["calibration"]
+    assert ruled["estimation_type"] == other
+    assert ruled["matrix"] != asked["matrix"] or {name, other} == {"OnTdTO", "CnTdTO"}
+
+
+def _still(folder: Path) -> None:
+    """Let the temperature of the recording stay at one value."""
+    stream = read_recording(folder / "recording").stream("arm_ft")
+    still = fixed_signal("temperature", np.full((len(stream), 1), 31.5))
+    put(folder, replace(stream, signals={**stream.signals, "temperature": still}))
+
+
+def test_what_a_type_cannot_do_is_one_line(warm: Path, run: Run) -> None:
+    """File and sensor are named with what to do, and no file is written."""
+    error = run("calibrate", PARQUET, "-o", "a.json", "--type", "OwTrT0").error()
+    assert error.startswith("error: no estimation type is called 'OwTrT0'; did you mean \"OwTrTO\"? known: CnTdTO, ")
+    with_variables(warm / TWO, TEMPERATURE)
+    before = snapshot(warm)
+    error = run("calibrate", TWO, "-o", "made", "--lambda", "5", "--type", "OwTrTO").error()
+    assert error == (
+        "error: two.toml: sensor 'tool_ft': type OwTrTO: expected a linear variable such as temperature, "
+        "the data have none"
+    )
+    assert snapshot(warm) == before
+    _still(warm)
+    before = snapshot(warm)
+    error = run("calibrate", PARQUET, "-o", "a.json").error()
+    assert error == (
+        "error: parquet.toml: sensor 'arm_ft': variable 'temperature': its value is 31.5 degC throughout the fitted "
+        "data, so its coefficients cannot be told from the offset; fit data at several values, or a type without "
+        "variables"
+    )
+    assert snapshot(warm) == before
+    assert run("calibrate", PARQUET, "-o", "a.json", "--type", "OnTdTO").code == 0  # the way out that it names
+
+
+def test_a_type_by_name_and_by_options_is_refused(warm: Path, run: Run) -> None:
+    """The file contradicts itself, whatever the command asks for."""
+    add(warm / PARQUET, '\n[calibration]\ntype = "OwTrTO"\noffset = "one-shot"\n')
+    for words in ((), ("--type", "OnTdTO")):
+        error = run("calibrate", PARQUET, "-o", "a.json", *words).error()
+        assert error.startswith(
+            "error: parquet.toml: calibration: type stands for offset, with_variables and from_refer"
+        )
+
+
+def test_a_prior_of_another_sensor_is_refused(arm: Path, run: Run) -> None:
+    """The factory's name of the file tells whose matrix it is."""
+    Path("matrix_SIM001.txt").rename("matrix_SN026.txt")
+    edit(arm / PARQUET, "matrix_SIM001.txt", "matrix_SN026.txt")
+    error = run("calibrate", PARQUET, "-o", "a.json").error()
+    assert error.startswith(
+        "error: parquet.toml: sensor[0]: expected the prior matrix of the sensor 'SIM001', got that "
+    )

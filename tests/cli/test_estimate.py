@@ -18,6 +18,7 @@ from forcetorque.recording import read_recording, write_recording
 from tests.cli.json_schema import faults
 from tests.cli.outcome import Run
 from tests.experiments import PARQUET, TWO, YARP, add, edit, snapshot
+from tests.warm_experiments import TEMPERATURE
 
 
 def test_the_file_holds_every_sample_with_units(arm: Path, run: Run) -> None:
@@ -131,6 +132,22 @@ def test_a_calibration_of_another_sensor_is_refused(arm: Path, run: Run) -> None
     """The serial number decides."""
     edit(arm / PARQUET, 'serial = "SIM001"', 'serial = "SIM009"')
     assert "SIM009" in run("estimate", PARQUET, "-o", "out.csv", "-c", "fitted.json").error()
+
+
+def test_the_temperature_of_each_instant_is_used(warm: Path, run: Run) -> None:
+    """The exact calibration finds that nothing touches; where the file states no temperature it is refused."""
+    words = ("estimate", PARQUET, "-o", "out.csv", "--format", "json")
+    result = run(*words, "-c", "warm.json").result()
+    free = [row["force_largest_N"] for row in result["contacts"] if row["contact"] == "arm_ft"]
+    assert len(free) == 2
+    assert max(free) < 1e-5
+    assert max(row["force_largest_N"] for row in run(*words).result()["contacts"] if row["contact"] == "arm_ft") > 1.0
+    edit(warm / PARQUET, TEMPERATURE, "")
+    error = run(*words, "-c", "warm.json").error()
+    assert error == (
+        "error: parquet.toml: sensor 'arm_ft': expected the variable 'temperature', the experiment states none; "
+        "add it as [[sensor.variable]]"
+    )
 
 
 def test_known_contacts_come_from_a_stream(arm: Path, run: Run) -> None:

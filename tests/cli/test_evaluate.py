@@ -18,6 +18,7 @@ from forcetorque.recording import Use
 from tests.cli.json_schema import faults
 from tests.cli.outcome import Run
 from tests.experiments import PARQUET, TWO, YARP, edit, snapshot
+from tests.warm_experiments import TEMPERATURE
 
 ROUNDING = 1e-9
 """N, N m: sums of 1e3 products of counts up to 2e4 and coefficients up to 0.03, in another order."""
@@ -151,6 +152,19 @@ def test_findings_of_the_log_are_warnings(arm: Path, run: Run) -> None:
     judged = run("evaluate", YARP, "-c", "fitted.json")
     assert [line.partition(":")[0] for line in judged.log] == ["INFO", "WARNING", "WARNING", "INFO"]
     assert judged.err.splitlines() == judged.log
+
+
+def test_the_temperature_of_the_judged_samples_is_used(warm: Path, run: Run) -> None:
+    """The exact calibration with temperature leaves nothing; where the file states no temperature it is refused."""
+    rows = _verdicts(run("evaluate", PARQUET, "-c", "warm.json", "--format", "json").result())
+    for offset in OFFSETS:
+        assert max(rows["warm.json", offset]["rmse"]) < 1e-5 < 0.1 < max(rows["prior", offset]["rmse"])
+    edit(warm / PARQUET, TEMPERATURE, "")
+    error = run("evaluate", PARQUET, "-c", "warm.json").error()
+    assert error == (
+        "error: parquet.toml: sensor 'arm_ft': sensor 'arm_ft': expected the variable 'temperature', the experiment "
+        "states none; add it as [[sensor.variable]]"
+    )
 
 
 def _set(path: str, value: Any) -> Callable[[dict[str, Any]], None]:

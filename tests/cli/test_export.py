@@ -17,12 +17,13 @@ from typing import Any
 import numpy as np
 import pytest
 
+from forcetorque.arrays import FloatArray
 from forcetorque.calibration import Calibration, write_calibration
 from forcetorque.cli import main
 from forcetorque.cli.export import ExportResult
 from forcetorque.exchange.icub import read_matrix_file
 from forcetorque.exchange.wholebodydynamics import corrected, read_groups
-from tests.calibrations import FACTORY, MOUNTED, OFFSET, make_calibration
+from tests.calibrations import COEFFICIENTS, FACTORY, MOUNTED, OFFSET, make_calibration, make_variable
 
 SOLVE_ROUNDING = 1e-10
 """Relative to the largest wrench: eps times the condition number of the prior, about 1e4 with rows in N and N m."""
@@ -197,9 +198,101 @@ def test_a_table_holds_matrix_and_offset(run: Run, leg: Path, tmp_path: Path) ->
     assert [float(row["offset"]) for row in rows] == OFFSET.tolist()
 
 
-@pytest.mark.parametrize("to", ["icub-matrix", "wholebodydynamics", "csv"])
-def test_the_result_has_three_forms(run: Run, leg: Path, tmp_path: Path, to: str) -> None:
+STREAM = make_calibration(
+    matrix=1.1 * FACTORY + 0.001,
+    offset=np.array([-30.0, 12.0, 5.0, -1.0, 0.5, 0.7]),
+    variables=(make_variable(reference_value=35.0, coefficients=np.array([0.5, -0.2, 0.9, -0.03, 0.02, 0.01])),),
+)
+"""An earlier calibration of the same sensor, with an offset, coefficients and reference of its own."""
+
+
+@pytest.fixture
+def warm(tmp_path: Path) -> Path:
+    """File of a calibration with temperature."""
+    return _written(tmp_path / "warm.json", make_calibration(variables=(make_variable(),)))
+
+
+def _warm_readings() -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Raw readings, temperatures, and the wrenches that the calibration with temperature makes of them."""
+    rng = np.random.default_rng(8)
+    raw, degrees = rng.normal(size=(40, 6)) * 1000, rng.uniform(20.0, 45.0, size=40)
+    calibration = make_calibration(variables=(make_variable(),))
+    return raw, degrees, calibration.apply(raw, serial="SN001", variables={"temperature": degrees})
+
+
+def test_the_device_gets_the_temperature(run: Run, warm: Path, tmp_path: Path) -> None:
+    """The written groups turn the prior's readings at each temperature into the wrenches of the calibration."""
+    output = tmp_path / "ft.xml"
+    done = run(warm, "--to", "wholebodydynamics", "-o", output, "--format", "json")
+    (correction,), (entry,) = read_groups(output), done.result()["calibrations"]
+    raw, degrees, expected = _warm_readings()
+    close = SOLVE_ROUNDING * np.abs(expected).max()
+    np.testing.assert_allclose(corrected(correction, raw @ FACTORY.T, degrees), expected, rtol=0, atol=close)
+    assert entry["variables"] == {"temperature": COEFFICIENTS.tolist()}
+    assert entry["variables_stored"] is True
+    assert "coefficients" not in done.err
+
+
+def test_the_device_corrects_a_stream_that_is_calibrated_already(run: Run, warm: Path, tmp_path: Path) -> None:
+    """--stream takes offset and temperature of the earlier calibration out; without it newtons are wrong."""
+    earlier, output = _written(tmp_path / "earlier.json", STREAM), tmp_path / "ft.xml"
+    raw, degrees, expected = _warm_readings()
+    sent = STREAM.apply(raw, serial="SN001", variables={"temperature": degrees})
+    words = (warm, "--to", "wholebodydynamics", "-o", output, "--format", "json")
+    (entry,) = run(*words, "--stream", earlier).result()["calibrations"]
+    (correction,) = read_groups(output)
+    close = SOLVE_ROUNDING * np.abs(expected).max()
+    np.testing.assert_allclose(corrected(correction, sent, degrees), expected, rtol=0, atol=close)
+    assert correction.temperature_coefficients is not None
+    assert entry["matrix"] == correction.secondary_matrix.tolist()
+    assert entry["offset"] == correction.offset.tolist() != OFFSET.tolist()
+    assert entry["variables"]["temperature"] == correction.temperature_coefficients.tolist() != COEFFICIENTS.tolist()
+    run(*words).result()
+    (without,) = read_groups(output)
+    assert np.abs(corrected(without, sent, degrees) - expected).max() > 1.0
+
+
+def test_coefficients_have_a_file_of_their_own(run: Run, leg: Path, warm: Path, tmp_path: Path) -> None:
+    """They read back to the last bit; offset and matrix are announced to be elsewhere, sensors without have no row."""
+    output = tmp_path / "coefficients.csv"
+    done = run(leg, warm, "--to", "coefficients", "-o", output, "--format", "json")
+    rows = list(csv.DictReader(io.StringIO(output.read_text(encoding="utf-8"))))
+    assert [(row["sensor"], row["serial"], row["variable"], row["unit"]) for row in rows] == [
+        ("leg_ft", "SN001", "temperature", "degC")
+    ]
+    assert np.array([float(rows[0][name]) for name in ("fx", "fy", "fz", "tx", "ty", "tz")]).tobytes() == (
+        COEFFICIENTS.tobytes()
+    )
+    assert float(rows[0]["reference_value"]) == 29.3
+    plain, entry = done.result()["calibrations"]
+    assert (plain["variables"], entry["variables"]) == ({}, {"temperature": COEFFICIENTS.tolist()})
+    assert (entry["offset_stored"], entry["variables_stored"]) == (False, True)
+    assert "not stored, the file is for the variables: store it with the matrix" in done.err
+
+
+def test_coefficients_that_a_matrix_file_cannot_hold_are_announced(
+    run: Run, leg: Path, warm: Path, tmp_path: Path
+) -> None:
+    """The warning names the variable and the format that holds it; a calibration without any has no such warning."""
+    output, warning = tmp_path / "matrix_SN001.txt", "the coefficients of temperature are not in this file: --to coef"
+    done = run(warm, "--to", "icub-matrix", "-o", output, "--format", "json")
+    assert f"warm.json: {warning}" in done.err
+    (entry,) = done.result()["calibrations"]
+    assert (entry["variables"], entry["variables_stored"]) == ({"temperature": COEFFICIENTS.tolist()}, False)
+    assert warning not in run(leg, "--to", "icub-matrix", "-o", output).err
+    assert warning not in run(warm, "--to", "csv", "-o", tmp_path / "table.csv").err
+
+
+@pytest.mark.parametrize(
+    ("name", "to"),
+    [(name, to) for name in ("leg", "warm") for to in ("icub-matrix", "wholebodydynamics", "csv")]
+    + [("warm", "coefficients")],
+)
+def test_the_result_has_three_forms(
+    run: Run, request: pytest.FixtureRequest, tmp_path: Path, name: str, to: str
+) -> None:
     """JSON is what its schema says, CSV has a row per component with the same numbers, the table names the file."""
+    leg: Path = request.getfixturevalue(name)
     output = tmp_path / "out.file"
     result = run(leg, "--to", to, "-o", output, "--format", "json").result()
     ExportResult.model_validate(result)
@@ -210,6 +303,8 @@ def test_the_result_has_three_forms(run: Run, leg: Path, tmp_path: Path, to: str
     assert [row["component"] for row in rows] == ["fx", "fy", "fz", "tx", "ty", "tz"]
     assert [[float(row[f"m{j}"]) for j in range(6)] for row in rows] == entry["matrix"]
     assert ("full_scale" in rows[0]) is (to == "icub-matrix")
+    coefficients = [float(row["temperature_coefficient"]) for row in rows] if name == "warm" else None
+    assert coefficients == entry["variables"].get("temperature")
     table = run(leg, "--to", to, "-o", output).out
     assert f"written to {output}" in table
     assert f"offset: {result['offset_handling']}" in table
@@ -237,6 +332,23 @@ def test_the_result_has_a_schema(monkeypatch: pytest.MonkeyPatch, capsys: pytest
         ("BARE --to wholebodydynamics -o OUT", "bare.json: sensor 'bare' ('SN001'): expected a matrix and a prior"),
         ("WIDE --to icub-matrix -o OUT", "wide.json: matrix: expected an array of shape (6, 6), got (6, 7)"),
         ("UNRANGED --to icub-matrix -o OUT", "unranged.json: raw_minimum_counts: expected an array of shape (6)"),
+        (
+            "LEG --to csv -o OUT --stream ARM",
+            "--stream: expected --to wholebodydynamics and one calibration, got --to csv",
+        ),
+        ("LEG ARM --to wholebodydynamics -o OUT --stream LEG", "--stream: expected --to wholebodydynamics and one"),
+        (
+            "LEG --to wholebodydynamics -o OUT --stream ARM2",
+            "leg.json: calibration of sensor 'SN002': expected readings",
+        ),
+        (
+            "LEG --to wholebodydynamics -o OUT --stream WARM",
+            "leg.json: sensor 'leg_ft' ('SN001'): the stream depends on",
+        ),
+        ("LEG --to wholebodydynamics -o OUT --stream NONE", "none.json: expected a calibration file, there is none"),
+        ("VOLTS --to wholebodydynamics -o OUT", "volts.json: sensor 'leg_ft' ('SN001'): expected no variable but"),
+        ("LEG --to coefficients -o OUT", "expected a calibration with a linear variable such as temperature, got none"),
+        ("WARM --to coefficients -o OUT --full-scale 1 1 1 1 1 1", "--full-scale: only files of --to icub-matrix hold"),
         ("LEG --to csv -o FOLDER", "expected a file to write, got a folder"),
         ("LEG --to csv -o LEG", "expected another file, got a calibration that is to be exported"),
         ("LEG --to csv -o NOWHERE", "expected an existing folder to write to, got none"),
@@ -251,6 +363,9 @@ def test_wrong_requests_are_one_line_and_write_nothing(
     seven = np.hstack([MOUNTED, np.ones((6, 1))])
     (tmp_path / "folder").mkdir()
     _written(tmp_path / "arm.json", make_calibration(name="arm_ft"))
+    _written(tmp_path / "arm2.json", make_calibration(name="arm_ft", serial="SN002"))
+    _written(tmp_path / "warm.json", make_calibration(variables=(make_variable(),)))
+    _written(tmp_path / "volts.json", make_calibration(variables=(make_variable(name="supply", unit="V"),)))
     _written(tmp_path / "leg2.json", make_calibration())
     _written(tmp_path / "bare.json", make_calibration(name="bare", prior=None))
     _written(tmp_path / "wide.json", make_calibration(matrix=seven, prior=None))
@@ -262,7 +377,8 @@ def test_wrong_requests_are_one_line_and_write_nothing(
         "FOLDER": tmp_path / "folder",
         "NOWHERE": tmp_path / "nowhere" / "x",
     }
-    files |= {name.upper(): tmp_path / f"{name}.json" for name in ("arm", "leg2", "bare", "wide", "unranged", "none")}
+    others = ("arm", "arm2", "leg2", "bare", "wide", "unranged", "warm", "volts", "none")
+    files |= {name.upper(): tmp_path / f"{name}.json" for name in others}
     before = {path: path.read_bytes() for path in tmp_path.iterdir() if path.is_file()}
     done = run(*(files.get(word, word) for word in arguments.split()))
     assert done.code == 2

@@ -12,10 +12,12 @@ from typing import Any
 import numpy as np
 import pytest
 
+from forcetorque.calibration import read_calibration
 from forcetorque.recording import read_recording, write_recording
 from tests.cli.json_schema import faults
 from tests.cli.outcome import Run
 from tests.experiments import PARQUET, TWO, YARP, edit, snapshot
+from tests.warm_experiments import TEMPERATURE
 
 SERIAL = 'serial = "SIM001"\n'
 GAINS = "amplifier_gain = [24, 24, 24, 36, 36, 36]\nallowed_gains = [8, 16, 24, 36, 48]\n"
@@ -217,3 +219,15 @@ def test_the_yoga_log(run: Run, data_dir: Path, tmp_path: Path) -> None:
     (wrist,) = EXAMPLES.glob("07_*.toml")
     path.write_text(wrist.read_text(encoding="utf-8").replace("../../shared/data", data_dir.as_posix()))
     assert "expected raw counts, or the matrix file" in run("gains", path).error()
+
+
+def test_a_calibration_with_temperature_tells_what_a_count_is_worth(warm: Path, run: Run) -> None:
+    """Its matrix is used; where the file states no temperature the calibration is refused, as everywhere."""
+    result = run("gains", PARQUET, "-c", "warm.json", "--format", "json").result()
+    matrix = read_calibration("warm.json").matrix
+    worst = [row["worst"] for row in result["sensors"][0]["resolution"]]
+    np.testing.assert_allclose(worst, np.abs(matrix).sum(axis=1))
+    edit(warm / PARQUET, TEMPERATURE, "")
+    assert "expected the variable 'temperature', the experiment states none" in (
+        run("gains", PARQUET, "-c", "warm.json").error()
+    )

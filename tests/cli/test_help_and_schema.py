@@ -125,7 +125,18 @@ def test_experiment_files_fit_the_printed_schema(run: Run, form: str) -> None:
         assert faults({**content, "processing": processing}, schema) == []
     for value in (5, 2.5, "held-out"):
         assert faults({**content, "calibration": {"lambda_counts2": value}}, schema) == []
+    for calibration in ({"type": "OwTrTO"}, {"offset": "sphere", "with_variables": True, "sphere_intervals": ["fit"]}):
+        assert faults({**content, "calibration": calibration}, schema) == []
+    variables = [
+        {"name": "temperature"},
+        {"name": "supply", "stream": "board", "quantity": "scalar", "column": "supply"},
+    ]
+    sensors = [{**content["sensor"][0], "variable": variables}]
+    assert faults({**content, "sensor": sensors}, schema) == []
     bad: list[dict[str, object]] = [
+        {"calibration": {"type": "OwTr"}},
+        {"calibration": {"offset": "centralized"}},
+        {"sensor": [{**content["sensor"][0], "variable": [{"quantity": "temperature"}]}]},
         {"colour": "red"},
         {"name": 3},
         {"calibration": {"lambda_counts2": -1}},

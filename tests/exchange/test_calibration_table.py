@@ -11,7 +11,7 @@ import pytest
 
 from forcetorque.errors import FormatError
 from forcetorque.exchange.calibration_table import write_calibration_table
-from tests.calibrations import MOUNTED, OFFSET, make_calibration
+from tests.calibrations import MOUNTED, OFFSET, make_calibration, make_variable
 
 
 def _rows(path: Path) -> list[dict[str, str]]:
@@ -44,6 +44,41 @@ def test_several_sensors_with_different_channels_share_a_table(tmp_path: Path) -
     assert [row["c7_per_count"] for row in rows] == [""] * 6 + [str(8.0 * k + 7) for k in range(6)]
     assert [row["sensor"] for row in rows] == ["leg_ft"] * 6 + ['arm, "left"\n'] * 6
     assert all(row["offset"] for row in rows)
+
+
+def test_variables_have_a_coefficient_and_a_reference(tmp_path: Path) -> None:
+    """Both read back to the last bit under name and unit; sensors without the variable have empty cells."""
+    path = tmp_path / "table.csv"
+    temperature, supply = make_variable(), make_variable(name="supply", unit="V", reference_value=4.95)
+    both = make_calibration(name="arm_ft", variables=(supply, temperature))
+    chosen = [make_calibration(variables=(temperature,)), make_calibration(name="foot_ft"), both]
+    write_calibration_table(path, chosen)
+    rows = _rows(path)
+    assert len(rows) == 18
+    for k, calibration in enumerate(chosen):
+        own, part = {v.name: v for v in calibration.variables}, rows[6 * k : 6 * k + 6]
+        for name, unit in (("temperature", "degC"), ("supply", "V")):
+            coefficients, references = ([row[f"{name}_{word}_{unit}"] for row in part] for word in ("per", "reference"))
+            expected = own[name].coefficients.tolist() if name in own else None
+            assert ([float(c) for c in coefficients] if any(coefficients) else None) == expected
+            assert set(references) == ({repr(own[name].reference_value)} if name in own else {""})
+    assert rows[0]["temperature_reference_degC"] == "29.3"
+
+
+def test_the_rows_are_the_calibration(tmp_path: Path) -> None:
+    """Component = coefficients raw + offset + coefficient (temperature - reference), as the docstring has it."""
+    path = tmp_path / "table.csv"
+    calibration = make_calibration(variables=(make_variable(),))
+    write_calibration_table(path, [calibration])
+    raw, degrees = np.random.default_rng(5).normal(size=6) * 1000, 41.5
+    by_rows = [
+        sum(float(row[f"c{j}_per_count"]) * raw[j] for j in range(6))
+        + float(row["offset"])
+        + float(row["temperature_per_degC"]) * (degrees - float(row["temperature_reference_degC"]))
+        for row in _rows(path)
+    ]
+    expected = calibration.apply(raw, serial="SN001", variables={"temperature": degrees})
+    np.testing.assert_allclose(by_rows, expected, rtol=1e-12)
 
 
 def test_an_empty_table_is_refused(tmp_path: Path) -> None:

@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 
 from tests.experiments import write_experiments
+from tests.warm_experiments import warm_up
 
 
 @pytest.fixture(scope="session")
@@ -23,3 +24,15 @@ def intact(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def arm(intact: Path, tmp_path: Path) -> Path:
     """Folder with a copy of the experiment, to damage."""
     return Path(shutil.copytree(intact, tmp_path / "arm"))
+
+
+@pytest.fixture(scope="session")
+def intact_warm(intact: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Folder of the experiment whose sensor drifts with temperature, without noise; nobody changes it."""
+    return warm_up(intact, tmp_path_factory.mktemp("warm") / "arm")
+
+
+@pytest.fixture
+def warm(intact_warm: Path, tmp_path: Path) -> Path:
+    """Folder with a copy of the drifting experiment, to damage; its file states no variable yet."""
+    return Path(shutil.copytree(intact_warm, tmp_path / "warm"))

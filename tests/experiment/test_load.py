@@ -123,6 +123,14 @@ def test_a_sensor_without_a_tag_is_declared_by_its_joint(arm: Path) -> None:
     assert load_experiment(arm / TWO).model.sensor("tool_ft").frame is SensorFrame.PARENT
 
 
+def test_a_prior_named_after_its_own_sensor_is_taken(arm: Path) -> None:
+    """The factory's name for the file holds the serial number; it is a reason to refuse only where it is another's."""
+    shutil.copyfile(arm / "matrix_SIM001.txt", arm / "matrix_SN026.txt")
+    edit(arm / PARQUET, '"matrix_SIM001.txt"', '"matrix_SN026.txt"')
+    (sensor,) = load_experiment(edit(arm / PARQUET, '"SIM001"', '"SN026"')).sensors
+    assert (sensor.serial, sensor.prior_source) == ("SN026", "matrix_SN026.txt")
+
+
 def test_a_sensor_is_found_by_any_of_its_names(arm: Path) -> None:
     """The name of the simulator's tag serves in the file and when the sensor is asked for."""
     tag = (

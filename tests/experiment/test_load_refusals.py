@@ -148,6 +148,11 @@ CONTRADICTIONS: dict[str, tuple[tuple[str, Damage], type[ForceTorqueError], str]
         RecordingError,
         "2 intervals are labelled 'fit'; give each its own",
     ),
+    "prior of another sensor": (
+        _in(PARQUET, "matrix_SIM001.txt", "other/matrix_SN026.txt"),
+        ExperimentError,
+        r"sensor\[0\]: expected the prior matrix of the sensor 'SIM001', got that of 'SN026' \(other/matrix_SN026\.txt",
+    ),
     "no prior file": (
         _in(PARQUET, "matrix_SIM001", "none"),
         MissingFileError,

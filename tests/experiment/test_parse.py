@@ -70,7 +70,7 @@ def test_what_may_be_left_out_has_a_default(tmp_path: Path) -> None:
 
 def _documented() -> list[str]:
     blocks = re.findall(r"```toml\n(.*?)```", DOCUMENT.read_text(encoding="utf-8"), re.DOTALL)
-    assert len(blocks) == 5
+    assert len(blocks) == 6
     return blocks
 
 
@@ -78,12 +78,30 @@ def test_the_documented_file_is_one(tmp_path: Path) -> None:
     """The example of the documentation, with every optional key, is accepted as it stands."""
     parsed = _parse(tmp_path, _documented()[0])
     assert parsed.calibration.lambda_counts2 is None
+    assert parsed.calibration.type == "OnTdTO"
     assert parsed.processing.smoothing is not None
+    assert (parsed.interval[0].kind, parsed.interval[0].session) == ("balancing support", "day 3")
+
+
+def test_the_documented_variables_fit_into_it(tmp_path: Path) -> None:
+    """Two variables of the sensor, and the type in its parts, which takes the place of its name."""
+    whole, variables, *_ = _documented()
+    named = whole[whole.index("[calibration]") : whole.index("[[interval]]")]
+    parsed = _parse(tmp_path, whole.replace(named, "").replace("[[support]]", f"{variables}\n[[support]]"))
+    (sensor,), options = parsed.sensor, parsed.calibration
+    assert [(v.name, v.stream, v.quantity, v.column) for v in sensor.variable] == [
+        ("temperature", "right_leg_temperature", "temperature", None),
+        ("supply", "board", "scalar", "volts"),
+    ]
+    assert sensor.variable[0].reference_value == 29.0
+    assert sensor.variable[0].prior_coefficients is not None
+    assert (options.offset, options.with_variables, options.from_reference) == ("sphere", True, False)
+    assert options.sphere_intervals == ("moving",)
 
 
 def test_the_documented_ports_and_imu_fit_into_it(tmp_path: Path) -> None:
     """The other kinds of ports and the moving support are accepted in place of their plain forms."""
-    whole, ports, moving, _, _ = _documented()
+    whole, _, ports, moving, _, _ = _documented()
     fixed = whole[whole.index("[[support]]") : whole.index("[processing]")]
     parsed = _parse(tmp_path, whole.replace("[[sensor]]", f"{ports}\n[[sensor]]").replace(fixed, f"{moving}\n"))
     assert isinstance(parsed.recording, YarpLog)
@@ -96,7 +114,7 @@ def test_the_documented_wrist_is_complete_with_a_sensor_and_intervals(tmp_path: 
     head = 'schema = "forcetorque/experiment/1"\nname = "wrist"\n'
     sensor = '[[sensor]]\nname = "wrist"\nstream = "poses"\nserial = "FT1"\nprior = "identity"\n'
     interval = '[[interval]]\nlabel = "all"\nstart_s = 0\nuse = "calibration"\n'
-    parsed = _parse(tmp_path, f"{head}{_documented()[3]}\n{sensor}{interval}")
+    parsed = _parse(tmp_path, f"{head}{_documented()[4]}\n{sensor}{interval}")
     assert parsed.load is not None
     assert parsed.load.mass_kg == 0.932
     assert parsed.sensor[0].prior == "identity"

@@ -75,6 +75,17 @@ def test_all_kinds_of_ports_are_read(arm: Path) -> None:
     assert recording.stream("joints").signal("position").columns == JOINTS
 
 
+def test_a_temperature_of_the_port_is_a_variable(arm: Path) -> None:
+    """The board's thermometer is a stream of its own, which a sensor of the same port or of another may name."""
+    path = add(_extended(arm), '\n[[sensor.variable]]\nname = "temperature"\nstream = "board_temperature"\n')
+    *_, sensor = load_experiment(path).sensors
+    (variable,) = sensor.variables
+    assert (sensor.name, variable.linear.unit) == ("tool_ft", "degC")
+    assert (variable.source.stream, variable.source.column) == ("board_temperature", "temperature")
+    with pytest.raises(ForceTorqueError, match=r"sensor\[1\]: variable\[0\]: stream 'board_ft' has no temperature"):
+        load_experiment(edit(path, 'stream = "board_temperature"\n', ""))
+
+
 @pytest.mark.parametrize(
     ("old", "new", "match"),
     [

@@ -116,6 +116,81 @@ def test_a_distorted_wrist_sensor_is_mended_by_a_known_load(tmp_path: Path) -> N
     assert verdicts["new", "fitted"].force_mean < 0.5 * verdicts["prior", "fitted"].force_mean
 
 
+PER_VOLT = np.array([0.8, -0.5, 1.5, 0.02, 0.03, -0.01])
+"""What a volt adds to the reading; N/V, N m/V."""
+PER_DEGREE = np.array([-0.05, 0.1, 0.2, 0.002, -0.001, 0.003])
+"""What a degree adds to the reading; N/degC, N m/degC."""
+SCALARS = """
+[[recording.stream.signal]]
+quantity = "scalar"
+columns = ["U", "I"]
+units = ["V", "mA"]
+names = ["supply", "current"]
+"""
+THERMOMETER = """
+[[recording.stream]]
+name = "room"
+file = "room.csv"
+stamp = { column = "t", unit = "s" }
+clock = "row"
+signal = [{ quantity = "temperature", columns = ["T"], units = ["degC"] }]
+"""
+VARIABLES = """
+[[sensor.variable]]
+name = "supply"
+quantity = "scalar"
+column = "supply"
+
+[[sensor.variable]]
+name = "room"
+stream = "room"
+"""
+
+
+def _write_with_supply(folder: Path, *, column: str) -> Path:
+    """The same poses with a supply voltage and a current in the table and a room temperature in another, slower one."""
+    text = TEXT.replace("\n[recording]", f"mass_kg = {MASS}\ncentre_of_mass_m = {CENTRE.tolist()}\n\n[recording]")
+    text = text.replace("\n[[sensor]]", f"{SCALARS}{THERMOMETER}\n[[sensor]]")
+    text = text.replace(
+        'prior = "identity"\n', 'prior = "identity"\n' + VARIABLES.replace('"supply"\n\n', f'"{column}"\n\n')
+    )
+    path = _write(folder, text=text)
+    header, *lines = (folder / "poses.csv").read_text().splitlines()
+    rows = np.array([[float(word) for word in line.split(",")] for line in lines])
+    volts = 5.0 + 0.4 * np.sin(np.arange(POSES))
+    degrees = np.interp(np.arange(POSES), np.arange(0, POSES + 7, 7), 20.0 + 5.0 * np.cos(np.arange(0, POSES + 7, 7)))
+    change = np.outer(volts - 5.0, PER_VOLT) + np.outer(degrees - 20.0, PER_DEGREE)
+    rows[:, :6] += change * [1, 1, 1, 1000, 1000, 1000]
+    rows = np.column_stack([rows, volts, 100.0 + 7.0 * np.cos(np.arange(POSES))])
+    text = "\n".join([f"{header},U,I", *(",".join(f"{v:.9g}" for v in row) for row in rows)])
+    (folder / "poses.csv").write_text(text + "\n")
+    slow = [f"{t},{20.0 + 5.0 * np.cos(t):.9g}" for t in range(0, POSES + 7, 7)]
+    (folder / "room.csv").write_text("\n".join(["t,T", *slow]) + "\n")
+    return path
+
+
+def test_columns_of_tables_are_variables(tmp_path: Path) -> None:
+    """Volts of the same table and degrees of a slower one give their coefficients back, the other way round to them."""
+    experiment = load_experiment(_write_with_supply(tmp_path, column="supply"))
+    (sensor,) = experiment.sensors
+    assert [(v.linear.name, v.linear.unit) for v in sensor.variables] == [("supply", "V"), ("room", "degC")]
+    made = calibrate_sensor(experiment, sensor, code_version="1", created="now", regularisation=1e9)
+    supply, room = made.variables
+    for variable, truth, deviation in ((supply, PER_VOLT, 0.28), (room, PER_DEGREE, 2.0)):
+        noise = 5.0 * NOISE / np.sqrt(40) / deviation  # of a slope over forty poses
+        assert (np.abs(variable.coefficients + truth) < noise).all()
+        assert not (np.abs(variable.coefficients - truth) < noise).any()
+    errors = evaluate_sensor(experiment, sensor, {"new": made})
+    by_key = {(v.candidate, v.offset): v.errors for v in errors}
+    assert by_key["new", "fitted"].force_mean < 2.0 * NOISE[0] < 4.0 * NOISE[0] < by_key["prior", "fitted"].force_mean
+
+
+def test_the_column_of_a_variable_is_that_of_the_stream(tmp_path: Path) -> None:
+    """Columns go by the names that they have in the stream, not by those of the table; both stand in the message."""
+    with pytest.raises(ForceTorqueError, match=r"variable\[0\]: scalar: no column 'U'; known: current, supply"):
+        load_experiment(_write_with_supply(tmp_path, column="U"))
+
+
 @pytest.mark.parametrize(
     ("old", "new", "match"),
     [

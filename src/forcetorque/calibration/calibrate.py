@@ -143,7 +143,10 @@ def sphere_labels(labels: Sequence[str], named: Collection[str] | None) -> tuple
         FitError: If there are several and none is named, or a name is unknown.
     """
     if named is None and len(labels) > 1:
-        raise FitError(f"sphere offset: name the data sets that draw the sphere, out of {', '.join(labels)}")
+        raise FitError(
+            f"sphere offset: name the data sets that draw the sphere, out of {', '.join(labels)}; "
+            "in an experiment file they are sphere_intervals of [calibration]"
+        )
     for label in named or ():
         if label not in labels:
             raise FitError(f"sphere offset: no data set is called {label!r}; {known_names(label, labels)}")

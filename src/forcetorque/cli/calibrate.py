@@ -181,7 +181,11 @@ def _rows(entry: WrittenCalibration) -> list[dict[str, object]]:
             "unit": WRENCH_UNITS[k],
         }
         row |= {f"c{j}_per_count": float(value) for j, value in enumerate(calibration.matrix[k])}
-        row |= {f"{v.name}_per_{v.unit}": float(v.coefficients[k]) for v in calibration.variables}
+        for v in calibration.variables:
+            row |= {
+                f"{v.name}_per_{v.unit}": float(v.coefficients[k]),
+                f"{v.name}_reference_{v.unit}": v.reference_value,
+            }
         row |= {"offset": float(calibration.offset[k]), "residual_rms": float(calibration.residual_rms[k])}
         rows.append(row | {"lambda_counts2": calibration.lambda_counts2, "samples": calibration.provenance.samples})
     return rows

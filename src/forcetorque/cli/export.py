@@ -43,11 +43,11 @@ class ExportedCalibration(BaseModel):
     matrix: list[list[float]]
     """Matrix as the file's reader gets it: N/count and N m/count, for wholebodydynamics the secondary matrix."""
     offset: list[float]
-    """Offset of the calibration, to be added; N, N m."""
+    """Offset that goes with the matrix, to be added; N, N m."""
     offset_stored: bool
     """Whether the file holds the offset."""
     variables: dict[str, list[float]]
-    """Coefficients of each linear variable of the calibration; N, N m per unit."""
+    """Coefficients of each linear variable that go with the matrix; N, N m per unit."""
     variables_stored: bool
     """Whether the file holds them."""
     full_scale: list[int] | None = None
@@ -184,10 +184,14 @@ def _to_wholebodydynamics(
         with stated_in(str(path)):
             corrections[path] = from_calibration(calibration, sensor_name=sensor_name, stream=stream)
     write_groups(output, corrections.values())
-    return [
-        _entry(path, loaded[path], matrix=one.secondary_matrix, sensor=one.sensor, offset=one.offset)
-        for path, one in corrections.items()
-    ]
+    entries = []
+    for path, one in corrections.items():
+        entry = _entry(path, loaded[path], matrix=one.secondary_matrix, sensor=one.sensor, offset=one.offset)
+        if one.temperature_coefficients is not None:
+            coefficients = dict.fromkeys(entry.variables, one.temperature_coefficients.tolist())
+            entry = entry.model_copy(update={"variables": coefficients})
+        entries.append(entry)
+    return entries
 
 
 def _to_csv(loaded: Mapping[Path, Calibration], output: Path) -> list[ExportedCalibration]:

@@ -120,7 +120,7 @@ def _over(
         at_ns,
         processing=processing,
     )
-    for stream in (*(sensor.stream for sensor in experiment.sensors), *(e.stream for e in present if e.stream)):
+    for stream in (*_reading_streams(experiment, corrections), *(e.stream for e in present if e.stream)):
         require_overlap(source, experiment.recording.stream(stream))
     measured = Wrenches.of(
         {sensor.name: wrench_at(experiment, sensor, corrections[sensor.name], at_ns) for sensor in experiment.sensors}
@@ -138,6 +138,15 @@ def _over(
         left_out=tuple(left_out),
         ambiguous=indistinguishable(question, joints),
     )
+
+
+def _reading_streams(experiment: Experiment, corrections: Mapping[str, Correction]) -> list[str]:
+    """Streams of the sensors, and of the variables that their corrections need."""
+    streams = []
+    for sensor in experiment.sensors:
+        names = corrections[sensor.name].variables
+        streams += [sensor.stream, *(sensor.variable(name).source.stream for name in names)]
+    return streams
 
 
 def _question(

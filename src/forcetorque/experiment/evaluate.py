@@ -71,14 +71,14 @@ def evaluate_sensor(
     for candidate, model, names in _candidates(calibrations):
         require_shape(model.matrix, name=f"{candidate}: matrix", shape=(6, raw.shape[1]))
         measured = model.wrench(raw, variables[:, [column[name] for name in names]])
-        for kind, values in (("fitted", measured), ("re-estimated", offset_removed(measured, reference))):
+        for kind, wrenches in (("fitted", measured), ("re-estimated", offset_removed(measured, reference))):
             verdicts.append(
                 Verdict(
                     sensor=sensor.name,
                     serial=sensor.serial,
                     candidate=candidate,
                     offset=kind,
-                    errors=wrench_errors(values, reference),
+                    errors=wrench_errors(wrenches, reference),
                 )
             )
     return verdicts

@@ -6,7 +6,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from forcetorque.calibration import ESTIMATION_TYPES, OffsetStrategy
-from forcetorque.errors import ExperimentError
+from forcetorque.errors import ExperimentError, known_names
 from forcetorque.estimation import Processing
 from forcetorque.experiment import schema
 from forcetorque.experiment.contacts import read_contacts
@@ -17,7 +17,7 @@ from forcetorque.experiment.parse import parse_experiment
 from forcetorque.experiment.sensors import declare_sensors, read_sensors
 from forcetorque.experiment.streams import read_streams
 from forcetorque.experiment.wrist_load import estimate_load, given_inertia, load_model
-from forcetorque.recording import MovingSupport, SavitzkyGolay
+from forcetorque.recording import MovingSupport, SavitzkyGolay, Use
 from forcetorque.robot import read_urdf
 from forcetorque.spatial import Inertia
 
@@ -62,7 +62,7 @@ def _of_robot(parsed: schema.ExperimentFile, file: Path) -> Experiment:
         processing=_processing(parsed, gravity=parsed.robot.gravity),
         regularisation=parsed.calibration.lambda_counts2,
         fit_options=_fit_options(parsed.calibration),
-        sphere_intervals=parsed.calibration.sphere_intervals,
+        sphere_intervals=_sphere_intervals(parsed, file),
         roles=_roles(parsed),
         payload=None,
         inputs_sha256=inputs.sha256(),
@@ -101,7 +101,7 @@ def _of_wrist(parsed: schema.ExperimentFile, file: Path) -> Experiment:
         processing=processing,
         regularisation=parsed.calibration.lambda_counts2,
         fit_options=_fit_options(parsed.calibration),
-        sphere_intervals=parsed.calibration.sphere_intervals,
+        sphere_intervals=_sphere_intervals(parsed, file),
         roles=_roles(parsed),
         payload=payload,
         inputs_sha256=inputs.sha256(),
@@ -130,6 +130,17 @@ def _fit_options(table: schema.CalibrationTable) -> FitOptions:
         with_variables=table.with_variables,
         from_reference=table.from_reference,
     )
+
+
+def _sphere_intervals(parsed: schema.ExperimentFile, file: Path) -> tuple[str, ...] | None:
+    labels = [span.label for span in parsed.interval if span.use is Use.CALIBRATION]
+    for label in parsed.calibration.sphere_intervals or ():
+        if label not in labels:
+            raise ExperimentError(
+                f"{file}: calibration: sphere_intervals: no calibration interval is labelled {label!r}; "
+                f"{known_names(label, labels)}"
+            )
+    return parsed.calibration.sphere_intervals
 
 
 def _roles(parsed: schema.ExperimentFile) -> dict[str, Role]:

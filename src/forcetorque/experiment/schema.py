@@ -260,7 +260,8 @@ class CalibrationTable(Table):
                 "type_twice", "type stands for offset, with_variables and from_reference; give the one or the others"
             )
         if self.type is not None and self.type not in ESTIMATION_TYPES:
-            raise PydanticCustomError("type_name", "{message}", {"message": known_names(self.type, ESTIMATION_TYPES)})
+            message = f"no estimation type is called {self.type!r}; {known_names(self.type, ESTIMATION_TYPES)}"
+            raise PydanticCustomError("type_name", "{message}", {"message": message})
         if self.with_variables is False and self.from_reference:
             raise PydanticCustomError("no_variables", "from_reference belongs to with_variables = true")
         return self

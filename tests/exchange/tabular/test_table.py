@@ -142,6 +142,22 @@ def test_units_must_be_known_and_of_the_quantity(tmp_path: Path) -> None:
         read_table(tmp_path / "none.csv", _layout(), stream="a", clock="b")
 
 
+def test_a_scalar_has_any_unit(tmp_path: Path) -> None:
+    """Volts, milliamperes and inventions stay as they stand, under the names that were declared, gaps included."""
+    signal = TableSignal(
+        quantity="scalar", columns=("U", "I"), units=("V", "mA of board 2"), names=("supply", "current")
+    )
+    layout = TableLayout(stamp=StampColumn(column="t", unit="s"), signals=(signal,))
+    scalar = _read(tmp_path, "t,U,I\n0,4.9,120\n1,,121\n", layout).signal("scalar")
+    assert (scalar.columns, scalar.units) == (("supply", "current"), ("V", "mA of board 2"))
+    np.testing.assert_array_equal(scalar.values, [[4.9, 120.0], [np.nan, 121.0]])
+    plain = TableSignal(quantity="scalar", columns=("U",), units=("mV",))
+    named = _read(tmp_path, "t,U\n0,4.9\n", TableLayout(stamp=layout.stamp, signals=(plain,))).signal("scalar")
+    assert (named.columns, named.units, named.values.tolist()) == (("U",), ("mV",), [[4.9]])
+    with pytest.raises(FormatError, match="column 'U': expected a number, got 'high'"):
+        _read(tmp_path, "t,U,I\n0,high,120\n", layout)
+
+
 def test_declarations_are_checked() -> None:
     """A layout that contradicts itself is refused before a file is opened."""
     with pytest.raises(FormatError, match="one unit for each"):

@@ -3,12 +3,16 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
-from forcetorque.errors import FitError, FormatError, RecordingError, ShapeError
+from forcetorque.arrays import FloatArray
+from forcetorque.calibration import Calibration
+from forcetorque.errors import FitError, FormatError, RecordingError, SerialNumberError, ShapeError
 from forcetorque.exchange.wholebodydynamics import SensorCorrection, corrected, from_calibration
-from tests.calibrations import FACTORY, MOUNTED, make_calibration
+from tests.calibrations import FACTORY, MOUNTED, make_calibration, make_variable
 from tests.exchange.wholebodydynamics.device import bottle
 
 SOLVE_ROUNDING = 1e-10
@@ -87,6 +91,125 @@ def test_the_corrected_stream_is_what_the_calibration_says() -> None:
     for name, other in wrong.items():
         assert np.abs(corrected(other, stream) - expected).max() > 0.01 * scale, name
     assert len(wrong) == 3
+
+
+COLD, WARM = 22.0, 41.0
+"""Temperatures that differ from every reference value here; degC."""
+STREAM = make_calibration(
+    matrix=1.1 * FACTORY + 0.001,
+    offset=np.array([-30.0, 12.0, 5.0, -1.0, 0.5, 0.7]),
+    variables=(make_variable(reference_value=35.0, coefficients=np.array([0.5, -0.2, 0.9, -0.03, 0.02, 0.01])),),
+)
+"""An earlier calibration of the same sensor, with an offset, coefficients and reference of its own."""
+NEW = make_calibration(variables=(make_variable(),))
+
+
+def _readings() -> tuple[FloatArray, FloatArray]:
+    rng = np.random.default_rng(6)
+    return rng.normal(size=(50, 6)) * 1000, rng.uniform(COLD, WARM, size=50)
+
+
+def test_temperature_and_prior_give_the_wrenches_of_the_calibration() -> None:
+    """A stream of the prior matrix alone, corrected at each temperature, is what the calibration says there."""
+    raw, degrees = _readings()
+    expected = NEW.apply(raw, serial="SN001", variables={"temperature": degrees})
+    correction = from_calibration(NEW)
+    assert correction.reference_temperature == NEW.variables[0].reference_value
+    close = SOLVE_ROUNDING * np.abs(expected).max()
+    np.testing.assert_allclose(corrected(correction, raw @ FACTORY.T, degrees), expected, rtol=0, atol=close)
+    assert np.abs(corrected(correction, raw @ FACTORY.T, 29.3) - expected).max() > 1.0  # negative control
+
+
+def test_a_stream_that_is_calibrated_with_temperature_is_taken_back_first() -> None:
+    """With offset, coefficients and another reference in the stream the result is the new calibration's, exactly."""
+    raw, degrees = _readings()
+    expected = NEW.apply(raw, serial="SN001", variables={"temperature": degrees})
+    stream = STREAM.apply(raw, serial="SN001", variables={"temperature": degrees})
+    correction = from_calibration(NEW, stream=STREAM)
+    close = SOLVE_ROUNDING * np.abs(expected).max()
+    np.testing.assert_allclose(corrected(correction, stream, degrees), expected, rtol=0, atol=close)
+    assert correction.temperature_coefficients is not None
+    secondary, (old,), (new,) = correction.secondary_matrix, STREAM.variables, NEW.variables
+    wrong = {
+        "offset of the stream forgotten": {"offset": NEW.offset},
+        "coefficients of the stream forgotten": {"temperature_coefficients": new.coefficients},
+        "references taken for one": {"offset": NEW.offset - secondary @ STREAM.offset},
+        "reference of the stream": {"reference_temperature": old.reference_value},
+        "as if the stream were the prior's": {"secondary_matrix": from_calibration(NEW).secondary_matrix},
+    }
+    for name, change in wrong.items():
+        other = corrected(replace(correction, **change), stream, degrees)  # type: ignore[arg-type]
+        assert np.abs(other - expected).max() > 0.1, name
+    assert len(wrong) == 5
+
+
+def test_a_stream_without_temperature_may_get_one() -> None:
+    """An earlier calibration without variables is taken back by its matrix and offset."""
+    raw, degrees = _readings()
+    plain = STREAM.model_copy(update={"variables": ()})
+    expected = NEW.apply(raw, serial="SN001", variables={"temperature": degrees})
+    made = corrected(from_calibration(NEW, stream=plain), plain.apply(raw, serial="SN001"), degrees)
+    np.testing.assert_allclose(made, expected, rtol=0, atol=SOLVE_ROUNDING * np.abs(expected).max())
+
+
+def test_a_stream_needs_no_prior() -> None:
+    """The matrix that made the readings is the stream's; a first calibration has no other."""
+    first = NEW.model_copy(update={"prior": None})
+    np.testing.assert_array_equal(
+        from_calibration(first, stream=STREAM).secondary_matrix, from_calibration(NEW, stream=STREAM).secondary_matrix
+    )
+
+
+@pytest.mark.parametrize(
+    ("calibration", "stream", "error", "message"),
+    [
+        (
+            NEW,
+            make_calibration(serial="SN002"),
+            SerialNumberError,
+            "sensor 'SN002': expected readings of .* got 'SN001'",
+        ),
+        (
+            make_calibration(variables=(make_variable(name="supply", unit="V"),)),
+            None,
+            FormatError,
+            r"no variable but 'temperature' in degC, got \[\('supply', 'V'\)\]; .* use --to coefficients",
+        ),
+        (make_calibration(variables=(make_variable(unit="K"),)), None, FormatError, r"\('temperature', 'K'\)"),
+        (
+            make_calibration(variables=(make_variable(), make_variable(name="supply", unit="V"))),
+            None,
+            FormatError,
+            "wholebodydynamics knows no other",
+        ),
+        (make_calibration(), STREAM, FormatError, "the stream depends on variables that the calibration does not have"),
+        (
+            NEW,
+            make_calibration(variables=(make_variable(name="supply", unit="V"),)),
+            FormatError,
+            "the stream depends on variables that the calibration does not have; fit with them",
+        ),
+        (NEW, make_calibration(matrix=np.zeros((6, 6))), FitError, "expected a prior matrix that can be inverted"),
+        (
+            make_calibration(prior=np.eye(6), prior_source="identity"),
+            make_calibration(),
+            FormatError,
+            "two calibrations of the same readings, but only one of them has the prior 'identity'",
+        ),
+        (
+            make_calibration(),
+            make_calibration(prior=np.eye(6), prior_source="identity"),
+            FormatError,
+            "two calibrations of the same readings, but only one of them has the prior 'identity'",
+        ),
+    ],
+)
+def test_streams_and_variables_that_do_not_fit_are_refused(
+    calibration: Calibration, stream: Calibration | None, error: type[Exception], message: str
+) -> None:
+    """Another sensor, a variable that the device does not know, or readings that are not the same."""
+    with pytest.raises(error, match=message):
+        from_calibration(calibration, stream=stream)
 
 
 def test_the_name_can_be_that_of_the_robot() -> None:

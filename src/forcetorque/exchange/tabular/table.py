@@ -124,7 +124,9 @@ def _placed(
             try:
                 float(field or b"nan")
             except ValueError:
-                return FormatError(f"{file}:{number}: column {name!r}: expected a number, got {field[:40]!r}")
+                return FormatError(
+                    f"{file}:{number}: column {name!r}: expected a number, got {field[:40].decode(errors='replace')!r}"
+                )
     return FormatError(f"{file}: expected a table of numbers, got {' '.join(reason.split())[:200]}")
 
 

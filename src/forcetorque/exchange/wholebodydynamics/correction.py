@@ -19,6 +19,8 @@ _SPLITS_A_NAME = re.compile(r"[\s,()\[\]{}\"\\]")
 _READS_AS_A_VALUE = re.compile(r"[-+.0-9][-+.0-9eE]*|[-+0]+[xX][-+.0-9a-fA-F]*|true|false|null|nan|-?inf")
 _TEMPERATURE = ("temperature", "degC")
 """Name and unit of the only variable that the device knows."""
+_UNKNOWN = "identity"
+"""Source of the prior of a calibration of readings, in the experiment file."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -111,7 +113,8 @@ def from_calibration(
         The correction.
 
     Raises:
-        FormatError: If the calibration has no prior of six channels, or a variable that the device does not know.
+        FormatError: If the calibration has no prior of six channels, or a variable that the device does not know;
+            if it and the stream's are not for the same readings.
         FitError: If the matrix of the stream cannot be inverted.
         SerialNumberError: If the stream is of another sensor.
     """
@@ -146,6 +149,11 @@ def _made_with(calibration: Calibration, stream: Calibration | None, where: str)
     """The model with which the present readings are made."""
     if stream is not None:
         stream.require_serial(calibration.sensor.serial)
+        if _corrects_readings(stream) is not _corrects_readings(calibration):
+            raise FormatError(
+                f"{where}: expected two calibrations of the same readings, but only one of them has the prior "
+                f"{_UNKNOWN!r}, which corrects a calibrated stream in place of counts; fit both in one way"
+            )
         return stream.model
     if calibration.prior is None:
         raise FormatError(
@@ -153,6 +161,11 @@ def _made_with(calibration: Calibration, stream: Calibration | None, where: str)
             "calibrated readings can be corrected only if the matrix that made them is known"
         )
     return WrenchModel(matrix=calibration.prior.matrix, offset=np.zeros(6))
+
+
+def _corrects_readings(calibration: Calibration) -> bool:
+    """Whether it was fitted to readings that were calibrated with an unknown matrix, not to counts."""
+    return calibration.prior is not None and calibration.prior.source == _UNKNOWN
 
 
 def _require_usable_name(name: str) -> None:
