@@ -1,0 +1,186 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Algebraic fits of quadrics to the moments of clouds, many at a time.
+
+Both fits minimise the mean square of `F(x) = x^T A x + 2 b^T x + d` over the cloud and differ in what
+is held fixed meanwhile. The direct fit holds `k J - I^2` with `I` the trace of A and `J` the sum of its
+principal minors of order two, which for k = 4 leaves ellipsoids only [1]; of the larger k that give an ellipsoid
+the largest is taken, because 4 itself favours ellipsoids that are no longer than twice their width. The
+gradient-weighted fit holds the mean square gradient of F [2]: F over its gradient is the distance to
+first order, so it comes close to the geometric fit, and as that one does, may find an open surface.
+
+References:
+    [1] Q. Li and J. G. Griffiths, Least squares ellipsoid specific fitting, Geometric Modeling and Processing (2004).
+    [2] G. Taubin, Estimation of planar curves, surfaces, and nonplanar space curves defined by implicit equations,
+        IEEE Trans. PAMI 13 (1991), 1115-1138.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from forcetorque.arrays import BoolArray, FloatArray
+from forcetorque.evaluation.sphere.moments import QuadricMoments
+
+_K = (1000.0, 100.0, 30.0, 10.0, 6.0, 4.0)
+"""Values of k that are tried; the last one always gives an ellipsoid."""
+
+_ROUNDING = 1e-13
+"""Eigenvalues below this part of the largest are rounding."""
+
+_ENTRIES = ((0, 0), (1, 1), (2, 2), (1, 2), (0, 2), (0, 1))
+"""Row and column of A that each of the first six coefficients is."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Quadrics:
+    """m quadrics `(x - centre)^T shape (x - centre) = 1`; an open one has a shape that is not positive definite."""
+
+    centre: FloatArray
+    """Centres; shape (m, 3)."""
+    shape: FloatArray
+    """Shapes; shape (m, 3, 3)."""
+
+    @property
+    def closed(self) -> BoolArray:
+        """Whether each is an ellipsoid; shape (m,)."""
+        finite = np.isfinite(self.shape).all(axis=(1, 2))
+        closed = np.zeros(len(self.shape), dtype=bool)
+        closed[finite] = np.linalg.eigvalsh(self.shape[finite])[:, 0] > 0.0
+        return closed
+
+    @property
+    def inverse_intersections(self) -> FloatArray:
+        """One over the axis intersections, 0 for open surfaces; shape (m, 3)."""
+        diagonal = np.where(self.closed[:, None], np.diagonal(self.shape, axis1=1, axis2=2), 0.0)
+        inverse: FloatArray = np.sqrt(diagonal)
+        return inverse
+
+
+def direct_fit(mean: FloatArray, moments: QuadricMoments) -> Quadrics:
+    """Fit ellipsoids by the direct method.
+
+    Args:
+        mean: Mean products of monomials; shape (m, 10, 10).
+        moments: The moments that they are of, for shift and scale.
+
+    Returns:
+        An ellipsoid for each, unless a cloud is flat to rounding.
+    """
+    reduced, rest = _without_linear_part(mean)
+    coefficients = np.full((len(mean), 6), np.nan)
+    wanting = np.arange(len(mean))
+    for k in _K:
+        found = _constrained(reduced[wanting], k)
+        good = _definite(found)
+        coefficients[wanting[good]] = found[good]
+        wanting = wanting[~good]
+    linear = -np.einsum("mij,mj->mi", rest, coefficients)
+    return _quadrics(np.concatenate([coefficients, linear], axis=1), moments)
+
+
+def gradient_weighted_fit(mean: FloatArray, moments: QuadricMoments) -> Quadrics:
+    """Fit quadrics by the gradient-weighted method.
+
+    Args:
+        mean: Mean products of monomials; shape (m, 10, 10).
+        moments: The moments that they are of, for shift and scale.
+
+    Returns:
+        A quadric for each, which may be open.
+    """
+    means = mean[:, :9, 9]
+    centred = mean[:, :9, :9] - means[:, :, None] * means[:, None, :]
+    smallest = smallest_generalised(centred, _gradient_moments(mean))
+    constant = -np.einsum("mi,mi->m", means, smallest)
+    return _quadrics(np.concatenate([smallest, constant[:, None]], axis=1), moments)
+
+
+def smallest_generalised(second: FloatArray, weight: FloatArray) -> FloatArray:
+    """Minimise `v^T second v` over `v^T weight v = 1`, for many symmetric pairs at once.
+
+    Directions in which the weight is zero to rounding are left out: nothing moves there.
+
+    Args:
+        second: Symmetric, not negative; shape (m, k, k).
+        weight: Likewise; shape (m, k, k).
+
+    Returns:
+        The minimisers, up to their sign; shape (m, k).
+    """
+    values, vectors = np.linalg.eigh(weight)
+    kept = values > _ROUNDING * values[:, -1:]
+    root = vectors * np.where(kept, 1.0 / np.sqrt(np.where(kept, values, 1.0)), 0.0)[:, None, :]
+    reduced = np.einsum("mki,mkl,mlj->mij", root, second, root)
+    # what was left out must not come out as the smallest
+    size = np.trace(reduced, axis1=1, axis2=2)[:, None]
+    reduced += np.where(kept, 0.0, 1.0 + size)[:, :, None] * np.eye(weight.shape[1])
+    best = np.linalg.eigh(reduced).eigenvectors[:, :, 0]
+    minimisers: FloatArray = np.einsum("mki,mi->mk", root, best)
+    return minimisers
+
+
+def _without_linear_part(mean: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Second moments of the quadratic monomials with the best linear part taken off, and that part."""
+    rest = np.linalg.pinv(mean[:, 6:, 6:], rcond=_ROUNDING, hermitian=True) @ mean[:, 6:, :6]  # (m, 4, 6)
+    return mean[:, :6, :6] - mean[:, :6, 6:] @ rest, rest
+
+
+def _constrained(reduced: FloatArray, k: float) -> FloatArray:
+    """Minimisers of `a^T reduced a` over `k J - I^2 = 1`; shape (m, 6)."""
+    constraint = np.zeros((6, 6))
+    constraint[:3, :3] = 0.5 * k - 1.0
+    constraint[:3, :3][np.diag_indices(3)] = -1.0
+    constraint[3:, 3:] = -k * np.eye(3)
+    # of the six eigenvalues of constraint^-1 reduced one is positive, since the constraint has one positive direction
+    values, vectors = np.linalg.eig(np.linalg.solve(constraint[None], reduced))
+    best = np.argmax(values.real, axis=1)
+    found: FloatArray = np.take_along_axis(vectors.real, best[:, None, None], axis=2)[:, :, 0]
+    return found
+
+
+def _definite(coefficients: FloatArray) -> BoolArray:
+    values = np.linalg.eigvalsh(_matrices(coefficients))
+    definite: BoolArray = (values[:, 0] > 0.0) | (values[:, -1] < 0.0)
+    return definite
+
+
+def _matrices(coefficients: FloatArray) -> FloatArray:
+    """A of each quadric; shape (m, 3, 3)."""
+    matrices = np.empty((len(coefficients), 3, 3))
+    for column, (i, j) in enumerate(_ENTRIES):
+        matrices[:, i, j] = matrices[:, j, i] = coefficients[:, column]
+    return matrices
+
+
+def _gradient_moments(mean: FloatArray) -> FloatArray:
+    """Mean products of the gradients of the first nine monomials, over 4; shape (m, 9, 9)."""
+    # gradient of monomial a along axis i is 2 * sum_j slope[a, i, j] h_j with h = (x, y, z, 1)
+    slope = np.zeros((9, 3, 4))
+    for a, (i, j) in enumerate(_ENTRIES):
+        slope[a, i, j] = slope[a, j, i] = 1.0
+    slope[6:, :, 3] = np.eye(3)
+    h = np.empty((len(mean), 4, 4))
+    for column, (i, j) in enumerate(_ENTRIES):
+        h[:, i, j] = h[:, j, i] = mean[:, column, 9] * (1.0 if i == j else 0.5)
+    h[:, 3, :3] = h[:, :3, 3] = 0.5 * mean[:, 6:9, 9]
+    h[:, 3, 3] = 1.0
+    products: FloatArray = np.einsum("aij,mjk,bik->mab", slope, h, slope)
+    return products
+
+
+def _quadrics(coefficients: FloatArray, moments: QuadricMoments) -> Quadrics:
+    """Centres and shapes in the unit of the cloud."""
+    b, d = coefficients[:, 6:9], coefficients[:, 9]
+    finite = np.asarray(np.isfinite(coefficients).all(axis=1))
+    matrices = np.where(finite[:, None, None], _matrices(coefficients), np.eye(3))
+    values, vectors = np.linalg.eigh(matrices)
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+        across = np.einsum("mji,mj->mi", vectors, b) / values
+        centre = -np.einsum("mij,mj->mi", vectors, across)
+        level = -np.einsum("mi,mi->m", b, centre) - d
+        shape = matrices / level[:, None, None] / moments.scale**2
+        moved = moments.shift + moments.scale * centre
+    shape[~finite] = np.nan
+    return Quadrics(centre=moved, shape=shape)

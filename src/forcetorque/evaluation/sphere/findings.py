@@ -1,0 +1,223 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What is found about a cloud: fits with their intervals, and whether they are to be believed.
+
+THE RULE. A number is identifiable if the recording itself says so, in three ways:
+
+1. Its 95 % interval, from leaving out one of ten blocks of time after the other, is narrower than the tolerance.
+2. Methods that differ only in how they treat noise agree within the tolerance. Where a small part of a sphere meets
+   noise they do not: fits that hold a coefficient shrink, fits that weigh by the gradient open to a plane.
+3. The surface is closed for every method, and the geometric fit is a minimum.
+
+For one radius, which is far easier to tell, the interval of 1 also holds 95 % of the fits to halves of the
+recording, by both methods. Where something is not identifiable, its interval is the range over all methods,
+halves, and windows of three or four tenths of the time: an estimate that moves much has no standard
+error. That of the ellipsoid then holds the interval of one radius too, because a cloud that determines no
+ellipsoid does not exclude a sphere. Intervals are made in one over length, where a plane is zero and
+not infinitely far away. One radius stands for the weight only if the sensor is not deformed.
+
+The tolerance is part of the mean length. It is no property of the data: it says what the numbers are for. Thesis Table
+4.1 tells sensors apart whose index is 2 to 25 % of the mass.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from enum import StrEnum
+
+import numpy as np
+
+from forcetorque.arrays import FloatArray, read_only
+from forcetorque.evaluation.sphere.ellipsoid import Ellipsoid
+from forcetorque.evaluation.sphere.resampling import Resampled
+
+TOLERANCE = 0.1
+"""Half width of an interval, relative to the mean length, up to which a number is identifiable."""
+
+RULE = (
+    "a number is identifiable if its 95 % interval, from leaving out one of ten blocks of time after the other, is "
+    "within the tolerance of the mean radius, if methods that treat noise differently agree within it, and if every "
+    "one of them finds a closed surface; else its interval is the range over methods, halves and windows"
+)
+"""The rule in one sentence, for results."""
+
+
+class CloudForm(StrEnum):
+    """What part of a sphere a cloud can be told to be."""
+
+    SURFACE = "surface"
+    """Enough of it for an ellipsoid."""
+    CAP = "cap"
+    """Bent, but too little of it, or too noisy, for an ellipsoid."""
+    PLANE = "plane"
+    """It cannot be told from a plane, or lies in one, as a single circle does."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class RadiusFit:
+    """A sphere of one radius through a cloud: what a perfect sensor would read."""
+
+    centre: FloatArray | None
+    """Centre by the geometric fit; shape (3,); None where it went on opening."""
+    algebraic: float
+    """Radius by linear least squares; infinite for a plane."""
+    geometric: float
+    """Radius by orthogonal distances; infinite where it went on opening."""
+    low: float
+    """Lower end of the interval over halves and windows of the recording and both methods."""
+    high: float
+    """Upper end; infinite where a part of the recording is flat."""
+    rms: float
+    """Root mean square distance from the geometric sphere; NaN without one."""
+    identifiable: bool
+    """Whether the interval is within the tolerance."""
+    why: tuple[str, ...]
+    """What speaks against it; empty if it is identifiable."""
+
+    def __post_init__(self) -> None:
+        if self.centre is not None:
+            object.__setattr__(self, "centre", read_only(self.centre, name="centre", shape=(3,)))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class EllipsoidFit:
+    """An ellipsoid with the uncertainty of its axis intersections."""
+
+    ellipsoid: Ellipsoid | None
+    """The ellipsoid; None where the cloud or the reference is flat to rounding."""
+    low: FloatArray
+    """Lower ends of the axis intersections; shape (3,)."""
+    high: FloatArray
+    """Upper ends; infinite where the surface may be open; shape (3,)."""
+    index_low: float
+    """Lower end of the sample standard deviation of the three axis intersections."""
+    index_high: float
+    """Its upper end; infinite where the surface may be open."""
+    rms: float
+    """Root mean square distance from the ellipsoid; NaN without one."""
+    identifiable: bool
+    """Whether the intersections are worth comparing."""
+    why: tuple[str, ...]
+    """What speaks against it; empty if it is identifiable."""
+
+    def __post_init__(self) -> None:
+        for name in ("low", "high"):
+            object.__setattr__(self, name, read_only(getattr(self, name), name=name, shape=(3,)))
+
+    @property
+    def index(self) -> float:
+        """Sample standard deviation of the three axis intersections; NaN without an ellipsoid."""
+        return np.nan if self.ellipsoid is None else spread_index(self.ellipsoid.axis_intersections)
+
+
+def no_radius(reason: str) -> RadiusFit:
+    """Say that there is no sphere.
+
+    Args:
+        reason: Why not.
+
+    Returns:
+        A radius that may be anything.
+    """
+    return RadiusFit(
+        centre=None,
+        algebraic=np.inf,
+        geometric=np.inf,
+        low=0.0,
+        high=np.inf,
+        rms=np.nan,
+        identifiable=False,
+        why=(reason,),
+    )
+
+
+def no_ellipsoid(reason: str) -> EllipsoidFit:
+    """Say that there is no ellipsoid.
+
+    Args:
+        reason: Why not.
+
+    Returns:
+        A fit that may be anything.
+    """
+    return EllipsoidFit(
+        ellipsoid=None,
+        low=np.zeros(3),
+        high=np.full(3, np.inf),
+        index_low=0.0,
+        index_high=np.inf,
+        rms=np.nan,
+        identifiable=False,
+        why=(reason,),
+    )
+
+
+def spread_index(lengths: FloatArray) -> float:
+    """Give the sample standard deviation of three lengths.
+
+    Args:
+        lengths: Axis intersections; shape (3,).
+
+    Returns:
+        With n - 1.
+    """
+    return float(np.std(lengths, ddof=1))
+
+
+def lengths_of(inverse: FloatArray) -> FloatArray:
+    """Give the lengths that belong to one over them.
+
+    Args:
+        inverse: One over lengths; zero or less for an open surface.
+
+    Returns:
+        Lengths, infinite for an open surface; the same shape.
+    """
+    positive = inverse > 0.0
+    lengths: FloatArray = np.where(positive, 1.0 / np.where(positive, inverse, 1.0), np.inf)
+    return lengths
+
+
+def indices_of(inverse: FloatArray) -> FloatArray:
+    """Give the index of every estimate.
+
+    Args:
+        inverse: One over axis intersections; shape (m, 3).
+
+    Returns:
+        Sample standard deviations of the lengths; shape (m,); infinite for open surfaces.
+    """
+    lengths = lengths_of(inverse)
+    closed = np.asarray(np.isfinite(lengths).all(axis=1))
+    indices: FloatArray = np.where(closed, np.where(closed[:, None], lengths, 0.0).std(axis=1, ddof=1), np.inf)
+    return indices
+
+
+def index_ends(estimates: Sequence[Resampled], *, jackknifed: bool) -> tuple[float, float]:
+    """Give the interval of the index.
+
+    Args:
+        estimates: One over the axis intersections by some methods; k is 3.
+        jackknifed: Whether they move so little that the jackknife holds; else the range over all parts is taken.
+
+    Returns:
+        Its ends over the methods, not below 0; infinite where a part is open.
+    """
+    if jackknifed:
+        ends = [each.mapped(lambda inverse: indices_of(inverse)[:, None]).jackknifed for each in estimates]
+        return max(0.0, min(float(low[0]) for low, _ in ends)), max(float(high[0]) for _, high in ends)
+    parts = [np.vstack([each.whole, each.without_one, each.halves, each.windows]) for each in estimates]
+    indices = indices_of(np.concatenate(parts))
+    return float(indices.min()), float(indices.max())
+
+
+def percent(share: float) -> str:
+    """Write a share for a message.
+
+    Args:
+        share: The share, or infinity.
+
+    Returns:
+        It in per cent.
+    """
+    return f"{100.0 * share:.3g} %" if np.isfinite(share) else "any amount"

@@ -1,0 +1,214 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Fits without the model: one radius, and an ellipsoid, as far as the cloud determines them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+import numpy as np
+
+from forcetorque.arrays import FloatArray
+from forcetorque.evaluation.sphere.algebraic import Quadrics, direct_fit, gradient_weighted_fit
+from forcetorque.evaluation.sphere.ellipsoid import Ellipsoid
+from forcetorque.evaluation.sphere.findings import (
+    EllipsoidFit,
+    RadiusFit,
+    index_ends,
+    indices_of,
+    lengths_of,
+    no_ellipsoid,
+    no_radius,
+    percent,
+)
+from forcetorque.evaluation.sphere.moments import QuadricMoments, extent
+from forcetorque.evaluation.sphere.one_radius import Spheres, gradient_weighted_spheres, least_squares_spheres
+from forcetorque.evaluation.sphere.refinement import refine_ellipsoid, refine_sphere
+from forcetorque.evaluation.sphere.resampling import FEWEST, Resampled, resampled, whole
+
+Ends = tuple[FloatArray, FloatArray]
+"""Lower and upper ends of intervals."""
+
+_FLAT = 1e-6
+"""Extent across a plane, relative to that along it, below which moments of the fourth degree see none."""
+
+_NEARLY_FLAT = 0.3
+"""Size of a cloud, relative to a radius, below which the cloud is a small part of one side of the sphere."""
+
+
+def is_flat(cloud: FloatArray) -> bool:
+    """Find whether a cloud lies in a plane to rounding.
+
+    Args:
+        cloud: Points; shape (n, 3).
+
+    Returns:
+        Whether it does.
+    """
+    spans = np.linalg.eigvalsh(np.cov(cloud.T))
+    return bool(spans[0] <= _FLAT**2 * spans[-1])
+
+
+def fit_radius(cloud: FloatArray, *, tolerance: float) -> RadiusFit:
+    """Fit a sphere.
+
+    Args:
+        cloud: Points in the order of time, at least ten; shape (n, 3).
+        tolerance: Half width of the interval, relative to the radius, up to which it is identifiable.
+
+    Returns:
+        The fit.
+    """
+    if is_flat(cloud):
+        return no_radius("the cloud lies in a plane")
+    moments = QuadricMoments.of(cloud)
+    fits = [bends(moments, fit) for fit in (least_squares_spheres, gradient_weighted_spheres)]
+    start = gradient_weighted_spheres(whole(moments.sums), moments)
+    algebraic = float(least_squares_spheres(whole(moments.sums), moments).radius[0])
+    geometric = refine_sphere(cloud, start.centre[0], float(start.radius[0]))
+    radius = float(geometric.parameters[3]) if geometric.converged else np.inf
+    low, high = _hull([fit.halved for fit in fits], np.array([1.0 / radius]))
+    why = []
+    if len(cloud) < FEWEST:
+        why.append(f"{len(cloud)} samples are too few to leave any out; take at least {FEWEST}")
+    if not 0.5 * (high[0] - low[0]) <= tolerance * radius:
+        why.append(f"halves of the recording give radii from {low[0]:.3g} to {high[0]:.3g}")
+    if why:
+        low, high = _hull([fit.ranged for fit in fits], np.array([1.0 / radius]))
+    return RadiusFit(
+        centre=geometric.parameters[:3] if geometric.converged else None,
+        algebraic=algebraic,
+        geometric=radius,
+        low=float(low[0]),
+        high=float(high[0]),
+        rms=geometric.rms if geometric.converged else np.nan,
+        identifiable=not why,
+        why=tuple(why),
+    )
+
+
+def may_be_flat(cloud: FloatArray) -> bool:
+    """Find whether a cloud can be told from a plane.
+
+    Args:
+        cloud: Points in the order of time; shape (n, 3).
+
+    Returns:
+        Whether the 95 % interval of its bend holds zero.
+    """
+    if is_flat(cloud):
+        return True
+    low, _ = bends(QuadricMoments.of(cloud), gradient_weighted_spheres).jackknifed
+    return bool(low[0] <= 0.0)
+
+
+def fit_ellipsoid(cloud: FloatArray, radius: RadiusFit, *, tolerance: float) -> EllipsoidFit:
+    """Fit an ellipsoid: directly, then geometrically.
+
+    Args:
+        cloud: Points in the order of time, at least ten; shape (n, 3).
+        radius: Fit of one radius to the same cloud.
+        tolerance: Half width of an interval, relative to the mean intersection, up to which it is identifiable.
+
+    Returns:
+        The geometric ellipsoid where it is a minimum, else the direct one; see `findings` for the rule.
+    """
+    if is_flat(cloud):
+        return no_ellipsoid("the cloud lies in a plane")
+    moments = QuadricMoments.of(cloud)
+    direct, weighted = (_intersections(moments, fit) for fit in (direct_fit, gradient_weighted_fit))
+    first = direct_fit(whole(moments.sums), moments)
+    ellipsoid, refined = refine_ellipsoid(cloud, Ellipsoid(centre=first.centre[0], shape=first.shape[0]))
+    geometric = 1.0 / ellipsoid.axis_intersections if refined.converged else np.zeros(3)
+    why = _against(len(cloud), direct, weighted, geometric, tolerance)
+    if not refined.converged:
+        ellipsoid = Ellipsoid(centre=first.centre[0], shape=first.shape[0])
+    low, high, index_low, index_high = _intervals(direct, weighted, geometric, None if not why else radius)
+    return EllipsoidFit(
+        ellipsoid=ellipsoid,
+        low=low,
+        high=high,
+        index_low=index_low,
+        index_high=index_high,
+        rms=refined.rms if refined.converged else np.nan,
+        identifiable=not why,
+        why=why,
+    )
+
+
+def bends(moments: QuadricMoments, fit: Callable[[FloatArray, QuadricMoments], Spheres]) -> Resampled:
+    """Estimate one over the radius from the whole cloud and from parts of it.
+
+    Args:
+        moments: Moments of the cloud.
+        fit: A method.
+
+    Returns:
+        One over the radius, negative where a part that is nearly flat bends the other way than the whole; k is 1.
+    """
+    towards = fit(whole(moments.sums), moments).bend[0]
+
+    def signed(mean: FloatArray) -> FloatArray:
+        bend = fit(mean, moments).bend
+        size = np.linalg.norm(bend, axis=1)
+        # parts of a wide cloud look at the centre from different sides, which is no other way of bending
+        other_way = (size * moments.scale < _NEARLY_FLAT) & (bend @ towards < 0.0)
+        signed_size: FloatArray = np.where(other_way, -size, size)[:, None]
+        return signed_size
+
+    return resampled(moments.sums, signed, extent=extent)
+
+
+def _intersections(moments: QuadricMoments, fit: Callable[[FloatArray, QuadricMoments], Quadrics]) -> Resampled:
+    """One over the axis intersections by a method, 0 for open surfaces; k is 3."""
+    return resampled(moments.sums, lambda mean: fit(mean, moments).inverse_intersections, extent=extent)
+
+
+def _against(
+    count: int, direct: Resampled, weighted: Resampled, geometric: FloatArray, tolerance: float
+) -> tuple[str, ...]:
+    """What speaks against the ellipsoid: see the rule in `findings`."""
+    if count < FEWEST:
+        return (f"{count} samples are too few to leave any out; take at least {FEWEST}",)
+    inverse = np.stack([direct.whole, weighted.whole, geometric])
+    if not (inverse > 0.0).all():
+        return ("the cloud fits an open surface as well",)
+    why = []
+    lengths = 1.0 / inverse
+    gap = float(np.ptp(lengths, axis=0).max() / lengths.mean())
+    if gap > tolerance:
+        why.append(f"methods that treat noise differently are {percent(gap)} of the mean radius apart")
+    ends = [_lengths(fit.jackknifed) for fit in (direct, weighted)]
+    margin = max(float((0.5 * (high - low)).max()) for low, high in ends) / float(lengths.mean())
+    if not margin <= tolerance:
+        why.append(f"without one tenth of the recording after the other, a radius is known to {percent(margin)} only")
+    return tuple(why)
+
+
+def _lengths(inverse: tuple[FloatArray, FloatArray]) -> tuple[FloatArray, FloatArray]:
+    """Ends of intervals of lengths from those of one over them."""
+    return lengths_of(inverse[1]), lengths_of(inverse[0])
+
+
+def _hull(intervals: Sequence[tuple[FloatArray, FloatArray]], *points: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Ends of the smallest intervals of lengths that hold some intervals, and points, of one over them."""
+    return _lengths(
+        (
+            np.min([*(low for low, _ in intervals), *points], axis=0),
+            np.max([*(high for _, high in intervals), *points], axis=0),
+        )
+    )
+
+
+def _intervals(
+    direct: Resampled, weighted: Resampled, geometric: FloatArray, radius: RadiusFit | None
+) -> tuple[FloatArray, FloatArray, float, float]:
+    """Intervals of intersections and index; `radius` if the ellipsoid is not identifiable: see the rule."""
+    fits = (direct, weighted)
+    index_low, index_high = index_ends(fits, jackknifed=radius is None)
+    if radius is None:
+        point = float(indices_of(geometric[None])[0])
+        low, high = _hull([fit.jackknifed for fit in fits], geometric)
+        return low, high, min(index_low, point), max(index_high, point)
+    one = (np.full(3, 1.0 / radius.high), np.full(3, 1.0 / radius.low))
+    low, high = _hull([*(fit.ranged for fit in fits), one], geometric)
+    return low, high, 0.0, index_high  # a sphere, whose index is 0, is not excluded
