@@ -22,7 +22,8 @@ def share_of_directions(cloud: FloatArray, centre: FloatArray) -> float:
         centre: Where they are looked at from; shape (3,).
 
     Returns:
-        Share of equal parts of the sphere of directions with at least one point; from 0 to 1.
+        Share of equal parts of the sphere of directions with at least one point, those at the edge counted whole;
+        from 0 to 1.
     """
     away = cloud - centre
     length = np.linalg.norm(away, axis=1)

@@ -70,7 +70,7 @@ def fit_radius(cloud: FloatArray, *, tolerance: float) -> RadiusFit:
     why = []
     if len(cloud) < FEWEST:
         why.append(f"{len(cloud)} samples are too few to leave any out; take at least {FEWEST}")
-    if not 0.5 * (high[0] - low[0]) <= tolerance * radius:
+    if not (np.isfinite(high[0]) and 0.5 * (high[0] - low[0]) <= tolerance * radius):
         why.append(f"halves of the recording give radii from {low[0]:.3g} to {high[0]:.3g}")
     if why:
         low, high = _hull([fit.ranged for fit in fits], np.array([1.0 / radius]))

@@ -21,6 +21,8 @@ _ROWS = 8192
 _LOWER = np.tril_indices(3)
 _STEPS = 100
 """Most Newton steps towards the feet; near the surface three do."""
+_MISSING = 1e-8
+"""What a foot lacks in the equation of the ellipsoid beyond rounding."""
 _FOOT = 1e-14
 """Relative step at which a foot is found."""
 
@@ -147,6 +149,11 @@ def _feet(points: FloatArray, factor: FloatArray) -> tuple[FloatArray, FloatArra
     t = _foot_parameters(y, squares)
     share = squares[:, None] / (squares[:, None] + t)
     foot = share * y
+    # near the centre a point that has nothing of the shortest axis still finds its foot along it, on either side
+    missing = 1.0 - (foot**2 / squares[:, None]).sum(axis=0)
+    foot[0] = np.where(
+        missing > _MISSING, np.copysign(np.sqrt(foot[0] ** 2 + squares[0] * missing.clip(0.0)), y[0]), foot[0]
+    )
     normal = foot / squares[:, None]
     normal /= np.sqrt((normal**2).sum(axis=0))
     distance = ((y - foot) * normal).sum(axis=0)
@@ -166,13 +173,13 @@ def _foot_parameters(y: FloatArray, squares: FloatArray) -> FloatArray:
     with np.errstate(divide="ignore", invalid="ignore"):
         first = np.where(slope > 0.0, 0.5 * (level - 1.0) / slope, lowest)
     t: FloatArray = np.maximum(lowest, first)
-    # a point in the centre is as near to the ends of the shortest axis as to nothing else
+    # up to the pole of the shortest axis, where points without a part along it may have their feet
     t = np.maximum(t, (np.sqrt(np.finfo(float).eps) - 1.0) * squares[0])
     for _ in range(_STEPS):
         over = 1.0 / (column + t)
         terms = weighted * over**2
-        step = 0.5 * (terms.sum(axis=0) - 1.0) / (terms * over).sum(axis=0)
-        step = np.where(np.isfinite(step), np.maximum(step, 0.0), 0.0)
+        excess, fall = 0.5 * (terms.sum(axis=0) - 1.0), (terms * over).sum(axis=0)
+        step = np.where(excess > 0.0, excess / np.where(fall > 0.0, fall, 1.0), 0.0)
         t += step
         if (step <= _FOOT * (squares[0] + np.abs(t))).all():
             break

@@ -1,0 +1,165 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Algebraic fits against implementations from the literature on the points themselves, and exact cases."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+import scipy.linalg
+from hypothesis import given
+from hypothesis import strategies as st
+from scipy.spatial.transform import Rotation
+
+from forcetorque.evaluation.sphere import Ellipsoid
+from forcetorque.evaluation.sphere.algebraic import Quadrics, direct_fit, gradient_weighted_fit
+from forcetorque.evaluation.sphere.moments import QuadricMoments
+from forcetorque.evaluation.sphere.resampling import whole
+from tests.evaluation.sphere.clouds import DEFORMED, grid, on, whole_sphere
+
+AGREEMENT = 1e-7
+"""Between eigenproblems of ten monomials: rounding times the condition of clouds of this kind."""
+FITS = {"direct": direct_fit, "gradient-weighted": gradient_weighted_fit}
+
+
+def _fit(name: str, cloud: np.ndarray) -> Quadrics:
+    moments = QuadricMoments.of(cloud)
+    return FITS[name](whole(moments.sums), moments)
+
+
+def _clouds() -> dict[str, np.ndarray]:
+    rng = np.random.default_rng(3)
+    return {
+        "whole, noise 2 %": on(DEFORMED, whole_sphere(700)) + rng.normal(size=(700, 3)),
+        "grid of 60 degrees, noise 0.4 %": on(DEFORMED, grid(900, 60.0)) + 0.2 * rng.normal(size=(900, 3)),
+        "grid of 40 degrees, noise 2 %": on(DEFORMED, grid(900, 40.0)) + rng.normal(size=(900, 3)),
+    }
+
+
+CLOUDS = _clouds()
+
+
+def _design(cloud: np.ndarray) -> tuple[np.ndarray, np.ndarray, float]:
+    """Points moved and scaled as the fits hold them, since neither method is free of the choice of units."""
+    shift = cloud.mean(axis=0)
+    scale = np.sqrt(((cloud - shift) ** 2).sum(axis=1).mean())
+    return (cloud - shift) / scale, shift, float(scale)
+
+
+def _quadric(v: np.ndarray, shift: np.ndarray, scale: float) -> tuple[np.ndarray, np.ndarray]:
+    """Centre and shape of v0 x2 + v1 y2 + v2 z2 + 2 v3 yz + 2 v4 xz + 2 v5 xy + 2 v6 x + 2 v7 y + 2 v8 z + v9."""
+    a = np.array([[v[0], v[5], v[4]], [v[5], v[1], v[3]], [v[4], v[3], v[2]]])
+    centre = np.linalg.solve(a, -v[6:9])
+    return shift + scale * centre, a / (centre @ a @ centre - v[9]) / scale**2
+
+
+def _li_griffiths(cloud: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Li and Griffiths (2004), equations 5 to 15, on the design matrix, with the largest k that gives an ellipsoid."""
+    x, shift, scale = _design(cloud)
+    design = np.column_stack(
+        [x**2, 2 * x[:, 1] * x[:, 2], 2 * x[:, 0] * x[:, 2], 2 * x[:, 0] * x[:, 1], 2 * x, np.ones(len(x))]
+    )
+    scatter = design.T @ design
+    for k in (1000.0, 100.0, 30.0, 10.0, 6.0, 4.0):
+        c1 = np.full((3, 3), k / 2 - 1) - k / 2 * np.eye(3)
+        constraint = scipy.linalg.block_diag(c1, -k * np.eye(3), np.zeros((4, 4)))
+        # S v = lambda C v, turned over because C is singular and S is not
+        mu, vectors = scipy.linalg.eig(constraint, scatter)
+        centre, shape = _quadric(vectors[:, np.argmax(mu.real)].real, shift, scale)
+        if np.linalg.eigvalsh(shape)[0] > 0.0:
+            return centre, shape
+    raise AssertionError("k = 4 leaves ellipsoids only")
+
+
+def _taubin(cloud: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Taubin (1991), equation 19, with gradients taken point by point."""
+    x, shift, scale = _design(cloud)
+    zero, one = np.zeros(len(x)), np.ones(len(x))
+    a, b, c = x.T
+    design = np.column_stack([a * a, b * b, c * c, 2 * b * c, 2 * a * c, 2 * a * b, 2 * a, 2 * b, 2 * c, one])
+    along = (
+        np.column_stack([2 * a, zero, zero, zero, 2 * c, 2 * b, 2 * one, zero, zero, zero]),
+        np.column_stack([zero, 2 * b, zero, 2 * c, zero, 2 * a, zero, 2 * one, zero, zero]),
+        np.column_stack([zero, zero, 2 * c, 2 * b, 2 * a, zero, zero, zero, 2 * one, zero]),
+    )
+    gradients = sum(part.T @ part for part in along)
+    mu, vectors = scipy.linalg.eigh(gradients, design.T @ design)
+    return _quadric(vectors[:, np.argmax(mu)], shift, scale)
+
+
+@pytest.mark.parametrize("cloud", CLOUDS)
+@pytest.mark.parametrize(("name", "oracle"), [("direct", _li_griffiths), ("gradient-weighted", _taubin)])
+def test_fits_agree_with_the_literature(name: str, oracle: object, cloud: str) -> None:
+    """From moments as from the design matrix of all points, with noise and on parts of the ellipsoid."""
+    centre, shape = oracle(CLOUDS[cloud])  # type: ignore[operator]
+    ours = _fit(name, CLOUDS[cloud])
+    size = np.sqrt(np.abs(np.diag(shape)))
+    np.testing.assert_allclose(ours.shape[0] / size / size[:, None], shape / size / size[:, None], atol=AGREEMENT)
+    np.testing.assert_allclose(ours.centre[0], centre, atol=AGREEMENT / size.min())
+
+
+def test_the_two_methods_are_told_apart() -> None:
+    """Negative control: on noise the oracles differ from each other by far more than the fits from them."""
+    for cloud in CLOUDS.values():
+        direct, weighted = _li_griffiths(cloud)[1], _taubin(cloud)[1]
+        assert np.abs(direct / weighted - 1.0).max() > 1e3 * AGREEMENT
+
+
+@pytest.mark.parametrize("name", FITS)
+@pytest.mark.parametrize("directions", [whole_sphere(40), grid(300, 50.0), grid(300, 15.0)])
+def test_exact_ellipsoids_are_found(name: str, directions: np.ndarray) -> None:
+    """Without noise any part of an ellipsoid that is no plane determines it."""
+    found = _fit(name, on(DEFORMED, directions))
+    # the smaller the cap, the more nearly its monomials depend on each other
+    assert found.closed.all()
+    np.testing.assert_allclose(1.0 / found.inverse_intersections[0], DEFORMED.axis_intersections, rtol=1e-5)
+    np.testing.assert_allclose(found.centre[0], DEFORMED.centre, atol=1e-5 * np.abs(DEFORMED.centre).max())
+
+
+@given(
+    turn=st.tuples(*[st.floats(-3.0, 3.0)] * 3),
+    step=st.tuples(*[st.floats(-500.0, 500.0)] * 3),
+    factor=st.floats(0.01, 100.0),
+    name=st.sampled_from(sorted(FITS)),
+    cloud=st.sampled_from(sorted(CLOUDS)),
+)
+def test_fits_follow_rotation_translation_and_units(
+    turn: tuple[float, ...], step: tuple[float, ...], factor: float, name: str, cloud: str
+) -> None:
+    """Where the axes and the zero are, and what the unit is, makes no difference."""
+    turned = Rotation.from_rotvec(turn).as_matrix()
+    plain = _fit(name, CLOUDS[cloud])
+    moved = _fit(name, factor * (CLOUDS[cloud] @ turned.T + step))
+    size = np.abs(plain.shape).max()
+    back = factor**2 * turned.T @ moved.shape[0] @ turned
+    # an offset of 500 N costs the cloud of 50 N a digit or two
+    np.testing.assert_allclose(back / size, plain.shape[0] / size, atol=1e-6)
+    np.testing.assert_allclose((moved.centre[0] / factor - step) @ turned, plain.centre[0], atol=1e-4)
+
+
+def test_the_direct_fit_gives_an_ellipsoid_of_anything() -> None:
+    """Of a saddle too, which the gradient-weighted fit sees for what it is."""
+    rng = np.random.default_rng(5)
+    x, y = rng.uniform(-10.0, 10.0, size=(2, 500))
+    saddle = np.column_stack([x, y, 0.02 * (x**2 - y**2)])
+    assert _fit("direct", saddle).closed.all()
+    assert not _fit("gradient-weighted", saddle).closed.any()
+    assert (_fit("gradient-weighted", saddle).inverse_intersections == 0.0).all()
+
+
+def test_many_are_fitted_as_one_by_one() -> None:
+    """A batch of clouds gives what each gives alone."""
+    moments = QuadricMoments.of(CLOUDS["grid of 60 degrees, noise 0.4 %"])
+    means = moments.sums / moments.sums[:, 9:, 9:]
+    for fit in FITS.values():
+        together = fit(means, moments)
+        for k in range(len(means)):
+            alone = fit(means[k : k + 1], moments)
+            np.testing.assert_allclose(together.shape[k], alone.shape[0], rtol=1e-9, atol=1e-15)
+
+
+def test_an_elongated_ellipsoid_is_not_rounded() -> None:
+    """One five times as long as wide: with k = 4 alone it would come out rounder."""
+    long = Ellipsoid(centre=np.zeros(3), shape=np.diag([1.0 / 2500.0, 1.0 / 100.0, 1.0 / 100.0]))
+    rng = np.random.default_rng(6)
+    cloud = on(long, whole_sphere(2000)) + 0.1 * rng.normal(size=(2000, 3))
+    np.testing.assert_allclose(1.0 / _fit("direct", cloud).inverse_intersections[0], [50.0, 10.0, 10.0], rtol=0.01)

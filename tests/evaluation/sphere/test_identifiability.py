@@ -1,0 +1,196 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Clouds that determine an ellipsoid are told from those that do not, and intervals hold the truth."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from forcetorque.evaluation.sphere import TOLERANCE, CloudForm, EllipsoidFit, RadiusFit, analyse_sphere
+from forcetorque.evaluation.sphere.free import fit_ellipsoid, fit_radius, may_be_flat
+from tests.evaluation.sphere.clouds import DEFORMED, WEIGHT, grid, map_of, on, slow_noise, whole_sphere
+
+COUNT = 1500
+"""Samples of a cloud."""
+
+
+def _both(cloud: np.ndarray) -> tuple[RadiusFit, EllipsoidFit]:
+    radius = fit_radius(cloud, tolerance=TOLERANCE)
+    return radius, fit_ellipsoid(cloud, radius, tolerance=TOLERANCE)
+
+
+def _random_case(rng: np.random.Generator, half: float, noise: float, memory: float) -> tuple[np.ndarray, np.ndarray]:
+    """A cloud on a random ellipsoid, somewhere on it, and the true axis intersections."""
+    matrix = np.diag([46.0, 52.0, 42.0]) @ (np.eye(3) + 0.05 * rng.normal(size=(3, 3)))
+    turned = np.linalg.qr(rng.normal(size=(3, 3)))[0]
+    cloud = grid(COUNT, half) @ turned.T @ matrix.T + [3.0, 5.0, -8.0] + slow_noise(rng, COUNT, noise, memory)
+    return cloud, 1.0 / np.sqrt(np.diag(np.linalg.inv(matrix @ matrix.T)))
+
+
+CASES = [
+    # half of the grid, deg; noise, N; its memory; whether the ellipsoid is always, never or sometimes identifiable
+    (60.0, 0.2, 0.0, True),
+    (60.0, 0.05, 0.98, True),
+    (45.0, 0.2, 0.0, True),
+    (45.0, 0.2, 0.98, None),
+    (45.0, 0.6, 0.0, False),
+    (30.0, 0.05, 0.98, None),
+    (30.0, 0.6, 0.98, False),
+    (20.0, 0.2, 0.0, False),
+    (10.0, 0.05, 0.0, False),
+]
+
+
+@pytest.mark.parametrize(("half", "noise", "memory", "expected"), CASES)
+def test_intervals_hold_the_truth(half: float, noise: float, memory: float, expected: bool | None) -> None:
+    """Where a cloud is believed the error is below the tolerance; in any case nine of ten intervals hold the truth."""
+    rng = np.random.default_rng(7)
+    held, believed, count = [], 0, 12
+    for _ in range(count):
+        cloud, truth = _random_case(rng, half, noise, memory)
+        _, fit = _both(cloud)
+        held += list((fit.low <= truth) & (truth <= fit.high))
+        believed += fit.identifiable
+        if fit.identifiable:
+            assert fit.ellipsoid is not None
+            error = np.abs(fit.ellipsoid.axis_intersections - truth)
+            assert error.max() < TOLERANCE * truth.mean()
+            assert fit.why == ()
+        else:
+            assert fit.why
+    assert len(held) == 3 * count
+    # 36 intervals of 95 %, correlated within a cloud
+    assert np.mean(held) > 0.85
+    if expected is not None:
+        assert believed == (count if expected else 0)
+
+
+def test_a_naive_interval_does_not_hold_the_truth() -> None:
+    """Negative control: on a cap, the fit and the tolerance around it miss the truth nearly always."""
+    rng = np.random.default_rng(8)
+    missed = 0
+    for _ in range(12):
+        cloud, truth = _random_case(rng, 20.0, 0.4, 0.98)
+        _, fit = _both(cloud)
+        assert fit.ellipsoid is not None
+        missed += np.abs(fit.ellipsoid.axis_intersections - truth).max() > TOLERANCE * truth.mean()
+    assert missed >= 10
+
+
+def test_a_whole_ellipsoid_and_its_index() -> None:
+    """All directions: radii and index within their intervals, which are narrow."""
+    rng = np.random.default_rng(9)
+    cloud = on(DEFORMED, rng.permutation(whole_sphere(COUNT))) + 0.3 * rng.normal(size=(COUNT, 3))
+    _, fit = _both(cloud)
+    truth = DEFORMED.axis_intersections
+    assert fit.identifiable
+    assert ((fit.low < truth) & (truth < fit.high)).all()
+    assert (fit.high - fit.low).max() < 0.02 * WEIGHT
+    assert fit.index_low < np.std(truth, ddof=1) < fit.index_high
+    assert fit.index_low <= fit.index <= fit.index_high
+    # two of three directions of the noise lie along the surface
+    assert fit.rms == pytest.approx(0.3, rel=0.05)
+
+
+def test_one_radius_of_a_perfect_sensor() -> None:
+    """Told from a grid of 60 degrees, by both methods, and from far less than an ellipsoid needs."""
+    rng = np.random.default_rng(10)
+    for half, noise, told in ((60.0, 0.5, (True, True)), (30.0, 0.3, (True, False)), (8.0, 0.5, (False, False))):
+        cloud = WEIGHT * grid(COUNT, half) + noise * rng.normal(size=(COUNT, 3))
+        radius, fit = _both(cloud)
+        assert (radius.identifiable, fit.identifiable) == told
+        assert radius.low <= WEIGHT <= radius.high
+        assert radius.low <= radius.geometric <= radius.high
+        assert bool(radius.why) is not radius.identifiable
+
+
+def test_a_deformed_sensor_has_no_one_radius() -> None:
+    """Halves of the recording then see other radii, although the ellipsoid is plain."""
+    rng = np.random.default_rng(11)
+    strong = np.diag([1.0, 1.8, 0.6]) * WEIGHT
+    cloud = grid(COUNT, 70.0) @ strong.T + 0.2 * rng.normal(size=(COUNT, 3))
+    radius, fit = _both(cloud)
+    assert fit.identifiable
+    assert not radius.identifiable
+    assert "halves of the recording" in radius.why[0]
+
+
+def test_a_plane_is_called_a_plane() -> None:
+    """Flat to rounding, a single circle, and flat up to noise: no radius has an upper end."""
+    rng = np.random.default_rng(12)
+    flat = np.column_stack([rng.normal(size=(COUNT, 2)), np.zeros(COUNT)]) * 10.0
+    angle = np.linspace(0.0, 2.0 * np.pi, COUNT)
+    circle = 40.0 * np.column_stack([np.cos(angle), np.sin(angle), np.zeros(COUNT)])
+    slack = flat + 0.3 * rng.normal(size=(COUNT, 3))
+    for cloud in (flat, circle, slack):
+        radius, fit = _both(cloud)
+        assert may_be_flat(cloud)
+        assert not fit.identifiable
+        assert not radius.identifiable
+        assert np.isinf([radius.high, *fit.high, fit.index_high]).all()
+        assert (fit.index_low, radius.low < WEIGHT) == (0.0, True)
+    assert _both(flat)[1].ellipsoid is None
+    assert "lies in a plane" in _both(circle)[1].why[0]
+    assert not may_be_flat(WEIGHT * grid(COUNT, 20.0))  # negative control
+
+
+def test_forms() -> None:
+    """Surface, cap and plane, by the same statistics."""
+    rng = np.random.default_rng(13)
+
+    def form(directions: np.ndarray, noise: float) -> CloudForm:
+        force = WEIGHT * directions + slow_noise(rng, COUNT, noise, 0.98)
+        return analyse_sphere(np.hstack([force, np.zeros_like(force)]), gravity=9.81).form
+
+    assert form(grid(COUNT, 60.0), 0.1) is CloudForm.SURFACE
+    assert form(grid(COUNT, 15.0), 0.2) is CloudForm.CAP
+    assert form(grid(COUNT, 2.0), 0.5) is CloudForm.PLANE
+
+
+def test_standing_still_for_half_of_the_time_changes_little() -> None:
+    """Parts in which nothing moves say nothing, so they spoil nothing either."""
+    rng = np.random.default_rng(14)
+    moving = WEIGHT * grid(COUNT, 60.0)
+    for cloud in (moving, np.concatenate([moving, np.repeat(moving[-1:], COUNT, axis=0)])):
+        radius, fit = _both(cloud + 0.2 * rng.normal(size=cloud.shape))
+        assert radius.identifiable
+        assert fit.identifiable
+
+
+def test_few_samples_are_fitted_and_not_believed() -> None:
+    """Ten to nineteen: nothing can be left out, so nothing is known about the uncertainty."""
+    exact = on(DEFORMED, whole_sphere(19))
+    radius, fit = _both(exact)
+    assert fit.ellipsoid is not None
+    np.testing.assert_allclose(fit.ellipsoid.axis_intersections, DEFORMED.axis_intersections, rtol=1e-6)
+    assert not fit.identifiable
+    assert not radius.identifiable
+    assert "19 samples are too few to leave any out" in fit.why[0]
+    assert _both(on(DEFORMED, np.random.default_rng(1).permutation(whole_sphere(60))))[1].identifiable
+
+
+def test_the_tolerance_is_the_callers() -> None:
+    """What is good enough to tell sensors apart is not good enough for a finer question."""
+    cloud = on(DEFORMED, grid(COUNT, 60.0)) + 0.2 * np.random.default_rng(15).normal(size=(COUNT, 3))
+    radius = fit_radius(cloud, tolerance=TOLERANCE)
+    coarse, fine = (fit_ellipsoid(cloud, radius, tolerance=tolerance) for tolerance in (TOLERANCE, 1e-4))
+    assert coarse.identifiable
+    assert not fine.identifiable
+    assert (fine.low <= coarse.low).all()
+
+
+def test_units_make_no_difference() -> None:
+    """In kN the same verdict and the same numbers, a thousand times smaller."""
+    cloud = on(DEFORMED, grid(COUNT, 50.0)) + 0.4 * np.random.default_rng(16).normal(size=(COUNT, 3))
+    plain, small = _both(cloud), _both(1e-3 * cloud)
+    for one, other in zip(plain, small, strict=True):
+        assert one.identifiable == other.identifiable
+        np.testing.assert_allclose(1e3 * np.asarray(other.low), one.low, rtol=1e-5)
+        np.testing.assert_allclose(1e3 * np.asarray(other.high), one.high, rtol=1e-5)
+
+
+def test_the_map_of_the_helper_is_right() -> None:
+    """Points that the tests take to lie on the ellipsoid do."""
+    away = on(DEFORMED, whole_sphere(30)) - DEFORMED.centre
+    np.testing.assert_allclose(np.einsum("ni,ij,nj->n", away, DEFORMED.shape, away), 1.0, rtol=1e-12)
+    assert np.linalg.det(map_of(DEFORMED)) > 0.0
