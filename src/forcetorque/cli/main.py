@@ -257,7 +257,7 @@ def _schema(
         str,
         typer.Argument(
             help="experiment, scenario, recording, calibration, calibrate, estimate, evaluate, export, gains, inspect, "
-            "payload, simulate or study."
+            "payload, simulate, sphere or study."
         ),
     ],
 ) -> None:
@@ -283,6 +283,43 @@ def _simulate(
     from forcetorque.cli.simulate import run
 
     run(scenario, output=output, output_format=output_format)
+
+
+@app.command("sphere")
+def _sphere(
+    experiment: ExperimentArgument,
+    sensor: SensorOption = None,
+    calibration: Annotated[
+        list[Path] | None,
+        typer.Option("--calibration", "-c", help="Calibration file to compare with the prior; repeat for more."),
+    ] = None,
+    interval: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--interval",
+            help="Label or kind of an interval whose motion draws a sphere; repeat for more. Default: the sphere "
+            "intervals of the file, else all.",
+        ),
+    ] = None,
+    figure: Annotated[
+        Path | None, typer.Option("--figure", help="PNG of the forces, the ellipsoids and the weight by the model.")
+    ] = None,
+    output_format: FormatOption = Format.TABLE,
+) -> None:
+    """Fit an ellipsoid to the forces of a limb that is carried around, and compare its axes.
+
+    Example: forcetorque sphere experiment.toml --interval grid
+    """
+    from forcetorque.cli.sphere import run
+
+    run(
+        experiment,
+        sensors=sensor,
+        calibrations=calibration,
+        intervals=interval,
+        figure=figure,
+        output_format=output_format,
+    )
 
 
 @app.command("study")

@@ -33,6 +33,7 @@ def run(name: str) -> None:
         "payload": _payload,
         "scenario": _scenario,
         "simulate": _simulate,
+        "sphere": _sphere,
         "study": _study,
     }
     if name not in known:
@@ -110,6 +111,12 @@ def _simulate() -> dict[str, Any]:
     from forcetorque.cli.simulate import SimulateResult
 
     return SimulateResult.model_json_schema()
+
+
+def _sphere() -> dict[str, Any]:
+    from forcetorque.cli.sphere_result import SphereResult
+
+    return SphereResult.model_json_schema()
 
 
 def _study() -> dict[str, Any]:

@@ -12,6 +12,7 @@ from forcetorque.experiment.parse import parse_experiment
 from forcetorque.experiment.readings import Correction, corrections_of
 from forcetorque.experiment.samples import IntervalSamples, samples_of
 from forcetorque.experiment.schema import ExperimentFile
+from forcetorque.experiment.sphere import SensorSphere, analyse_sensor, sphere_intervals
 from forcetorque.experiment.study import SensorStudy, study_sensor
 from forcetorque.experiment.study_data import StudyData, read_study_data
 
@@ -24,10 +25,12 @@ __all__ = [
     "IntervalSamples",
     "JointPosition",
     "SensorGains",
+    "SensorSphere",
     "SensorStudy",
     "StrongestSample",
     "StudyData",
     "Verdict",
+    "analyse_sensor",
     "calibrate_sensor",
     "corrections_of",
     "doubtful_spans",
@@ -41,5 +44,6 @@ __all__ = [
     "read_study_data",
     "samples_of",
     "select_gains",
+    "sphere_intervals",
     "study_sensor",
 ]

@@ -5,12 +5,16 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+import numpy as np
+
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration import DataSet, recover_raw
 from forcetorque.errors import ExperimentError
 from forcetorque.estimation import Processing, SensorSamples, sensor_samples
+from forcetorque.estimation.samples import pick_samples
 from forcetorque.experiment.content import Experiment, ExperimentSensor
 from forcetorque.recording import Interval, Use
+from forcetorque.recording.smoothing import smooth
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -65,6 +69,40 @@ def samples_over(
         processing=processing,
         variables=[variable.source for variable in sensor.variables] if with_variables else (),
     )
+
+
+def readings_over(
+    experiment: Experiment, sensor: ExperimentSensor, interval: Interval
+) -> tuple[FloatArray, FloatArray]:
+    """Take the readings of a sensor over one interval, for which no reference is wanted.
+
+    Args:
+        experiment: The experiment.
+        sensor: One of its sensors.
+        interval: An interval of its recording.
+
+    Returns:
+        Readings, smoothed as the experiment has it, and the sensor's linear variables; samples that lack any are left
+        out; shapes (n, c), (n, v).
+
+    Raises:
+        ExperimentError: If no sample is left.
+    """
+    recording = experiment.recording
+    stream = recording.stream(sensor.stream)
+    picked, _ = pick_samples(recording, stream, interval)
+    at_ns = stream.stamp_ns[picked]
+    values = np.where(stream.held[picked, None], np.nan, stream.signal(sensor.quantity).values[picked])
+    columns = [variable.source.at(recording, at_ns)[:, None] for variable in sensor.variables]
+    both = np.hstack([values, *columns])
+    if experiment.processing.smoothing is not None:
+        both = smooth(at_ns, both, experiment.processing.smoothing)
+    complete = both[np.isfinite(both).all(axis=1)]
+    if not len(complete):
+        raise ExperimentError(
+            f"interval {interval.label!r}: none of {len(picked)} samples of {sensor.stream!r} is complete"
+        )
+    return complete[:, : values.shape[1]], complete[:, values.shape[1] :]
 
 
 def samples_of(

@@ -8,6 +8,7 @@ from forcetorque.report.force_space import force_space_figure
 from forcetorque.report.gains import gain_figure
 from forcetorque.report.lambda_difference import lambda_difference_figure
 from forcetorque.report.lambda_force import lambda_force_figure
+from forcetorque.report.sphere import sphere_figure
 from forcetorque.report.wrench_space import space_figure
 
 __all__ = [
@@ -19,4 +20,5 @@ __all__ = [
     "lambda_difference_figure",
     "lambda_force_figure",
     "space_figure",
+    "sphere_figure",
 ]

@@ -111,7 +111,7 @@ def test_exact_ellipsoids_are_found(name: str, directions: np.ndarray) -> None:
     found = _fit(name, on(DEFORMED, directions))
     # the smaller the cap, the more nearly its monomials depend on each other
     assert found.closed.all()
-    np.testing.assert_allclose(1.0 / found.inverse_intersections[0], DEFORMED.axis_intersections, rtol=1e-5)
+    np.testing.assert_allclose(1.0 / found.inverse_lengths[0, :3], DEFORMED.axis_intersections, rtol=1e-5)
     np.testing.assert_allclose(found.centre[0], DEFORMED.centre, atol=1e-5 * np.abs(DEFORMED.centre).max())
 
 
@@ -143,7 +143,7 @@ def test_the_direct_fit_gives_an_ellipsoid_of_anything() -> None:
     saddle = np.column_stack([x, y, 0.02 * (x**2 - y**2)])
     assert _fit("direct", saddle).closed.all()
     assert not _fit("gradient-weighted", saddle).closed.any()
-    assert (_fit("gradient-weighted", saddle).inverse_intersections == 0.0).all()
+    assert (_fit("gradient-weighted", saddle).inverse_lengths == 0.0).all()
 
 
 def test_many_are_fitted_as_one_by_one() -> None:
@@ -162,4 +162,4 @@ def test_an_elongated_ellipsoid_is_not_rounded() -> None:
     long = Ellipsoid(centre=np.zeros(3), shape=np.diag([1.0 / 2500.0, 1.0 / 100.0, 1.0 / 100.0]))
     rng = np.random.default_rng(6)
     cloud = on(long, whole_sphere(2000)) + 0.1 * rng.normal(size=(2000, 3))
-    np.testing.assert_allclose(1.0 / _fit("direct", cloud).inverse_intersections[0], [50.0, 10.0, 10.0], rtol=0.01)
+    np.testing.assert_allclose(1.0 / _fit("direct", cloud).inverse_lengths[0, :3], [50.0, 10.0, 10.0], rtol=0.01)

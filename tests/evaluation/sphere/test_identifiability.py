@@ -15,7 +15,7 @@ COUNT = 1500
 
 
 def _both(cloud: np.ndarray) -> tuple[RadiusFit, EllipsoidFit]:
-    radius = fit_radius(cloud, tolerance=TOLERANCE)
+    radius = fit_radius(cloud, unit="N", tolerance=TOLERANCE)
     return radius, fit_ellipsoid(cloud, radius, tolerance=TOLERANCE)
 
 
@@ -172,7 +172,7 @@ def test_few_samples_are_fitted_and_not_believed() -> None:
 def test_the_tolerance_is_the_callers() -> None:
     """What is good enough to tell sensors apart is not good enough for a finer question."""
     cloud = on(DEFORMED, grid(COUNT, 60.0)) + 0.2 * np.random.default_rng(15).normal(size=(COUNT, 3))
-    radius = fit_radius(cloud, tolerance=TOLERANCE)
+    radius = fit_radius(cloud, unit="N", tolerance=TOLERANCE)
     coarse, fine = (fit_ellipsoid(cloud, radius, tolerance=tolerance) for tolerance in (TOLERANCE, 1e-4))
     assert coarse.identifiable
     assert not fine.identifiable

@@ -14,8 +14,16 @@ from dataclasses import dataclass
 import numpy as np
 
 from forcetorque.arrays import FloatArray, read_only
+from forcetorque.evaluation.sphere.algebraic import inverse_lengths
 from forcetorque.evaluation.sphere.ellipsoid import ellipsoid_of_map
-from forcetorque.evaluation.sphere.findings import EllipsoidFit, index_ends, lengths_of, no_ellipsoid, percent
+from forcetorque.evaluation.sphere.findings import (
+    EllipsoidFit,
+    index_ends,
+    lengths_of,
+    no_ellipsoid,
+    percent,
+    relative_margin,
+)
 from forcetorque.evaluation.sphere.free import is_flat
 from forcetorque.evaluation.sphere.moments import sums_of_products
 from forcetorque.evaluation.sphere.resampling import FEWEST, resampled, whole
@@ -57,7 +65,7 @@ class MomentFit:
     high: FloatArray
     """Upper ends; shape (3,); N m."""
     stray: float
-    """Root mean square of the model's moment that is no function of its force, relative to the largest expected
+    """Root mean square of the model's moment that is no function of its force, relative to the largest
     half-width; 0 for a stiff limb."""
     identifiable: bool
     """Whether the half-widths are worth comparing."""
@@ -91,29 +99,31 @@ def fit_mapped(force: FloatArray, reference: FloatArray, *, tolerance: float) ->
     radius = float(np.linalg.norm(reference, axis=1).mean())
     sums, shift = _sums(reference, force)
     (matrix,), (centre,) = _maps(whole(sums), shift)
-    estimates = resampled(
-        sums, lambda mean: _inverse_intersections(_maps(mean, shift)[0] * radius), extent=_reference_extent
-    )
+    estimates = resampled(sums, lambda mean: _inverse_lengths(_maps(mean, shift)[0] * radius), extent=_reference_extent)
     if not (estimates.whole > 0.0).all():
         return MappedFit(
             matrix=matrix, centre=centre, radius=radius, fit=no_ellipsoid("the measured forces lie in a plane")
         )
     ellipsoid = ellipsoid_of_map(matrix, centre=centre, radius=radius)
     low, high = estimates.jackknifed
-    margin = float(0.5 * (lengths_of(low) - lengths_of(high)).max() / ellipsoid.axis_intersections.mean())
-    why = _against(len(force), margin, tolerance)
+    mean = float(ellipsoid.axis_intersections.mean())
+    why = _against(len(force), relative_margin(low[:3], high[:3], mean), tolerance)
+    tilt = not why and relative_margin(low[3:], high[3:], mean) <= tolerance
     if why:
         low, high = estimates.ranged
     index_low, index_high = index_ends([estimates], jackknifed=not why)
     error = force - reference @ matrix.T - centre
     fit = EllipsoidFit(
         ellipsoid=ellipsoid,
-        low=lengths_of(high),
-        high=lengths_of(low),
+        low=lengths_of(high[:3]),
+        high=lengths_of(low[:3]),
+        half_width_low=lengths_of(high[3:]),
+        half_width_high=lengths_of(low[3:]),
         index_low=index_low,
         index_high=index_high,
         rms=float(np.sqrt((error**2).sum(axis=1).mean())),
         identifiable=not why,
+        tilt_identifiable=tilt,
         why=why,
     )
     return MappedFit(matrix=matrix, centre=centre, radius=radius, fit=fit)
@@ -128,8 +138,7 @@ def fit_moment(
         moment: Measured moments; shape (n, 3); N m.
         reference_moment: Reference moments at the same instants; shape (n, 3); N m.
         reference: Reference forces; shape (n, 3); N.
-        tolerance: Half width of an interval, relative to the largest expected half-width, up to which it is
-            identifiable.
+        tolerance: Half width of an interval, relative to the largest half-width, up to which it is identifiable.
 
     Returns:
         How far moments reach; None where the reference stays in a plane to rounding.
@@ -138,7 +147,7 @@ def fit_moment(
         return None
     radius = float(np.linalg.norm(reference, axis=1).mean())
     sums, shift = _sums(reference, moment)
-    (matrix,), (centre,) = _maps(whole(sums), shift)
+    _, (centre,) = _maps(whole(sums), shift)
     estimates = resampled(
         sums, lambda mean: radius * np.linalg.norm(_maps(mean, shift)[0], axis=2), extent=_reference_extent
     )
@@ -146,15 +155,16 @@ def fit_moment(
     (expected,), (rest,) = _maps(whole(expected_sums), expected_shift)
     reach = radius * np.linalg.norm(expected, axis=1)
     stray = reference_moment - reference @ expected.T - rest
-    share = float(np.sqrt((stray**2).sum(axis=1).mean()) / max(float(reach.max()), np.finfo(float).tiny))
-    margin = float(estimates.margin.max() / max(float(reach.max()), np.finfo(float).tiny))
+    largest = max(float(reach.max()), float(estimates.whole.max()), np.finfo(float).tiny)
+    share = float(np.sqrt((stray**2).sum(axis=1).mean())) / largest
+    margin = float(estimates.margin.max()) / largest
     why = _against(len(moment), margin, tolerance)
     if share > tolerance:
         why += (f"the limb is not stiff: {percent(share)} of its largest moment does not follow the force",)
     low, high = estimates.ranged if why else estimates.jackknifed
     return MomentFit(
         centre=centre,
-        half_widths=radius * np.linalg.norm(matrix, axis=1),
+        half_widths=estimates.whole,
         expected_half_widths=reach,
         low=np.maximum(low, 0.0),
         high=high,
@@ -197,10 +207,11 @@ def _maps(mean: FloatArray, shift: FloatArray) -> tuple[FloatArray, FloatArray]:
     return matrices, measured - np.einsum("mij,mj->mi", matrices, reference)
 
 
-def _inverse_intersections(spread: FloatArray) -> FloatArray:
-    """One over the axis intersections of images of the unit sphere, 0 for flat ones; shape (m, 3)."""
-    squares, axes = np.linalg.eigh(spread @ spread.transpose(0, 2, 1))
-    flat = squares[:, :1] <= _ROUNDING * squares[:, -1:]
-    inverse = np.einsum("mij,mj->mi", axes**2, 1.0 / np.where(flat, 1.0, squares))
-    intersections: FloatArray = np.where(flat, 0.0, np.sqrt(inverse))
-    return intersections
+def _inverse_lengths(spread: FloatArray) -> FloatArray:
+    """One over the lengths of images of the unit sphere, 0 for flat ones; shape (m, 6)."""
+    squares = spread @ spread.transpose(0, 2, 1)
+    values = np.linalg.eigvalsh(squares)
+    solid = values[:, 0] > _ROUNDING * values[:, -1]
+    lengths = np.zeros((len(spread), 6))
+    lengths[solid] = inverse_lengths(squares[solid])
+    return lengths

@@ -17,6 +17,7 @@ References:
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -51,11 +52,28 @@ class Quadrics:
         return closed
 
     @property
-    def inverse_intersections(self) -> FloatArray:
-        """One over the axis intersections, 0 for open surfaces; shape (m, 3)."""
-        diagonal = np.where(self.closed[:, None], np.diagonal(self.shape, axis1=1, axis2=2), 0.0)
-        inverse: FloatArray = np.sqrt(diagonal)
-        return inverse
+    def inverse_lengths(self) -> FloatArray:
+        """One over the axis intersections, then one over the half-widths, 0 for open surfaces; shape (m, 6)."""
+        closed = self.closed
+        lengths = np.zeros((len(closed), 6))
+        lengths[closed] = inverse_lengths(np.linalg.inv(self.shape[closed]))
+        return lengths
+
+
+def inverse_lengths(squares: Any) -> FloatArray:
+    """Measure ellipsoids along the axes.
+
+    Args:
+        squares: Inverses of the shapes; shape (m, 3, 3).
+
+    Returns:
+        One over the axis intersections, then one over the half-widths; shape (m, 6).
+    """
+    intersections = np.diagonal(np.linalg.inv(squares), axis1=1, axis2=2)
+    half_widths = 1.0 / np.diagonal(squares, axis1=1, axis2=2)
+    # a shape that is positive to rounding may lose that when it is turned over twice
+    lengths: FloatArray = np.sqrt(np.maximum(np.concatenate([intersections, half_widths], axis=1), 0.0))
+    return lengths
 
 
 def direct_fit(mean: FloatArray, moments: QuadricMoments) -> Quadrics:

@@ -119,7 +119,7 @@ def _analyse(
     measured: FloatArray, expected: FloatArray | None, *, gravity: float, mass: float | None, tolerance: float
 ) -> SphereAnalysis:
     force, moment = np.ascontiguousarray(measured[:, :3]), np.ascontiguousarray(measured[:, 3:])
-    radius = fit_radius(force, tolerance=tolerance)
+    radius = fit_radius(force, unit="N", tolerance=tolerance)
     free = fit_ellipsoid(force, radius, tolerance=tolerance)
     form = CloudForm.SURFACE if free.identifiable else CloudForm.PLANE if may_be_flat(force) else CloudForm.CAP
     mapped = moment_fit = None
@@ -145,7 +145,7 @@ def _free_moment(moment: FloatArray, tolerance: float) -> EllipsoidFit | None:
     if not np.ptp(moment, axis=0).any():
         return None
     cloud = require_cloud(moment, name="moment", unit="N m")
-    return fit_ellipsoid(cloud, fit_radius(cloud, tolerance=tolerance), tolerance=tolerance)
+    return fit_ellipsoid(cloud, fit_radius(cloud, unit="N m", tolerance=tolerance), tolerance=tolerance)
 
 
 def _directions(force: FloatArray, expected: FloatArray | None, radius: RadiusFit, free: EllipsoidFit) -> float | None:

@@ -15,6 +15,9 @@ error. That of the ellipsoid then holds the interval of one radius too, because 
 ellipsoid does not exclude a sphere. Intervals are made in one over length, where a plane is zero and
 not infinitely far away. One radius stands for the weight only if the sensor is not deformed.
 
+The rule is about axis intersections, of which the index is made. Half-widths and principal radii need what lies
+between the axes as well, and are judged by the same three ways for themselves.
+
 The tolerance is part of the mean length. It is no property of the data: it says what the numbers are for. Thesis Table
 4.1 tells sensors apart whose index is 2 to 25 % of the mass.
 """
@@ -89,6 +92,10 @@ class EllipsoidFit:
     """Lower ends of the axis intersections; shape (3,)."""
     high: FloatArray
     """Upper ends; infinite where the surface may be open; shape (3,)."""
+    half_width_low: FloatArray
+    """Lower ends of the half-widths; shape (3,)."""
+    half_width_high: FloatArray
+    """Upper ends; infinite where the surface may be open; shape (3,)."""
     index_low: float
     """Lower end of the sample standard deviation of the three axis intersections."""
     index_high: float
@@ -97,11 +104,14 @@ class EllipsoidFit:
     """Root mean square distance from the ellipsoid; NaN without one."""
     identifiable: bool
     """Whether the intersections are worth comparing."""
+    tilt_identifiable: bool
+    """Whether the half-widths, and with them the principal radii, are too: a few poses along the axes tell the
+    intersections and nothing in between."""
     why: tuple[str, ...]
-    """What speaks against it; empty if it is identifiable."""
+    """What speaks against the intersections; empty if they are identifiable."""
 
     def __post_init__(self) -> None:
-        for name in ("low", "high"):
+        for name in ("low", "high", "half_width_low", "half_width_high"):
             object.__setattr__(self, name, read_only(getattr(self, name), name=name, shape=(3,)))
 
     @property
@@ -144,10 +154,13 @@ def no_ellipsoid(reason: str) -> EllipsoidFit:
         ellipsoid=None,
         low=np.zeros(3),
         high=np.full(3, np.inf),
+        half_width_low=np.zeros(3),
+        half_width_high=np.full(3, np.inf),
         index_low=0.0,
         index_high=np.inf,
         rms=np.nan,
         identifiable=False,
+        tilt_identifiable=False,
         why=(reason,),
     )
 
@@ -182,12 +195,12 @@ def indices_of(inverse: FloatArray) -> FloatArray:
     """Give the index of every estimate.
 
     Args:
-        inverse: One over axis intersections; shape (m, 3).
+        inverse: One over axis intersections; shape (m, 3 or more).
 
     Returns:
-        Sample standard deviations of the lengths; shape (m,); infinite for open surfaces.
+        Sample standard deviations of the first three lengths; shape (m,); infinite for open surfaces.
     """
-    lengths = lengths_of(inverse)
+    lengths = lengths_of(inverse[:, :3])
     closed = np.asarray(np.isfinite(lengths).all(axis=1))
     indices: FloatArray = np.where(closed, np.where(closed[:, None], lengths, 0.0).std(axis=1, ddof=1), np.inf)
     return indices
@@ -197,7 +210,7 @@ def index_ends(estimates: Sequence[Resampled], *, jackknifed: bool) -> tuple[flo
     """Give the interval of the index.
 
     Args:
-        estimates: One over the axis intersections by some methods; k is 3.
+        estimates: One over the axis intersections, and maybe more, by some methods.
         jackknifed: Whether they move so little that the jackknife holds; else the range over all parts is taken.
 
     Returns:
@@ -209,6 +222,20 @@ def index_ends(estimates: Sequence[Resampled], *, jackknifed: bool) -> tuple[flo
     parts = [np.vstack([each.whole, each.without_one, each.halves, each.windows]) for each in estimates]
     indices = indices_of(np.concatenate(parts))
     return float(indices.min()), float(indices.max())
+
+
+def relative_margin(low: FloatArray, high: FloatArray, mean: float) -> float:
+    """Give half of the widest of some intervals.
+
+    Args:
+        low: Lower ends of one over lengths; shape (k,).
+        high: Upper ends of one over lengths; shape (k,).
+        mean: What it is relative to.
+
+    Returns:
+        Half of the interval of the length, relative to the mean; infinite for an open surface.
+    """
+    return float((0.5 * (lengths_of(low) - lengths_of(high))).max()) / mean
 
 
 def percent(share: float) -> str:

@@ -8,7 +8,7 @@ from collections.abc import Callable, Sequence
 import numpy as np
 
 from forcetorque.arrays import FloatArray
-from forcetorque.evaluation.sphere.algebraic import Quadrics, direct_fit, gradient_weighted_fit
+from forcetorque.evaluation.sphere.algebraic import Quadrics, direct_fit, gradient_weighted_fit, inverse_lengths
 from forcetorque.evaluation.sphere.ellipsoid import Ellipsoid
 from forcetorque.evaluation.sphere.findings import (
     EllipsoidFit,
@@ -19,6 +19,7 @@ from forcetorque.evaluation.sphere.findings import (
     no_ellipsoid,
     no_radius,
     percent,
+    relative_margin,
 )
 from forcetorque.evaluation.sphere.moments import QuadricMoments, extent
 from forcetorque.evaluation.sphere.one_radius import Spheres, gradient_weighted_spheres, least_squares_spheres
@@ -48,11 +49,12 @@ def is_flat(cloud: FloatArray) -> bool:
     return bool(spans[0] <= _FLAT**2 * spans[-1])
 
 
-def fit_radius(cloud: FloatArray, *, tolerance: float) -> RadiusFit:
+def fit_radius(cloud: FloatArray, *, unit: str, tolerance: float) -> RadiusFit:
     """Fit a sphere.
 
     Args:
         cloud: Points in the order of time, at least ten; shape (n, 3).
+        unit: Unit of the points, for words.
         tolerance: Half width of the interval, relative to the radius, up to which it is identifiable.
 
     Returns:
@@ -71,7 +73,7 @@ def fit_radius(cloud: FloatArray, *, tolerance: float) -> RadiusFit:
     if len(cloud) < FEWEST:
         why.append(f"{len(cloud)} samples are too few to leave any out; take at least {FEWEST}")
     if not (np.isfinite(high[0]) and 0.5 * (high[0] - low[0]) <= tolerance * radius):
-        why.append(f"halves of the recording give radii from {low[0]:.3g} to {high[0]:.3g}")
+        why.append(f"halves of the recording give radii from {low[0]:.3g} to {high[0]:.3g} {unit}")
     if why:
         low, high = _hull([fit.ranged for fit in fits], np.array([1.0 / radius]))
     return RadiusFit(
@@ -115,22 +117,27 @@ def fit_ellipsoid(cloud: FloatArray, radius: RadiusFit, *, tolerance: float) -> 
     if is_flat(cloud):
         return no_ellipsoid("the cloud lies in a plane")
     moments = QuadricMoments.of(cloud)
-    direct, weighted = (_intersections(moments, fit) for fit in (direct_fit, gradient_weighted_fit))
+    direct, weighted = (_measured(moments, fit) for fit in (direct_fit, gradient_weighted_fit))
     first = direct_fit(whole(moments.sums), moments)
     ellipsoid, refined = refine_ellipsoid(cloud, Ellipsoid(centre=first.centre[0], shape=first.shape[0]))
-    geometric = 1.0 / ellipsoid.axis_intersections if refined.converged else np.zeros(3)
-    why = _against(len(cloud), direct, weighted, geometric, tolerance)
-    if not refined.converged:
+    geometric = np.zeros(6)
+    if refined.converged:
+        geometric = inverse_lengths(np.linalg.inv(ellipsoid.shape)[None])[0]
+    else:
         ellipsoid = Ellipsoid(centre=first.centre[0], shape=first.shape[0])
-    low, high, index_low, index_high = _intervals(direct, weighted, geometric, None if not why else radius)
+    why = _against(len(cloud), direct, weighted, geometric, slice(0, 3), tolerance)
+    low, high, index_low, index_high = _intervals(direct, weighted, geometric, radius if why else None)
     return EllipsoidFit(
         ellipsoid=ellipsoid,
-        low=low,
-        high=high,
+        low=low[:3],
+        high=high[:3],
+        half_width_low=low[3:],
+        half_width_high=high[3:],
         index_low=index_low,
         index_high=index_high,
         rms=refined.rms if refined.converged else np.nan,
         identifiable=not why,
+        tilt_identifiable=not (why or _against(len(cloud), direct, weighted, geometric, slice(3, 6), tolerance)),
         why=why,
     )
 
@@ -158,27 +165,28 @@ def bends(moments: QuadricMoments, fit: Callable[[FloatArray, QuadricMoments], S
     return resampled(moments.sums, signed, extent=extent)
 
 
-def _intersections(moments: QuadricMoments, fit: Callable[[FloatArray, QuadricMoments], Quadrics]) -> Resampled:
-    """One over the axis intersections by a method, 0 for open surfaces; k is 3."""
-    return resampled(moments.sums, lambda mean: fit(mean, moments).inverse_intersections, extent=extent)
+def _measured(moments: QuadricMoments, fit: Callable[[FloatArray, QuadricMoments], Quadrics]) -> Resampled:
+    """One over the axis intersections and half-widths by a method, 0 for open surfaces; k is 6."""
+    return resampled(moments.sums, lambda mean: fit(mean, moments).inverse_lengths, extent=extent)
 
 
 def _against(
-    count: int, direct: Resampled, weighted: Resampled, geometric: FloatArray, tolerance: float
+    count: int, direct: Resampled, weighted: Resampled, geometric: FloatArray, which: slice, tolerance: float
 ) -> tuple[str, ...]:
-    """What speaks against the ellipsoid: see the rule in `findings`."""
+    """What speaks against some of the lengths: see the rule in `findings`."""
     if count < FEWEST:
         return (f"{count} samples are too few to leave any out; take at least {FEWEST}",)
-    inverse = np.stack([direct.whole, weighted.whole, geometric])
+    inverse = np.stack([fit[which] for fit in (direct.whole, weighted.whole, geometric)])
     if not (inverse > 0.0).all():
         return ("the cloud fits an open surface as well",)
     why = []
     lengths = 1.0 / inverse
-    gap = float(np.ptp(lengths, axis=0).max() / lengths.mean())
+    mean = float(lengths.mean())
+    gap = float(np.ptp(lengths, axis=0).max()) / mean
     if gap > tolerance:
         why.append(f"methods that treat noise differently are {percent(gap)} of the mean radius apart")
-    ends = [_lengths(fit.jackknifed) for fit in (direct, weighted)]
-    margin = max(float((0.5 * (high - low)).max()) for low, high in ends) / float(lengths.mean())
+    ends = (fit.jackknifed for fit in (direct, weighted))
+    margin = max(relative_margin(low[which], high[which], mean) for low, high in ends)
     if not margin <= tolerance:
         why.append(f"without one tenth of the recording after the other, a radius is known to {percent(margin)} only")
     return tuple(why)
@@ -202,13 +210,13 @@ def _hull(intervals: Sequence[tuple[FloatArray, FloatArray]], *points: FloatArra
 def _intervals(
     direct: Resampled, weighted: Resampled, geometric: FloatArray, radius: RadiusFit | None
 ) -> tuple[FloatArray, FloatArray, float, float]:
-    """Intervals of intersections and index; `radius` if the ellipsoid is not identifiable: see the rule."""
+    """Intervals of lengths and index; `radius` if the ellipsoid is not identifiable: see the rule."""
     fits = (direct, weighted)
     index_low, index_high = index_ends(fits, jackknifed=radius is None)
     if radius is None:
         point = float(indices_of(geometric[None])[0])
         low, high = _hull([fit.jackknifed for fit in fits], geometric)
         return low, high, min(index_low, point), max(index_high, point)
-    one = (np.full(3, 1.0 / radius.high), np.full(3, 1.0 / radius.low))
+    one = (np.full(6, 1.0 / radius.high), np.full(6, 1.0 / radius.low))
     low, high = _hull([*(fit.ranged for fit in fits), one], geometric)
     return low, high, 0.0, index_high  # a sphere, whose index is 0, is not excluded
