@@ -9,7 +9,7 @@ from typing import Annotated
 
 import typer
 
-from forcetorque.cli.output import ExportFormat, Format
+from forcetorque.cli.output import ExportFormat, Format, OtherSensorsChoice
 from forcetorque.errors import ForceTorqueError
 
 app = typer.Typer(
@@ -257,7 +257,7 @@ def _schema(
         str,
         typer.Argument(
             help="experiment, scenario, recording, calibration, calibrate, estimate, evaluate, export, gains, inspect, "
-            "payload, simulate or study."
+            "payload, simulate, study or validate."
         ),
     ],
 ) -> None:
@@ -334,5 +334,54 @@ def _study(
         kinds=kind,
         lambdas=regularisation,
         sphere=sphere,
+        output_format=output_format,
+    )
+
+
+@app.command("validate")
+def _validate(
+    experiment: ExperimentArgument,
+    calibration: Annotated[
+        list[Path] | None,
+        typer.Option("--calibration", "-c", help="Calibration file; repeat to compare several. Default: the priors."),
+    ] = None,
+    sensor: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--sensor", help="Sensor to judge; repeat for more. Default: those of the calibrations, else all."
+        ),
+    ] = None,
+    sub_model: Annotated[
+        str | None,
+        typer.Option(
+            "--sub-model",
+            help="Part of the robot that nothing touches, by the sensor at its base or the root link. Default: that "
+            "beyond the sensor.",
+        ),
+    ] = None,
+    contact: Annotated[
+        str | None,
+        typer.Option("--contact", help="Link at whose origin the contact is estimated. Default: that on the sensor."),
+    ] = None,
+    others: Annotated[
+        OtherSensorsChoice,
+        typer.Option("--others", help="What the other sensors of the part read: what the model expects, or measured."),
+    ] = OtherSensorsChoice.MODEL,
+    output_format: FormatOption = Format.TABLE,
+) -> None:
+    """Judge calibrations by the contact force that they report where nothing touches.
+
+    Example: forcetorque validate experiment.toml -c right_leg.json
+    """
+    from forcetorque.cli.validate import run
+    from forcetorque.evaluation import OtherSensors
+
+    run(
+        experiment,
+        calibrations=calibration,
+        sensors=sensor,
+        sub_model=sub_model,
+        contact=contact,
+        other_sensors=OtherSensors(others.value),
         output_format=output_format,
     )

@@ -34,6 +34,7 @@ def run(name: str) -> None:
         "scenario": _scenario,
         "simulate": _simulate,
         "study": _study,
+        "validate": _validate,
     }
     if name not in known:
         raise ForceTorqueError(f"no schema is called {name!r}; {known_names(name, known)}")
@@ -116,3 +117,9 @@ def _study() -> dict[str, Any]:
     from forcetorque.cli.study_result import StudyResult
 
     return StudyResult.model_json_schema()
+
+
+def _validate() -> dict[str, Any]:
+    from forcetorque.cli.validate import ValidateResult
+
+    return ValidateResult.model_json_schema()

@@ -14,8 +14,10 @@ from forcetorque.experiment.samples import IntervalSamples, samples_of
 from forcetorque.experiment.schema import ExperimentFile
 from forcetorque.experiment.study import SensorStudy, study_sensor
 from forcetorque.experiment.study_data import StudyData, read_study_data
+from forcetorque.experiment.validate import ContactForceVerdict, validate_sensor
 
 __all__ = [
+    "ContactForceVerdict",
     "Correction",
     "Experiment",
     "ExperimentFile",
@@ -42,4 +44,5 @@ __all__ = [
     "samples_of",
     "select_gains",
     "study_sensor",
+    "validate_sensor",
 ]
