@@ -369,7 +369,7 @@ def _validate(
     ] = OtherSensorsChoice.MODEL,
     output_format: FormatOption = Format.TABLE,
 ) -> None:
-    """Judge calibrations by the contact force that they report where nothing touches.
+    """Judge calibrations by the contact force where nothing touches.
 
     Example: forcetorque validate experiment.toml -c right_leg.json
     """

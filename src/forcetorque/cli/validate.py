@@ -182,7 +182,8 @@ def _show(result: ValidateResult) -> None:
     screen = console()
     for sensor in dict.fromkeys(row.sensor for row in result.contact_forces):
         screen.print(_table([row for row in result.contact_forces if row.sensor == sensor]))
-    for best in result.best:
+    several = len({row.candidate for row in result.contact_forces}) > 1
+    for best in result.best if several else ():
         other = [f"{a} {n}" for a, n in zip(WRENCH_COMPONENTS, best.by_axis, strict=True) if n != best.by_magnitude]
         words = f"; but for {', '.join(other)}" if other else ", on every axis"
         screen.print(f"{best.sensor}, offset {best.offset}: best is {best.by_magnitude}{words}", soft_wrap=True)
