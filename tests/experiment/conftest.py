@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 
 from tests.experiments import write_experiments
+from tests.studies import write_days
 
 
 @pytest.fixture(scope="session")
@@ -23,3 +24,17 @@ def intact(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def arm(intact: Path, tmp_path: Path) -> Path:
     """Folder with a copy of the experiment, to damage."""
     return Path(shutil.copytree(intact, tmp_path / "arm"))
+
+
+@pytest.fixture(scope="session")
+def recorded(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Folder of the recordings of three days; nobody changes it."""
+    folder = tmp_path_factory.mktemp("recorded")
+    write_days(folder)
+    return folder
+
+
+@pytest.fixture
+def days(recorded: Path, tmp_path: Path) -> Path:
+    """Folder with a copy of them, to damage."""
+    return Path(shutil.copytree(recorded, tmp_path / "days"))
