@@ -320,9 +320,9 @@ def _study(
     ] = None,
     output_format: FormatOption = Format.TABLE,
 ) -> None:
-    """Fit every estimation type and lambda on combinations of data sets, and choose.
+    """Fit every estimation type, lambda and data set, and choose.
 
-    Example: forcetorque study simulated/*.toml --sensor l_leg_ft --sphere grid -o study
+    Example: forcetorque study simulated/*.toml --sphere grid -o study
     """
     from forcetorque.cli.study import run
 

@@ -83,7 +83,7 @@ def write_figures(made: SensorStudy, folder: Path) -> list[str]:
     chosen = study.choices[OffsetSource.RE_ESTIMATED].by_magnitude
     data_set = study.fits.candidates[chosen].data_set
     names, differences = tables.matrix_differences(study, data_set)
-    unit = f"{tables.DIFFERENCE_UNIT:g} N/count"
+    unit = "1e-4 N/count"  # that of `tables.DIFFERENCE_UNIT`
     draw: dict[str, Callable[[], bytes]] = {
         "figure_5_2_wrench_space.png": lambda: report.space_figure(_clouds(made)),
         "figure_5_3_matrix_differences.png": lambda: report.difference_figure(names, differences, unit=unit),
@@ -151,7 +151,7 @@ def _contact_figure(made: SensorStudy, axes: slice, unit: str) -> bytes:
         for name, (model, source) in _judged_models(made).items()
     }
     time, spans = _joined_time(sets)
-    return contact_figure(time, candidates, unit, spans)
+    return contact_figure(time, candidates, unit=unit, spans=spans)
 
 
 def _joined_time(sets: Sequence[ValidationSet]) -> tuple[FloatArray, list[tuple[str, int, int]]]:

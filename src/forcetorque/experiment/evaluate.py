@@ -3,13 +3,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from forcetorque.arrays import require_shape
-from forcetorque.calibration import Calibration, Prior, WrenchModel
+from forcetorque.calibration import Calibration, FittedInterval, Prior, WrenchModel
 from forcetorque.errors import ExperimentError
 from forcetorque.evaluation import WrenchErrors, offset_removed, wrench_errors
 from forcetorque.experiment.content import Experiment, ExperimentSensor
@@ -65,12 +65,12 @@ def evaluate_sensor(
     parts = samples_of(experiment, used, Use.VALIDATION, with_variables=True)
     raw = np.concatenate([p.raw for p in parts])
     reference = np.concatenate([p.samples.reference for p in parts])
-    values = np.concatenate([p.samples.variables for p in parts])
+    variables = np.concatenate([p.samples.variables for p in parts])
     column = {variable.linear.name: k for k, variable in enumerate(used.variables)}
     verdicts = []
     for candidate, model, names in _candidates(calibrations):
         require_shape(model.matrix, name=f"{candidate}: matrix", shape=(6, raw.shape[1]))
-        measured = model.wrench(raw, values[:, [column[name] for name in names]])
+        measured = model.wrench(raw, variables[:, [column[name] for name in names]])
         for kind, values in (("fitted", measured), ("re-estimated", offset_removed(measured, reference))):
             verdicts.append(
                 Verdict(
@@ -102,10 +102,29 @@ def _same(prior: Prior, model: WrenchModel) -> bool:
 
 def _refuse_fitted(name: str, calibration: Calibration, experiment: Experiment) -> None:
     """Refuse a verdict on samples that the calibration has seen."""
+    for judged, fitted in _overlaps(experiment, calibration.provenance.intervals):
+        raise ExperimentError(
+            f"calibration {name!r} was fitted on the interval {fitted!r}, which overlaps the judged "
+            f"interval {judged!r}; judge it on data that it has not seen"
+        )
+
+
+def judged_where_chosen(experiment: Experiment, calibration: Calibration) -> tuple[str, ...]:
+    """Name the judged intervals on which a calibration was chosen among others: a verdict on them flatters.
+
+    Args:
+        experiment: The experiment.
+        calibration: A calibration of one of its sensors.
+
+    Returns:
+        Labels of validation intervals.
+    """
+    return tuple(dict.fromkeys(judged for judged, _ in _overlaps(experiment, calibration.selection.chosen_on)))
+
+
+def _overlaps(experiment: Experiment, used: Iterable[FittedInterval]) -> Iterator[tuple[str, str]]:
+    """Labels of judged intervals and of those used before that overlap them."""
     for judged in experiment.intervals(Use.VALIDATION):
-        for fitted in calibration.provenance.intervals:
-            if judged.start_ns < fitted.end_ns and fitted.start_ns < judged.end_ns:
-                raise ExperimentError(
-                    f"calibration {name!r} was fitted on the interval {fitted.label!r}, which overlaps the judged "
-                    f"interval {judged.label!r}; judge it on data that it has not seen"
-                )
+        for earlier in used:
+            if judged.start_ns < earlier.end_ns and earlier.start_ns < judged.end_ns:
+                yield judged.label, earlier.label

@@ -1,6 +1,22 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Results for people: figures, from what the experiments gave."""
 
-from forcetorque.report.figures import force_space_figure, gain_figure
+from forcetorque.report.comparison import comparison_figure
+from forcetorque.report.contacts import contact_figure
+from forcetorque.report.differences import difference_figure
+from forcetorque.report.force_space import force_space_figure
+from forcetorque.report.gains import gain_figure
+from forcetorque.report.lambda_difference import lambda_difference_figure
+from forcetorque.report.lambda_force import lambda_force_figure
+from forcetorque.report.wrench_space import space_figure
 
-__all__ = ["force_space_figure", "gain_figure"]
+__all__ = [
+    "comparison_figure",
+    "contact_figure",
+    "difference_figure",
+    "force_space_figure",
+    "gain_figure",
+    "lambda_difference_figure",
+    "lambda_force_figure",
+    "space_figure",
+]

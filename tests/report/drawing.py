@@ -1,0 +1,152 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Small data to draw, and questions to what was drawn."""
+
+from __future__ import annotations
+
+import io
+import struct
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import Any
+
+import numpy as np
+import pytest
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.image import imread
+from matplotlib.text import Text
+
+from forcetorque.report import (
+    comparison_figure,
+    contact_figure,
+    difference_figure,
+    force_space_figure,
+    lambda_difference_figure,
+    lambda_force_figure,
+    space_figure,
+)
+
+LAMBDAS = np.array([0, 1, 5, 10, 50, 100, 1e3, 5e3, 1e4, 5e4, 1e5, 5e5, 1e6])
+"""Those of the thesis, table 5.5; counts2."""
+TYPES = ("SnTdTO", "SwTdTO", "SwTrTO", "OnTdTO", "OwTdTO", "OwTrTO")
+
+
+def _wrenches(rng: np.random.Generator, count: int = 400) -> np.ndarray:
+    return np.cumsum(rng.normal(size=(count, 6)), axis=0) * [2.0, 2.0, 4.0, 0.1, 0.1, 0.05]
+
+
+def _space(rng: np.random.Generator) -> bytes:
+    return space_figure({name: _wrenches(rng) for name in ("grid", "z-torque", "support leg", "other leg")})
+
+
+def _force_space(rng: np.random.Generator) -> bytes:
+    return force_space_figure({"leg": [("prior", _wrenches(rng)[:, :3]), ("model", _wrenches(rng)[:, :3])]})
+
+
+def _difference(rng: np.random.Generator) -> bytes:
+    matrices = rng.normal(size=(7, 36))
+    between = np.abs(matrices[:, None] - matrices[None]).mean(axis=2)
+    return difference_figure(["Workbench", *TYPES], 10.0 * between, unit="1e-4 N/count")
+
+
+def _curves(rng: np.random.Generator) -> dict[str, np.ndarray]:
+    return {kind: np.cumsum(rng.uniform(size=len(LAMBDAS))) + 2.0 for kind in TYPES}
+
+
+def _lambda_difference(rng: np.random.Generator) -> bytes:
+    return lambda_difference_figure(LAMBDAS, _curves(rng), unit="1e-4 N/count")
+
+
+def _lambda_force(rng: np.random.Generator) -> bytes:
+    curves = {name: _curves(rng) for name in ("noTz", "suppOnly", "All")}
+    return lambda_force_figure(LAMBDAS, curves, workbench=16.7, chosen=("All", "OwTrTO", 1e3))
+
+
+def _contact(rng: np.random.Generator) -> bytes:
+    candidates = {name: _wrenches(rng)[:, :3] for name in ("Workbench", "best", "best by axis")}
+    spans = [("grid, day 1", 0, 180), ("support leg, day 2", 180, 400)]
+    return contact_figure(np.arange(400) * 0.01, candidates, unit="N", spans=spans)
+
+
+def _comparison(rng: np.random.Generator) -> bytes:
+    reference = _wrenches(rng)
+    candidates = {name: reference + 0.1 * _wrenches(rng) for name in ("ex situ", "in situ")}
+    return comparison_figure(np.arange(400) * 0.01, reference, candidates)
+
+
+FIGURES: dict[str, Callable[[np.random.Generator], bytes]] = {
+    "space": _space,
+    "force space": _force_space,
+    "difference": _difference,
+    "lambda difference": _lambda_difference,
+    "lambda force": _lambda_force,
+    "contact": _contact,
+    "comparison": _comparison,
+}
+"""A figure of every kind that is drawn from plain arrays, of random data."""
+
+
+@contextmanager
+def recorded_figures() -> Iterator[list[Figure]]:
+    """Every figure that is written as PNG meanwhile."""
+    figures: list[Figure] = []
+    save = Figure.savefig
+
+    def record(figure: Figure, *args: Any, **options: Any) -> None:
+        save(figure, *args, **options)
+        figures.append(figure)
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(Figure, "savefig", record)
+        yield figures
+
+
+def size_of(png: bytes) -> tuple[int, int]:
+    """Width and height that the header of a PNG states."""
+    return struct.unpack(">II", png[16:24])
+
+
+def pixels(png: bytes) -> np.ndarray:
+    """Red, green and blue from 0 to 255; shape (height, width, 3)."""
+    return np.rint(255 * np.asarray(imread(io.BytesIO(png), format="png"))[:, :, :3]).astype(int)
+
+
+def count_of(image: np.ndarray, colour: str) -> int:
+    """How many pixels have exactly a colour."""
+    return int((image == [int(colour[k : k + 2], 16) for k in (1, 3, 5)]).all(axis=2).sum())
+
+
+def shown_texts(figure: Figure) -> list[Text]:
+    """Every text that can be seen, but those of views in space."""
+    hidden = {id(text) for panel in panels(figure) for text in _hidden(panel)}
+    texts = [text for text in figure.findobj(Text) if id(text) not in hidden]
+    return [text for text in texts if text.get_visible() and text.get_text().strip()]
+
+
+def _hidden(panel: Axes) -> list[Text]:
+    """Numbers beyond the ends of an axis, which exist and are not drawn; all texts of a view in space."""
+    if panel.name == "3d":
+        return panel.findobj(Text)
+    hidden = []
+    for axis in (panel.xaxis, panel.yaxis):
+        low, high = sorted(axis.get_view_interval())
+        for tick in [*axis.get_major_ticks(), *axis.get_minor_ticks()]:
+            if not low <= tick.get_loc() <= high:
+                hidden += [tick.label1, tick.label2]
+    return hidden
+
+
+def panels(figure: Figure) -> list[Axes]:
+    """Its panels."""
+    return list(figure.axes)
+
+
+def words(figure: Figure) -> str:
+    """All that is written in a figure, a line per text."""
+    return "\n".join(text.get_text() for text in figure.findobj(Text))
+
+
+def legend_of(figure: Figure) -> list[str]:
+    """What the legend of a figure names."""
+    (legend,) = figure.legends
+    return [text.get_text() for text in legend.get_texts()]
