@@ -75,8 +75,8 @@ def study_sensor(
     chosen_kinds = [kind for kind in kinds if has_variables or not kind.with_variables]
     if kinds and not chosen_kinds:
         raise ExperimentError(
-            f"sensor {data.sensor.name!r}: {', '.join(kind.name for kind in kinds)} need a linear variable such as "
-            "temperature, the experiment files state none; give [[sensor.variable]], or ask for a type without"
+            f"{', '.join(kind.name for kind in kinds)} need a linear variable such as temperature, and the experiment "
+            "files state none; give [[sensor.variable]], or ask for a type without"
         )
     drawing = data.sphere if sphere is None else tuple(sphere)
     study = run_study(
