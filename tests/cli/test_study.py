@@ -254,7 +254,8 @@ def test_sphere_types_need_a_sphere(days: Path, run: Run) -> None:
     (sensor,) = done.result()["sensors"]
     assert len(sensor["left_out"]) == 9
     assert sensor["left_out"][0] == (
-        "grid SnTdTO: sphere offset: name the data sets that draw the sphere, out of grid_cold, grid_warm"
+        "grid SnTdTO: sphere offset: name the data sets that draw the sphere, out of grid_cold, grid_warm; "
+        "in an experiment file they are sphere_intervals of [calibration]"
     )
     assert [line for line in done.log if "left out" in line] == [
         f"WARNING: left out: {line}" for line in sensor["left_out"]
