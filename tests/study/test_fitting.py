@@ -148,7 +148,8 @@ def test_without_a_named_grid_the_sphere_types_are_left_out() -> None:
     assert len(fits.candidates) == 2 * (6 + 9)
     unnamed = _fits(FITTED, {"all": COMBINATIONS["all"], "grid": ("grid",)}, sphere=None, types=["SnTdTO", "OnTdTO"])
     assert unnamed.left_out == (
-        "all SnTdTO: sphere offset: name the data sets that draw the sphere, out of grid, grid_2, cold, warm",
+        "all SnTdTO: sphere offset: name the data sets that draw the sphere, out of grid, grid_2, cold, warm; "
+        "in an experiment file they are sphere_intervals of [calibration]",
     )
     assert [c.kind.name for c in unnamed.candidates if c.data_set == "grid"] == ["SnTdTO"] * 2 + ["OnTdTO"] * 2
 

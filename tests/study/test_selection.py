@@ -58,9 +58,9 @@ def test_the_best_are_those_of_a_search() -> None:
 
 
 def test_rounding_does_not_choose() -> None:
-    """Of fits that differ by a part in 1e9 the first is taken, whichever is smaller; one in 1e5 is a difference."""
+    """Of fits that differ by a part in 1e9 the last is taken, whichever is smaller; one in 1e5 is a difference."""
     plain = _errors(4, seed=1)
-    for change, first in ((-1e-9, True), (1e-9, True), (-1e-5, False)):
+    for change, first in ((-1e-9, False), (1e-9, False), (1e-5, True)):
         force, absolute = plain.force_mean.copy(), plain.mean_absolute.copy()
         force[[1, 3]], absolute[[1, 3]] = 0.5, 0.5
         force[3] *= 1.0 + change
