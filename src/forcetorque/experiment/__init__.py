@@ -4,7 +4,7 @@
 from forcetorque.experiment.calibrate import calibrate_sensor
 from forcetorque.experiment.content import Experiment, ExperimentSensor
 from forcetorque.experiment.estimate import IntervalEstimates, estimate_experiment
-from forcetorque.experiment.evaluate import Verdict, evaluate_sensor, judged_where_chosen
+from forcetorque.experiment.evaluate import Verdict, beyond_fitted_range, evaluate_sensor, judged_where_chosen
 from forcetorque.experiment.gains import JointPosition, SensorGains, StrongestSample, select_gains
 from forcetorque.experiment.inspect import doubtful_spans, inspect_experiment, inspect_recording
 from forcetorque.experiment.load import load_experiment
@@ -30,6 +30,7 @@ __all__ = [
     "StrongestSample",
     "StudyData",
     "Verdict",
+    "beyond_fitted_range",
     "calibrate_sensor",
     "corrections_of",
     "doubtful_spans",
