@@ -82,6 +82,10 @@ def test_defects_stand_out_where_they_are() -> None:
         worst = position_in_population(matrix, POPULATION).most_unusual
         assert worst.feature.startswith("alignment.")
         assert worst.robust_z < -UNUSUAL
+    singular = np.array(good)
+    singular[4] = singular[3]
+    worst = position_in_population(singular, POPULATION).most_unusual
+    assert (worst.feature, worst.robust_z) == ("condition", np.inf)
     weak = np.array(good)
     weak[2] *= 0.3
     found = _z(position_in_population(weak, POPULATION))

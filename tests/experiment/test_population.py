@@ -30,9 +30,17 @@ def test_folders_and_files_give_matrices_by_serial_number(tmp_path: Path) -> Non
     assert sorted(found) == ["SN001", "SN002"]
     np.testing.assert_array_equal(found["SN001"], MOUNTED)
     np.testing.assert_array_equal(found["SN002"], read_matrix_file(tmp_path / "matrix_SN002.txt").matrix)
-    plain = tmp_path / "spare.txt"
-    write_matrix_file(plain, encode_matrix(FACTORY))
-    assert sorted(read_population([plain, tmp_path / "any.json"])) == ["SN001", "spare.txt"]
+    named = tmp_path / "matrix_left 3.txt"
+    write_matrix_file(named, encode_matrix(FACTORY))
+    assert sorted(read_population([named, tmp_path / "any.json"])) == ["SN001", "left 3"]
+
+
+def test_a_matrix_must_tell_whose_it_is(tmp_path: Path) -> None:
+    """Else the judged sensor could be compared with itself."""
+    for name in ("spare.txt", "matrix_.txt", "matrix_SN001.csv"):
+        write_matrix_file(tmp_path / name, encode_matrix(FACTORY))
+        with pytest.raises(FormatError, match=f"{name}: expected a calibration .*, or a name with the serial number"):
+            read_population([tmp_path / name])
 
 
 def test_a_sensor_counts_once(tmp_path: Path) -> None:

@@ -46,12 +46,12 @@ class PopulationPosition:
 
     @property
     def most_unusual(self) -> FeaturePosition:
-        """The feature with the largest magnitude of `robust_z`.
+        """The feature with the largest magnitude of `robust_z`; the condition, if the matrix is singular.
 
         Raises:
             SensorError: If no feature has one.
         """
-        known = [feature for feature in self.features if np.isfinite(feature.robust_z)]
+        known = [feature for feature in self.features if not np.isnan(feature.robust_z)]
         if not known:
             raise SensorError("population: half of the sensors have equal matrices, so that there is no scatter")
         return max(known, key=lambda feature: abs(feature.robust_z))

@@ -16,15 +16,15 @@ def read_population(paths: Iterable[Path]) -> dict[str, FloatArray]:
     """Read the matrices of a population of sensors.
 
     Args:
-        paths: Calibration files (.json), matrix files, and folders, in which every .json is a calibration and every
-            text file that is named after a serial number, such as `matrix_SN026.txt`, a matrix.
+        paths: Calibration files (.json), matrix files named after the serial number, such as `matrix_SN026.txt`, and
+            folders, in which every .json is a calibration and every text file of such a name, SN and digits, a matrix.
 
     Returns:
-        Matrices by serial number, or by the name of a file that was given and is not named after one.
+        Matrices by serial number.
 
     Raises:
         MissingFileError: If there is no such file or folder, or nothing in the folder.
-        FormatError: If two files are of one sensor.
+        FormatError: If a matrix file does not tell whose it is, or two files are of one sensor.
     """
     found: dict[str, FloatArray] = {}
     source: dict[str, Path] = {}
@@ -56,4 +56,8 @@ def _read(file: Path) -> tuple[str, FloatArray]:
     if file.suffix == ".json":
         calibration = read_calibration(file)
         return calibration.sensor.serial, calibration.matrix
-    return serial_number_in_name(file) or file.name, read_matrix_file(file).matrix
+    serial = file.stem.removeprefix("matrix_")
+    if file.suffix != ".txt" or serial in ("", file.stem):
+        # without a serial number nobody could tell the judged sensor from the others
+        raise FormatError(f"{file}: expected a calibration (.json), or a name with the serial number, matrix_SN026.txt")
+    return serial, read_matrix_file(file).matrix
