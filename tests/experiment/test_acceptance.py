@@ -15,7 +15,6 @@ from forcetorque.calibration import Calibration
 from forcetorque.errors import ExperimentError, ForceTorqueError, FormatError, MissingFileError
 from forcetorque.experiment import (
     AcceptanceFile,
-    Criterion,
     Experiment,
     accept_sensor,
     calibrate_sensor,
@@ -25,7 +24,7 @@ from forcetorque.experiment import (
     read_acceptance,
     validate_sensor,
 )
-from forcetorque.experiment.acceptance import Bound
+from forcetorque.experiment.criterion import Bound, Criterion
 from forcetorque.spatial import WRENCH_COMPONENTS
 from tests.experiments import MOUNTED, PARQUET, TWO, YARP, edit
 from tests.warm_experiments import TEMPERATURE, with_variables
@@ -175,6 +174,15 @@ def test_the_numbers_are_those_of_the_other_commands(drifting: Experiment) -> No
     errors = np.linalg.norm(calibration.matrix_standard_error, axis=1) / np.linalg.norm(calibration.matrix, axis=1)
     assert found["uncertainty.matrix_relative"] == errors.max()
     assert found["excitation.directions"] == sum(calibration.validity.excited)
+
+
+def test_a_calibration_may_be_called_prior(drifting: Experiment) -> None:
+    """A file of that name is not mistaken for the prior."""
+    name, calibration = _fitted(drifting)
+    spec = _spec(evaluate=LIMITS["evaluate"], improvement=LIMITS["improvement"], validate=LIMITS["validate"])
+    first, second = (_criteria(drifting, spec, (called, calibration)) for called in (name, "prior"))
+    assert [each.measured for each in first.values()] == [each.measured for each in second.values()]
+    assert first["improvement.force_error_ratio"].measured < 0.5
 
 
 def test_the_offset_is_that_which_is_asked_for(arm: Path) -> None:

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The experiment file: from TOML to robot, recording, intervals and sensors, and on to a verdict."""
 
-from forcetorque.experiment.acceptance import Acceptance, Criterion, accept_sensor
+from forcetorque.experiment.acceptance import Acceptance, accept_sensor
 from forcetorque.experiment.acceptance_file import AcceptanceFile, read_acceptance
 from forcetorque.experiment.calibrate import calibrate_sensor
 from forcetorque.experiment.content import Experiment, ExperimentSensor
@@ -25,7 +25,6 @@ __all__ = [
     "AcceptanceFile",
     "ContactForceVerdict",
     "Correction",
-    "Criterion",
     "Experiment",
     "ExperimentFile",
     "ExperimentSensor",
