@@ -44,9 +44,9 @@ class _Subject:
     others: Mapping[str, Calibration]
     checks: StaticChecks
 
-    def fitted(self, table: str) -> tuple[str, Calibration]:
+    def fitted(self) -> tuple[str, Calibration]:
         if self.calibration is None:
-            raise ExperimentError(f"[{table}] judges a calibration, none was given of {self.sensor.name!r}")
+            raise ExperimentError(f"it judges a calibration, none was given of {self.sensor.name!r}; see --calibration")
         return self.calibration
 
     def measured(self, check: str, value: _Checked | None) -> _Checked:
@@ -96,15 +96,15 @@ def accept_sensor(
     return Acceptance(checks=checks, criteria=tuple(criteria))
 
 
-def _evaluated(subject: _Subject, table: str, offset: str) -> tuple[WrenchErrors, WrenchErrors]:
+def _evaluated(subject: _Subject, offset: str) -> tuple[WrenchErrors, WrenchErrors]:
     """Errors of the prior, or again of the calibration where there is none, and of the calibration."""
-    verdicts = evaluate_sensor(subject.experiment, subject.sensor, dict([subject.fitted(table)]))
+    verdicts = evaluate_sensor(subject.experiment, subject.sensor, dict([subject.fitted()]))
     errors = [verdict.errors for verdict in verdicts if verdict.offset == offset]
     return errors[0], errors[-1]
 
 
 def _evaluate(subject: _Subject, stated: limits.Evaluate) -> Iterator[Criterion]:
-    _, errors = _evaluated(subject, "evaluate", stated.offset)
+    _, errors = _evaluated(subject, stated.offset)
     n = errors.count
     for key, measured, limit, unit in (
         ("force_error_mean_N", errors.force_mean, stated.force_error_mean_N, "N"),
@@ -119,10 +119,10 @@ def _evaluate(subject: _Subject, stated: limits.Evaluate) -> Iterator[Criterion]
 
 
 def _improvement(subject: _Subject, stated: limits.Improvement) -> Iterator[Criterion]:
-    name, calibration = subject.fitted("improvement")
+    name, calibration = subject.fitted()
     if calibration.prior is None:
         raise ExperimentError(f"calibration {name!r} has no prior to improve on")
-    prior, new = _evaluated(subject, "improvement", stated.offset)
+    prior, new = _evaluated(subject, stated.offset)
     for key, ratio, limit in (
         ("force_error_ratio", _ratio(new.force_mean, prior.force_mean), stated.force_error_ratio),
         ("moment_error_ratio", _ratio(new.moment_mean, prior.moment_mean), stated.moment_error_ratio),
@@ -205,7 +205,7 @@ def _offset(subject: _Subject, stated: limits.OffsetLimits) -> Iterator[Criterio
 
 
 def _uncertainty(subject: _Subject, stated: limits.Uncertainty) -> Iterator[Criterion]:
-    name, fitted = subject.fitted("uncertainty")
+    name, fitted = subject.fitted()
     n = fitted.provenance.samples
     if stated.matrix_relative is not None:
         if fitted.matrix_standard_error is None:
@@ -219,7 +219,7 @@ def _uncertainty(subject: _Subject, stated: limits.Uncertainty) -> Iterator[Crit
 
 
 def _excitation(subject: _Subject, stated: limits.Excitation) -> Iterator[Criterion]:
-    _, fitted = subject.fitted("excitation")
+    _, fitted = subject.fitted()
     n, validity = fitted.provenance.samples, fitted.validity
     moved = sum(validity.excited)
     yield from at_limit("excitation.directions", moved, stated.directions, bound=Bound.AT_LEAST, count=n)
