@@ -47,6 +47,33 @@ def _version(
         raise typer.Exit
 
 
+@app.command("accept")
+def _accept(
+    experiment: ExperimentArgument,
+    spec: Annotated[
+        Path, typer.Option("--spec", help="Acceptance file (TOML) with the limits; see docs/acceptance.md.")
+    ],
+    calibration: Annotated[
+        list[Path] | None,
+        typer.Option("--calibration", "-c", help="Calibration file; repeat for more sensors. Default: the priors."),
+    ] = None,
+    population: Annotated[
+        list[Path] | None,
+        typer.Option(
+            "--population", help="Matrix file or calibration of another sensor, or a folder of them; repeat for more."
+        ),
+    ] = None,
+    output_format: FormatOption = Format.TABLE,
+) -> None:
+    """Accept or reject sensors by limits; exit code 1 if one fails.
+
+    Example: forcetorque accept experiment.toml --spec limits.toml -c leg.json
+    """
+    from forcetorque.cli.accept import run
+
+    run(experiment, spec=spec, calibrations=calibration, population=population, output_format=output_format)
+
+
 @app.command("calibrate")
 def _calibrate(
     experiment: ExperimentArgument,
@@ -256,8 +283,8 @@ def _schema(
     name: Annotated[
         str,
         typer.Argument(
-            help="experiment, scenario, recording, calibration, calibrate, estimate, evaluate, export, gains, inspect, "
-            "payload, simulate, study or validate."
+            help="experiment, acceptance, scenario, recording, calibration, accept, calibrate, estimate, evaluate, "
+            "export, gains, inspect, payload, simulate, study or validate."
         ),
     ],
 ) -> None:

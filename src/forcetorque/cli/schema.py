@@ -22,8 +22,10 @@ def run(name: str) -> None:
     """
     known: dict[str, Callable[[], dict[str, Any]]] = {
         "experiment": _experiment,
+        "acceptance": _acceptance,
         "recording": _recording,
         "calibration": _calibration,
+        "accept": _accept,
         "calibrate": _calibrate,
         "estimate": _estimate,
         "evaluate": _evaluate,
@@ -47,6 +49,12 @@ def _experiment() -> dict[str, Any]:
     return ExperimentFile.model_json_schema()
 
 
+def _acceptance() -> dict[str, Any]:
+    from forcetorque.experiment import AcceptanceFile
+
+    return AcceptanceFile.model_json_schema()
+
+
 def _recording() -> dict[str, Any]:
     from forcetorque.recording import recording_schema
 
@@ -57,6 +65,12 @@ def _calibration() -> dict[str, Any]:
     from forcetorque.calibration import Calibration
 
     return Calibration.model_json_schema()
+
+
+def _accept() -> dict[str, Any]:
+    from forcetorque.cli.accept_result import AcceptResult
+
+    return AcceptResult.model_json_schema()
 
 
 def _calibrate() -> dict[str, Any]:
