@@ -9,6 +9,7 @@ from typing import Annotated
 
 import typer
 
+from forcetorque.cli.options import CalibrationsOption, ExperimentArgument, FormatOption, SensorOption
 from forcetorque.cli.output import ExportFormat, Format, OtherSensorsChoice
 from forcetorque.errors import ForceTorqueError
 
@@ -19,12 +20,6 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     rich_markup_mode=None,
 )
-
-ExperimentArgument = Annotated[Path, typer.Argument(help="Experiment file (TOML); see docs/recording.md.")]
-FormatOption = Annotated[Format, typer.Option("--format", help="Form of the result on standard output.")]
-SensorOption = Annotated[
-    list[str] | None, typer.Option("--sensor", help="Sensor of the experiment; repeat for more. Default: all.")
-]
 
 
 def main() -> None:
@@ -53,10 +48,7 @@ def _accept(
     spec: Annotated[
         Path, typer.Option("--spec", help="Acceptance file (TOML) with the limits; see docs/acceptance.md.")
     ],
-    calibration: Annotated[
-        list[Path] | None,
-        typer.Option("--calibration", "-c", help="Calibration file; repeat for more sensors. Default: the priors."),
-    ] = None,
+    calibration: CalibrationsOption = None,
     population: Annotated[
         list[Path] | None,
         typer.Option(
@@ -111,10 +103,7 @@ def _calibrate(
 def _estimate(
     experiment: ExperimentArgument,
     output: Annotated[Path, typer.Option("--output", "-o", help="File for every sample, .parquet or .csv.")],
-    calibration: Annotated[
-        list[Path] | None,
-        typer.Option("--calibration", "-c", help="Calibration file; repeat for more. Default: the priors."),
-    ] = None,
+    calibration: CalibrationsOption = None,
     contacts: Annotated[
         list[str] | None,
         typer.Option(
@@ -224,10 +213,7 @@ def _gains(
         str | None,
         typer.Option("--allowed-gains", help="Gains that can be set, like 8,16,24,36,48. Default: of the file."),
     ] = None,
-    calibration: Annotated[
-        list[Path] | None,
-        typer.Option("--calibration", "-c", help="Calibration that tells what a count is worth. Default: the priors."),
-    ] = None,
+    calibration: CalibrationsOption = None,
     figure: Annotated[
         Path | None, typer.Option("--figure", help="PNG of the channels against their limits, before and after.")
     ] = None,
@@ -368,10 +354,7 @@ def _study(
 @app.command("validate")
 def _validate(
     experiment: ExperimentArgument,
-    calibration: Annotated[
-        list[Path] | None,
-        typer.Option("--calibration", "-c", help="Calibration file; repeat to compare several. Default: the priors."),
-    ] = None,
+    calibration: CalibrationsOption = None,
     sensor: Annotated[
         list[str] | None,
         typer.Option(
