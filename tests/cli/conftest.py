@@ -16,6 +16,7 @@ from forcetorque.cli.main import main
 from forcetorque.experiment import calibrate_sensor, load_experiment
 from tests.cli.outcome import Outcome, Run
 from tests.experiments import PARQUET, write_experiments
+from tests.studies import write_days
 from tests.warm_experiments import TEMPERATURE, warm_up, with_variables
 
 
@@ -54,10 +55,26 @@ def intact_warm(intact: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
+@pytest.fixture(scope="session")
+def recorded(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Folder of the recordings of three days; nobody changes it."""
+    folder = tmp_path_factory.mktemp("recorded")
+    write_days(folder)
+    return folder
+
+
 @pytest.fixture
 def warm(intact_warm: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """Folder with a copy of the drifting experiment, to damage; it is the working folder."""
     folder = Path(shutil.copytree(intact_warm, tmp_path / "warm"))
+    monkeypatch.chdir(folder)
+    return folder
+
+
+@pytest.fixture
+def days(recorded: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """Folder with a copy of them, to damage; it is the working folder."""
+    folder = Path(shutil.copytree(recorded, tmp_path / "days"))
     monkeypatch.chdir(folder)
     return folder
 

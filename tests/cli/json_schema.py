@@ -44,6 +44,9 @@ def faults(value: Any, schema: dict[str, Any], root: dict[str, Any] | None = Non
         elif word == "items":
             for index, item in enumerate(value if isinstance(value, list) else ()):
                 found += faults(item, wanted, root, f"{where}[{index}]")
+        elif word == "prefixItems":
+            for index, (item, form) in enumerate(zip(value if isinstance(value, list) else (), wanted, strict=False)):
+                found += faults(item, form, root, f"{where}[{index}]")
         elif not _fits(value, word, wanted):
             found.append(f"{where}: {word} {wanted}, got {value!r}")
     return found
@@ -59,6 +62,10 @@ def _fits(value: Any, word: str, wanted: Any) -> bool:
         return not isinstance(value, list) or (len(value) >= wanted if word == "minItems" else len(value) <= wanted)
     if word == "minLength":
         return not isinstance(value, str) or len(value) >= wanted
+    if word == "minProperties":
+        return not isinstance(value, dict) or len(value) >= wanted
+    if word == "maximum":
+        return not is_number or value <= wanted
     if word in ("minimum", "exclusiveMinimum"):
         return not is_number or (value >= wanted if word == "minimum" else value > wanted)
     if word in ("const", "enum"):

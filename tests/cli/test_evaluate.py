@@ -269,3 +269,28 @@ def test_an_experiment_without_validation_judges_nothing(arm: Path, run: Run) ->
     edit(arm / PARQUET, '"validation"', '"ignore"')
     error = run("evaluate", PARQUET, "-c", "fitted.json").error()
     assert error.endswith('expected an interval with use = "validation", it has none')
+
+
+def test_temperatures_that_were_not_fitted_are_named(warm: Path, run: Run) -> None:
+    """A calibration of a narrower range is used, with a warning that states both; one that holds them gives none."""
+    content = json.loads(Path("warm.json").read_text(encoding="utf-8"))
+    content["variables"][0] |= {"minimum": 25.0, "maximum": 40.0}
+    Path("warm.json").write_text(json.dumps(content), encoding="utf-8")
+    assert not [line for line in run("evaluate", PARQUET, "-c", "warm.json").log if "fitted were" in line]
+    content["variables"][0] |= {"minimum": 10.0, "maximum": 20.0}
+    Path("warm.json").write_text(json.dumps(content), encoding="utf-8")
+    (line,) = [line for line in run("evaluate", PARQUET, "-c", "warm.json").log if "fitted were" in line]
+    assert line.startswith("WARNING: warm.json: temperature is ")
+    assert line.endswith("degC, fitted were 10 to 20")
+
+
+def test_a_verdict_where_the_choice_was_made_is_said_to_flatter(arm: Path, run: Run) -> None:
+    """A calibration that was chosen on the judged interval is judged, with a warning that names the interval."""
+    content = json.loads(Path("fitted.json").read_text(encoding="utf-8"))
+    assert not [line for line in run("evaluate", PARQUET, "-c", "fitted.json").log if "flatters" in line]
+    judged = load_experiment(PARQUET).intervals(Use.VALIDATION)[0]
+    span = {"label": "there", "start_ns": judged.end_ns - 1, "end_ns": judged.end_ns + 5}
+    content["selection"]["chosen_on"] = [span]
+    Path("fitted.json").write_text(json.dumps(content), encoding="utf-8")
+    (line,) = [line for line in run("evaluate", PARQUET, "-c", "fitted.json").log if "flatters" in line]
+    assert line == "WARNING: fitted.json was chosen among others on 'judge' too, so the verdict on it flatters"

@@ -19,7 +19,17 @@ from tests.experiments import TEXTS
 
 COMMANDS = sorted(str(command.name) for command in app.registered_commands)
 ROOT = Path(__file__).parents[2]
-JSON_SCHEMAS = ("experiment", "calibration", "calibrate", "estimate", "evaluate", "gains")
+JSON_SCHEMAS = (
+    "experiment",
+    "acceptance",
+    "calibration",
+    "accept",
+    "calibrate",
+    "estimate",
+    "evaluate",
+    "gains",
+    "study",
+)
 
 
 def _paragraphs(help_text: str) -> list[str]:

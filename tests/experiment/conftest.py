@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 
 from tests.experiments import write_experiments
+from tests.studies import write_days
 from tests.warm_experiments import warm_up
 
 
@@ -36,3 +37,17 @@ def intact_warm(intact: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
 def warm(intact_warm: Path, tmp_path: Path) -> Path:
     """Folder with a copy of the drifting experiment, to damage; its file states no variable yet."""
     return Path(shutil.copytree(intact_warm, tmp_path / "warm"))
+
+
+@pytest.fixture(scope="session")
+def recorded(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Folder of the recordings of three days; nobody changes it."""
+    folder = tmp_path_factory.mktemp("recorded")
+    write_days(folder)
+    return folder
+
+
+@pytest.fixture
+def days(recorded: Path, tmp_path: Path) -> Path:
+    """Folder with a copy of them, to damage."""
+    return Path(shutil.copytree(recorded, tmp_path / "days"))

@@ -12,7 +12,14 @@ from pydantic import BaseModel, ConfigDict, Field
 from forcetorque.calibration import Calibration, read_calibration
 from forcetorque.cli.output import Format, console, finite_or_none, print_result, start_logging, table
 from forcetorque.errors import ExperimentError
-from forcetorque.experiment import Experiment, Verdict, evaluate_sensor, judged_where_chosen, load_experiment
+from forcetorque.experiment import (
+    Experiment,
+    Verdict,
+    beyond_fitted_range,
+    evaluate_sensor,
+    judged_where_chosen,
+    load_experiment,
+)
 from forcetorque.experiment.inputs import stated_in
 from forcetorque.spatial import WRENCH_COMPONENTS, WRENCH_UNITS
 
@@ -85,6 +92,8 @@ def run(path: Path, *, calibrations: list[Path], output_format: Format) -> None:
         with stated_in(f"{path}: sensor {sensor_name!r}"):
             verdicts += evaluate_sensor(experiment, experiment.sensor(sensor_name), group)
         for file, calibration in group.items():
+            for sentence in beyond_fitted_range(experiment, experiment.sensor(sensor_name), calibration):
+                log.warning("%s: %s", file, sentence)
             for label in judged_where_chosen(experiment, calibration):
                 log.warning("%s was chosen among others on %r too, so the verdict on it flatters", file, label)
     result = EvaluateResult(experiment=experiment.name, verdicts=[_row(verdict) for verdict in verdicts])

@@ -9,7 +9,8 @@ from typing import Annotated
 
 import typer
 
-from forcetorque.cli.output import ExportFormat, Format
+from forcetorque.cli.options import CalibrationsOption, ExperimentArgument, FormatOption, SensorOption
+from forcetorque.cli.output import ExportFormat, Format, OtherSensorsChoice
 from forcetorque.errors import ForceTorqueError
 
 app = typer.Typer(
@@ -19,12 +20,6 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     rich_markup_mode=None,
 )
-
-ExperimentArgument = Annotated[Path, typer.Argument(help="Experiment file (TOML); see docs/recording.md.")]
-FormatOption = Annotated[Format, typer.Option("--format", help="Form of the result on standard output.")]
-SensorOption = Annotated[
-    list[str] | None, typer.Option("--sensor", help="Sensor of the experiment; repeat for more. Default: all.")
-]
 
 
 def main() -> None:
@@ -45,6 +40,30 @@ def _version(
 
         typer.echo(installed_version("forcetorque"))
         raise typer.Exit
+
+
+@app.command("accept")
+def _accept(
+    experiment: ExperimentArgument,
+    spec: Annotated[
+        Path, typer.Option("--spec", help="Acceptance file (TOML) with the limits; see docs/acceptance.md.")
+    ],
+    calibration: CalibrationsOption = None,
+    population: Annotated[
+        list[Path] | None,
+        typer.Option(
+            "--population", help="Matrix file or calibration of another sensor, or a folder of them; repeat for more."
+        ),
+    ] = None,
+    output_format: FormatOption = Format.TABLE,
+) -> None:
+    """Accept or reject sensors by limits; exit code 1 if one fails.
+
+    Example: forcetorque accept experiment.toml --spec limits.toml -c leg.json
+    """
+    from forcetorque.cli.accept import run
+
+    run(experiment, spec=spec, calibrations=calibration, population=population, output_format=output_format)
 
 
 @app.command("calibrate")
@@ -84,10 +103,7 @@ def _calibrate(
 def _estimate(
     experiment: ExperimentArgument,
     output: Annotated[Path, typer.Option("--output", "-o", help="File for every sample, .parquet or .csv.")],
-    calibration: Annotated[
-        list[Path] | None,
-        typer.Option("--calibration", "-c", help="Calibration file; repeat for more. Default: the priors."),
-    ] = None,
+    calibration: CalibrationsOption = None,
     contacts: Annotated[
         list[str] | None,
         typer.Option(
@@ -197,10 +213,7 @@ def _gains(
         str | None,
         typer.Option("--allowed-gains", help="Gains that can be set, like 8,16,24,36,48. Default: of the file."),
     ] = None,
-    calibration: Annotated[
-        list[Path] | None,
-        typer.Option("--calibration", "-c", help="Calibration that tells what a count is worth. Default: the priors."),
-    ] = None,
+    calibration: CalibrationsOption = None,
     figure: Annotated[
         Path | None, typer.Option("--figure", help="PNG of the channels against their limits, before and after.")
     ] = None,
@@ -256,8 +269,8 @@ def _schema(
     name: Annotated[
         str,
         typer.Argument(
-            help="experiment, scenario, recording, calibration, calibrate, estimate, evaluate, export, gains, inspect, "
-            "payload, simulate, sphere or study."
+            help="experiment, acceptance, scenario, recording, calibration, accept, calibrate, estimate, evaluate, "
+            "export, gains, inspect, payload, simulate, sphere, study or validate."
         ),
     ],
 ) -> None:
@@ -371,5 +384,51 @@ def _study(
         kinds=kind,
         lambdas=regularisation,
         sphere=sphere,
+        output_format=output_format,
+    )
+
+
+@app.command("validate")
+def _validate(
+    experiment: ExperimentArgument,
+    calibration: CalibrationsOption = None,
+    sensor: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--sensor", help="Sensor to judge; repeat for more. Default: those of the calibrations, else all."
+        ),
+    ] = None,
+    sub_model: Annotated[
+        str | None,
+        typer.Option(
+            "--sub-model",
+            help="Part of the robot that nothing touches, by the sensor at its base or the root link. Default: that "
+            "beyond the sensor.",
+        ),
+    ] = None,
+    contact: Annotated[
+        str | None,
+        typer.Option("--contact", help="Link at whose origin the contact is estimated. Default: that on the sensor."),
+    ] = None,
+    others: Annotated[
+        OtherSensorsChoice,
+        typer.Option("--others", help="What the other sensors of the part read: what the model expects, or measured."),
+    ] = OtherSensorsChoice.MODEL,
+    output_format: FormatOption = Format.TABLE,
+) -> None:
+    """Judge calibrations by the contact force where nothing touches.
+
+    Example: forcetorque validate experiment.toml -c right_leg.json
+    """
+    from forcetorque.cli.validate import run
+    from forcetorque.evaluation import OtherSensors
+
+    run(
+        experiment,
+        calibrations=calibration,
+        sensors=sensor,
+        sub_model=sub_model,
+        contact=contact,
+        other_sensors=OtherSensors(others.value),
         output_format=output_format,
     )

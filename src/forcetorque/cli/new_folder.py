@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import shutil
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from uuid import uuid4
 
@@ -33,13 +33,17 @@ def new_folder(output: Path) -> Iterator[Path]:
         output: Folder to make.
 
     Yields:
-        Folder to write to; it is removed on any error.
+        Folder to write to; it is removed on any error, with the parents that it needed.
     """
     refuse_existing(output)
     fresh = output.with_name(f".{uuid4().hex}.tmp")
+    made = [parent for parent in output.parents if not parent.exists()]
     fresh.mkdir(parents=True)
     try:
         yield fresh
         fresh.rename(output)
     finally:
         shutil.rmtree(fresh, ignore_errors=True)
+        with suppress(OSError):  # not empty: the folder is in it, or somebody else's
+            for parent in made:
+                parent.rmdir()

@@ -37,6 +37,13 @@ class ExportFormat(StrEnum):
     COEFFICIENTS = "coefficients"
 
 
+class OtherSensorsChoice(StrEnum):
+    """What the other sensors of a sub-model are taken to read."""
+
+    MODEL = "model"
+    MEASURED = "measured"
+
+
 def start_logging() -> logging.Logger:
     """Send the library's and the command's messages to standard error.
 

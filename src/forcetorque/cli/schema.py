@@ -22,8 +22,10 @@ def run(name: str) -> None:
     """
     known: dict[str, Callable[[], dict[str, Any]]] = {
         "experiment": _experiment,
+        "acceptance": _acceptance,
         "recording": _recording,
         "calibration": _calibration,
+        "accept": _accept,
         "calibrate": _calibrate,
         "estimate": _estimate,
         "evaluate": _evaluate,
@@ -35,6 +37,7 @@ def run(name: str) -> None:
         "simulate": _simulate,
         "sphere": _sphere,
         "study": _study,
+        "validate": _validate,
     }
     if name not in known:
         raise ForceTorqueError(f"no schema is called {name!r}; {known_names(name, known)}")
@@ -47,6 +50,12 @@ def _experiment() -> dict[str, Any]:
     return ExperimentFile.model_json_schema()
 
 
+def _acceptance() -> dict[str, Any]:
+    from forcetorque.experiment import AcceptanceFile
+
+    return AcceptanceFile.model_json_schema()
+
+
 def _recording() -> dict[str, Any]:
     from forcetorque.recording import recording_schema
 
@@ -57,6 +66,12 @@ def _calibration() -> dict[str, Any]:
     from forcetorque.calibration import Calibration
 
     return Calibration.model_json_schema()
+
+
+def _accept() -> dict[str, Any]:
+    from forcetorque.cli.accept_result import AcceptResult
+
+    return AcceptResult.model_json_schema()
 
 
 def _calibrate() -> dict[str, Any]:
@@ -123,3 +138,9 @@ def _study() -> dict[str, Any]:
     from forcetorque.cli.study_result import StudyResult
 
     return StudyResult.model_json_schema()
+
+
+def _validate() -> dict[str, Any]:
+    from forcetorque.cli.validate import ValidateResult
+
+    return ValidateResult.model_json_schema()

@@ -18,6 +18,7 @@ from forcetorque.cli.study_files import write_calibrations, write_figures, write
 from forcetorque.cli.study_result import ModeResult, SensorStudyResult, StudyResult, sensor_result
 from forcetorque.errors import FitError, ForceTorqueError, MissingExtraError
 from forcetorque.experiment import SensorStudy, read_study_data, study_sensor
+from forcetorque.experiment.inputs import stated_in
 from forcetorque.spatial import WRENCH_COMPONENTS, WRENCH_UNITS
 from forcetorque.study import TABLE_LAMBDAS, tables
 
@@ -59,16 +60,20 @@ def run(
     with new_folder(output) as fresh:
         for data in found:
             log.info("studying %s (%s)", data.identity.name, data.identity.serial)
-            made = study_sensor(
-                data,
-                data_sets=combinations,
-                kinds=chosen_kinds,
-                table_lambdas=chosen_lambdas,
-                sphere=sphere,
-                code_version=version("forcetorque"),
-                created=created,
-                progress=log.info,
-            )
+            with stated_in(f"sensor {data.identity.name!r}"):
+                made = study_sensor(
+                    data,
+                    data_sets=combinations,
+                    kinds=chosen_kinds,
+                    table_lambdas=chosen_lambdas,
+                    sphere=sphere,
+                    code_version=version("forcetorque"),
+                    created=created,
+                    progress=log.info,
+                )
+            fitted = {interval.session for interval in data.calibration}
+            for session in sorted({interval.session for interval in data.validation} & fitted):
+                log.warning("session %r is fitted and judged: its score is not what another session gives", session)
             for line in made.study.fits.left_out:
                 log.warning("left out: %s", line)
             name = quote(f"{data.identity.name}_{data.identity.serial}", safe=" ")

@@ -91,10 +91,11 @@ def write_figures(made: SensorStudy, folder: Path) -> list[str]:
         "figure_5_7_contact_moments.png": lambda: _contact_figure(made, slice(3, 6), "N m"),
         "figure_5_9_measured_and_reference.png": lambda: _comparison_figure(made),
     }
-    lambdas, curves = tables.differences_to_workbench(study, data_set)
+    lambdas = {candidate.table_lambda for candidate in study.fits.candidates}
     if study.workbench is not None and len(lambdas) > 1:
+        of_table, curves = tables.differences_to_workbench(study, data_set)
         draw["figure_5_4_differences_to_workbench.png"] = lambda: report.lambda_difference_figure(
-            np.array(lambdas), curves, unit=unit
+            np.array(of_table), curves, unit=unit
         )
         for source in OffsetSource:
             name = f"figure_5_5_mean_forces_offset_{source.replace('-', '_')}.png"

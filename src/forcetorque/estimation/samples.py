@@ -73,8 +73,8 @@ class SensorSamples:
         stamps.setflags(write=False)
         object.__setattr__(self, "stamp_ns", stamps)
         object.__setattr__(self, "reference", read_only(self.reference, name="reference", shape=(len(stamps), 6)))
-        object.__setattr__(self, "variables", read_only(self.variables, name="variables", shape=(len(stamps), None)))
         require_shape(self.reading.values, name="reading", shape=(len(stamps), None))
+        object.__setattr__(self, "variables", read_only(self.variables, name="variables", shape=(len(stamps), None)))
 
     def __len__(self) -> int:
         return len(self.stamp_ns)

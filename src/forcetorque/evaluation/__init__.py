@@ -20,6 +20,8 @@ from forcetorque.evaluation.gains import (
     strongest_samples,
 )
 from forcetorque.evaluation.model_findings import model_findings
+from forcetorque.evaluation.population import PopulationPosition, position_in_population
+from forcetorque.evaluation.static_checks import MatrixChecks, OffsetChange, matrix_checks, offset_change
 from forcetorque.evaluation.wrench_errors import WrenchErrors, errors_from_zero, offset_removed, wrench_errors
 
 __all__ = [
@@ -31,8 +33,11 @@ __all__ = [
     "ContactForces",
     "GainAdvice",
     "GainChange",
+    "MatrixChecks",
+    "OffsetChange",
     "OtherSensors",
     "PooledErrors",
+    "PopulationPosition",
     "WrenchErrors",
     "advise_gains",
     "axis_resolution",
@@ -40,8 +45,11 @@ __all__ = [
     "channel_ranges",
     "contact_forces",
     "errors_from_zero",
+    "matrix_checks",
     "model_findings",
+    "offset_change",
     "offset_removed",
+    "position_in_population",
     "strongest_samples",
     "wrench_errors",
 ]

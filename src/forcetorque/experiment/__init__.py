@@ -1,22 +1,30 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The experiment file: from TOML to robot, recording, intervals and sensors, and on to a verdict."""
 
+from forcetorque.experiment.acceptance import Acceptance, accept_sensor
+from forcetorque.experiment.acceptance_file import AcceptanceFile, read_acceptance
 from forcetorque.experiment.calibrate import calibrate_sensor
 from forcetorque.experiment.content import Experiment, ExperimentSensor
 from forcetorque.experiment.estimate import IntervalEstimates, estimate_experiment
-from forcetorque.experiment.evaluate import Verdict, evaluate_sensor, judged_where_chosen
+from forcetorque.experiment.evaluate import Verdict, beyond_fitted_range, evaluate_sensor, judged_where_chosen
 from forcetorque.experiment.gains import JointPosition, SensorGains, StrongestSample, select_gains
 from forcetorque.experiment.inspect import doubtful_spans, inspect_experiment, inspect_recording
 from forcetorque.experiment.load import load_experiment
 from forcetorque.experiment.parse import parse_experiment
+from forcetorque.experiment.population import read_population
 from forcetorque.experiment.readings import Correction, corrections_of
 from forcetorque.experiment.samples import IntervalSamples, samples_of
 from forcetorque.experiment.schema import ExperimentFile
 from forcetorque.experiment.sphere import SensorSphere, analyse_sensor, sphere_intervals
+from forcetorque.experiment.static_checks import StaticChecks, check_sensor
 from forcetorque.experiment.study import SensorStudy, study_sensor
 from forcetorque.experiment.study_data import StudyData, read_study_data
+from forcetorque.experiment.validate import ContactForceVerdict, validate_sensor
 
 __all__ = [
+    "Acceptance",
+    "AcceptanceFile",
+    "ContactForceVerdict",
     "Correction",
     "Experiment",
     "ExperimentFile",
@@ -27,11 +35,15 @@ __all__ = [
     "SensorGains",
     "SensorSphere",
     "SensorStudy",
+    "StaticChecks",
     "StrongestSample",
     "StudyData",
     "Verdict",
+    "accept_sensor",
     "analyse_sensor",
+    "beyond_fitted_range",
     "calibrate_sensor",
+    "check_sensor",
     "corrections_of",
     "doubtful_spans",
     "estimate_experiment",
@@ -41,9 +53,12 @@ __all__ = [
     "judged_where_chosen",
     "load_experiment",
     "parse_experiment",
+    "read_acceptance",
+    "read_population",
     "read_study_data",
     "samples_of",
     "select_gains",
     "sphere_intervals",
     "study_sensor",
+    "validate_sensor",
 ]

@@ -17,6 +17,9 @@ from forcetorque.experiment.fitness import require_fit
 from forcetorque.experiment.samples import samples_of
 from forcetorque.recording import Use
 
+_BEYOND = 0.1
+"""Share of the fitted range of a variable by which it may be left before that is worth a word."""
+
 _SAME_OFFSET = 1e-9
 """Offsets of one prior on the same data differ by less than this; N, N m."""
 
@@ -120,6 +123,34 @@ def judged_where_chosen(experiment: Experiment, calibration: Calibration) -> tup
         Labels of validation intervals.
     """
     return tuple(dict.fromkeys(judged for judged, _ in _overlaps(experiment, calibration.selection.chosen_on)))
+
+
+def beyond_fitted_range(experiment: Experiment, sensor: ExperimentSensor, calibration: Calibration) -> tuple[str, ...]:
+    """Tell which variables have values in the judged intervals that were not fitted: there the line is drawn on.
+
+    Args:
+        experiment: The experiment.
+        sensor: One of its sensors.
+        calibration: A calibration of it.
+
+    Returns:
+        A sentence per variable that leaves the fitted range by more than a tenth of it.
+    """
+    found = []
+    stamps = experiment.recording.stream(sensor.stream).stamp_ns
+    judged = np.zeros(len(stamps), dtype=bool)
+    for interval in experiment.intervals(Use.VALIDATION):
+        judged |= (stamps >= interval.start_ns) & (stamps < interval.end_ns)
+    for variable in calibration.variables:
+        values = sensor.variable(variable.name).source.at(experiment.recording, stamps[judged])
+        margin = _BEYOND * (variable.maximum - variable.minimum)
+        low, high = float(np.nanmin(values)), float(np.nanmax(values))
+        if low < variable.minimum - margin or high > variable.maximum + margin:
+            found.append(
+                f"{variable.name} is {low:.4g} to {high:.4g} {variable.unit}, "
+                f"fitted were {variable.minimum:.4g} to {variable.maximum:.4g}"
+            )
+    return tuple(found)
 
 
 def _overlaps(experiment: Experiment, used: Iterable[FittedInterval]) -> Iterator[tuple[str, str]]:

@@ -66,9 +66,18 @@ def study_sensor(
 
     Returns:
         The study with its calibrations.
+
+    Raises:
+        ExperimentError: If all types need variables that the sensor has not, or combinations cannot be made.
+        FitError: If there is nothing to judge on, or nothing can be fitted.
     """
     has_variables = bool(data.sensor.variables)
     chosen_kinds = [kind for kind in kinds if has_variables or not kind.with_variables]
+    if kinds and not chosen_kinds:
+        raise ExperimentError(
+            f"{', '.join(kind.name for kind in kinds)} need a linear variable such as temperature, and the experiment "
+            "files state none; give [[sensor.variable]], or ask for a type without"
+        )
     drawing = data.sphere if sphere is None else tuple(sphere)
     study = run_study(
         [interval.data_set for interval in data.calibration],
@@ -151,7 +160,11 @@ class _Maker:
         words = "; ".join(f"{c} by {self.study.name(k)}" for c, k in zip(WRENCH_COMPONENTS, rows, strict=True))
         rule = f"smallest mean absolute value of every axis, offset {source}: {words}"
         made = {index: self._of(self.study.fits.candidates[index], rule) for index in dict.fromkeys(rows)}
-        return joined_by_axis([made[index] for index in rows])
+        joined = joined_by_axis([made[index] for index in rows])
+        fitted = {interval.label for interval in joined.provenance.intervals}
+        parts = [interval.part for interval in self.data.calibration if interval.label in fitted]
+        counted = {"samples": sum(len(p.samples) for p in parts), "dropped": sum(p.samples.dropped for p in parts)}
+        return joined.model_copy(update={"provenance": joined.provenance.model_copy(update=counted)})
 
     def _of(self, candidate: Candidate, rule: str) -> Calibration:
         """Fit the candidate again, with everything that an artefact tells."""
@@ -192,7 +205,8 @@ def joined_by_axis(rows: Sequence[Calibration]) -> Calibration:
         rows: Calibration that gives each of the six rows; all name the same selection.
 
     Returns:
-        The calibration. Its validity is that of the one among them whose data excite the fewest directions.
+        The calibration. Its validity is that of the one among them whose data excite the fewest directions. The
+        offsets have no standard errors where one was moved to another reference value.
     """
     models = [one.model for one in rows]
     reference = next((m.reference_values for m in models if len(m.reference_values)), np.zeros(0))
@@ -215,7 +229,7 @@ def joined_by_axis(rows: Sequence[Calibration]) -> Calibration:
         "estimation_type": "by axis",
         "raw_offset_counts": None,
         "matrix_standard_error": _diagonal([one.matrix_standard_error for one in rows]),
-        "offset_standard_error": _diagonal([one.offset_standard_error for one in rows]),
+        "offset_standard_error": _diagonal([_offset_error(one, reference) for one in rows]),
         "residual_rms": _diagonal([one.residual_rms for one in rows]),
         "lambda_counts2": None,
         "provenance": weakest.provenance.model_copy(update={"intervals": tuple(intervals.values())}),
@@ -226,6 +240,12 @@ def joined_by_axis(rows: Sequence[Calibration]) -> Calibration:
 def _error_of(calibration: Calibration, variable: int) -> FloatArray | None:
     """Standard error of a variable's coefficients; zero where the row has none, which is not estimated."""
     return calibration.variables[variable].standard_error if calibration.variables else np.zeros(6)
+
+
+def _offset_error(calibration: Calibration, reference: FloatArray) -> FloatArray | None:
+    """Standard error of an offset; None for an offset elsewhere, which moves with the coefficients."""
+    values = calibration.model.reference_values
+    return calibration.offset_standard_error if not len(values) or np.array_equal(values, reference) else None
 
 
 def _diagonal(rows: Sequence[FloatArray | None]) -> FloatArray | None:

@@ -104,6 +104,7 @@ def read_study_data(
         ExperimentError: If a file lacks a sensor, a sensor is not the same in all files, or samples that are fitted
             are judged too.
     """
+    _refuse_a_file_twice(paths)
     shares: dict[str, list[_Share]] = {}
     for path in paths:
         if progress is not None:
@@ -112,7 +113,8 @@ def read_study_data(
         experiment = load_experiment(path)
         with stated_in(str(path)):
             wanted = [experiment.sensor(name) for name in (shares if shares and sensors is None else sensors or ())]
-        for sensor in wanted or experiment.sensors:
+        # a sensor may be asked for by several names
+        for sensor in {sensor.name: sensor for sensor in wanted or experiment.sensors}.values():
             with stated_in(f"{path}: sensor {sensor.name!r}"):
                 shares.setdefault(sensor.name, []).append(_share(path, experiment, sensor))
     return [_joined(of_sensor) for of_sensor in shares.values()]
@@ -149,11 +151,17 @@ def _joined(shares: Sequence[_Share]) -> StudyData:
     for other in shares[1:]:
         _refuse_another_sensor(first, other)
     labels = [interval.label for share in shares for interval in share.intervals]
+    files = _names_of([share.path for share in shares])
 
     def unique(share: _Share, label: str) -> str:
-        return label if labels.count(label) == 1 else f"{share.path.stem}/{label}"
+        return label if labels.count(label) == 1 else f"{files[share.path]}/{label}"
 
-    intervals = [replace(i, label=unique(share, i.label)) for share in shares for i in share.intervals]
+    def named(share: _Share, interval: StudyInterval) -> StudyInterval:
+        label = unique(share, interval.label)
+        # an interval without a session is one by itself, also where another file has one of its label
+        return replace(interval, label=label, session=label if interval.session == interval.label else interval.session)
+
+    intervals = [named(share, interval) for share in shares for interval in share.intervals]
     sphere = [unique(share, label) for share in shares for label in share.sphere or ()]
     calibration = tuple(i for i in intervals if i.part.interval.use is Use.CALIBRATION)
     validation = tuple(i for i in intervals if i.part.interval.use is Use.VALIDATION)
@@ -173,13 +181,31 @@ def _joined(shares: Sequence[_Share]) -> StudyData:
     )
 
 
+def _names_of(paths: Sequence[Path]) -> dict[Path, str]:
+    """Name every file by its stem, with as many folders in front as tell all of them apart."""
+    parts = [path.resolve().with_suffix("").parts for path in paths]
+    for count in range(1, max(map(len, parts))):
+        names = ["/".join(each[-count:]) for each in parts]
+        if len(set(names)) == len(names):
+            return dict(zip(paths, names, strict=True))
+    return {path: path.as_posix() for path in paths}
+
+
+def _refuse_a_file_twice(paths: Sequence[Path]) -> None:
+    seen: set[Path] = set()
+    for path in paths:
+        if path.resolve() in seen:
+            raise ExperimentError(f"{path}: expected every experiment file once, it comes twice; its samples would too")
+        seen.add(path.resolve())
+
+
 def _refuse_another_sensor(first: _Share, other: _Share) -> None:
     """Refuse to pool the data of different sensors, or of one sensor that was read in different ways."""
     mine, theirs = first.sensor, other.sensor
     compared = {
         "serial number": (mine.serial, theirs.serial),
         "mounting (robot, frame, direction)": (first.identity, other.identity),
-        "variables": tuple([(v.linear.name, v.linear.unit) for v in sensor.variables] for sensor in (mine, theirs)),
+        "variables": (_described(mine), _described(theirs)),
         "amplifier gain": (mine.amplifier_gain, theirs.amplifier_gain),
     }
     for what, (here, there) in compared.items():
@@ -196,6 +222,19 @@ def _refuse_another_sensor(first: _Share, other: _Share) -> None:
             f"{other.path}: sensor {mine.name!r}: expected the prior matrix of {first.path}, got another; "
             "all candidates are pulled towards one matrix"
         )
+
+
+def _described(sensor: ExperimentSensor) -> list[tuple[str, str, float | None, list[float] | None]]:
+    """Name, unit, reference value and prior coefficients of every variable: all that a fit takes from the file."""
+    return [
+        (
+            v.linear.name,
+            v.linear.unit,
+            v.linear.reference_value,
+            None if v.linear.prior is None else v.linear.prior.tolist(),
+        )
+        for v in sensor.variables
+    ]
 
 
 def _refuse_judging_what_was_fitted(

@@ -6,6 +6,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from forcetorque.calibration import EstimationType, WrenchModel
+from forcetorque.study.lambdas import lambda_text
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -30,4 +31,4 @@ class Candidate:
     @property
     def name(self) -> str:
         """Data set, type and lambda of the tables."""
-        return f"{self.data_set} {self.kind.name} lambda {self.table_lambda:g}"
+        return f"{self.data_set} {self.kind.name} lambda {lambda_text(self.table_lambda)}"

@@ -80,16 +80,13 @@ def fit_candidates(
         The candidates, the combinations and what could not be fitted.
 
     Raises:
-        FitError: If a label is unknown, or nothing can be fitted at all.
+        FitError: If a label is unknown or comes twice, a combination has none, or nothing can be fitted at all.
     """
+    _require_labels([data.label for data in data_sets], combinations, sphere)
     moments = {data.label: Moments.of(data.raw, data.reference, data.variables) for data in data_sets}
     lambdas = tuple(table_lambdas) if prior is not None else (0.0,)
     made, candidates, left_out = [], [], []
     for name, labels in combinations.items():
-        for label in labels:
-            if label not in moments:
-                known = known_names(label, moments)
-                raise FitError(f"data set {name!r}: no calibration interval is called {label!r}; {known}")
         chosen = [data for data in data_sets if data.label in labels]
         total = pooled(moments[data.label] for data in chosen)
         for kind in kinds:
@@ -112,6 +109,25 @@ def fit_candidates(
     if not candidates:
         raise FitError(f"nothing can be fitted; {left_out[0] if left_out else 'no data set and no estimation type'}")
     return Fits(candidates=tuple(candidates), combinations=tuple(made), left_out=tuple(left_out))
+
+
+def _require_labels(
+    known: Sequence[str], combinations: Mapping[str, Collection[str]], sphere: Collection[str] | None
+) -> None:
+    """Refuse names that would leave data out without a word."""
+    twice = [label for label in known if known.count(label) > 1]
+    if twice:
+        raise FitError(f"calibration intervals: expected a label of its own for each, {twice[0]!r} comes twice")
+    for name, labels in combinations.items():
+        if not labels:
+            raise FitError(f"data set {name!r}: expected at least one calibration interval, got none")
+        for label in labels:
+            if label not in known:
+                names = known_names(label, known)
+                raise FitError(f"data set {name!r}: no calibration interval is called {label!r}; {names}")
+    for label in sphere or ():
+        if label not in known:
+            raise FitError(f"sphere: no calibration interval is called {label!r}; {known_names(label, known)}")
 
 
 def _raw_offset(moments: Mapping[str, Moments], labels: Collection[str], sphere: Collection[str] | None) -> FloatArray:

@@ -90,7 +90,7 @@ def judge(
     *,
     progress: Callable[[str], None] | None = None,
 ) -> Judgement:
-    """Judge models on validation sets; those that give an offset are judged in neither mode.
+    """Judge models on validation sets; samples that can give an offset are judged in neither mode.
 
     Args:
         models: The models; each has no variable, or all those of the sets.

@@ -6,6 +6,7 @@ from __future__ import annotations
 from typing import Final
 
 from forcetorque.calibration import Moments
+from forcetorque.errors import FitError
 
 TABLE_LAMBDAS: Final = (
     0.0, 1.0, 5.0, 10.0, 50.0, 100.0, 1000.0, 5000.0, 10000.0, 50000.0, 100000.0, 500000.0, 1000000.0,
@@ -25,5 +26,23 @@ def relative_lambda(regularisation: float, moments: Moments) -> float:
 
     Returns:
         Lambda over the mean variance of the raw channels; 1.
+
+    Raises:
+        FitError: If no raw channel ever changes.
     """
-    return regularisation * moments.channels / float(moments.raw_raw.trace())
+    variance = float(moments.raw_raw.trace()) / moments.channels
+    if not variance > 0.0:
+        raise FitError("raw readings: expected some that change, all channels hold one value; the sensor was not read")
+    return regularisation / variance
+
+
+def lambda_text(table_lambda: float) -> str:
+    """Write a lambda as the tables of the thesis do, 1000000 and not 1e+06.
+
+    Args:
+        table_lambda: Lambda of the tables; counts2.
+
+    Returns:
+        All its digits that a person would type.
+    """
+    return f"{table_lambda:.12g}"

@@ -99,7 +99,7 @@ def run_study(
         The study.
 
     Raises:
-        FitError: If there is nothing to judge on, or nothing can be fitted.
+        FitError: If there is nothing to judge on, nothing can be fitted, or the data determine none of the fits.
     """
     if not validation:
         raise FitError('expected at least one interval with use = "validation", got none')
@@ -114,6 +114,11 @@ def run_study(
         table_lambdas=table_lambdas,
         sphere=sphere,
     )
+    if not any(candidate.determined for candidate in fits.candidates):
+        raise FitError(
+            "lambda is 0, and in every data set the loads leave a direction of the raw readings unexcited; move the "
+            "limb so that all loads change, or give a prior matrix and a lambda above 0"
+        )
     models = [candidate.model for candidate in fits.candidates]
     workbench = None
     if prior is not None:

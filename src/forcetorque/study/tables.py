@@ -8,9 +8,11 @@ from collections.abc import Iterable
 import numpy as np
 
 from forcetorque.arrays import FloatArray
+from forcetorque.errors import FitError
 from forcetorque.spatial import WRENCH_COMPONENTS
 from forcetorque.study.candidate import Candidate
 from forcetorque.study.judging import OffsetSource
+from forcetorque.study.lambdas import lambda_text
 from forcetorque.study.study import WORKBENCH, Study
 
 Row = dict[str, str | float]
@@ -78,7 +80,7 @@ def mean_forces(study: Study, source: OffsetSource) -> list[Row]:
     rows: dict[tuple[str, str], Row] = {}
     for candidate, value in zip(study.fits.candidates, force, strict=False):
         row = rows.setdefault((candidate.data_set, candidate.kind.name), _labelled(candidate))
-        row[f"{candidate.table_lambda:g}"] = float(value)
+        row[lambda_text(candidate.table_lambda)] = float(value)
     table = list(rows.values())
     for row in table:
         row["mean"] = float(np.mean([value for value in row.values() if isinstance(value, float)]))
@@ -150,8 +152,13 @@ def differences_to_workbench(study: Study, data_set: str) -> tuple[tuple[float, 
 
     Returns:
         Lambdas of the tables, and by type the differences in `DIFFERENCE_UNIT`.
+
+    Raises:
+        FitError: If there is no prior to differ from.
     """
-    matrix = np.zeros(6) if study.workbench is None else study.workbench.matrix
+    if study.workbench is None:
+        raise FitError("differences to the workbench matrix need one; this sensor has no prior")
+    matrix = study.workbench.matrix
     curves: dict[str, list[float]] = {}
     for candidate in study.fits.candidates:
         if candidate.data_set == data_set:

@@ -1,0 +1,21 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Arguments and options that several commands share."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from forcetorque.cli.output import Format
+
+ExperimentArgument = Annotated[Path, typer.Argument(help="Experiment file (TOML); see docs/recording.md.")]
+FormatOption = Annotated[Format, typer.Option("--format", help="Form of the result on standard output.")]
+SensorOption = Annotated[
+    list[str] | None, typer.Option("--sensor", help="Sensor of the experiment; repeat for more. Default: all.")
+]
+CalibrationsOption = Annotated[
+    list[Path] | None,
+    typer.Option("--calibration", "-c", help="Calibration file; repeat for more. Default: the priors."),
+]

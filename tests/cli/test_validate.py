@@ -1,0 +1,60 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""`forcetorque validate`: its forms, the best candidate, and what it refuses."""
+
+from __future__ import annotations
+
+import csv
+import io
+from pathlib import Path
+
+import numpy as np
+
+from forcetorque.spatial import WRENCH_COMPONENTS
+from tests.cli.json_schema import faults
+from tests.cli.outcome import Run
+from tests.experiments import PARQUET, TWO, snapshot
+
+
+def test_the_best_candidate_is_named_in_every_form(arm: Path, run: Run) -> None:
+    """The fit is best by magnitude and on every axis; the same numbers stand in JSON, CSV and table."""
+    before = snapshot(arm)
+    result = run("validate", PARQUET, "-c", "fitted.json", "--format", "json").result()
+    assert faults(result, run("schema", "validate").result()) == []
+    rows = {(row["candidate"], row["offset"]): row for row in result["contact_forces"]}
+    assert set(rows) == {(c, o) for c in ("prior", "fitted.json") for o in ("fitted", "re-estimated")}
+    for best in result["best"]:
+        assert best["by_magnitude"] == "fitted.json"
+        forces = {c: rows[c, best["offset"]]["force_mean_N"] for c in ("prior", "fitted.json")}
+        assert forces["fitted.json"] == min(forces.values())
+        for axis, name in enumerate(best["by_axis"]):
+            values = {c: rows[c, best["offset"]]["mean_absolute"][axis] for c in forces}
+            assert values[name] == min(values.values())
+    table = run("validate", PARQUET, "-c", "fitted.json", "--format", "csv")
+    flat = list(csv.DictReader(io.StringIO(table.out)))
+    assert len(flat) == 4
+    for line in flat:
+        row = rows[line["candidate"], line["offset"]]
+        np.testing.assert_allclose([float(line[c]) for c in WRENCH_COMPONENTS], row["mean_absolute"], rtol=1e-12)
+    shown = run("validate", PARQUET, "-c", "fitted.json")
+    assert shown.code == 0
+    assert "free sub-model arm_ft" in shown.out
+    assert "best is fitted.json" in shown.out
+    assert "other sensors: as the model expects" in shown.out
+    assert snapshot(arm) == before
+
+
+def test_without_calibrations_every_sensor_is_judged_by_its_prior(arm: Path, run: Run) -> None:
+    """Both sensors of the file; with --sensor only the one."""
+    result = run("validate", TWO, "--format", "json", "--others", "measured").result()
+    assert {row["sensor"] for row in result["contact_forces"]} == {"arm_ft", "tool_ft"}
+    assert result["other_sensors"] == "measured"
+    one = run("validate", TWO, "--sensor", "tool_ft", "--sub-model", "arm_ft", "--format", "json").result()
+    assert {(row["sensor"], row["sub_model"]) for row in one["contact_forces"]} == {("tool_ft", "arm_ft")}
+
+
+def test_wrong_words_are_refused_in_one_line(arm: Path, run: Run) -> None:
+    """Unknown sensor, part and link are errors that say what is known."""
+    assert "has no sensor 'leg'" in run("validate", PARQUET, "--sensor", "leg").error()
+    assert "sub_model: expected one of the two" in run("validate", PARQUET, "--sub-model", "leg").error()
+    assert "no link 'leg'" in run("validate", PARQUET, "--contact", "leg").error()
+    assert run("validate", PARQUET, "--others", "both").code == 2
