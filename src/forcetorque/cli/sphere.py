@@ -152,6 +152,8 @@ def _remarks(rows: list[SphereRow], gravity: float) -> Iterator[str]:
             share = row.directions_covered
             covered = "" if share is None else f", {100.0 * share:.0f} % of all directions"
             yield f"{name}, without: a {row.form}{covered}; not identifiable: {'; '.join(row.without_reference.why)}"
+        if row.moment_with_reference is not None and row.moment_with_reference.why:
+            yield f"{name}, moments: not identifiable: {'; '.join(row.moment_with_reference.why)}"
         yield from _tilt_remark(row)
 
 

@@ -144,6 +144,8 @@ class SphereRow(BaseModel):
     """Mass that hangs on the sensor by the model."""
     form: CloudForm
     """What part of a sphere the forces can be told to be."""
+    force_scatter: float | None
+    """Standard deviation of the size of the force by the model, relative to its mean; 0 for a sphere."""
     directions_covered: float | None
     """Share of all directions in which there was a force."""
     no_reference: str | None
@@ -204,6 +206,7 @@ def sphere_row(found: SensorSphere) -> SphereRow:
         samples=analysis.samples,
         model_mass_kg=analysis.mass,
         form=analysis.form,
+        force_scatter=analysis.scatter,
         directions_covered=analysis.directions,
         no_reference=no_reference,
         one_radius=_radius(analysis.radius, analysis.gravity),

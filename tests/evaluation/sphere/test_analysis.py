@@ -129,6 +129,27 @@ def test_moments_of_a_loose_limb_are_not_believed() -> None:
     assert any("the limb is not stiff" in reason for reason in found.why)
 
 
+def test_a_fast_motion_draws_no_sphere() -> None:
+    """Where the model says that the force has no one size, only the fit with the model is believed: it knows why."""
+    slow = _reference(grid(1500, 60.0))
+    fast = slow * (1.0 + 0.3 * np.sin(np.linspace(0.0, 40.0, 1500)))[:, None]
+    found = analyse_sphere(_measured(fast, 0.1), fast, gravity=GRAVITY, mass=MASS)
+    assert found.scatter is not None
+    assert found.scatter == pytest.approx(0.3 / np.sqrt(2.0), rel=0.1)
+    assert not found.free.identifiable
+    assert not found.radius.identifiable
+    for fit in (found.free, found.radius):
+        assert "the force has no one size, it scatters by" in fit.why[0]
+    assert found.mapped is not None
+    assert found.mapped.fit.identifiable
+    assert found.mapped.radius == pytest.approx(MASS * GRAVITY, rel=1e-12)
+    assert (found.mapped.fit.low < TRUTH.axis_intersections).all()
+    assert (found.mapped.fit.high > TRUTH.axis_intersections).all()
+    calm = _analysed()
+    assert calm.scatter is not None
+    assert calm.scatter < 1e-12
+
+
 def test_moments_without_the_model_lie_on_a_disc() -> None:
     """A stiff limb makes no ellipsoid in the space of moments: the cloud is called flat or open."""
     found = _analysed(noise=0.2).free_moment

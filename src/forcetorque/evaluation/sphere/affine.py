@@ -41,7 +41,7 @@ class MappedFit:
     centre: FloatArray
     """What the sensor reads without force; shape (3,); N."""
     radius: float
-    """Radius of the model's sphere: mean size of the reference; N."""
+    """Radius of the model's sphere: weight on the sensor; N."""
     fit: EllipsoidFit
     """The ellipsoid."""
 
@@ -83,12 +83,15 @@ class MomentFit:
         return errors
 
 
-def fit_mapped(force: FloatArray, reference: FloatArray, *, tolerance: float) -> MappedFit | None:
+def fit_mapped(force: FloatArray, reference: FloatArray, *, radius: float, tolerance: float) -> MappedFit | None:
     """Fit the map of reference forces to measured ones.
+
+    Accelerations do no harm here: the map is of forces of any size, and it is the weight's sphere that it is laid on.
 
     Args:
         force: Measured forces; shape (n, 3); N.
         reference: Reference forces at the same instants; shape (n, 3); N.
+        radius: Weight on the sensor; N.
         tolerance: Half width of an interval, relative to the mean intersection, up to which it is identifiable.
 
     Returns:
@@ -96,7 +99,6 @@ def fit_mapped(force: FloatArray, reference: FloatArray, *, tolerance: float) ->
     """
     if is_flat(reference):
         return None
-    radius = float(np.linalg.norm(reference, axis=1).mean())
     sums, shift = _sums(reference, force)
     (matrix,), (centre,) = _maps(whole(sums), shift)
     estimates = resampled(sums, lambda mean: _inverse_lengths(_maps(mean, shift)[0] * radius), extent=_reference_extent)
@@ -130,7 +132,7 @@ def fit_mapped(force: FloatArray, reference: FloatArray, *, tolerance: float) ->
 
 
 def fit_moment(
-    moment: FloatArray, reference_moment: FloatArray, reference: FloatArray, *, tolerance: float
+    moment: FloatArray, reference_moment: FloatArray, reference: FloatArray, *, radius: float, tolerance: float
 ) -> MomentFit | None:
     """Fit the maps of reference forces to measured and to reference moments.
 
@@ -138,6 +140,7 @@ def fit_moment(
         moment: Measured moments; shape (n, 3); N m.
         reference_moment: Reference moments at the same instants; shape (n, 3); N m.
         reference: Reference forces; shape (n, 3); N.
+        radius: Weight on the sensor; N.
         tolerance: Half width of an interval, relative to the largest half-width, up to which it is identifiable.
 
     Returns:
@@ -145,7 +148,6 @@ def fit_moment(
     """
     if is_flat(reference):
         return None
-    radius = float(np.linalg.norm(reference, axis=1).mean())
     sums, shift = _sums(reference, moment)
     _, (centre,) = _maps(whole(sums), shift)
     estimates = resampled(

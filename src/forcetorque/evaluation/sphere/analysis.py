@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -14,7 +14,7 @@ from forcetorque.evaluation.sphere.affine import MappedFit, MomentFit, fit_mappe
 from forcetorque.evaluation.sphere.apparent_mass import apparent_masses, axis_errors
 from forcetorque.evaluation.sphere.cloud import require_cloud
 from forcetorque.evaluation.sphere.coverage import share_of_directions
-from forcetorque.evaluation.sphere.findings import TOLERANCE, CloudForm, EllipsoidFit, RadiusFit
+from forcetorque.evaluation.sphere.findings import TOLERANCE, CloudForm, EllipsoidFit, RadiusFit, percent
 from forcetorque.evaluation.sphere.free import fit_ellipsoid, fit_radius, may_be_flat
 
 _COUNTS = 100.0
@@ -33,6 +33,9 @@ class SphereAnalysis:
     """Mass beyond the sensor by the model; kg; None without a model."""
     form: CloudForm
     """What part of a sphere the forces can be told to be."""
+    scatter: float | None
+    """Standard deviation of the size of the reference force, relative to its mean: 0 for a sphere; None without a
+    reference."""
     directions: float | None
     """Share of all directions in which there was a force: of the reference; else seen from the centre of the ellipsoid,
     or of the sphere where that is not identifiable; None where there is none."""
@@ -122,16 +125,24 @@ def _analyse(
     radius = fit_radius(force, unit="N", tolerance=tolerance)
     free = fit_ellipsoid(force, radius, tolerance=tolerance)
     form = CloudForm.SURFACE if free.identifiable else CloudForm.PLANE if may_be_flat(force) else CloudForm.CAP
-    mapped = moment_fit = None
+    mapped = moment_fit = scatter = None
     if expected is not None:
         reference = np.ascontiguousarray(expected[:, :3])
-        mapped = fit_mapped(force, reference, tolerance=tolerance)
-        moment_fit = fit_moment(moment, expected[:, 3:], reference, tolerance=tolerance)
+        size = np.linalg.norm(reference, axis=1)
+        scatter = float(size.std() / size.mean())
+        if scatter > tolerance:
+            reason = f"by the model the force has no one size, it scatters by {percent(scatter)}; move slowly"
+            radius = replace(radius, identifiable=False, why=(reason, *radius.why))
+            free = replace(free, identifiable=False, tilt_identifiable=False, why=(reason, *free.why))
+        weight = gravity * mass if mass is not None else float(size.mean())
+        mapped = fit_mapped(force, reference, radius=weight, tolerance=tolerance)
+        moment_fit = fit_moment(moment, expected[:, 3:], reference, radius=weight, tolerance=tolerance)
     return SphereAnalysis(
         samples=len(force),
         gravity=gravity,
         mass=mass,
         form=form,
+        scatter=scatter,
         directions=_directions(force, expected, radius, free),
         radius=radius,
         free=free,
