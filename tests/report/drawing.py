@@ -16,6 +16,8 @@ from matplotlib.figure import Figure
 from matplotlib.image import imread
 from matplotlib.text import Text
 
+from forcetorque.evaluation.sphere import analyse_sphere
+from forcetorque.experiment import SensorSphere
 from forcetorque.report import (
     comparison_figure,
     contact_figure,
@@ -24,6 +26,7 @@ from forcetorque.report import (
     lambda_difference_figure,
     lambda_force_figure,
     space_figure,
+    sphere_figure,
 )
 
 LAMBDAS = np.array([0, 1, 5, 10, 50, 100, 1e3, 5e3, 1e4, 5e4, 1e5, 5e5, 1e6])
@@ -74,6 +77,31 @@ def _comparison(rng: np.random.Generator) -> bytes:
     return comparison_figure(np.arange(400) * 0.01, reference, candidates)
 
 
+def sphere_of(
+    force: np.ndarray, reference: np.ndarray | None, *, candidate: str = "prior", mass: float | None = None
+) -> SensorSphere:
+    """What an experiment gives of a sensor that read these forces."""
+    wrench, expected = (None if f is None else np.hstack([f, 0.1 * f[:, ::-1]]) for f in (force, reference))
+    return SensorSphere(
+        sensor="leg_ft",
+        serial="SN1",
+        candidate=candidate,
+        intervals=("grid",),
+        fitted_on=(),
+        no_reference="no joints" if reference is None else None,
+        force=force,
+        reference=reference,
+        analysis=analyse_sphere(wrench, expected, gravity=9.81, mass=mass),
+    )
+
+
+def _sphere(rng: np.random.Generator) -> bytes:
+    directions = rng.normal(size=(500, 3))
+    reference = 46.0 * directions / np.linalg.norm(directions, axis=1, keepdims=True)
+    force = reference @ (np.eye(3) + 0.2 * rng.normal(size=(3, 3))) + rng.normal(size=3) + rng.normal(size=(500, 3))
+    return sphere_figure([sphere_of(force, reference), sphere_of(force[:40], None, candidate="new.json", mass=4.7)])
+
+
 FIGURES: dict[str, Callable[[np.random.Generator], bytes]] = {
     "space": _space,
     "force space": _force_space,
@@ -82,6 +110,7 @@ FIGURES: dict[str, Callable[[np.random.Generator], bytes]] = {
     "lambda force": _lambda_force,
     "contact": _contact,
     "comparison": _comparison,
+    "sphere": _sphere,
 }
 """A figure of every kind that is drawn from plain arrays, of random data."""
 
