@@ -319,7 +319,7 @@ def _sphere(
     ] = None,
     output_format: FormatOption = Format.TABLE,
 ) -> None:
-    """Fit an ellipsoid to the forces of a limb that is carried around, and compare its axes.
+    """Compare how the three axes weigh a limb that is carried around.
 
     Example: forcetorque sphere experiment.toml --interval grid
     """

@@ -22,7 +22,7 @@ from forcetorque.evaluation.sphere.orthogonal import (
 _FEW = 20_000
 """Samples with which a fit comes close before all are taken; some minutes of a recording."""
 _ITERATIONS = 60
-_CONVERGED = 1e-9
+_CONVERGED = 1e-7
 """Step, relative to the size of the cloud, at which a fit has converged."""
 _OPEN = 1e3
 """Radius, relative to the size of the cloud, beyond which nobody tells a surface from a flat one."""
@@ -91,20 +91,16 @@ def _descend(
     now = equations(here)
     converged = False
     for _ in range(_ITERATIONS):
-        if now is None or converged or np.abs(here[3:]).max() > _OPEN * size:
+        if now is None or np.abs(here[3:]).max() > _OPEN * size or damping > _LARGEST_DAMPING:
             break
         step = -np.linalg.solve(now.hessian + damping * np.diag(np.diag(now.hessian) + 1e-300), now.gradient)
-        there = here + step
-        ahead = equations(there)
         # what a step promises: below the rounding of the sum itself there is nothing to gain
-        lost = -float(now.gradient @ step) <= _ROUNDING * now.cost
-        if ahead is not None and ahead.cost <= now.cost:
-            here, now, damping = there, ahead, 0.1 * damping
-            converged = lost or bool(np.abs(step).max() < _CONVERGED * size)
-        elif lost:
-            converged = True
-        elif damping > _LARGEST_DAMPING:
+        converged = bool(np.abs(step).max() < _CONVERGED * size or -(now.gradient @ step) <= _ROUNDING * now.cost)
+        if converged:
             break
+        ahead = equations(here + step)
+        if ahead is not None and ahead.cost <= now.cost:
+            here, now, damping = here + step, ahead, 0.1 * damping
         else:
             damping *= 10.0
     cost = np.nan if now is None else now.cost
