@@ -24,6 +24,7 @@ bench: $(VENV)/test.stamp
 	$(BIN)/python -m benchmarks.calibration --json build/benchmarks/calibration.json
 	$(BIN)/python -m benchmarks.dynamics --json build/benchmarks/dynamics.json
 	$(BIN)/python -m benchmarks.simulation --json build/benchmarks/simulation.json
+	$(BIN)/python -m benchmarks.sphere --json build/benchmarks/sphere.json
 
 # uv installs exactly what uv.lock says; it is itself installed here, so nothing is assumed
 $(BIN)/uv:

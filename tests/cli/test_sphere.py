@@ -174,7 +174,7 @@ def test_counts_are_refused_with_their_sensor(arm: Path, run: Run) -> None:
 def test_the_yoga_example(run: Run, data_dir: Path, tmp_path: Path) -> None:
     """As the example says: neither one mass of the arms nor three are known, and the leg moves in a plane."""
     path = tmp_path / "yoga.toml"
-    text = (EXAMPLES / "11_icub_yoga_sphere.toml").read_text(encoding="utf-8")
+    text = (EXAMPLES / "12_icub_yoga_sphere.toml").read_text(encoding="utf-8")
     path.write_text(text.replace("../../shared/data", data_dir.as_posix()))
     result = run("sphere", path, "--figure", tmp_path / "yoga.png", "--format", "json").result()
     assert [row["form"] for row in result["rows"]] == ["cap", "cap", "plane"]

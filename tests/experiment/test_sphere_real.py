@@ -27,7 +27,7 @@ SCATTER_KG = (1.3, 3.5)
 
 def _experiment(data_dir: Path, folder: Path, *, run: str, start_s: float, end_s: float) -> Experiment:
     """The yoga example with another log and one interval."""
-    text = (EXAMPLES / "11_icub_yoga_sphere.toml").read_text(encoding="utf-8")
+    text = (EXAMPLES / "12_icub_yoga_sphere.toml").read_text(encoding="utf-8")
     text = text.replace("../../shared/data", data_dir.as_posix()).replace("dumperLeftLegNoIMU", run)
     head, first, _ = text.split("[[interval]]")
     del first

@@ -194,3 +194,20 @@ def test_the_map_of_the_helper_is_right() -> None:
     away = on(DEFORMED, whole_sphere(30)) - DEFORMED.centre
     np.testing.assert_allclose(np.einsum("ni,ij,nj->n", away, DEFORMED.shape, away), 1.0, rtol=1e-12)
     assert np.linalg.det(map_of(DEFORMED)) > 0.0
+
+
+def test_a_noisy_circle_is_reported_and_not_believed() -> None:
+    """Noise of any size across one circle gives neither an error nor an ellipsoid to believe."""
+    rng = np.random.default_rng(11)
+    turn = np.linspace(0.0, 2.0 * np.pi, COUNT, endpoint=False)
+    circle = WEIGHT * np.column_stack([np.cos(turn), np.sin(turn), np.full(COUNT, 0.3)])
+    sizes = np.geomspace(1e-7, 0.3, 60)
+    squashed = 0
+    for size in sizes:
+        _, fit = _both(circle + slow_noise(rng, COUNT, size * WEIGHT, 0.98))
+        assert not fit.identifiable
+        assert not fit.tilt_identifiable
+        assert fit.why
+        squashed += fit.why[0].startswith("the longest radius")
+    # without the limit on the shape these would have been believed
+    assert squashed > 0

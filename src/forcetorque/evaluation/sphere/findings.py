@@ -1,12 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What is found about a cloud: fits with their intervals, and whether they are to be believed.
 
-THE RULE. A number is identifiable if the recording itself says so, in three ways:
+THE RULE. A number is identifiable if the recording itself says so, in four ways:
 
 1. Its 95 % interval, from leaving out one of ten blocks of time after the other, is narrower than the tolerance.
 2. Methods that differ only in how they treat noise agree within the tolerance. Where a small part of a sphere meets
    noise they do not: fits that hold a coefficient shrink, fits that weigh by the gradient open to a plane.
 3. The surface is closed for every method, and the geometric fit is a minimum.
+4. An ellipsoid is not five times as long as it is thick: what noise makes of a single circle is closed, and may be so
+   for every method and block.
 
 For one radius, which is far easier to tell, the interval of 1 also holds 95 % of the fits to halves of the
 recording, by both methods. Where something is not identifiable, its interval is the range over all methods,
@@ -16,7 +18,7 @@ ellipsoid does not exclude a sphere. Intervals are made in one over length, wher
 not infinitely far away. One radius stands for the weight only if the sensor is not deformed.
 
 The rule is about axis intersections, of which the index is made. Half-widths and principal radii need what lies
-between the axes as well, and are judged by the same three ways for themselves.
+between the axes as well, and are judged by the same ways for themselves.
 
 The tolerance is part of the mean length. It is no property of the data: it says what the numbers are for. Thesis Table
 4.1 tells sensors apart whose index is 2 to 25 % of the mass.
@@ -40,7 +42,8 @@ TOLERANCE = 0.1
 RULE = (
     "a number is identifiable if its 95 % interval, from leaving out one of ten blocks of time after the other, is "
     "within the tolerance of the mean radius, if methods that treat noise differently agree within it, and if every "
-    "one of them finds a closed surface; else its interval is the range over methods, halves and windows"
+    "one of them finds a closed surface less than five times as long as thick; else its interval is the range over "
+    "methods, halves and windows"
 )
 """The rule in one sentence, for results."""
 
