@@ -202,7 +202,7 @@ CORRUPT: dict[str, tuple[Callable[[dict[str, Any]], None], str]] = {
     ),
     "another sensor": (
         _set("sensor.name", "leg_ft"),
-        "cut.json: calibrates 'leg_ft', which the experiment does not",
+        "cut.json: experiment",
     ),
     "another sign": (
         _set("sensor.measure_direction", "parent_to_child"),

@@ -158,12 +158,9 @@ class Moments:
         Returns:
             Mean of the squared error of every component; shape (6,); N2, (N m)2.
         """
-        coefficients = np.zeros((6, self.variables))
-        if model.coefficients.shape[1]:
-            coefficients = model.coefficients
-        error_of = np.hstack([model.matrix, coefficients, -np.eye(6)])  # (6, m)
-        shift = coefficients @ model.reference_values if model.coefficients.shape[1] else 0.0
-        bias = error_of @ self.mean + model.offset - shift
+        same = model.counted_from_zero(self.variables)
+        error_of = np.hstack([same.matrix, same.coefficients, -np.eye(6)])  # (6, m)
+        bias = error_of @ self.mean + same.offset
         spread = np.einsum("ij,jk,ik->i", error_of, self.second, error_of)
         error: FloatArray = np.maximum(spread, 0.0) + bias**2
         return error

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from forcetorque.arrays import FloatArray, read_only, require_last_axis, require_shape
+from forcetorque.errors import ShapeError
 
 
 def _no_coefficients() -> FloatArray:
@@ -63,3 +64,26 @@ class WrenchModel:
         values = np.empty((*counts.shape[:-1], 0)) if variables is None else np.asarray(variables, dtype=np.float64)
         require_shape(values, name="variables", shape=(*counts.shape[:-1], len(self.reference_values)))
         return wrench + (values - self.reference_values) @ self.coefficients.T
+
+    def counted_from_zero(self, variables: int) -> WrenchModel:
+        """State the same model with reference values of zero, so that models of one sensor can be stacked.
+
+        Args:
+            variables: Number of variables of the result; a model of none then gets coefficients of zero.
+
+        Returns:
+            The model; its offset is that where all variables are zero.
+
+        Raises:
+            ShapeError: If the model has another number of variables, and not none.
+        """
+        own = len(self.reference_values)
+        if own not in (0, variables):
+            raise ShapeError(f"model: expected {variables} variables or none, got {own}")
+        coefficients = self.coefficients if own else np.zeros((6, variables))
+        return WrenchModel(
+            matrix=self.matrix,
+            offset=self.offset - self.coefficients @ self.reference_values,
+            coefficients=coefficients,
+            reference_values=np.zeros(variables),
+        )

@@ -9,13 +9,12 @@ from typing import TYPE_CHECKING
 
 import typer
 
-from forcetorque.calibration import read_calibration
 from forcetorque.cli.accept_result import AcceptResult, CriterionRow, criterion_rows, measured_row
 from forcetorque.cli.output import Format, console, print_result, start_logging, table
+from forcetorque.cli.reading import read_calibrations, read_experiment
 from forcetorque.experiment import (
     accept_sensor,
     judged_where_chosen,
-    load_experiment,
     read_acceptance,
     read_population,
 )
@@ -48,12 +47,9 @@ def run(
     """
     log = start_logging()
     stated = read_acceptance(spec)
-    loaded = {str(file): read_calibration(file) for file in calibrations or ()}
+    loaded = read_calibrations(calibrations)
     others = read_population(population) if population else None
-    log.info("reading %s", path)
-    experiment = load_experiment(path)
-    for finding in experiment.recording.findings:
-        log.warning("%s: %s", finding.stream, finding.message)
+    experiment = read_experiment(path, log)
     chosen = one_per_sensor(experiment, loaded)
     found = []
     for sensor in experiment.sensors:

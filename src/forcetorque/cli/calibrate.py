@@ -17,8 +17,9 @@ from rich.table import Table
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration import Calibration, estimation_type, write_calibration
 from forcetorque.cli.output import Format, console, print_result, start_logging, table
+from forcetorque.cli.reading import read_experiment, sensors_named
 from forcetorque.errors import ExperimentError, FitError
-from forcetorque.experiment import Experiment, ExperimentSensor, calibrate_sensor, doubtful_spans, load_experiment
+from forcetorque.experiment import Experiment, ExperimentSensor, calibrate_sensor, doubtful_spans
 from forcetorque.experiment.inputs import stated_in
 from forcetorque.recording import Use
 from forcetorque.spatial import WRENCH_COMPONENTS, WRENCH_UNITS
@@ -69,12 +70,8 @@ def run(
     """
     log = start_logging()
     chosen_kind = None if kind is None else estimation_type(kind)
-    log.info("reading %s", path)
-    experiment = load_experiment(path)
-    for finding in experiment.recording.findings:
-        log.warning("%s: %s", finding.stream, finding.message)
-    named = [experiment.sensor(name) for name in sensors] if sensors else list(experiment.sensors)
-    chosen = list(dict.fromkeys(named))  # who names a sensor twice gets it once
+    experiment = read_experiment(path, log)
+    chosen = sensors_named(experiment, sensors)
     if experiment.payload is not None:
         log.warning(
             "the load's mass was estimated with this sensor's own reading, so a wrong gain cannot be seen; "

@@ -11,12 +11,12 @@ import numpy as np
 from pydantic import BaseModel, ConfigDict, Field
 
 from forcetorque.arrays import FloatArray
-from forcetorque.calibration import read_calibration
 from forcetorque.cli.output import Format, console, finite_or_none, print_result, start_logging, table
+from forcetorque.cli.reading import read_calibrations, read_experiment
 from forcetorque.errors import ForceTorqueError
 from forcetorque.evaluation import WrenchErrors, wrench_errors
 from forcetorque.exchange.estimates_table import SUFFIXES, EstimatedSpan, write_estimates
-from forcetorque.experiment import Experiment, IntervalEstimates, corrections_of, estimate_experiment, load_experiment
+from forcetorque.experiment import Experiment, IntervalEstimates, corrections_of, estimate_experiment
 from forcetorque.experiment.contacts import contact_in_words
 from forcetorque.experiment.inputs import stated_in
 from forcetorque.recording.alignment import seconds_since
@@ -108,11 +108,8 @@ def run(
     log = start_logging()
     if output.suffix not in SUFFIXES:
         raise ForceTorqueError(f"--output {output}: expected a name that ends in {' or '.join(SUFFIXES)}")
-    loaded = {str(file): read_calibration(file) for file in calibrations or ()}
-    log.info("reading %s", path)
-    experiment = load_experiment(path)
-    for finding in experiment.recording.findings:
-        log.warning("%s: %s", finding.stream, finding.message)
+    loaded = read_calibrations(calibrations)
+    experiment = read_experiment(path, log)
     with stated_in(str(path)):
         named = None if not contacts else [contact_in_words(text, experiment.model) for text in contacts]
         corrections = corrections_of(experiment, loaded)

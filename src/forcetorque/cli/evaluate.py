@@ -3,23 +3,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from pathlib import Path
 from typing import Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 
-from forcetorque.calibration import Calibration, read_calibration
 from forcetorque.cli.output import Format, console, finite_or_none, print_result, start_logging, table
-from forcetorque.errors import ExperimentError
+from forcetorque.cli.reading import read_calibrations, read_experiment
 from forcetorque.experiment import (
-    Experiment,
     Verdict,
     beyond_fitted_range,
     evaluate_sensor,
     judged_where_chosen,
-    load_experiment,
 )
+from forcetorque.experiment.fitness import by_sensor
 from forcetorque.experiment.inputs import stated_in
 from forcetorque.spatial import WRENCH_COMPONENTS, WRENCH_UNITS
 
@@ -81,13 +78,10 @@ def run(path: Path, *, calibrations: list[Path], output_format: Format) -> None:
         output_format: Form of the result.
     """
     log = start_logging()
-    loaded = {str(file): read_calibration(file) for file in calibrations}
-    log.info("reading %s", path)
-    experiment = load_experiment(path)
-    for finding in experiment.recording.findings:
-        log.warning("%s: %s", finding.stream, finding.message)
+    loaded = read_calibrations(calibrations)
+    experiment = read_experiment(path, log)
     verdicts: list[Verdict] = []
-    for sensor_name, group in _by_sensor(experiment, loaded).items():
+    for sensor_name, group in by_sensor(experiment, loaded).items():
         log.info("judging %s", sensor_name)
         with stated_in(f"{path}: sensor {sensor_name!r}"):
             verdicts += evaluate_sensor(experiment, experiment.sensor(sensor_name), group)
@@ -99,17 +93,6 @@ def run(path: Path, *, calibrations: list[Path], output_format: Format) -> None:
     result = EvaluateResult(experiment=experiment.name, verdicts=[_row(verdict) for verdict in verdicts])
     rows = [_flat(row) for row in result.verdicts]
     print_result(result.model_dump(mode="json", by_alias=True), rows, output_format, show=lambda: _show(result))
-
-
-def _by_sensor(experiment: Experiment, loaded: Mapping[str, Calibration]) -> dict[str, dict[str, Calibration]]:
-    groups: dict[str, dict[str, Calibration]] = {}
-    for file, calibration in loaded.items():
-        name = calibration.sensor.name
-        if name not in [sensor.name for sensor in experiment.sensors]:
-            known = ", ".join(sensor.name for sensor in experiment.sensors)
-            raise ExperimentError(f"{file}: calibrates {name!r}, which the experiment does not have; it has {known}")
-        groups.setdefault(name, {})[file] = calibration
-    return groups
 
 
 def _row(verdict: Verdict) -> VerdictRow:

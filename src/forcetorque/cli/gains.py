@@ -4,18 +4,17 @@
 from __future__ import annotations
 
 import logging
-from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from forcetorque.atomic import write_bytes_atomically
-from forcetorque.calibration import Calibration, read_calibration
 from forcetorque.cli.gains_result import ChannelRow, GainsResult, SensorRow, sensor_row
 from forcetorque.cli.output import Format, console, print_result, start_logging, table
+from forcetorque.cli.reading import read_calibrations, read_experiment, refuse_left_out, sensors_named
 from forcetorque.errors import ForceTorqueError
 from forcetorque.evaluation import GainChange
-from forcetorque.experiment import Experiment, ExperimentSensor, SensorGains, load_experiment, select_gains
+from forcetorque.experiment import Experiment, ExperimentSensor, SensorGains, select_gains
 from forcetorque.experiment.fitness import one_per_sensor
 
 if TYPE_CHECKING:
@@ -51,14 +50,11 @@ def run(
     log = start_logging()
     if figure is not None and figure.suffix.lower() != ".png":
         raise ForceTorqueError(f"--figure {figure}: expected a name that ends in .png")
-    loaded = {str(file): read_calibration(file) for file in calibrations or ()}
-    log.info("reading %s", path)
-    experiment = load_experiment(path)
-    for finding in experiment.recording.findings:
-        log.warning("%s: %s", finding.stream, finding.message)
-    named = [experiment.sensor(name) for name in sensors] if sensors else experiment.sensors
-    chosen = list(dict.fromkeys(named))  # who names a sensor twice gets it once
-    matrices = _by_sensor(experiment, chosen, loaded)
+    loaded = read_calibrations(calibrations)
+    experiment = read_experiment(path, log)
+    chosen = sensors_named(experiment, sensors)
+    matrices = one_per_sensor(experiment, loaded)
+    refuse_left_out(experiment, chosen, loaded)
     found = []
     for sensor in chosen:
         changed = _with_gains(experiment, sensor, amplifier_gain, allowed_gains)
@@ -84,17 +80,6 @@ def run(
         output_format,
         show=lambda: _show(result),
     )
-
-
-def _by_sensor(
-    experiment: Experiment, chosen: Sequence[ExperimentSensor], loaded: dict[str, Calibration]
-) -> dict[str, tuple[str, Calibration]]:
-    """Calibrations with their names, by sensor."""
-    found = one_per_sensor(experiment, loaded)
-    for name, (file, _) in found.items():
-        if name not in {sensor.name for sensor in chosen}:
-            raise ForceTorqueError(f"{file}: calibrates {name!r}, which --sensor leaves out")
-    return found
 
 
 def _with_gains(

@@ -8,12 +8,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from forcetorque.atomic import write_bytes_atomically
-from forcetorque.calibration import read_calibration
 from forcetorque.cli.output import Format, console, print_result, start_logging, table
+from forcetorque.cli.reading import read_calibrations, read_experiment, refuse_left_out, sensors_named
 from forcetorque.cli.sphere_result import EllipsoidRow, SphereResult, SphereRow, flat_row, sphere_row
-from forcetorque.errors import ExperimentError, ForceTorqueError
+from forcetorque.errors import ForceTorqueError
 from forcetorque.evaluation.sphere import RULE, TOLERANCE
-from forcetorque.experiment import SensorSphere, analyse_sensor, load_experiment, sphere_intervals
+from forcetorque.experiment import SensorSphere, analyse_sensor, sphere_intervals
+from forcetorque.experiment.fitness import by_sensor
 from forcetorque.experiment.inputs import stated_in
 
 if TYPE_CHECKING:
@@ -41,29 +42,21 @@ def run(
 
     Raises:
         ForceTorqueError: If a name or a file is not what it should be.
-        ExperimentError: If a calibration is of a sensor that was left out.
     """
     log = start_logging()
     if figure is not None and figure.suffix.lower() != ".png":
         raise ForceTorqueError(f"--figure {figure}: expected a name that ends in .png")
-    loaded = {str(file): read_calibration(file) for file in calibrations or ()}
-    log.info("reading %s", path)
-    experiment = load_experiment(path)
-    for finding in experiment.recording.findings:
-        log.warning("%s: %s", finding.stream, finding.message)
-    named = [experiment.sensor(name) for name in sensors] if sensors else experiment.sensors
-    chosen = list(dict.fromkeys(named))  # who names a sensor twice gets it once
-    of_sensor = {file: experiment.sensor(calibration.sensor.name).name for file, calibration in loaded.items()}
-    for file, name in of_sensor.items():
-        if name not in {sensor.name for sensor in chosen}:
-            raise ExperimentError(f"{file}: calibrates {name!r}, which --sensor leaves out")
+    loaded = read_calibrations(calibrations)
+    experiment = read_experiment(path, log)
+    chosen = sensors_named(experiment, sensors)
+    refuse_left_out(experiment, chosen, loaded)
+    groups = by_sensor(experiment, loaded)
     with stated_in(str(path)):
         spans = sphere_intervals(experiment, intervals)
         found: list[SensorSphere] = []
         for sensor in chosen:
             log.info("analysing %s", sensor.name)
-            own = {file: loaded[file] for file, name in of_sensor.items() if name == sensor.name}
-            found += analyse_sensor(experiment, sensor, spans, own)
+            found += analyse_sensor(experiment, sensor, spans, groups.get(sensor.name, {}))
     for each in found:
         if each.fitted_on:
             labels = ", ".join(map(repr, each.fitted_on))

@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING, Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 
-from forcetorque.calibration import Calibration, read_calibration
 from forcetorque.cli.output import Format, console, finite_or_none, print_result, start_logging, table
+from forcetorque.cli.reading import read_calibrations, read_experiment
 from forcetorque.evaluation import OtherSensors
-from forcetorque.experiment import ContactForceVerdict, Experiment, load_experiment, validate_sensor
-from forcetorque.experiment.fitness import one_per_sensor
+from forcetorque.experiment import ContactForceVerdict, validate_sensor
+from forcetorque.experiment.fitness import by_sensor, one_per_sensor
 from forcetorque.experiment.inputs import stated_in
 from forcetorque.spatial import WRENCH_COMPONENTS, WRENCH_UNITS
 
@@ -98,12 +98,9 @@ def run(
         output_format: Form of the result.
     """
     log = start_logging()
-    loaded = {str(file): read_calibration(file) for file in calibrations or ()}
-    log.info("reading %s", path)
-    experiment = load_experiment(path)
-    for finding in experiment.recording.findings:
-        log.warning("%s: %s", finding.stream, finding.message)
-    groups = _by_sensor(experiment, loaded)
+    loaded = read_calibrations(calibrations)
+    experiment = read_experiment(path, log)
+    groups = by_sensor(experiment, loaded)
     judged = [experiment.sensor(name).name for name in sensors or groups or (s.name for s in experiment.sensors)]
     verdicts: list[ContactForceVerdict] = []
     for name in dict.fromkeys(judged):
@@ -129,14 +126,6 @@ def run(
     )
     rows = [_flat(row) for row in result.contact_forces]
     print_result(result.model_dump(mode="json", by_alias=True), rows, output_format, show=lambda: _show(result))
-
-
-def _by_sensor(experiment: Experiment, loaded: dict[str, Calibration]) -> dict[str, dict[str, Calibration]]:
-    groups: dict[str, dict[str, Calibration]] = {}
-    for file, calibration in loaded.items():
-        with stated_in(file):
-            groups.setdefault(experiment.sensor(calibration.sensor.name).name, {})[file] = calibration
-    return groups
 
 
 def _best(verdicts: Sequence[ContactForceVerdict]) -> list[BestRow]:

@@ -16,9 +16,7 @@ import numpy as np
 from forcetorque.arrays import FloatArray, IntArray, read_only
 from forcetorque.estimation import Evaluator
 from forcetorque.evaluation.candidate_inputs import CandidateInputs, checked_candidates
-
-BLOCKS = 10
-"""Contiguous blocks from whose means the standard error comes: neighbouring samples repeat each other."""
+from forcetorque.evaluation.wrench_errors import BLOCKS
 
 _FEW = 10_000_000
 """Fewer samples times candidates than this take the readable evaluator no longer than loading the compiled one."""

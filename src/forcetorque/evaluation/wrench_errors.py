@@ -11,7 +11,7 @@ import numpy as np
 from forcetorque.arrays import FloatArray, read_only, require_shape
 from forcetorque.errors import ShapeError
 
-_BLOCKS = 10
+BLOCKS = 10
 """Contiguous blocks from whose means the standard error comes: neighbouring samples repeat each other."""
 
 
@@ -107,7 +107,7 @@ def errors_from_zero(wrenches: Any) -> WrenchErrors:
 
 def _mean_error(values: FloatArray) -> FloatArray:
     """Standard error of the mean of values (n, ...) from the scatter of the means of contiguous blocks; NaN for one."""
-    blocks = np.array_split(values, min(_BLOCKS, len(values)))
+    blocks = np.array_split(values, min(BLOCKS, len(values)))
     if len(blocks) < 2:
         return np.full(values.shape[1:], np.nan)
     means = np.array([block.mean(axis=0) for block in blocks])

@@ -40,6 +40,26 @@ def require_fit(name: str, calibration: Calibration, experiment: Experiment, sen
             )
 
 
+def by_sensor(experiment: Experiment, calibrations: Mapping[str, Calibration]) -> dict[str, dict[str, Calibration]]:
+    """Sort calibrations by the sensor that they are of, any number of each.
+
+    Args:
+        experiment: The experiment.
+        calibrations: Calibrations by name of their file.
+
+    Returns:
+        Calibrations by name of their file, by sensor.
+
+    Raises:
+        ExperimentError: If one is of none of the experiment's sensors.
+    """
+    groups: dict[str, dict[str, Calibration]] = {}
+    for name, calibration in calibrations.items():
+        with stated_in(name):
+            groups.setdefault(experiment.sensor(calibration.sensor.name).name, {})[name] = calibration
+    return groups
+
+
 def one_per_sensor(
     experiment: Experiment, calibrations: Mapping[str, Calibration]
 ) -> dict[str, tuple[str, Calibration]]:
@@ -55,13 +75,12 @@ def one_per_sensor(
     Raises:
         ExperimentError: If two calibrations are of one sensor, or of none of the experiment's.
     """
-    chosen: dict[str, tuple[str, Calibration]] = {}
-    for name, calibration in calibrations.items():
-        sensor = experiment.sensor(calibration.sensor.name).name
-        if sensor in chosen:
-            raise ExperimentError(f"{name}: {chosen[sensor][0]} calibrates {sensor!r} too; give one")
-        chosen[sensor] = (name, calibration)
-    return chosen
+    groups = by_sensor(experiment, calibrations)
+    for sensor, group in groups.items():
+        if len(group) > 1:
+            first, second = list(group)[:2]
+            raise ExperimentError(f"{second}: {first} calibrates {sensor!r} too; give one")
+    return {sensor: next(iter(group.items())) for sensor, group in groups.items()}
 
 
 def _refuse_other_reading(

@@ -31,6 +31,20 @@ class Correction:
     variables: tuple[str, ...] = ()
     """Variables of the sensor that the model needs, in its order."""
 
+    @classmethod
+    def of(cls, name: str, calibration: Calibration) -> Correction:
+        """Read by a calibration.
+
+        Args:
+            name: Name of its file.
+            calibration: The calibration.
+
+        Returns:
+            The correction.
+        """
+        variables = tuple(variable.name for variable in calibration.variables)
+        return cls(model=calibration.model, source=name, variables=variables)
+
 
 def corrections_of(experiment: Experiment, calibrations: Mapping[str, Calibration]) -> dict[str, Correction]:
     """Decide how every sensor is read.
@@ -54,8 +68,7 @@ def corrections_of(experiment: Experiment, calibrations: Mapping[str, Calibratio
         if sensor.name in chosen:
             name, calibration = chosen[sensor.name]
             require_fit(name, calibration, experiment, sensor)
-            names = tuple(variable.name for variable in calibration.variables)
-            correction = Correction(model=calibration.model, source=name, variables=names)
+            correction = Correction.of(name, calibration)
         else:
             correction = _uncalibrated(experiment, sensor)
         corrections[sensor.name] = correction

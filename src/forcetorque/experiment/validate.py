@@ -76,8 +76,7 @@ def validate_sensor(
     candidates = {PRIOR: corrections_of(experiment, {})[sensor.name]} if _has_prior(sensor) else {}
     for name, calibration in calibrations.items():
         require_fit(name, calibration, experiment, sensor)
-        variables = tuple(variable.name for variable in calibration.variables)
-        candidates[name] = Correction(model=calibration.model, source=name, variables=variables)
+        candidates[name] = Correction.of(name, calibration)
     if not candidates:
         raise ExperimentError(f"sensor {sensor.name!r}: raw counts become wrenches by --calibration or a prior matrix")
     needed = corrections_of(experiment, others or {}) if other_sensors is OtherSensors.MEASURED else {}

@@ -8,7 +8,7 @@ expected one (`evaluation.contact_force` proves it), so that thousands of candid
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 
 import numpy as np
@@ -34,8 +34,6 @@ class Judgement:
 
     errors: CandidateErrors
     """Errors in blocks of time, set after set."""
-    sets: tuple[str, ...]
-    """Validation set of every block, by label."""
     sessions: tuple[str, ...]
     """Session of every block."""
 
@@ -59,28 +57,13 @@ class Judgement:
         Returns:
             Errors of every model in these blocks.
         """
-        return _blocks(self.errors, [sessions is None or session in sessions for session in self.sessions])
-
-    def of_set(self, label: str) -> PooledErrors:
-        """Pool the errors of one validation set.
-
-        Args:
-            label: Its label.
-
-        Returns:
-            Mean errors of every model over its samples.
-        """
-        return _blocks(self.errors, [of == label for of in self.sets]).pooled()
-
-
-def _blocks(errors: CandidateErrors, chosen: Sequence[bool]) -> CandidateErrors:
-    mask = np.array(chosen)
-    return CandidateErrors(
-        count=errors.count[mask],
-        mean_absolute=errors.mean_absolute[:, mask],
-        force_mean=errors.force_mean[:, mask],
-        moment_mean=errors.moment_mean[:, mask],
-    )
+        mask = np.array([sessions is None or session in sessions for session in self.sessions])
+        return CandidateErrors(
+            count=self.errors.count[mask],
+            mean_absolute=self.errors.mean_absolute[:, mask],
+            force_mean=self.errors.force_mean[:, mask],
+            moment_mean=self.errors.moment_mean[:, mask],
+        )
 
 
 def judge(
@@ -101,23 +84,21 @@ def judge(
     Returns:
         The errors.
     """
-    found, labels, sessions = [], [], []
+    found, sessions = [], []
     for one in sets:
         if progress is not None:
             progress(one.label)
         first = one.for_offset()
-        offsets = np.stack([_offset(model, one, first, source) for model, source in zip(models, sources, strict=True)])
-        columns = one.variables.shape[1]
+        moved = [_with_offset(model, one, first, source) for model, source in zip(models, sources, strict=True)]
         errors = candidate_errors(
             one.raw[~first],
             one.reference[~first],
-            np.stack([model.matrix for model in models]),
-            offsets,
+            np.stack([model.matrix for model in moved]),
+            np.stack([model.offset for model in moved]),
             variables=one.variables[~first],
-            coefficients=np.stack([_coefficients(model, columns) for model in models]),
+            coefficients=np.stack([model.coefficients for model in moved]),
         )
         found.append(errors)
-        labels += [one.label] * len(errors.count)
         sessions += [one.session] * len(errors.count)
     return Judgement(
         errors=CandidateErrors(
@@ -126,7 +107,6 @@ def judge(
             force_mean=np.concatenate([errors.force_mean for errors in found], axis=1),
             moment_mean=np.concatenate([errors.moment_mean for errors in found], axis=1),
         ),
-        sets=tuple(labels),
         sessions=tuple(sessions),
     )
 
@@ -142,22 +122,13 @@ def with_offset(model: WrenchModel, one: ValidationSet, source: OffsetSource) ->
     Returns:
         Wrenches of all its samples, the first ones too; shape (n, 6); N, N m.
     """
-    coefficients = _coefficients(model, one.variables.shape[1])
-    wrench: FloatArray = (
-        one.raw @ model.matrix.T + one.variables @ coefficients.T + _offset(model, one, one.for_offset(), source)
-    )
-    return wrench
+    return _with_offset(model, one, one.for_offset(), source).wrench(one.raw, one.variables)
 
 
-def _coefficients(model: WrenchModel, columns: int) -> FloatArray:
-    return model.coefficients if model.coefficients.shape[1] else np.zeros((6, columns))
-
-
-def _offset(model: WrenchModel, one: ValidationSet, first: BoolArray, source: OffsetSource) -> FloatArray:
-    """Offset where all variables are zero."""
-    coefficients = _coefficients(model, one.variables.shape[1])
-    if source is OffsetSource.RE_ESTIMATED:
-        read = one.raw[first] @ model.matrix.T + one.variables[first] @ coefficients.T
-        mean: FloatArray = (one.reference[first] - read).mean(axis=0)
-        return mean
-    return model.offset - model.coefficients @ model.reference_values
+def _with_offset(model: WrenchModel, one: ValidationSet, first: BoolArray, source: OffsetSource) -> WrenchModel:
+    """The model with that offset, counted from zero in every variable of the set."""
+    same = model.counted_from_zero(one.variables.shape[1])
+    if source is OffsetSource.FITTED:
+        return same
+    error = one.reference[first] - same.wrench(one.raw[first], one.variables[first])
+    return replace(same, offset=same.offset + error.mean(axis=0))

@@ -1,0 +1,74 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What several commands read: an experiment, calibrations, and which sensors are meant."""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Collection, Iterable
+from pathlib import Path
+
+from forcetorque.calibration import Calibration, read_calibration
+from forcetorque.errors import ExperimentError
+from forcetorque.experiment import Experiment, ExperimentSensor, load_experiment
+
+
+def read_experiment(path: Path, log: logging.Logger) -> Experiment:
+    """Read an experiment and warn of what is known to be wrong with its recording.
+
+    Args:
+        path: Experiment file.
+        log: Where messages go.
+
+    Returns:
+        The experiment.
+    """
+    log.info("reading %s", path)
+    experiment = load_experiment(path)
+    for finding in experiment.recording.findings:
+        log.warning("%s: %s", finding.stream, finding.message)
+    return experiment
+
+
+def read_calibrations(paths: Iterable[Path] | None) -> dict[str, Calibration]:
+    """Read calibration files.
+
+    Args:
+        paths: The files; None for none.
+
+    Returns:
+        Calibrations by name of their file.
+    """
+    return {str(path): read_calibration(path) for path in paths or ()}
+
+
+def sensors_named(experiment: Experiment, names: Collection[str] | None) -> list[ExperimentSensor]:
+    """Find the sensors that are meant.
+
+    Args:
+        experiment: The experiment.
+        names: Their names, one of them possibly twice; None or none for all.
+
+    Returns:
+        Each of them once.
+    """
+    return list(dict.fromkeys(experiment.sensor(name) for name in names) if names else experiment.sensors)
+
+
+def refuse_left_out(
+    experiment: Experiment, chosen: Collection[ExperimentSensor], loaded: dict[str, Calibration]
+) -> None:
+    """Refuse calibrations of sensors that are not meant.
+
+    Args:
+        experiment: The experiment.
+        chosen: The sensors that are meant.
+        loaded: Calibrations by name of their file.
+
+    Raises:
+        ExperimentError: If one is of a sensor that was left out.
+    """
+    names = {sensor.name for sensor in chosen}
+    for file, calibration in loaded.items():
+        name = experiment.sensor(calibration.sensor.name).name
+        if name not in names:
+            raise ExperimentError(f"{file}: calibrates {name!r}, which --sensor leaves out")
