@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The command line: one file per command, parser apart from run."""
+"""The command line: one file per command, its words in `parser`, what it does here."""
 
 from forcetorque.cli.main import main
 

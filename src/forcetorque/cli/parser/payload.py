@@ -1,0 +1,17 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The words of `forcetorque payload`."""
+
+from __future__ import annotations
+
+from forcetorque.cli.output import Format
+from forcetorque.cli.parser.options import ExperimentArgument, FormatOption
+
+
+def payload(experiment: ExperimentArgument, output_format: FormatOption = Format.TABLE) -> None:
+    """Estimate mass, centre of mass and bias of a wrist sensor's load.
+
+    Example: forcetorque payload experiment.toml
+    """
+    from forcetorque.cli.payload import run
+
+    run(experiment, output_format=output_format)

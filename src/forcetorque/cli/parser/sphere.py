@@ -1,0 +1,48 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The words of `forcetorque sphere`."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from forcetorque.cli.output import Format
+from forcetorque.cli.parser.options import ExperimentArgument, FormatOption, SensorOption
+
+
+def sphere(
+    experiment: ExperimentArgument,
+    sensor: SensorOption = None,
+    calibration: Annotated[
+        list[Path] | None,
+        typer.Option("--calibration", "-c", help="Calibration file to compare with the prior; repeat for more."),
+    ] = None,
+    interval: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--interval",
+            help="Label or kind of an interval whose motion draws a sphere; repeat for more. Default: the sphere "
+            "intervals of the file, else all.",
+        ),
+    ] = None,
+    figure: Annotated[
+        Path | None, typer.Option("--figure", help="PNG of the forces, the ellipsoids and the weight by the model.")
+    ] = None,
+    output_format: FormatOption = Format.TABLE,
+) -> None:
+    """Compare how the three axes weigh a limb that is carried around.
+
+    Example: forcetorque sphere experiment.toml --interval grid
+    """
+    from forcetorque.cli.sphere import run
+
+    run(
+        experiment,
+        sensors=sensor,
+        calibrations=calibration,
+        intervals=interval,
+        figure=figure,
+        output_format=output_format,
+    )
