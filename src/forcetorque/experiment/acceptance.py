@@ -17,8 +17,9 @@ from forcetorque.experiment import acceptance_file as limits
 from forcetorque.experiment.content import Experiment, ExperimentSensor
 from forcetorque.experiment.criterion import Bound, Criterion, at_limit, at_limits
 from forcetorque.experiment.evaluate import evaluate_sensor
+from forcetorque.experiment.judged import PRIOR
 from forcetorque.experiment.static_checks import IntervalQuality, StaticChecks, check_sensor
-from forcetorque.experiment.validate import PRIOR, validate_sensor
+from forcetorque.experiment.validate import validate_sensor
 from forcetorque.spatial import WRENCH_COMPONENTS
 
 _Checked = TypeVar("_Checked")

@@ -4,24 +4,20 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
-from forcetorque.arrays import require_shape
-from forcetorque.calibration import Calibration, FittedInterval, Prior, WrenchModel
+from forcetorque.calibration import Calibration, FittedInterval
 from forcetorque.errors import ExperimentError
 from forcetorque.evaluation import WrenchErrors, offset_removed, wrench_errors
 from forcetorque.experiment.content import Experiment, ExperimentSensor
 from forcetorque.experiment.fitness import require_fit
-from forcetorque.experiment.samples import samples_of
+from forcetorque.experiment.judged import judged_wrenches
 from forcetorque.recording import Use
 
 _BEYOND = 0.1
 """Share of the fitted range of a variable by which it may be left before that is worth a word."""
-
-_SAME_OFFSET = 1e-9
-"""Offsets of one prior on the same data differ by less than this; N, N m."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -48,7 +44,7 @@ def evaluate_sensor(
     Args:
         experiment: The experiment.
         sensor: One of its sensors.
-        calibrations: Calibrations of that sensor by name.
+        calibrations: Calibrations of that sensor by name; without any the prior of the experiment is judged.
 
     Returns:
         For every candidate the errors with the offset of the fitted data and with the offset
@@ -62,45 +58,18 @@ def evaluate_sensor(
     for name, calibration in calibrations.items():
         require_fit(name, calibration, experiment, sensor)
         _refuse_fitted(name, calibration, experiment)
-    # every candidate is judged on the same samples: those that have all variables that any of them needs
-    needed = {variable.name for calibration in calibrations.values() for variable in calibration.variables}
-    used = replace(sensor, variables=tuple(v for v in sensor.variables if v.linear.name in needed))
-    parts = samples_of(experiment, used, Use.VALIDATION, with_variables=True)
-    raw = np.concatenate([p.raw for p in parts])
-    reference = np.concatenate([p.samples.reference for p in parts])
-    variables = np.concatenate([p.samples.variables for p in parts])
-    column = {variable.linear.name: k for k, variable in enumerate(used.variables)}
-    verdicts = []
-    for candidate, model, names in _candidates(calibrations):
-        require_shape(model.matrix, name=f"{candidate}: matrix", shape=(6, raw.shape[1]))
-        measured = model.wrench(raw, variables[:, [column[name] for name in names]])
-        for kind, wrenches in (("fitted", measured), ("re-estimated", offset_removed(measured, reference))):
-            verdicts.append(
-                Verdict(
-                    sensor=sensor.name,
-                    serial=sensor.serial,
-                    candidate=candidate,
-                    offset=kind,
-                    errors=wrench_errors(wrenches, reference),
-                )
-            )
-    return verdicts
-
-
-def _candidates(calibrations: Mapping[str, Calibration]) -> list[tuple[str, WrenchModel, tuple[str, ...]]]:
-    priors: list[tuple[str, WrenchModel, tuple[str, ...]]] = []
-    for name, calibration in calibrations.items():
-        prior = calibration.prior
-        if prior is not None and not any(_same(prior, model) for _, model, _ in priors):
-            label = "prior" if len(calibrations) == 1 else f"prior of {name}"
-            priors.append((label, WrenchModel(matrix=prior.matrix, offset=prior.offset), ()))
-    return [*priors, *((name, c.model, tuple(v.name for v in c.variables)) for name, c in calibrations.items())]
-
-
-def _same(prior: Prior, model: WrenchModel) -> bool:
-    # the last bits of a mean depend on where its numbers lie in memory
-    close = np.allclose(prior.offset, model.offset, rtol=0.0, atol=_SAME_OFFSET)
-    return close and np.array_equal(prior.matrix, model.matrix)
+    judged = judged_wrenches(experiment, sensor, calibrations)
+    return [
+        Verdict(
+            sensor=sensor.name,
+            serial=sensor.serial,
+            candidate=candidate,
+            offset=kind,
+            errors=wrench_errors(wrenches, judged.reference),
+        )
+        for candidate, measured in judged.measured
+        for kind, wrenches in (("fitted", measured), ("re-estimated", offset_removed(measured, judged.reference)))
+    ]
 
 
 def _refuse_fitted(name: str, calibration: Calibration, experiment: Experiment) -> None:

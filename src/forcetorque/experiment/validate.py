@@ -17,15 +17,13 @@ from forcetorque.evaluation import ContactForceValidation, OtherSensors, WrenchE
 from forcetorque.experiment.content import Experiment, ExperimentSensor
 from forcetorque.experiment.fitness import require_fit
 from forcetorque.experiment.inputs import stated_in
+from forcetorque.experiment.judged import PRIOR
 from forcetorque.experiment.readings import Correction, corrections_of, wrench_at
 from forcetorque.recording import Interval, Use
 from forcetorque.recording.alignment import require_overlap
 from forcetorque.recording.smoothing import smooth
 from forcetorque.robot import Wrenches, build_tree
 from forcetorque.study import OFFSET_S, OffsetSource
-
-PRIOR = "prior"
-"""Name of the prior, or of the logged wrench, among the candidates."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
