@@ -225,3 +225,32 @@ def test_what_cannot_be_judged_is_refused(arm: Path) -> None:
     idle = replace(experiment, recording=replace(experiment.recording, intervals=()))
     with pytest.raises(ExperimentError, match="raw counts become wrenches"):
         compare_joint_torques(idle, idle.sensors[0], {})
+
+
+def test_logged_torques_that_are_all_gaps_are_not_compared(arm: Path) -> None:
+    """A stream of NaN is no reference, and takes nothing from the comparison with the model."""
+    experiment = load_experiment(arm / PARQUET)
+    recording, sensor = experiment.recording, experiment.sensors[0]
+    source = recording.stream(sensor.stream)
+    values = np.full((len(source.stamp_ns), 1), np.nan)
+    signal = Signal(quantity="torque", values=values, columns=("shoulder_pitch",), units=("N m",))
+    stream = Stream(name="torques", clock=source.clock, stamp_ns=source.stamp_ns, signals={"torque": signal})
+    streams = {**recording.streams, "torques": stream}
+    with_log = replace(experiment, recording=replace(recording, streams=streams))
+    found = compare_joint_torques(with_log, sensor, {}).verdicts
+    assert len(found) == 2 * len(INBOARD)
+    assert all(verdict.from_logged is None for verdict in found)
+
+
+def test_a_sensor_without_a_judged_sample_is_named(arm: Path) -> None:
+    """As measured, gaps of the branch's sensor leave out the joint that depends on it, and no other."""
+    experiment = _with_branch(arm, "fixed")
+    recording, other = experiment.recording, experiment.sensors[1]
+    stream, (interval,) = recording.stream(other.stream), experiment.intervals(Use.VALIDATION)
+    raw = np.array(stream.signal("raw").values)
+    raw[(stream.stamp_ns > interval.start_ns) & (stream.stamp_ns < interval.end_ns)] = np.nan
+    broken = replace(stream, signals={"raw": replace(stream.signal("raw"), values=raw)})
+    gap = replace(experiment, recording=replace(recording, streams={**recording.streams, other.stream: broken}))
+    found = compare_joint_torques(gap, gap.sensors[0], {}, other_sensors=OtherSensors.MEASURED)
+    assert found.left_out == ("torque of shoulder_yaw by prior: every judged sample has a gap",)
+    assert {verdict.joint for verdict in found.verdicts} == set(INBOARD[1:])

@@ -24,8 +24,8 @@ from forcetorque.arrays import FloatArray, read_only, require_shape
 from forcetorque.errors import RobotError, ShapeError, known_names
 from forcetorque.evaluation.wrench_errors import error_of_mean
 from forcetorque.robot import BodyTree, JointMotion
-from forcetorque.robot.kinematics import body_pose
-from forcetorque.robot.sub_model import cut_of, outboard_bodies, sub_models
+from forcetorque.robot.kinematics import body_poses
+from forcetorque.robot.sub_model import outboard_bodies, sub_models
 from forcetorque.robot.tree import Connection
 from forcetorque.spatial import invert_pose
 
@@ -116,11 +116,12 @@ def torque_map(
     """
     signs = joints_of_sensor(tree, sensor, cut_at=cut_at, contact=contact)
     cut = tree.cuts[sensor]
-    root_H_sensor = body_pose(tree, joints, cut_of(tree, sensor)) @ cut.body_H_sensor
     rows = np.zeros((len(joints), len(signs), 6))
-    moving = [(index, body) for index, body in enumerate(tree.bodies) if body.joint in signs]
-    for column, (index, body) in enumerate(moving):
-        body_H_sensor = invert_pose(body_pose(tree, joints, index)) @ root_H_sensor
+    moving = {index: body for index, body in enumerate(tree.bodies) if body.joint in signs}
+    root_H_body = body_poses(tree, joints, (cut.body, *moving))
+    root_H_sensor = root_H_body[cut.body] @ cut.body_H_sensor
+    for column, (index, body) in enumerate(moving.items()):
+        body_H_sensor = invert_pose(root_H_body[index]) @ root_H_sensor
         x, y, z = (body_H_sensor[:, axis, :3] for axis in range(3))  # rows of body_R_sensor
         if body.connection is Connection.PRISMATIC:
             rows[:, column, :3] = z

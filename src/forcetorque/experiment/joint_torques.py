@@ -107,8 +107,12 @@ def compare_joint_torques(
             scheme = _scheme_of(experiment, interval, part, contact)
             left_out |= dict.fromkeys(scheme.left_out)
             if scheme.joints:
-                for key, errors in _over(experiment, sensor, interval, scheme, candidates, needed):
-                    found.setdefault(key, []).append(errors)
+                for key, part_of in _over(experiment, sensor, interval, scheme, candidates, needed):
+                    found.setdefault(key, []).append(part_of)
+    judged = {key: np.concatenate([part.from_model for part in parts]) for key, parts in found.items()}
+    for key, errors in judged.items():
+        if np.isnan(errors).all():
+            left_out[f"torque of {key.joint} by {key.candidate}: every judged sample has a gap"] = None
     verdicts = [
         JointTorqueVerdict(
             sensor=sensor.name,
@@ -117,10 +121,11 @@ def compare_joint_torques(
             offset=key.offset,
             joint=key.joint,
             unit="N" if experiment.model.joints[key.joint].type is JointType.PRISMATIC else "N m",
-            errors=torque_errors(np.concatenate([part.from_model for part in parts])),
-            from_logged=_pooled([part.from_logged for part in parts if part.from_logged is not None]),
+            errors=torque_errors(errors),
+            from_logged=_pooled([part.from_logged for part in found[key] if part.from_logged is not None]),
         )
-        for key, parts in found.items()
+        for key, errors in judged.items()
+        if not np.isnan(errors).all()
     ]
     return JointTorques(verdicts=tuple(verdicts), left_out=tuple(left_out))
 
@@ -259,7 +264,11 @@ class _Clock:
         """Take off the mean error of the first second, (n, 6), where offsets are re-estimated."""
         if offset is OffsetSource.FITTED:
             return error
-        moved: FloatArray = error - np.nanmean(self._filtered(error)[self.first], axis=0)
+        early = self._filtered(error)[self.first]
+        whole = early[~np.isnan(early).any(axis=1)]
+        if not len(whole):  # it cannot be known
+            return np.full_like(error, np.nan)
+        moved: FloatArray = error - whole.mean(axis=0)
         return moved
 
     def judged(self, torque: FloatArray) -> FloatArray:
@@ -309,4 +318,5 @@ def _borne(scheme: _Scheme, map_of: TorqueMap, error: FloatArray) -> FloatArray:
 
 
 def _pooled(parts: Sequence[FloatArray]) -> TorqueErrors | None:
-    return torque_errors(np.concatenate(parts)) if parts else None
+    errors = np.concatenate([np.empty(0), *parts])
+    return None if np.isnan(errors).all() else torque_errors(errors)
