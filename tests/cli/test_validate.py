@@ -14,6 +14,9 @@ from tests.cli.json_schema import faults
 from tests.cli.outcome import Run
 from tests.experiments import PARQUET, TWO, snapshot
 
+INBOARD = ("shoulder_yaw", "shoulder_pitch", "shoulder_roll")
+"""Joints between the support and the arm's sensor."""
+
 
 def test_the_best_candidate_is_named_in_every_form(arm: Path, run: Run) -> None:
     """The fit is best by magnitude and on every axis; the same numbers stand in JSON, CSV and table."""
@@ -30,7 +33,7 @@ def test_the_best_candidate_is_named_in_every_form(arm: Path, run: Run) -> None:
             values = {c: rows[c, best["offset"]]["mean_absolute"][axis] for c in forces}
             assert values[name] == min(values.values())
     table = run("validate", PARQUET, "-c", "fitted.json", "--format", "csv")
-    flat = list(csv.DictReader(io.StringIO(table.out)))
+    flat = [line for line in csv.DictReader(io.StringIO(table.out)) if line["what"] == "contact_force"]
     assert len(flat) == 4
     for line in flat:
         row = rows[line["candidate"], line["offset"]]
@@ -41,6 +44,41 @@ def test_the_best_candidate_is_named_in_every_form(arm: Path, run: Run) -> None:
     assert "best is fitted.json" in shown.out
     assert "other sensors: as the model expects" in shown.out
     assert snapshot(arm) == before
+
+
+def test_joint_torques_are_in_every_form(arm: Path, run: Run) -> None:
+    """A row per candidate, offset and joint that depends on the sensor; the same numbers in JSON, CSV and table."""
+    result = run("validate", PARQUET, "-c", "fitted.json", "--format", "json").result()
+    rows = {(row["candidate"], row["offset"], row["joint"]): row for row in result["joint_torques"]}
+    assert len(rows) == len(result["joint_torques"]) == 2 * 2 * len(INBOARD)
+    assert {joint for _, _, joint in rows} == set(INBOARD)
+    assert result["left_out"] == []
+    for (candidate, offset, joint), row in rows.items():
+        assert (row["unit"], row["logged_rmse"]) == ("N m", None)
+        assert abs(row["mean"]) <= row["rmse"] <= row["largest"]
+        if candidate == "fitted.json":
+            assert row["rmse"] < 0.2 * rows["prior", offset, joint]["rmse"]
+    table = run("validate", PARQUET, "-c", "fitted.json", "--format", "csv")
+    flat = [line for line in csv.DictReader(io.StringIO(table.out)) if line["what"] == "joint_torque"]
+    assert len(flat) == len(rows)
+    for line in flat:
+        row = rows[line["candidate"], line["offset"], line["joint"]]
+        assert {line["force_mean_N"], line["fx"], line["logged_rmse"]} == {""}
+        for key in ("samples", "rmse", "rmse_error", "mean", "mean_error", "largest"):
+            assert float(line[key]) == row[key]
+    shown = run("validate", PARQUET, "-c", "fitted.json").out
+    assert "joint torques estimated from it, less those of the model" in shown
+    for row in rows.values():
+        assert f"{row['rmse']:.3f} ±{row['rmse_error']:.3f}" in shown
+
+
+def test_it_is_said_where_no_torque_depends_on_the_sensor(arm: Path, run: Run) -> None:
+    """The tool's sensor, judged by the part before it: with the contact in the hand, no joint lies in between."""
+    beyond = run("validate", TWO, "--sensor", "tool_ft", "--format", "json").result()
+    assert {row["joint"] for row in beyond["joint_torques"]} == {"elbow", "wrist"}
+    options = ("--sensor", "tool_ft", "--sub-model", "arm_ft", "--contact", "hand")
+    assert run("validate", TWO, *options, "--format", "json").result()["joint_torques"] == []
+    assert "tool_ft: no joint torque is estimated from it" in run("validate", TWO, *options).out
 
 
 def test_without_calibrations_every_sensor_is_judged_by_its_prior(arm: Path, run: Run) -> None:

@@ -157,3 +157,16 @@ def test_counts_through_another_prior_are_refused(arm: Path) -> None:
     other = load_experiment(edit(path, 'prior = "matrix_SIM001.txt"', 'prior = "identity"'))
     with pytest.raises(ExperimentError, match="recovered through the prior that it was fitted with"):
         evaluate_sensor(other, other.sensors[0], {"new": calibration})
+
+
+def test_without_a_calibration_the_prior_of_the_experiment_is_judged(
+    experiment: Experiment, fitted: Calibration
+) -> None:
+    """It gets the same offset as the prior that a calibration carries, so the same numbers."""
+    sensor = experiment.sensors[0]
+    alone = evaluate_sensor(experiment, sensor, {})
+    carried = evaluate_sensor(experiment, sensor, {"new": fitted})[:2]
+    assert [(one.candidate, one.offset) for one in alone] == [("prior", "fitted"), ("prior", "re-estimated")]
+    for one, other in zip(alone, carried, strict=True):
+        np.testing.assert_allclose(one.errors.rmse, other.errors.rmse, rtol=1e-9)
+        assert one.errors.count == other.errors.count

@@ -17,7 +17,7 @@ EPOCH_NS = 1_700_000_000_000_000_000
 """A stamp of the year 2023, so large that a float of it in seconds errs by some 100 ns."""
 
 UNITS = {
-    "position": "rad", "velocity": "rad/s", "acceleration": "rad/s2", "raw": "counts",
+    "position": "rad", "velocity": "rad/s", "acceleration": "rad/s2", "torque": "N m", "raw": "counts",
     "scalar": "V",
 }  # fmt: skip
 """Unit of quantities whose columns are free to name."""

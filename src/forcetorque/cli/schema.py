@@ -141,6 +141,6 @@ def _study() -> dict[str, Any]:
 
 
 def _validate() -> dict[str, Any]:
-    from forcetorque.cli.validate import ValidateResult
+    from forcetorque.cli.validate_result import ValidateResult
 
     return ValidateResult.model_json_schema()

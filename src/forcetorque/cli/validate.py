@@ -1,18 +1,18 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""`forcetorque validate`: contact forces that sensors report where nothing touches."""
+"""`forcetorque validate`: contact forces that sensors report where nothing touches, and joint torques from them."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, TypedDict
 
-from pydantic import BaseModel, ConfigDict, Field
-
+from forcetorque.calibration import Calibration
 from forcetorque.cli.output import Format, console, finite_or_none, print_result, start_logging, table
 from forcetorque.cli.reading import read_calibrations, read_experiment
+from forcetorque.cli.validate_result import BestRow, ContactForceRow, JointTorqueRow, ValidateResult
 from forcetorque.evaluation import OtherSensors
-from forcetorque.experiment import ContactForceVerdict, validate_sensor
+from forcetorque.experiment import ContactForceVerdict, JointTorqueVerdict, compare_joint_torques, validate_sensor
 from forcetorque.experiment.fitness import by_sensor, one_per_sensor
 from forcetorque.experiment.inputs import stated_in
 from forcetorque.spatial import WRENCH_COMPONENTS, WRENCH_UNITS
@@ -21,59 +21,13 @@ if TYPE_CHECKING:
     from rich.table import Table
 
 
-class ContactForceRow(BaseModel):
-    """Contact wrench that a candidate reports where nothing touches, in the sensor's frame; per axis fx ... tz."""
+class _Question(TypedDict):
+    """What both comparisons of a sensor are asked."""
 
-    sensor: str
-    """Sensor."""
-    serial: str
-    """Its serial number."""
-    sub_model: str
-    """Sub-model that nothing touches."""
-    candidate: str
-    """The calibration file, or `prior`."""
-    offset: Literal["re-estimated", "fitted"]
-    """Offset from the first second of every judged interval, or that of the candidate."""
-    samples: int
-    """Number of judged samples."""
-    force_mean_N: float
-    """Mean norm of the force."""
-    force_mean_error_N: float | None
-    """Standard error of that mean, from blocks of time."""
-    moment_mean_Nm: float
-    """Mean norm of the moment."""
-    mean_absolute: list[float]
-    """Mean absolute value per component; N, N m."""
-
-
-class BestRow(BaseModel):
-    """The best candidate of a sensor in one offset mode."""
-
-    sensor: str
-    """Sensor."""
-    offset: Literal["re-estimated", "fitted"]
-    """Offset mode."""
-    by_magnitude: str
-    """Candidate with the smallest mean norm of the force."""
-    by_axis: list[str]
-    """Candidate with the smallest mean absolute value, per component."""
-
-
-class ValidateResult(BaseModel):
-    """What `forcetorque validate` found."""
-
-    model_config = ConfigDict(populate_by_name=True)
-
-    schema_name: Literal["forcetorque/validate/1"] = Field(default="forcetorque/validate/1", alias="schema")
-    """Form of the result."""
-    experiment: str
-    """Name of the experiment."""
-    other_sensors: Literal["model", "measured"]
-    """What the other sensors of the sub-model were taken to read."""
-    contact_forces: list[ContactForceRow]
-    """One per sensor, candidate and offset."""
-    best: list[BestRow]
-    """One per sensor and offset."""
+    others: Mapping[str, Calibration]
+    other_sensors: OtherSensors
+    sub_model: str | None
+    contact: str | None
 
 
 def run(
@@ -86,7 +40,7 @@ def run(
     other_sensors: OtherSensors,
     output_format: Format,
 ) -> None:
-    """Judge candidates by the contact wrench of sub-models that nothing touches.
+    """Judge candidates by the contact wrench of sub-models that nothing touches, and by joint torques.
 
     Args:
         path: Experiment file.
@@ -103,28 +57,36 @@ def run(
     groups = by_sensor(experiment, loaded)
     judged = [experiment.sensor(name).name for name in sensors or groups or (s.name for s in experiment.sensors)]
     verdicts: list[ContactForceVerdict] = []
+    torques: list[JointTorqueVerdict] = []
+    left_out: dict[str, None] = {}
     for name in dict.fromkeys(judged):
         log.info("validating %s", name)
         rest = {file: one for other, group in groups.items() if other != name for file, one in group.items()}
         if other_sensors is OtherSensors.MEASURED:
             one_per_sensor(experiment, rest)
         with stated_in(f"{path}: sensor {name!r}"):
-            verdicts += validate_sensor(
-                experiment,
-                experiment.sensor(name),
-                groups.get(name, {}),
-                others=rest,
-                other_sensors=other_sensors,
-                sub_model=sub_model,
-                contact=contact,
-            )
+            question: _Question = {
+                "others": rest,
+                "other_sensors": other_sensors,
+                "sub_model": sub_model,
+                "contact": contact,
+            }
+            verdicts += validate_sensor(experiment, experiment.sensor(name), groups.get(name, {}), **question)
+            compared = compare_joint_torques(experiment, experiment.sensor(name), groups.get(name, {}), **question)
+            torques += compared.verdicts
+            left_out |= dict.fromkeys(f"{name}: {words}" for words in compared.left_out)
     result = ValidateResult(
         experiment=experiment.name,
         other_sensors=other_sensors.value,
         contact_forces=[_row(verdict) for verdict in verdicts],
         best=_best(verdicts),
+        joint_torques=[_torque_row(verdict) for verdict in torques],
+        left_out=list(left_out),
     )
+    for words in result.left_out:
+        log.warning("left out: %s", words)
     rows = [_flat(row) for row in result.contact_forces]
+    rows += [{"what": "joint_torque", **row.model_dump()} for row in result.joint_torques]
     print_result(result.model_dump(mode="json", by_alias=True), rows, output_format, show=lambda: _show(result))
 
 
@@ -162,8 +124,29 @@ def _row(verdict: ContactForceVerdict) -> ContactForceRow:
     )
 
 
+def _torque_row(verdict: JointTorqueVerdict) -> JointTorqueRow:
+    errors, logged = verdict.errors, verdict.from_logged
+    return JointTorqueRow(
+        sensor=verdict.sensor,
+        serial=verdict.serial,
+        candidate=verdict.candidate,
+        offset=verdict.offset.value,
+        joint=verdict.joint,
+        unit=verdict.unit,
+        samples=errors.count,
+        rmse=errors.rmse,
+        rmse_error=finite_or_none(errors.rmse_error),
+        mean=errors.mean,
+        mean_error=finite_or_none(errors.mean_error),
+        largest=errors.largest,
+        logged_samples=None if logged is None else logged.count,
+        logged_rmse=None if logged is None else logged.rmse,
+        logged_rmse_error=None if logged is None else finite_or_none(logged.rmse_error),
+    )
+
+
 def _flat(row: ContactForceRow) -> dict[str, object]:
-    flat: dict[str, object] = row.model_dump(exclude={"mean_absolute"})
+    flat: dict[str, object] = {"what": "contact_force", **row.model_dump(exclude={"mean_absolute"})}
     return flat | dict(zip(WRENCH_COMPONENTS, row.mean_absolute, strict=True))
 
 
@@ -176,6 +159,12 @@ def _show(result: ValidateResult) -> None:
         other = [f"{a} {n}" for a, n in zip(WRENCH_COMPONENTS, best.by_axis, strict=True) if n != best.by_magnitude]
         words = f"; but for {', '.join(other)}" if other else ", on every axis"
         screen.print(f"{best.sensor}, offset {best.offset}: best is {best.by_magnitude}{words}", soft_wrap=True)
+    for sensor in dict.fromkeys(row.sensor for row in result.contact_forces):
+        torques = [row for row in result.joint_torques if row.sensor == sensor]
+        if torques:
+            screen.print(_torque_table(torques))
+        else:
+            screen.print(f"{sensor}: no joint torque is estimated from it", soft_wrap=True)
     screen.print(f"other sensors: as {'the model expects' if result.other_sensors == 'model' else 'they measured'}")
 
 
@@ -192,3 +181,27 @@ def _table(rows: Sequence[ContactForceRow]) -> Table:
         values = [f"{value:.3f}" for value in row.mean_absolute]
         made.add_row(row.candidate, row.offset, *values, f"{row.force_mean_N:.2f}{error}", f"{row.moment_mean_Nm:.3f}")
     return made
+
+
+def _torque_table(rows: Sequence[JointTorqueRow]) -> Table:
+    has_logged = any(row.logged_rmse is not None for row in rows)
+    made = table(
+        "joint", "offset", "candidate", "RMSE", "mean", "largest", "unit", "samples",
+        *(["RMSE from logged"] if has_logged else []),
+        title=f"{rows[0].sensor} ({rows[0].serial}): joint torques estimated from it, less those of the model",
+    )  # fmt: skip
+    for row in sorted(rows, key=_place(rows)):
+        values = [_with_error(row.rmse, row.rmse_error), _with_error(row.mean, row.mean_error), f"{row.largest:.3f}"]
+        from_logged = [] if row.logged_rmse is None else [_with_error(row.logged_rmse, row.logged_rmse_error)]
+        made.add_row(row.joint, row.offset, row.candidate, *values, row.unit, str(row.samples), *from_logged)
+    return made
+
+
+def _place(rows: Sequence[JointTorqueRow]) -> Callable[[JointTorqueRow], tuple[int, int]]:
+    """Order that puts the candidates of a joint, with one offset, under each other."""
+    joints, offsets = ([*dict.fromkeys(names)] for names in ((r.joint for r in rows), (r.offset for r in rows)))
+    return lambda row: (joints.index(row.joint), offsets.index(row.offset))
+
+
+def _with_error(value: float, error: float | None) -> str:
+    return f"{value:.3f}" if error is None else f"{value:.3f} ±{error:.3f}"

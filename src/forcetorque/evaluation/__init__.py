@@ -19,6 +19,7 @@ from forcetorque.evaluation.gains import (
     channel_ranges,
     strongest_samples,
 )
+from forcetorque.evaluation.joint_torques import TorqueErrors, TorqueMap, joints_of_sensor, torque_errors, torque_map
 from forcetorque.evaluation.model_findings import model_findings
 from forcetorque.evaluation.population import PopulationPosition, position_in_population
 from forcetorque.evaluation.static_checks import MatrixChecks, OffsetChange, matrix_checks, offset_change
@@ -38,6 +39,8 @@ __all__ = [
     "OtherSensors",
     "PooledErrors",
     "PopulationPosition",
+    "TorqueErrors",
+    "TorqueMap",
     "WrenchErrors",
     "advise_gains",
     "axis_resolution",
@@ -45,11 +48,14 @@ __all__ = [
     "channel_ranges",
     "contact_forces",
     "errors_from_zero",
+    "joints_of_sensor",
     "matrix_checks",
     "model_findings",
     "offset_change",
     "offset_removed",
     "position_in_population",
     "strongest_samples",
+    "torque_errors",
+    "torque_map",
     "wrench_errors",
 ]

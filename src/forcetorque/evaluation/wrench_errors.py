@@ -74,12 +74,12 @@ def wrench_errors(measured: Any, reference: Any) -> WrenchErrors:
         rmse=np.sqrt((error**2).mean(axis=0)),
         largest=absolute.max(axis=0),
         mean_absolute=absolute.mean(axis=0),
-        mean_absolute_error=_mean_error(absolute),
+        mean_absolute_error=error_of_mean(absolute),
         force_mean=float(force.mean()),
-        force_mean_error=float(_mean_error(force)),
+        force_mean_error=float(error_of_mean(force)),
         force_largest=float(force.max()),
         moment_mean=float(moment.mean()),
-        moment_mean_error=float(_mean_error(moment)),
+        moment_mean_error=float(error_of_mean(moment)),
         moment_largest=float(moment.max()),
     )
 
@@ -105,8 +105,15 @@ def errors_from_zero(wrenches: Any) -> WrenchErrors:
     return wrench_errors(whole, np.zeros_like(whole))
 
 
-def _mean_error(values: FloatArray) -> FloatArray:
-    """Standard error of the mean of values (n, ...) from the scatter of the means of contiguous blocks; NaN for one."""
+def error_of_mean(values: FloatArray) -> FloatArray:
+    """Estimate the standard error of a mean from the scatter of the means of contiguous blocks.
+
+    Args:
+        values: Values in the order of time; shape (n, ...).
+
+    Returns:
+        Standard error of their mean; shape (...); NaN for a single block.
+    """
     blocks = np.array_split(values, min(BLOCKS, len(values)))
     if len(blocks) < 2:
         return np.full(values.shape[1:], np.nan)

@@ -9,6 +9,7 @@ from forcetorque.experiment.estimate import IntervalEstimates, estimate_experime
 from forcetorque.experiment.evaluate import Verdict, beyond_fitted_range, evaluate_sensor, judged_where_chosen
 from forcetorque.experiment.gains import JointPosition, SensorGains, StrongestSample, select_gains
 from forcetorque.experiment.inspect import doubtful_spans, inspect_experiment, inspect_recording
+from forcetorque.experiment.joint_torques import JointTorques, JointTorqueVerdict, compare_joint_torques
 from forcetorque.experiment.load import load_experiment
 from forcetorque.experiment.parse import parse_experiment
 from forcetorque.experiment.population import read_population
@@ -32,6 +33,8 @@ __all__ = [
     "IntervalEstimates",
     "IntervalSamples",
     "JointPosition",
+    "JointTorqueVerdict",
+    "JointTorques",
     "SensorGains",
     "SensorSphere",
     "SensorStudy",
@@ -44,6 +47,7 @@ __all__ = [
     "beyond_fitted_range",
     "calibrate_sensor",
     "check_sensor",
+    "compare_joint_torques",
     "corrections_of",
     "doubtful_spans",
     "estimate_experiment",

@@ -67,22 +67,14 @@ def validate_sensor(
 
     Returns:
         For every candidate the errors with its own offset and with one from each interval's first second.
-
-    Raises:
-        ExperimentError: If a calibration may not be applied.
     """
-    candidates = {PRIOR: corrections_of(experiment, {})[sensor.name]} if _has_prior(sensor) else {}
-    for name, calibration in calibrations.items():
-        require_fit(name, calibration, experiment, sensor)
-        candidates[name] = Correction.of(name, calibration)
-    if not candidates:
-        raise ExperimentError(f"sensor {sensor.name!r}: raw counts become wrenches by --calibration or a prior matrix")
+    candidates = candidates_of(experiment, sensor, calibrations)
     needed = corrections_of(experiment, others or {}) if other_sensors is OtherSensors.MEASURED else {}
     found: dict[tuple[str, OffsetSource], list[FloatArray]] = {}
     part = ""
     for interval in experiment.intervals(Use.VALIDATION):
         with stated_in(f"interval {interval.label!r}"):
-            validation = _validation(experiment, sensor, interval, other_sensors, sub_model, contact)
+            validation = free_part(experiment, sensor, interval, other_sensors, sub_model, contact)
             stamps, wrenches = _over(experiment, sensor, interval, validation, candidates, needed)
         part = validation.part.name
         first = stamps < stamps[0] + round(OFFSET_S * 1e9)
@@ -103,11 +95,33 @@ def validate_sensor(
     ]
 
 
-def _has_prior(sensor: ExperimentSensor) -> bool:
-    return sensor.quantity == "wrench" or sensor.prior is not None
+def candidates_of(
+    experiment: Experiment, sensor: ExperimentSensor, calibrations: Mapping[str, Calibration]
+) -> dict[str, Correction]:
+    """Decide by what a judged sensor is read in turn.
+
+    Args:
+        experiment: The experiment.
+        sensor: One of its sensors.
+        calibrations: Calibrations of that sensor by name.
+
+    Returns:
+        Corrections by name, the prior first if there is one.
+
+    Raises:
+        ExperimentError: If a calibration may not be applied, or there is no candidate.
+    """
+    has_prior = sensor.quantity == "wrench" or sensor.prior is not None
+    candidates = {PRIOR: corrections_of(experiment, {})[sensor.name]} if has_prior else {}
+    for name, calibration in calibrations.items():
+        require_fit(name, calibration, experiment, sensor)
+        candidates[name] = Correction.of(name, calibration)
+    if not candidates:
+        raise ExperimentError(f"sensor {sensor.name!r}: raw counts become wrenches by --calibration or a prior matrix")
+    return candidates
 
 
-def _validation(
+def free_part(
     experiment: Experiment,
     sensor: ExperimentSensor,
     interval: Interval,
@@ -115,6 +129,22 @@ def _validation(
     sub_model: str | None,
     contact: str | None,
 ) -> ContactForceValidation:
+    """Find the sub-model that nothing touches in an interval.
+
+    Args:
+        experiment: The experiment.
+        sensor: The judged sensor.
+        interval: One of the intervals, with a support.
+        other_sensors: Whether the other sensors read what the model expects or what they measured.
+        sub_model: The sub-model, by the sensor at its base or the root link; None for that outboard of the sensor.
+        contact: Link at whose origin the contact is estimated; None for that mounted on the sensor.
+
+    Returns:
+        The sub-model, seen from the support.
+
+    Raises:
+        ExperimentError: If the interval has no support.
+    """
     if interval.support is None:
         raise ExperimentError("expected a support frame, got none")
     return ContactForceValidation(

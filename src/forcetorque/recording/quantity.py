@@ -77,6 +77,12 @@ QUANTITIES = {
             description="Joint accelerations as logged.",
         ),
         Quantity(
+            name="torque",
+            labels=Labels.JOINTS,
+            units=("N m", "N"),
+            description="Joint torques along +q as the robot has them: N m for rotary joints, N for prismatic ones.",
+        ),
+        Quantity(
             name="temperature",
             labels=Labels.FIXED,
             columns=("temperature",),

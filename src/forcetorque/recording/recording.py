@@ -80,7 +80,7 @@ class Recording:
         """Find the stream and signal that hold each joint.
 
         Args:
-            quantity: `position`, `velocity` or `acceleration`.
+            quantity: `position`, `velocity`, `acceleration` or `torque`.
 
         Returns:
             Stream and signal by joint name.

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from dataclasses import dataclass
 
 import numpy as np
@@ -109,13 +110,29 @@ def body_pose(tree: BodyTree, joints: JointMotion, index: int) -> FloatArray:
 
     Returns:
         `root_H_body`; shape (n, 4, 4); m.
+    """
+    return body_poses(tree, joints, (index,))[index]
+
+
+def body_poses(tree: BodyTree, joints: JointMotion, indices: Collection[int]) -> dict[int, FloatArray]:
+    """Find where several bodies are, each body on the way to them once.
+
+    Args:
+        tree: The robot.
+        joints: Motion of at least the joints between the root and the bodies.
+        indices: Indices of the bodies.
+
+    Returns:
+        `root_H_body` of these bodies and of all between them and the root; shape (n, 4, 4); m.
 
     Raises:
-        RobotError: If a joint between the root link and the body is not in `joints`.
+        RobotError: If a joint between the root link and a body is not in `joints`.
     """
-    pose = np.tile(np.eye(4), (len(joints), 1, 1))
-    for body in (tree.bodies[k] for k in reversed(path_to_root(tree, index))):
+    poses: dict[int, FloatArray] = {}
+    for k in sorted({k for index in indices for k in path_to_root(tree, index)}):
+        body = tree.bodies[k]
         if body.coordinate is None:  # the root, or a cut: the same rigid body
+            poses[k] = poses[body.parent] if body.parent >= 0 else np.tile(np.eye(4), (len(joints), 1, 1))
             continue
         if body.coordinate.joint not in joints.names:
             raise RobotError(
@@ -123,8 +140,9 @@ def body_pose(tree: BodyTree, joints: JointMotion, index: int) -> FloatArray:
                 f"{known_names(body.coordinate.joint, joints.names)}"
             )
         position = joints.position[:, joints.names.index(body.coordinate.joint)]
-        pose = pose @ make_pose(*_across(body, body.coordinate.multiplier * position + body.coordinate.offset))
-    return pose
+        here = make_pose(*_across(body, body.coordinate.multiplier * position + body.coordinate.offset))
+        poses[k] = poses[body.parent] @ here
+    return poses
 
 
 def link_pose(tree: BodyTree, joints: JointMotion, link: str) -> FloatArray:

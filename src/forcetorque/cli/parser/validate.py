@@ -38,7 +38,7 @@ def validate(
     ] = OtherSensorsChoice.MODEL,
     output_format: FormatOption = Format.TABLE,
 ) -> None:
-    """Judge calibrations by the contact force where nothing touches.
+    """Judge calibrations by contact force and joint torques where nothing touches.
 
     Example: forcetorque validate experiment.toml -c right_leg.json
     """

@@ -1,0 +1,102 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The result of `forcetorque validate`."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from pydantic import BaseModel, ConfigDict, Field
+
+
+class ContactForceRow(BaseModel):
+    """Contact wrench that a candidate reports where nothing touches, in the sensor's frame; per axis fx ... tz."""
+
+    sensor: str
+    """Sensor."""
+    serial: str
+    """Its serial number."""
+    sub_model: str
+    """Sub-model that nothing touches."""
+    candidate: str
+    """The calibration file, or `prior`."""
+    offset: Literal["re-estimated", "fitted"]
+    """Offset from the first second of every judged interval, or that of the candidate."""
+    samples: int
+    """Number of judged samples."""
+    force_mean_N: float
+    """Mean norm of the force."""
+    force_mean_error_N: float | None
+    """Standard error of that mean, from blocks of time."""
+    moment_mean_Nm: float
+    """Mean norm of the moment."""
+    mean_absolute: list[float]
+    """Mean absolute value per component; N, N m."""
+
+
+class JointTorqueRow(BaseModel):
+    """Error of the torque that is estimated for one joint, where one candidate reads the sensor."""
+
+    sensor: str
+    """Sensor."""
+    serial: str
+    """Its serial number."""
+    candidate: str
+    """The calibration file, or `prior`."""
+    offset: Literal["re-estimated", "fitted"]
+    """Offset from the first second of every judged interval, or that of the candidate."""
+    joint: str
+    """A joint whose torque depends on the sensor."""
+    unit: Literal["N m", "N"]
+    """Unit of its torque: N for a prismatic joint."""
+    samples: int
+    """Number of judged samples."""
+    rmse: float
+    """Root mean square of estimated torque less that of the rigid-body model."""
+    rmse_error: float | None
+    """Standard error of that root, from blocks of time."""
+    mean: float
+    """Mean of estimated torque less that of the model."""
+    mean_error: float | None
+    """Standard error of that mean, from blocks of time."""
+    largest: float
+    """Largest magnitude of estimated torque less that of the model."""
+    logged_samples: int | None
+    """Number of samples with a logged torque; null where none can be compared."""
+    logged_rmse: float | None
+    """Root mean square of estimated torque less the logged one."""
+    logged_rmse_error: float | None
+    """Standard error of that root, from blocks of time."""
+
+
+class BestRow(BaseModel):
+    """The best candidate of a sensor in one offset mode."""
+
+    sensor: str
+    """Sensor."""
+    offset: Literal["re-estimated", "fitted"]
+    """Offset mode."""
+    by_magnitude: str
+    """Candidate with the smallest mean norm of the force."""
+    by_axis: list[str]
+    """Candidate with the smallest mean absolute value, per component."""
+
+
+class ValidateResult(BaseModel):
+    """What `forcetorque validate` found."""
+
+    model_config = ConfigDict(populate_by_name=True)
+
+    schema_name: Literal["forcetorque/validate/1"] = Field(default="forcetorque/validate/1", alias="schema")
+    """Form of the result."""
+    experiment: str
+    """Name of the experiment."""
+    other_sensors: Literal["model", "measured"]
+    """What the other sensors of the sub-model were taken to read."""
+    contact_forces: list[ContactForceRow]
+    """One per sensor, candidate and offset."""
+    best: list[BestRow]
+    """One per sensor and offset."""
+    joint_torques: list[JointTorqueRow]
+    """One per sensor, candidate, offset and joint that depends on the sensor."""
+    left_out: list[str]
+    """Torques that the log does not allow to estimate, in words."""
