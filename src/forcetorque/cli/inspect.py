@@ -4,10 +4,8 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Literal
 
-from pydantic import BaseModel, ConfigDict, Field
-
+from forcetorque.cli.inspect_result import FindingRow, InspectResult, finding_row
 from forcetorque.cli.output import Format, console, print_result, start_logging, table
 from forcetorque.errors import ExperimentError, MissingFileError
 from forcetorque.exchange.yarp import PortKind, discover_ports, read_port
@@ -16,46 +14,6 @@ from forcetorque.recording import Finding, Recording, read_recording
 
 _MOST_ALIKE = 8
 """Lines of one kind and channel in the table; the rest is counted. JSON and CSV have them all."""
-
-
-class FindingRow(BaseModel):
-    """One finding."""
-
-    stream: str
-    """Stream in which it was found."""
-    kind: str
-    """Kind, such as `gap`, `saturation`, `step`, `contact`."""
-    channel: str | None
-    """Channel, where it is not the whole stream."""
-    start_s: float | None
-    """First sample concerned; s from the earliest stamp of the recording."""
-    end_s: float | None
-    """Last sample concerned; s from the earliest stamp of the recording."""
-    count: int
-    """Number of samples concerned."""
-    size: float | None
-    """How large it is, in `unit`."""
-    unit: str | None
-    """Unit of the size."""
-    message: str
-    """What was found."""
-
-
-class InspectResult(BaseModel):
-    """What `forcetorque inspect` found."""
-
-    model_config = ConfigDict(populate_by_name=True)
-
-    schema_name: Literal["forcetorque/inspect/1"] = Field(default="forcetorque/inspect/1", alias="schema")
-    """Form of the result."""
-    source: str
-    """What was inspected."""
-    streams: dict[str, int]
-    """Samples per stream."""
-    duration_s: float
-    """Time from the earliest to the latest stamp."""
-    findings: list[FindingRow]
-    """Findings in the order of time."""
 
 
 def run(path: Path, *, output_format: Format) -> None:
@@ -83,7 +41,7 @@ def run(path: Path, *, output_format: Format) -> None:
         source=str(path),
         streams={name: len(stream) for name, stream in recording.streams.items()},
         duration_s=(end - start) * 1e-9,
-        findings=[_row(finding, start) for finding in findings],
+        findings=[finding_row(finding, start) for finding in findings],
     )
     print_result(
         result.model_dump(mode="json", by_alias=True),
@@ -111,20 +69,6 @@ def _yarp_recording(folder: Path) -> Recording:
         streams={reading.stream.name: reading.stream for reading in readings},
         findings=(*unread, *(finding for reading in readings for finding in reading.findings)),
         origin={"format": "yarp", "path": str(folder)},
-    )
-
-
-def _row(finding: Finding, start_ns: int) -> FindingRow:
-    return FindingRow(
-        stream=finding.stream,
-        kind=finding.kind,
-        channel=finding.channel,
-        start_s=None if finding.start_ns is None else (finding.start_ns - start_ns) * 1e-9,
-        end_s=None if finding.end_ns is None else (finding.end_ns - start_ns) * 1e-9,
-        count=finding.count,
-        size=finding.size,
-        unit=finding.unit,
-        message=finding.message,
     )
 
 

@@ -87,7 +87,7 @@ def _estimate() -> dict[str, Any]:
 
 
 def _evaluate() -> dict[str, Any]:
-    from forcetorque.cli.evaluate import EvaluateResult
+    from forcetorque.cli.evaluate_result import EvaluateResult
 
     return EvaluateResult.model_json_schema()
 
@@ -105,7 +105,7 @@ def _gains() -> dict[str, Any]:
 
 
 def _inspect() -> dict[str, Any]:
-    from forcetorque.cli.inspect import InspectResult
+    from forcetorque.cli.inspect_result import InspectResult
 
     return InspectResult.model_json_schema()
 

@@ -8,9 +8,17 @@ from pathlib import Path
 from typing import TYPE_CHECKING, TypedDict
 
 from forcetorque.calibration import Calibration
-from forcetorque.cli.output import Format, console, finite_or_none, print_result, start_logging, table
+from forcetorque.cli.output import Format, console, print_result, start_logging, table
 from forcetorque.cli.reading import read_calibrations, read_experiment
-from forcetorque.cli.validate_result import BestRow, ContactForceRow, JointTorqueRow, ValidateResult
+from forcetorque.cli.validate_result import (
+    ContactForceRow,
+    JointTorqueRow,
+    ValidateResult,
+    best_rows,
+    contact_force_row,
+    joint_torque_row,
+)
+from forcetorque.cli.words import with_error
 from forcetorque.evaluation import OtherSensors
 from forcetorque.experiment import ContactForceVerdict, JointTorqueVerdict, compare_joint_torques, validate_sensor
 from forcetorque.experiment.fitness import by_sensor, one_per_sensor
@@ -78,9 +86,9 @@ def run(
     result = ValidateResult(
         experiment=experiment.name,
         other_sensors=other_sensors.value,
-        contact_forces=[_row(verdict) for verdict in verdicts],
-        best=_best(verdicts),
-        joint_torques=[_torque_row(verdict) for verdict in torques],
+        contact_forces=[contact_force_row(verdict) for verdict in verdicts],
+        best=best_rows(verdicts),
+        joint_torques=[joint_torque_row(verdict) for verdict in torques],
         left_out=list(left_out),
     )
     for words in result.left_out:
@@ -88,61 +96,6 @@ def run(
     rows = [_flat(row) for row in result.contact_forces]
     rows += [{"what": "joint_torque", **row.model_dump()} for row in result.joint_torques]
     print_result(result.model_dump(mode="json", by_alias=True), rows, output_format, show=lambda: _show(result))
-
-
-def _best(verdicts: Sequence[ContactForceVerdict]) -> list[BestRow]:
-    groups: dict[tuple[str, str], list[ContactForceVerdict]] = {}
-    for verdict in verdicts:
-        groups.setdefault((verdict.sensor, verdict.offset.value), []).append(verdict)
-    return [
-        BestRow(
-            sensor=sensor,
-            offset=group[0].offset.value,
-            by_magnitude=min(group, key=lambda one: one.errors.force_mean).candidate,
-            by_axis=[
-                min(group, key=lambda one, k=axis: float(one.errors.mean_absolute[k])).candidate  # type: ignore[misc]
-                for axis in range(6)
-            ],
-        )
-        for (sensor, _), group in groups.items()
-    ]
-
-
-def _row(verdict: ContactForceVerdict) -> ContactForceRow:
-    errors = verdict.errors
-    return ContactForceRow(
-        sensor=verdict.sensor,
-        serial=verdict.serial,
-        sub_model=verdict.sub_model,
-        candidate=verdict.candidate,
-        offset=verdict.offset.value,
-        samples=errors.count,
-        force_mean_N=errors.force_mean,
-        force_mean_error_N=finite_or_none(errors.force_mean_error),
-        moment_mean_Nm=errors.moment_mean,
-        mean_absolute=errors.mean_absolute.tolist(),
-    )
-
-
-def _torque_row(verdict: JointTorqueVerdict) -> JointTorqueRow:
-    errors, logged = verdict.errors, verdict.from_logged
-    return JointTorqueRow(
-        sensor=verdict.sensor,
-        serial=verdict.serial,
-        candidate=verdict.candidate,
-        offset=verdict.offset.value,
-        joint=verdict.joint,
-        unit=verdict.unit,
-        samples=errors.count,
-        rmse=errors.rmse,
-        rmse_error=finite_or_none(errors.rmse_error),
-        mean=errors.mean,
-        mean_error=finite_or_none(errors.mean_error),
-        largest=errors.largest,
-        logged_samples=None if logged is None else logged.count,
-        logged_rmse=None if logged is None else logged.rmse,
-        logged_rmse_error=None if logged is None else finite_or_none(logged.rmse_error),
-    )
 
 
 def _flat(row: ContactForceRow) -> dict[str, object]:
@@ -191,8 +144,12 @@ def _torque_table(rows: Sequence[JointTorqueRow]) -> Table:
         title=f"{rows[0].sensor} ({rows[0].serial}): joint torques estimated from it, less those of the model",
     )  # fmt: skip
     for row in sorted(rows, key=_place(rows)):
-        values = [_with_error(row.rmse, row.rmse_error), _with_error(row.mean, row.mean_error), f"{row.largest:.3f}"]
-        from_logged = [] if row.logged_rmse is None else [_with_error(row.logged_rmse, row.logged_rmse_error)]
+        values = [
+            with_error(row.rmse, row.rmse_error, digits=3),
+            with_error(row.mean, row.mean_error, digits=3),
+            f"{row.largest:.3f}",
+        ]
+        from_logged = [] if row.logged_rmse is None else [with_error(row.logged_rmse, row.logged_rmse_error, digits=3)]
         made.add_row(row.joint, row.offset, row.candidate, *values, row.unit, str(row.samples), *from_logged)
     return made
 
@@ -201,7 +158,3 @@ def _place(rows: Sequence[JointTorqueRow]) -> Callable[[JointTorqueRow], tuple[i
     """Order that puts the candidates of a joint, with one offset, under each other."""
     joints, offsets = ([*dict.fromkeys(names)] for names in ((r.joint for r in rows), (r.offset for r in rows)))
     return lambda row: (joints.index(row.joint), offsets.index(row.offset))
-
-
-def _with_error(value: float, error: float | None) -> str:
-    return f"{value:.3f}" if error is None else f"{value:.3f} ±{error:.3f}"

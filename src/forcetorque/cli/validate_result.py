@@ -3,9 +3,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Literal
 
 from pydantic import BaseModel, ConfigDict, Field
+
+from forcetorque.cli.output import finite_or_none
+from forcetorque.experiment import ContactForceVerdict, JointTorqueVerdict
 
 
 class ContactForceRow(BaseModel):
@@ -100,3 +104,82 @@ class ValidateResult(BaseModel):
     """One per sensor, candidate, offset and joint that depends on the sensor."""
     left_out: list[str]
     """Torques that the log does not allow to estimate, in words."""
+
+
+def contact_force_row(verdict: ContactForceVerdict) -> ContactForceRow:
+    """Give a verdict on contact forces as a row.
+
+    Args:
+        verdict: The verdict.
+
+    Returns:
+        The row.
+    """
+    errors = verdict.errors
+    return ContactForceRow(
+        sensor=verdict.sensor,
+        serial=verdict.serial,
+        sub_model=verdict.sub_model,
+        candidate=verdict.candidate,
+        offset=verdict.offset.value,
+        samples=errors.count,
+        force_mean_N=errors.force_mean,
+        force_mean_error_N=finite_or_none(errors.force_mean_error),
+        moment_mean_Nm=errors.moment_mean,
+        mean_absolute=errors.mean_absolute.tolist(),
+    )
+
+
+def joint_torque_row(verdict: JointTorqueVerdict) -> JointTorqueRow:
+    """Give a verdict on the torque of a joint as a row.
+
+    Args:
+        verdict: The verdict.
+
+    Returns:
+        The row.
+    """
+    errors, logged = verdict.errors, verdict.from_logged
+    return JointTorqueRow(
+        sensor=verdict.sensor,
+        serial=verdict.serial,
+        candidate=verdict.candidate,
+        offset=verdict.offset.value,
+        joint=verdict.joint,
+        unit=verdict.unit,
+        samples=errors.count,
+        rmse=errors.rmse,
+        rmse_error=finite_or_none(errors.rmse_error),
+        mean=errors.mean,
+        mean_error=finite_or_none(errors.mean_error),
+        largest=errors.largest,
+        logged_samples=None if logged is None else logged.count,
+        logged_rmse=None if logged is None else logged.rmse,
+        logged_rmse_error=None if logged is None else finite_or_none(logged.rmse_error),
+    )
+
+
+def best_rows(verdicts: Sequence[ContactForceVerdict]) -> list[BestRow]:
+    """Find the best candidates.
+
+    Args:
+        verdicts: Verdicts on contact forces.
+
+    Returns:
+        One row per sensor and offset mode.
+    """
+    groups: dict[tuple[str, str], list[ContactForceVerdict]] = {}
+    for verdict in verdicts:
+        groups.setdefault((verdict.sensor, verdict.offset.value), []).append(verdict)
+    return [
+        BestRow(
+            sensor=sensor,
+            offset=group[0].offset.value,
+            by_magnitude=min(group, key=lambda one: one.errors.force_mean).candidate,
+            by_axis=[
+                min(group, key=lambda one, k=axis: float(one.errors.mean_absolute[k])).candidate  # type: ignore[misc]
+                for axis in range(6)
+            ],
+        )
+        for (sensor, _), group in groups.items()
+    ]
