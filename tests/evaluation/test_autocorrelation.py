@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from importlib import import_module
+
 import numpy as np
 import pytest
 from scipy.signal import lfilter
@@ -110,6 +112,24 @@ def test_the_effective_number_is_what_the_mean_scatters_by() -> None:
     assert recordings.var() / scatter == pytest.approx(effective, rel=0.25)
     # negative control: as independent samples they would scatter by far less
     assert recordings.var() / scatter < 0.1 * 900
+
+
+def test_a_slow_error_under_a_vibration_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A vibration of 11 samples makes rho negative early; the slow error behind it still counts."""
+    count, phi, r = 100_000, 0.99, 0.97
+    noise = np.random.default_rng(6).normal(size=count + 1000)
+    vibration = np.asarray(lfilter([1.0], [1.0, -2.0 * r * np.cos(2.0 * np.pi / 11.0), r**2], noise))[1000:]
+    slow = _process(phi, count, seed=7)
+    values = vibration / vibration.std() + 0.5 * slow / slow.std()
+    # the slow part has a fifth of the variance and 199 samples; what the vibration adds is below 1
+    time = 0.2 * (1.0 + phi) / (1.0 - phi)
+    assert autocorrelation(values, _time(count)).integrated_time == pytest.approx(time, rel=0.3)
+    # negative control: the initial positive sequence alone ends within the first period
+    module = import_module("forcetorque.evaluation.autocorrelation")
+    monkeypatch.setattr(module, "CLEAR_DEVIATIONS", np.inf)
+    first = autocorrelation(values, _time(count))
+    assert first.window < 11
+    assert first.integrated_time < 0.3 * time
 
 
 def test_a_pause_parts_and_a_late_sample_does_not() -> None:

@@ -23,6 +23,9 @@ LEAST_PAIRS = 0.25
 WHITE_DEVIATIONS = 1.96
 """Standard deviations within which 95 % of the autocorrelations of white noise lie."""
 
+CLEAR_DEVIATIONS = 2.0
+"""Standard deviations of noise by which lags from some k to 2 k must add up to more than 0 to count after all."""
+
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Autocorrelation:
@@ -70,9 +73,13 @@ def autocorrelation(values: Any, time_s: Any) -> Autocorrelation:
     The mean is that of all samples. Pauses of more than `GAP_PERIODS` median periods part the signal in segments,
     within which samples count as evenly spaced; no pair reaches over a pause, and segments count as independent. The
     integrated time is the sum over lags with the weights that make it the variance of the mean, `pairs / n`, up to the
-    first two neighbouring lags, an even and the next odd one, whose sum is not positive [1]. This was derived for
-    reversible chains; for a signal that swings it stops within the first period, and the signal is taken for worth less
-    than it is. The sum counts no correlation that takes longer than a segment.
+    first two neighbouring lags, an even and the next odd one, whose sum is not positive [1].
+
+    That was derived for reversible chains. A vibration that lies over a slow error makes the sum negative early, while
+    the slow error goes on: lags from some k to 2 k that together are positive by `CLEAR_DEVIATIONS` of the noise are
+    therefore counted, with all before them, if that makes the time longer (a heuristic). A signal that only swings is
+    taken for worth less than it is. No correlation that takes longer than a segment is counted; and a signal worth only
+    some ten independent samples is too short to tell how few, and is easily taken for worth half as much again.
 
     Args:
         values: The signal; shape (n,). What is not a finite number makes no pair.
@@ -104,11 +111,11 @@ def autocorrelation(values: Any, time_s: Any) -> Autocorrelation:
     variance = products[0] / count
     with np.errstate(invalid="ignore"):  # 0 / 0 where nothing changes
         rho = products[:lags] / pairs[:lags] / variance
-    integrated, window = _integrated(rho * pairs[:lags] / count)
+    integrated, window = _integrated(rho * pairs[:lags] / count, count)
     return Autocorrelation(
         count=count,
         segments=len(starts) + 1,
-        lag_s=period * np.arange(lags),
+        lag_s=np.arange(lags, dtype=np.float64) * period,
         rho=rho,
         pairs=pairs[:lags],
         window=window,
@@ -150,11 +157,19 @@ def _pooled_products(parts: list[FloatArray]) -> FloatArray:
     return sums
 
 
-def _integrated(weighted: FloatArray) -> tuple[float, int]:
-    """Initial positive sequence: twice the sum of pairs of lags while they are positive, less lag 0; lags summed."""
+def _integrated(weighted: FloatArray, count: int) -> tuple[float, int]:
+    """Integrated time and number of lags in its sum: the initial positive sequence, and what clearly comes later."""
     pairs = weighted[: len(weighted) // 2 * 2].reshape(-1, 2).sum(axis=1)
     if not len(pairs) or not np.isfinite(pairs).all():
         return math.nan, 0
     ends = pairs <= 0.0
-    used = int(ends.argmax()) if ends.any() else len(pairs)
-    return float(2.0 * pairs[:used].sum() - 1.0), 2 * used
+    window = start = 2 * (int(ends.argmax()) if ends.any() else len(pairs))
+    sums = 2.0 * np.cumsum(weighted) - 1.0
+    while 2 * start <= len(weighted):
+        octave = sums[2 * start - 1] - sums[start - 1]
+        # Bartlett: beyond where rho ends, the sum of m lags scatters by the integrated time times sqrt(m / n)
+        scatter = 2.0 * sums[window - 1] * math.sqrt(start / count)
+        if octave > CLEAR_DEVIATIONS * scatter and sums[2 * start - 1] > sums[window - 1]:
+            window = 2 * start
+        start *= 2
+    return float(sums[window - 1]), window
