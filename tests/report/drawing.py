@@ -22,9 +22,12 @@ from forcetorque.report import (
     comparison_figure,
     contact_figure,
     difference_figure,
+    excitation_figure,
     force_space_figure,
+    held_out_figure,
     lambda_difference_figure,
     lambda_force_figure,
+    residual_figure,
     space_figure,
     sphere_figure,
 )
@@ -102,6 +105,34 @@ def _sphere(rng: np.random.Generator) -> bytes:
     return sphere_figure([sphere_of(force, reference), sphere_of(force[:40], None, candidate="new.json", mass=4.7)])
 
 
+def _residual(rng: np.random.Generator) -> bytes:
+    time = 0.01 * np.arange(400) + 3.0 * (np.arange(400) > 250)
+    return residual_figure(time, {"prior": 0.3 * _wrenches(rng), "new": 0.1 * _wrenches(rng)})
+
+
+def excitation_of_sensors(rng: np.random.Generator, *channels: int) -> tuple[list[str], *tuple[list[np.ndarray], ...]]:
+    """What the figure of excitation takes of sensors with so many channels: every second direction is excited."""
+    names = [f"sensor {k}" for k in range(len(channels))]
+    variance = [np.sort(10.0 ** rng.uniform(0.0, 8.0, c))[::-1] for c in channels]
+    explained = [np.where(np.arange(c) % 2, rng.uniform(0.0, 0.4, c), rng.uniform(0.6, 1.0, c)) for c in channels]
+    directions = [np.linalg.qr(rng.normal(size=(c, c)))[0] for c in channels]
+    return names, variance, explained, [share > 0.5 for share in explained], directions
+
+
+def _excitation(rng: np.random.Generator) -> bytes:
+    return excitation_figure(*excitation_of_sensors(rng, 6, 12))
+
+
+def _held_out(rng: np.random.Generator) -> bytes:
+    finite, lambdas = LAMBDAS, np.append(10.0 ** np.arange(-2.0, 9.0), np.inf)
+    curves = {
+        "left": (finite, rng.uniform(2.0, 9.0, len(finite)), 50.0),
+        "right": (lambdas, rng.uniform(2.0, 9.0, len(lambdas)), np.inf),
+        "arm": (lambdas, rng.uniform(2.0, 9.0, len(lambdas)), None),
+    }
+    return held_out_figure(curves, worst_ratios={"right": rng.uniform(0.1, 9.0, len(lambdas))})
+
+
 FIGURES: dict[str, Callable[[np.random.Generator], bytes]] = {
     "space": _space,
     "force space": _force_space,
@@ -111,6 +142,9 @@ FIGURES: dict[str, Callable[[np.random.Generator], bytes]] = {
     "contact": _contact,
     "comparison": _comparison,
     "sphere": _sphere,
+    "residual": _residual,
+    "excitation": _excitation,
+    "held out": _held_out,
 }
 """A figure of every kind that is drawn from plain arrays, of random data."""
 

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """How far a calibration can be trusted, on motions that were not fitted, and how well a sensor uses its range."""
 
+from forcetorque.evaluation.autocorrelation import Autocorrelation, autocorrelation
 from forcetorque.evaluation.candidate_errors import CandidateErrors, PooledErrors, candidate_errors
 from forcetorque.evaluation.contact_force import (
     ContactForces,
@@ -27,6 +28,7 @@ from forcetorque.evaluation.wrench_errors import WrenchErrors, errors_from_zero,
 
 __all__ = [
     "MARGIN",
+    "Autocorrelation",
     "AxisResolution",
     "CandidateErrors",
     "ChannelRange",
@@ -43,6 +45,7 @@ __all__ = [
     "TorqueMap",
     "WrenchErrors",
     "advise_gains",
+    "autocorrelation",
     "axis_resolution",
     "candidate_errors",
     "channel_ranges",

@@ -1,17 +1,17 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Curves over lambda: an axis of decades on which 0 has a place, and curves that coincide all seen."""
+"""Curves over lambda: an axis of decades on which 0 and infinity have a place, and curves that coincide all seen."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 
 from forcetorque.arrays import FloatArray, IntArray
 from forcetorque.errors import ShapeError
-from forcetorque.report.canvas import Look
+from forcetorque.report.canvas import REFERENCE_COLOUR, Look
 from forcetorque.report.inputs import drawable
 
 if TYPE_CHECKING:
@@ -24,6 +24,18 @@ LAMBDA_MEANING = (
 )
 """The number means nothing without its convention."""
 
+MARKED: Final[dict[str, Any]] = {
+    "color": "#F0E442",
+    "marker": "*",
+    "markersize": 17.0,
+    "markeredgecolor": REFERENCE_COLOUR,
+    "markeredgewidth": 1.0,
+    "linestyle": "none",
+}
+"""Look of the point that was chosen, on a curve of any colour."""
+
+_LOGARITHMIC_RATIO = 10.0
+"""Largest height over the smallest beyond which a linear axis would press the good curves together."""
 _ZERO_DECADES = 0.7
 """Room between lambda 0 and the smallest positive lambda; decades."""
 _SAME = 0.006
@@ -57,34 +69,93 @@ def rising_lambdas(lambdas: Any) -> tuple[FloatArray, IntArray]:
     return given[order], order
 
 
-def set_lambda_axis(panel: Axes, lambdas: FloatArray) -> None:
+def infinite_place(lambdas: FloatArray) -> float:
+    """Choose where on the axis lambda infinite, with which the prior is kept, is drawn.
+
+    Args:
+        lambdas: All finite lambdas that share the axis; rising; shape (l,); counts2.
+
+    Returns:
+        A place right of them, as far as 0 is on the left; counts2.
+    """
+    positive = lambdas[lambdas > 0.0]
+    return float(positive[-1]) * 10.0**_ZERO_DECADES if len(positive) else 1.0
+
+
+def set_lambda_axis(panel: Axes, lambdas: FloatArray, *, infinite: float | None = None) -> None:
     """Give a panel an axis of decades, with 0 at its left end if it is among the lambdas.
 
     Args:
         panel: The panel.
-        lambdas: What is drawn over; rising; shape (l,); counts2.
+        lambdas: What is drawn over; rising, finite; shape (l,); counts2.
+        infinite: Where lambda infinite is drawn, as `infinite_place` chose it; None where it is not; counts2.
     """
     positive = lambdas[lambdas > 0.0]
     if len(positive) == len(lambdas):
         panel.set_xscale("log")
+        if infinite is not None and len(positive):
+            panel.set_xticks(_decades(positive) or [positive[0]])
+            panel.xaxis.set_major_formatter(_lambda_text)
     elif len(positive):
-        least, most = math.log10(positive[0]), math.log10(positive[-1])
-        step = max(1, math.ceil((most - least) / 10.0))
-        decades = [10.0**k for k in range(math.ceil(least), math.floor(most) + 1, step)]
         panel.set_xscale("symlog", linthresh=positive[0], linscale=_ZERO_DECADES)
-        panel.set_xticks([0.0, *(decades or [positive[0]])])
-        panel.set_xlim(-0.15 * positive[0], 10.0 ** (most + 0.02 * (most - least) + 0.05))
+        panel.set_xticks([0.0, *(_decades(positive) or [positive[0]])])
+        panel.set_xlim(-0.15 * positive[0], _right_edge(positive))
         panel.xaxis.set_major_formatter(_lambda_text)
     else:
         panel.set_xticks([0.0])
+    if infinite is not None:
+        _add_infinite(panel, positive, infinite)
     panel.set_xticks([], minor=True)
     panel.grid(visible=True, color="0.9", linewidth=0.6)
     panel.set_axisbelow(True)
 
 
+def _decades(positive: FloatArray) -> list[float]:
+    """Powers of ten among positive lambdas, at most some ten of them."""
+    least, most = math.log10(positive[0]), math.log10(positive[-1])
+    step = max(1, math.ceil((most - least) / 10.0))
+    return [10.0**k for k in range(math.ceil(least), math.floor(most) + 1, step)]
+
+
+def _right_edge(positive: FloatArray, last: float | None = None) -> float:
+    least, most = math.log10(positive[0]), math.log10(positive[-1] if last is None else last)
+    return float(10.0 ** (most + 0.02 * (most - least) + 0.05))
+
+
+def _add_infinite(panel: Axes, positive: FloatArray, infinite: float) -> None:
+    """A place of its own right of the last lambda, behind a dotted line."""
+    finite = [float(tick) for tick in panel.get_xticks()] if len(positive) else [0.0]
+    texts = [_lambda_text(tick, 0.0) for tick in finite]
+    panel.set_xticks([*finite, infinite], [*texts, "∞"])
+    if len(positive):
+        right = _right_edge(positive, infinite)
+        # without a 0 as much room on the left as on the right
+        panel.set_xlim(panel.get_xlim()[0] if panel.get_xscale() == "symlog" else positive[0] * infinite / right, right)
+        panel.axvline(infinite / 10.0 ** (0.5 * _ZERO_DECADES), color="0.5", linestyle=":", linewidth=1.0)
+    else:
+        panel.set_xlim(-0.2, infinite + 0.2)
+
+
 def _lambda_text(value: float, _: float) -> str:
     power = math.log10(value) if value > 0.0 else 0.0
     return f"$10^{{{power:.0f}}}$" if power.is_integer() and value > 0.0 else f"{value:g}"
+
+
+def set_height_axis(panel: Axes, heights: FloatArray) -> None:
+    """Make the vertical axis logarithmic if heights span more than a decade.
+
+    Args:
+        panel: The panel.
+        heights: All that is to be drawn on it; NaN where there is nothing; shape (n,).
+    """
+    from matplotlib.ticker import LogLocator, NullLocator
+
+    known = heights[np.isfinite(heights)]
+    if len(known) and known.min() > 0.0 and known.max() > _LOGARITHMIC_RATIO * known.min():
+        panel.set_yscale("log")
+        panel.yaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+        panel.yaxis.set_minor_locator(NullLocator())
+        panel.yaxis.set_major_formatter(lambda value, _: f"{value:g}")
 
 
 def draw_curves(panel: Axes, lambdas: FloatArray, curves: Sequence[FloatArray], looks: Sequence[Look]) -> None:

@@ -23,7 +23,15 @@ from forcetorque.report.canvas import (
     shown_name,
 )
 from forcetorque.report.inputs import drawable_each
-from forcetorque.report.lambda_axis import LAMBDA_LABEL, LAMBDA_MEANING, draw_curves, rising_lambdas, set_lambda_axis
+from forcetorque.report.lambda_axis import (
+    LAMBDA_LABEL,
+    LAMBDA_MEANING,
+    MARKED,
+    draw_curves,
+    rising_lambdas,
+    set_height_axis,
+    set_lambda_axis,
+)
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -33,17 +41,7 @@ MOST_HUES, MOST_CURVES = 6, 20
 """Data sets, and curves, in one panel; with more, each data set has its own."""
 
 _PANEL_COLUMNS = 3
-_LOGARITHMIC_RATIO = 10.0
-"""Largest force over the smallest beyond which a linear axis would press the good curves together."""
 _WORKBENCH: dict[str, Any] = {"color": REFERENCE_COLOUR, "linestyle": (0, (10, 3)), "linewidth": 1.2}
-_BEST: dict[str, Any] = {
-    "color": "#F0E442",
-    "marker": "*",
-    "markersize": 17.0,
-    "markeredgecolor": REFERENCE_COLOUR,
-    "markeredgewidth": 1.0,
-    "linestyle": "none",
-}
 
 _Curves = dict[str, dict[str, FloatArray]]
 
@@ -88,21 +86,20 @@ def lambda_force_figure(
     groups = [given] if shared else [{name: types} for name, types in given.items()]
     kinds = list(dict.fromkeys(kind for types in given.values() for kind in types))
     figure, panels = _panels(len(groups))
-    if _spans_decades(given, workbench):
-        _set_logarithmic(panels[0])
+    set_height_axis(panels[0], _heights(given, workbench))
     for panel, group in zip(panels, groups, strict=True):
         _draw(panel, rising, group, kinds, workbench)
         if len(group) == 1:
             panel.set_title(shown_name(next(iter(group))), fontsize=TITLE_POINTS)
         if chosen is not None and chosen[0] in group:
-            panel.plot(chosen[2], best, zorder=4.0, clip_on=False, **_BEST)
+            panel.plot(chosen[2], best, zorder=4.0, clip_on=False, **MARKED)
     figure.supylabel("mean magnitude of the contact force, N", fontsize=TITLE_POINTS)
     keys = _keys(list(groups[0]), kinds)
     if workbench is not None:
         keys.append((f"Workbench: {workbench:.4g} N", _WORKBENCH))
     if chosen is not None:
         name, kind = map(shown_name, chosen[:2])
-        keys.append((f"{name}, {kind}, lambda {chosen[2]:g}: {best:.4g} N", _BEST))
+        keys.append((f"{name}, {kind}, lambda {chosen[2]:g}: {best:.4g} N", MARKED))
     legend_below(figure, keys, title=LAMBDA_MEANING)
     return png_bytes(figure)
 
@@ -128,11 +125,9 @@ def _force_at(chosen: tuple[str, str, float], rising: FloatArray, given: _Curves
     return float(given[name][kind][places[0]])
 
 
-def _spans_decades(given: _Curves, workbench: float | None) -> bool:
+def _heights(given: _Curves, workbench: float | None) -> FloatArray:
     forces = [values for types in given.values() for values in types.values()]
-    every = np.concatenate([*forces, [] if workbench is None else [workbench]])
-    every = every[np.isfinite(every)]
-    return bool(len(every) and every.min() > 0.0 and every.max() > _LOGARITHMIC_RATIO * every.min())
+    return np.concatenate([*forces, [] if workbench is None else [workbench]])
 
 
 def _panels(count: int) -> tuple[Figure, list[Axes]]:
@@ -146,15 +141,6 @@ def _panels(count: int) -> tuple[Figure, list[Axes]]:
     for panel in panels[max(0, count - columns) : count]:
         panel.set_xlabel(LAMBDA_LABEL)
     return figure, panels[:count]
-
-
-def _set_logarithmic(panel: Axes) -> None:
-    from matplotlib.ticker import LogLocator, NullLocator
-
-    panel.set_yscale("log")
-    panel.yaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
-    panel.yaxis.set_minor_locator(NullLocator())
-    panel.yaxis.set_major_formatter(lambda value, _: f"{value:g}")
 
 
 def _draw(panel: Axes, rising: FloatArray, group: _Curves, kinds: list[str], workbench: float | None) -> None:

@@ -85,7 +85,7 @@ def _draw_plane(panel: Axes, parts: list[FloatArray]) -> None:
         panel.plot(*points.T, style.marker, color=style.colour, markersize=1.8, markeredgewidth=0.0, alpha=0.5)
     for k, points in enumerate(parts):
         # above all points
-        panel.plot(*_outline(points).T, color=look(k).colour, linestyle=look(k).dashes, linewidth=1.2, zorder=3.0)
+        panel.plot(*outline(points).T, color=look(k).colour, linestyle=look(k).dashes, linewidth=1.2, zorder=3.0)
     panel.set_aspect("equal", adjustable="datalim")
     panel.tick_params(labelsize=_SMALL_PANEL_POINTS)
     panel.grid(visible=True, color="0.9", linewidth=0.6)
@@ -98,8 +98,15 @@ def _widest_first(parts: list[FloatArray]) -> list[int]:
     return sorted(range(len(parts)), key=lambda k: (-sizes[k], k))
 
 
-def _outline(points: FloatArray) -> FloatArray:
-    """Corners of the convex hull of points in a plane, the first again at the end; none where they have no area."""
+def outline(points: FloatArray) -> FloatArray:
+    """Outline the convex hull of points in a plane.
+
+    Args:
+        points: The points; shape (n, 2).
+
+    Returns:
+        Its corners, the first again at the end; none where the points have no area; shape (m, 2).
+    """
     try:
         corners = ConvexHull(points).vertices
     except (QhullError, ValueError):
