@@ -38,7 +38,7 @@ def faults(value: Any, schema: dict[str, Any], root: dict[str, Any] | None = Non
             extra = value.keys() - schema.get("properties", {}).keys() if isinstance(value, dict) else set()
             if wanted is False:
                 found += [f"{where}: unknown key {key}" for key in extra]
-            else:
+            elif wanted is not True:
                 for key in extra:
                     found += faults(value[key], wanted, root, f"{where}.{key}")
         elif word == "items":

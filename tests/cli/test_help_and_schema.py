@@ -28,6 +28,7 @@ JSON_SCHEMAS = (
     "estimate",
     "evaluate",
     "gains",
+    "report",
     "study",
 )
 

@@ -16,6 +16,7 @@ from forcetorque.cli.parser.export import export
 from forcetorque.cli.parser.gains import gains
 from forcetorque.cli.parser.inspect import inspect
 from forcetorque.cli.parser.payload import payload
+from forcetorque.cli.parser.report import report
 from forcetorque.cli.parser.schema import schema
 from forcetorque.cli.parser.simulate import simulate
 from forcetorque.cli.parser.sphere import sphere
@@ -61,6 +62,7 @@ for _command in (
     gains,
     inspect,
     payload,
+    report,
     schema,
     simulate,
     sphere,

@@ -33,6 +33,7 @@ def run(name: str) -> None:
         "gains": _gains,
         "inspect": _inspect,
         "payload": _payload,
+        "report": _report,
         "scenario": _scenario,
         "simulate": _simulate,
         "sphere": _sphere,
@@ -114,6 +115,12 @@ def _payload() -> dict[str, Any]:
     from forcetorque.cli.payload import PayloadResult
 
     return PayloadResult.model_json_schema()
+
+
+def _report() -> dict[str, Any]:
+    from forcetorque.cli.report.result import ReportResult
+
+    return ReportResult.model_json_schema()
 
 
 def _scenario() -> dict[str, Any]:

@@ -10,6 +10,7 @@ from forcetorque.experiment.evaluate import Verdict, beyond_fitted_range, evalua
 from forcetorque.experiment.gains import JointPosition, SensorGains, StrongestSample, select_gains
 from forcetorque.experiment.inspect import doubtful_spans, inspect_experiment, inspect_recording
 from forcetorque.experiment.joint_torques import JointTorques, JointTorqueVerdict, compare_joint_torques
+from forcetorque.experiment.judged import JudgedWrenches, judged_wrenches
 from forcetorque.experiment.load import load_experiment
 from forcetorque.experiment.parse import parse_experiment
 from forcetorque.experiment.population import read_population
@@ -35,6 +36,7 @@ __all__ = [
     "JointPosition",
     "JointTorqueVerdict",
     "JointTorques",
+    "JudgedWrenches",
     "SensorGains",
     "SensorSphere",
     "SensorStudy",
@@ -55,6 +57,7 @@ __all__ = [
     "inspect_experiment",
     "inspect_recording",
     "judged_where_chosen",
+    "judged_wrenches",
     "load_experiment",
     "parse_experiment",
     "read_acceptance",

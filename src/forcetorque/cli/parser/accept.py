@@ -9,7 +9,7 @@ from typing import Annotated
 import typer
 
 from forcetorque.cli.output import Format
-from forcetorque.cli.parser.options import CalibrationsOption, ExperimentArgument, FormatOption
+from forcetorque.cli.parser.options import CalibrationsOption, ExperimentArgument, FormatOption, PopulationOption
 
 
 def accept(
@@ -18,12 +18,7 @@ def accept(
         Path, typer.Option("--spec", help="Acceptance file (TOML) with the limits; see docs/acceptance.md.")
     ],
     calibration: CalibrationsOption = None,
-    population: Annotated[
-        list[Path] | None,
-        typer.Option(
-            "--population", help="Matrix file or calibration of another sensor, or a folder of them; repeat for more."
-        ),
-    ] = None,
+    population: PopulationOption = None,
     output_format: FormatOption = Format.TABLE,
 ) -> None:
     """Accept or reject sensors by limits; exit code 1 if one fails.

@@ -19,3 +19,9 @@ CalibrationsOption = Annotated[
     list[Path] | None,
     typer.Option("--calibration", "-c", help="Calibration file; repeat for more. Default: the priors."),
 ]
+PopulationOption = Annotated[
+    list[Path] | None,
+    typer.Option(
+        "--population", help="Matrix file or calibration of another sensor, or a folder of them; repeat for more."
+    ),
+]

@@ -13,7 +13,7 @@ def schema(
         str,
         typer.Argument(
             help="experiment, acceptance, scenario, recording, calibration, accept, calibrate, estimate, evaluate, "
-            "export, gains, inspect, payload, simulate, sphere, study or validate."
+            "export, gains, inspect, payload, report, simulate, sphere, study or validate."
         ),
     ],
 ) -> None:

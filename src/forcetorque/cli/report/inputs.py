@@ -1,0 +1,89 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Files of any kind, told apart by the schema that they state."""
+
+from __future__ import annotations
+
+import json
+import tomllib
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from forcetorque.calibration import Calibration, read_calibration
+from forcetorque.errors import FormatError, MissingFileError
+from forcetorque.experiment import AcceptanceFile, read_acceptance
+
+_KINDS = "an experiment file, a calibration, an acceptance file or the JSON result of a command"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class ReportInputs:
+    """What a report is made from."""
+
+    experiments: tuple[Path, ...]
+    """Experiment files, at least one."""
+    calibrations: dict[str, Calibration]
+    """Calibrations by name of their file."""
+    acceptance: AcceptanceFile | None
+    """Limits, if there are any."""
+    results: dict[str, dict[str, Any]]
+    """Results of other commands by name of their file."""
+
+
+def sort_inputs(paths: Sequence[Path]) -> ReportInputs:
+    """Tell files apart by the schema that they state.
+
+    Args:
+        paths: The files.
+
+    Returns:
+        Them by kind.
+
+    Raises:
+        MissingFileError: If one does not exist.
+        FormatError: If one states no schema that a report knows, if there is no experiment file, or there are two
+            acceptance files.
+    """
+    experiments: list[Path] = []
+    calibrations: dict[str, Calibration] = {}
+    acceptance: list[AcceptanceFile] = []
+    results: dict[str, dict[str, Any]] = {}
+    for path in dict.fromkeys(paths):
+        content = _content(path)
+        match str(content.get("schema")).split("/")[:2]:
+            case ["forcetorque", "experiment"]:
+                experiments.append(path)
+            case ["forcetorque", "acceptance"]:
+                acceptance.append(read_acceptance(path))
+            case ["forcetorque", "calibration"]:
+                calibrations[str(path)] = read_calibration(path)
+            case ["forcetorque", _] if path.suffix == ".json":
+                results[str(path)] = content
+            case _:
+                raise FormatError(f"{path}: expected {_KINDS}, got the schema {content.get('schema')!r}")
+    if not experiments:
+        raise FormatError("report: expected an experiment file among the files, its samples are drawn; got none")
+    if len(acceptance) > 1:
+        raise FormatError(f"report: expected one acceptance file, got {len(acceptance)}")
+    return ReportInputs(
+        experiments=tuple(experiments),
+        calibrations=calibrations,
+        acceptance=acceptance[0] if acceptance else None,
+        results=results,
+    )
+
+
+def _content(path: Path) -> dict[str, Any]:
+    if path.is_dir():
+        raise FormatError(f"{path}: expected {_KINDS}, got a folder; name the files in it")
+    if not path.is_file():
+        raise MissingFileError(f"{path}: expected {_KINDS}, there is none")
+    try:
+        text = path.read_text(encoding="utf-8")
+        content = tomllib.loads(text) if path.suffix == ".toml" else json.loads(text)
+    except ValueError as error:  # also what is no UTF-8, no TOML or no JSON
+        raise FormatError(f"{path}: expected {_KINDS}: {error}") from error
+    if not isinstance(content, dict):
+        raise FormatError(f"{path}: expected {_KINDS}, got a {type(content).__name__}")
+    return content

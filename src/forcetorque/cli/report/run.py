@@ -1,0 +1,102 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Makes the report and writes its files."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from datetime import UTC, datetime
+from importlib.metadata import version
+from pathlib import Path
+
+from forcetorque.atomic import write_bytes_atomically
+from forcetorque.cli.output import Format, console, print_result, start_logging
+from forcetorque.cli.reading import read_experiment
+from forcetorque.cli.report.gather import Demands, gather_experiment
+from forcetorque.cli.report.inputs import sort_inputs
+from forcetorque.cli.report.result import ReportResult
+from forcetorque.cli.report.sections import report_document
+from forcetorque.errors import ExperimentError, ForceTorqueError
+from forcetorque.experiment import read_population
+from forcetorque.experiment.fitness import by_sensor
+from forcetorque.experiment.inputs import stated_in
+from forcetorque.report.document import Document, html_bytes, pdf_bytes
+
+_WRITERS: dict[str, Callable[[Document], bytes]] = {".html": html_bytes, ".pdf": pdf_bytes}
+
+
+def run(
+    paths: Sequence[Path],
+    *,
+    outputs: Sequence[Path],
+    title: str | None,
+    population: Sequence[Path] | None,
+    output_format: Format,
+) -> None:
+    """Write one document about the sensors of experiments.
+
+    Args:
+        paths: Experiment files, calibrations, an acceptance file and results of other commands, in any order.
+        outputs: Files to write, .html or .pdf; the numbers are written beside the first, as .json.
+        title: Title of the document.
+        population: Matrix files, calibrations or folders of them, of other sensors.
+        output_format: Form of the result.
+
+    Raises:
+        ForceTorqueError: If a file to write is of no known kind.
+        ExperimentError: If a calibration is of no sensor of the experiments.
+    """
+    log = start_logging()
+    for output in outputs:
+        if output.suffix.lower() not in _WRITERS:
+            raise ForceTorqueError(f"--output {output}: expected a name that ends in {' or '.join(_WRITERS)}")
+    given = sort_inputs(paths)
+    others = read_population(population) if population else None
+    demands = Demands(acceptance=given.acceptance, population=others)
+    material, unused = [], dict(given.calibrations)
+    for path in given.experiments:
+        experiment = read_experiment(path, log)
+        known = {name for sensor in experiment.model.sensors.values() for name in (sensor.name, *sensor.aliases)}
+        named = {sensor.name for sensor in experiment.sensors}
+        own = {
+            file: one
+            for file, one in given.calibrations.items()
+            if one.sensor.name in known and experiment.model.sensor(one.sensor.name).name in named
+        }
+        unused = {file: one for file, one in unused.items() if file not in own}
+        with stated_in(str(path)):
+            groups = by_sensor(experiment, own)
+            material.append(gather_experiment(path, experiment, groups, demands, log.info))
+    for file, calibration in unused.items():
+        raise ExperimentError(f"{file}: calibrates {calibration.sensor.name!r}, which none of the experiments has")
+    names = ", ".join(dict.fromkeys(each.report.experiment for each in material))
+    result = ReportResult(
+        title=title or f"Force-torque sensors: {names}",
+        created=datetime.now(UTC).isoformat(timespec="seconds"),
+        code_version=version("forcetorque"),
+        experiments=[each.report for each in material],
+        results=given.results,
+    )
+    log.info("drawing")
+    document = report_document(result, material)
+    for output in outputs:
+        write_bytes_atomically(output, _WRITERS[output.suffix.lower()](document))
+    numbers = outputs[0].with_suffix(".json")
+    write_bytes_atomically(numbers, result.model_dump_json(by_alias=True, indent=1).encode())
+    rows = [
+        {"experiment": each.experiment, "sensor": sensor.sensor, "serial": sensor.serial, **line.model_dump()}
+        for each in result.experiments
+        for sensor in each.sensors
+        for line in sensor.verdict
+    ]
+    files = [str(output) for output in (*outputs, numbers)]
+    print_result(result.model_dump(mode="json", by_alias=True), rows, output_format, show=lambda: _show(result, files))
+
+
+def _show(result: ReportResult, files: Sequence[str]) -> None:
+    screen = console()
+    for each in result.experiments:
+        for sensor in each.sensors:
+            screen.print(f"{each.experiment}: {sensor.sensor} ({sensor.serial})", soft_wrap=True)
+            for line in sensor.verdict:
+                screen.print(f"  {line.tone}: {line.text}", soft_wrap=True)
+    screen.print(f"written: {', '.join(files)}", soft_wrap=True)

@@ -1,0 +1,129 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What a document is made of, before anyone decides how it looks."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import StrEnum
+
+from forcetorque.errors import ShapeError
+
+
+class Tone(StrEnum):
+    """How good a verdict is; a word and a sign say it too, so that it does not hang on a colour."""
+
+    GOOD = "good"
+    CAUTION = "caution"
+    BAD = "bad"
+    UNKNOWN = "unknown"
+
+    @property
+    def sign(self) -> str:
+        """A sign that stands before the verdict."""
+        return {Tone.GOOD: "✓", Tone.CAUTION: "!", Tone.BAD: "✗", Tone.UNKNOWN: "?"}[self]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Verdict:
+    """One sentence that matters more than what follows."""
+
+    tone: Tone
+    """How good it is."""
+    text: str
+    """The sentence."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Text:
+    """A paragraph."""
+
+    text: str
+    """Its words."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class List:
+    """Points one below the other."""
+
+    points: tuple[str, ...]
+    """The points."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Table:
+    """A table; cells are text that is already rounded."""
+
+    caption: str
+    """What it shows, with units where the headings have none."""
+    headings: tuple[str, ...]
+    """Headings of the columns."""
+    rows: tuple[tuple[str, ...], ...]
+    """Rows of as many cells."""
+
+    def __post_init__(self) -> None:
+        for row in self.rows:
+            if len(row) != len(self.headings):
+                raise ShapeError(f"table {self.caption!r}: expected {len(self.headings)} cells, got {len(row)}")
+
+    @property
+    def numeric(self) -> tuple[bool, ...]:
+        """Which columns hold numbers, and are set to the right."""
+        return tuple(
+            bool(self.rows) and all(_is_number(row[k]) for row in self.rows) for k in range(len(self.headings))
+        )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Figure:
+    """A picture."""
+
+    png: bytes
+    """The picture as PNG."""
+    caption: str
+    """What stands below it."""
+    description: str
+    """What it shows, for who cannot see it."""
+
+
+Block = Verdict | Text | List | Table | Figure
+"""Anything that stands in a section."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Section:
+    """A heading and what stands below it."""
+
+    title: str
+    """The heading."""
+    blocks: tuple[Block, ...] = ()
+    """What stands below it."""
+    sections: tuple[Section, ...] = ()
+    """Sections inside it."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Document:
+    """A document."""
+
+    title: str
+    """Its title."""
+    subtitle: str
+    """A line below the title."""
+    created: str
+    """When it was made, ISO 8601 with time zone."""
+    sections: tuple[Section, ...]
+    """Its sections."""
+
+
+def _is_number(cell: str) -> bool:
+    # cells such as "0.38 ±0.02" are numbers to the reader, and an empty one does not speak against it
+    words = cell.replace("±", " ").split()
+    return all(_is_float(word) or word in {"-", "to", "any"} for word in words)
+
+
+def _is_float(word: str) -> bool:
+    try:
+        float(word)
+    except ValueError:
+        return False
+    return True

@@ -1,0 +1,52 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Documents as one HTML file that needs nothing else: pictures inside, no script, fit for print."""
+
+from __future__ import annotations
+
+import base64
+import re
+from importlib import resources
+from typing import Any
+
+from forcetorque.errors import MissingExtraError
+from forcetorque.report.document.content import Block, Document, Figure, List, Table, Text, Verdict
+from forcetorque.report.document.small_png import small_png
+
+_KINDS = {Verdict: "verdict", Text: "text", List: "list", Table: "table", Figure: "figure"}
+
+
+def html_bytes(document: Document) -> bytes:
+    """Write a document as HTML.
+
+    Args:
+        document: The document.
+
+    Returns:
+        The file, UTF-8.
+
+    Raises:
+        MissingExtraError: If jinja2 is not installed.
+    """
+    try:
+        from jinja2 import Environment, StrictUndefined
+    except ImportError as error:
+        raise MissingExtraError("reports are written by jinja2: pip install forcetorque[report]") from error
+    folder = resources.files("forcetorque.report.document")
+    environment = Environment(autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True)
+    environment.filters |= {"kind": _kind, "anchor": _anchor, "data_url": _data_url}
+    template = environment.from_string((folder / "document.html.j2").read_text(encoding="utf-8"))
+    style = (folder / "document.css").read_text(encoding="utf-8")
+    return template.render(document=document, style=style).encode()
+
+
+def _kind(block: Block) -> str:
+    return _KINDS[type(block)]
+
+
+def _anchor(*titles: Any) -> str:
+    """An identifier from the headings that lead to a section."""
+    return "-".join(re.sub(r"[^a-z0-9]+", "-", str(title).lower()).strip("-") for title in titles if title)
+
+
+def _data_url(png: bytes) -> str:
+    return "data:image/png;base64," + base64.b64encode(small_png(png)).decode("ascii")

@@ -1,0 +1,248 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""`forcetorque report`: the numbers of the other commands in one document, verdict first, and what it refuses."""
+
+from __future__ import annotations
+
+import json
+import re
+import shutil
+import subprocess
+import sys
+from contextlib import chdir
+from html.parser import HTMLParser
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from tests.cli.json_schema import faults
+from tests.cli.outcome import Run
+from tests.experiments import PARQUET, TWO, edit, snapshot
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+YOGA = EXAMPLES / "02_icub_yoga_forward.toml"
+LIMITS = """schema = "forcetorque/acceptance/1"
+name = "limits"
+
+[evaluate]
+force_error_mean_N = 1.0
+
+[matrix]
+condition = 0.5
+"""
+NORMAL_BYTES = 2_000_000
+"""Largest size of the document of a normal study."""
+
+
+class _Words(HTMLParser):
+    """The text of a page without its style, line by line."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.lines: list[str] = []
+        self._inside: list[str] = []
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        if tag == "style":
+            self._inside.append(tag)
+
+    def handle_endtag(self, tag: str) -> None:
+        if tag == "style":
+            self._inside.pop()
+
+    def handle_data(self, data: str) -> None:
+        if not self._inside and data.strip():
+            self.lines.append(" ".join(data.split()))
+
+
+def _words(path: str) -> list[str]:
+    page = _Words()
+    page.feed(Path(path).read_text(encoding="utf-8"))
+    return page.lines
+
+
+def _sensor(result: Any) -> Any:
+    ((sensor,),) = [each["sensors"] for each in result["experiments"]]
+    return sensor
+
+
+@pytest.fixture(scope="module")
+def reported(intact: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Folder in which a report was written of a calibrated sensor, limits and the result of another command."""
+    folder = Path(shutil.copytree(intact, tmp_path_factory.mktemp("reported") / "arm"))
+    (folder / "limits.toml").write_text(LIMITS, encoding="utf-8")
+    with chdir(folder):
+        gains = _typed("gains", PARQUET, "--format", "json")
+        Path("gains.json").write_text(json.dumps(json.loads(gains) | {"experiment": "<b>bold</b>"}), encoding="utf-8")
+        files = (PARQUET, "gains.json", "fitted.json", "limits.toml")
+        printed = _typed("report", *files, "-o", "report.html", "-o", "report.pdf", "--format", "json")
+    (folder / "printed.json").write_text(printed, encoding="utf-8")
+    return folder
+
+
+def _typed(*words: str) -> str:
+    """Standard output of a command."""
+    done = subprocess.run([sys.executable, "-m", "forcetorque", *words], capture_output=True, text=True, check=True)
+    return done.stdout
+
+
+@pytest.fixture
+def result(reported: Path, monkeypatch: pytest.MonkeyPatch) -> Any:
+    """What was printed; its folder is the working folder."""
+    monkeypatch.chdir(reported)
+    return json.loads(Path("printed.json").read_text(encoding="utf-8"))
+
+
+def test_the_numbers_are_those_of_the_other_commands(result: Any, run: Run) -> None:
+    """Row by row; the file beside the document holds what is printed, and it fits its schema."""
+    assert faults(result, run("schema", "report").result()) == []
+    assert json.loads(Path("report.json").read_text(encoding="utf-8")) == result
+    sensor = _sensor(result)
+    same = ("-c", "fitted.json", "--format", "json")
+    assert sensor["evaluation"] == run("evaluate", PARQUET, *same).result()["verdicts"]
+    validated = run("validate", PARQUET, *same).result()
+    for key in ("contact_forces", "joint_torques", "best"):
+        assert sensor[key] == validated[key]
+        assert sensor[key]
+    assert sensor["spheres"] == run("sphere", PARQUET, *same).result()["rows"]
+    accepted = json.loads(run("accept", PARQUET, "--spec", "limits.toml", *same).out)
+    assert (sensor["criteria"], sensor["static"]) == (accepted["criteria"], accepted["measured"])
+    assert result["experiments"][0]["findings"] == run("inspect", PARQUET, "--format", "json").result()["findings"]
+    assert sensor["not_judged"] == {}
+
+
+def test_the_verdict_comes_first_and_says_what_the_numbers_say(result: Any) -> None:
+    """A failed limit is the first sentence; better by far is good, with both numbers of the evaluation."""
+    sensor = _sensor(result)
+    first, second, *_ = sensor["verdict"]
+    assert first["tone"] == "bad"
+    assert "fitted.json is not accepted: 1 of 2 criteria fail: matrix.condition" in first["text"]
+    prior, new = (
+        next(row for row in sensor["evaluation"] if row["offset"] == "fitted" and row["candidate"] == name)
+        for name in ("prior", "fitted.json")
+    )
+    assert second["tone"] == "good"
+    for row in (prior, new):
+        assert f"{row['force_error_mean_N']:.2f} ±{row['force_error_standard_error_N']:.2f} N" in second["text"]
+    lines = _words("report.html")
+    title, verdict, measured = (lines.index(text) for text in (result["title"], first["text"], "Intervals"))
+    assert title < verdict < measured
+
+
+def test_the_document_holds_the_tables_and_pictures(result: Any) -> None:
+    """Every section of a calibrated sensor, the cells of its tables, one picture each; less than 2 MB."""
+    sensor = _sensor(result)
+    lines = _words("report.html")
+    for title in (
+        "Errors on data that was not fitted",
+        "Force and moment space",
+        "Contact force where nothing touches",
+        "Joint torques",
+        "Choice of lambda",
+        "Excitation",
+        "Uncertainty",
+        "What the sensor can do",
+        "Acceptance",
+        "Provenance",
+    ):
+        assert title in lines
+    for row in sensor["evaluation"]:
+        assert all(f"{value:.3f}" in lines for value in row["rmse"])
+    matrix = sensor["calibrations"]["fitted.json"]["matrix"]
+    assert any(line.startswith(f"{matrix[2][3]:.3e} ±") for line in lines)
+    html = Path("report.html").read_bytes()
+    assert html.count(b"<img ") == 6
+    assert len(html) < NORMAL_BYTES
+    assert Path("report.pdf").read_bytes().startswith(b"%PDF")
+
+
+def test_results_of_other_commands_are_shown_as_they_are(result: Any) -> None:
+    """A table per list of rows; markup in their words does not become markup."""
+    gains = json.loads(Path("gains.json").read_text(encoding="utf-8"))
+    assert result["results"] == {"gains.json": gains}
+    assert "Result of gains" in _words("report.html")
+    assert b"<b>bold" not in Path("report.html").read_bytes()
+
+
+def test_without_a_calibration_the_priors_are_shown(arm: Path, run: Run) -> None:
+    """Of all sensors; the verdict says that there is nothing to compare them with."""
+    result = run("report", TWO, "-o", "report.html", "--format", "json").result()
+    sensors = result["experiments"][0]["sensors"]
+    assert [sensor["sensor"] for sensor in sensors] == ["arm_ft", "tool_ft"]
+    for sensor in sensors:
+        assert {row["candidate"] for row in sensor["evaluation"]} == {"prior"}
+        assert sensor["verdict"][0]["tone"] == "unknown"
+        assert sensor["verdict"][0]["text"].endswith("no calibration was given to compare it with")
+
+
+def test_what_cannot_be_judged_is_said_and_the_rest_is_shown(arm: Path, run: Run) -> None:
+    """An experiment whose only interval was fitted: no errors, but spheres, static checks and uncertainty."""
+    edit(arm / PARQUET, 'use = "validation"', 'use = "ignore"')
+    sensor = _sensor(run("report", PARQUET, "fitted.json", "-o", "report.html", "--format", "json").result())
+    assert set(sensor["not_judged"]) == {"evaluation", "contact forces", "joint torques"}
+    assert sensor["evaluation"] == []
+    assert sensor["spheres"]
+    assert sensor["static"]
+    unknown = [line["text"] for line in sensor["verdict"] if line["tone"] == "unknown"]
+    assert any(text.startswith("not judged: evaluation: ") for text in unknown)
+    assert "Errors on data that was not fitted" not in _words("report.html")
+    assert "Uncertainty" in _words("report.html")
+
+
+REFUSED = {
+    "no experiment": (["fitted.json"], r"expected an experiment file among the files, its samples are drawn; got none"),
+    "missing file": ([PARQUET, "none.json"], r"none.json: expected an experiment file, .* there is none"),
+    "folder": (
+        [PARQUET, "recording"],
+        r"recording: expected an experiment file, .* got a folder; name the files in it",
+    ),
+    "not JSON": ([PARQUET, "broken.json"], r"broken.json: expected an experiment file, .*: Expecting "),
+    "no schema": ([PARQUET, "other.json"], r"other.json: expected .*, got the schema None"),
+    "a list": ([PARQUET, "list.json"], r"list.json: expected .*, got a list"),
+    "two limits": ([PARQUET, "a.toml", "b.toml"], r"expected one acceptance file, got 2"),
+    "foreign calibration": (
+        [PARQUET, "foreign.json"],
+        r"foreign.json: calibrates 'leg_ft', which none of the experiments",
+    ),
+}
+
+
+@pytest.mark.parametrize("name", REFUSED)
+def test_bad_input_is_one_line_and_nothing_is_written(arm: Path, run: Run, name: str) -> None:
+    """Each says which file, what was expected and what came."""
+    Path("broken.json").write_text("{", encoding="utf-8")
+    Path("other.json").write_text("{}", encoding="utf-8")
+    Path("list.json").write_text("[]", encoding="utf-8")
+    for limits in ("a.toml", "b.toml"):
+        Path(limits).write_text(LIMITS, encoding="utf-8")
+    content = json.loads(Path("fitted.json").read_text(encoding="utf-8"))
+    content["sensor"]["name"] = "leg_ft"
+    Path("foreign.json").write_text(json.dumps(content), encoding="utf-8")
+    files, message = REFUSED[name]
+    before = snapshot(arm)
+    ended = run("report", *files, "-o", "report.html")
+    assert ended.code == 2
+    assert re.search(message, ended.error())
+    assert snapshot(arm) == before
+
+
+def test_other_kinds_of_files_are_refused_before_anything_is_read(arm: Path, run: Run) -> None:
+    """The second file to write counts too."""
+    ended = run("report", PARQUET, "-o", "report.html", "-o", "report.docx")
+    assert ended.code == 2
+    assert "--output report.docx: expected a name that ends in .html or .pdf" in ended.error()
+    assert not Path("report.html").exists()
+
+
+@pytest.mark.real_data
+def test_a_real_leg(data_dir: Path, run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The verdict on the yoga log: better with its own offset, no difference with a re-estimated one."""
+    monkeypatch.chdir(tmp_path)
+    assert run("calibrate", YOGA, "-o", "leg.json").code == 0
+    sensor = _sensor(run("report", YOGA, "leg.json", "-o", "leg.html", "-o", "leg.pdf", "--format", "json").result())
+    tones = [line["tone"] for line in sensor["verdict"]]
+    assert tones == ["good", "caution", "caution", "caution"]
+    assert "does not tell from none" in sensor["verdict"][1]["text"]
+    assert "moved 5 of 6 raw directions" in sensor["verdict"][3]["text"]
+    assert Path("leg.html").stat().st_size < NORMAL_BYTES
+    assert min(count for row in sensor["independence"] for count in row["independent"]) < 200
