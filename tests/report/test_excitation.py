@@ -60,7 +60,7 @@ def test_directions_are_written_with_their_largest_part_positive(drawn: list[Fig
     written = np.reshape([text.get_text() for text in parts.texts], (3, 3)).tolist()
     assert written == [["0.71", "0.71", "0.00"], ["0.00", "0.00", "1.00"], ["0.71", "−0.71", "0.00"]]
     np.testing.assert_allclose(parts.images[0].get_array()[0], [TURN, TURN, 0.0])
-    assert [text.get_color() for text in parts.texts[:3]] == ["white", "white", "black"]
+    assert [text.get_color() for text in parts.texts[3:6]] == ["black", "black", "white"]
     flipped = (*SENSOR[:4], [-SENSOR[4][0]])
     assert excitation_figure(*flipped) == excitation_figure(*SENSOR)
 
