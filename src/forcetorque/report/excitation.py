@@ -31,8 +31,9 @@ _DIRECTION_INCHES, _ROW_INCHES = 0.3, 1.25
 """Height of a direction, and of what a row has beside its directions: title, axis and room; inch."""
 _MOST_WRITTEN = 10
 """Channels up to which the parts of a direction have room to be written as numbers; beyond, only minus signs have."""
-_DARK = 0.55
-"""Part of a direction from which on its cell is so dark that white letters are read better."""
+_DARK = 0.72
+"""Part of a direction from which on its cell is so dark, of a luminance below 0.18, that white letters have the higher
+contrast."""
 _SEEN = 0.1
 """Part of a direction from which on its cell is seen not to be white."""
 _ROOM = 0.3

@@ -87,22 +87,23 @@ def set_lambda_axis(panel: Axes, lambdas: FloatArray, *, infinite: float | None 
 
     Args:
         panel: The panel.
-        lambdas: What is drawn over; rising, finite; shape (l,); counts2.
+        lambdas: What is drawn over; rising, finite, none only if infinity is drawn; shape (l,); counts2.
         infinite: Where lambda infinite is drawn, as `infinite_place` chose it; None where it is not; counts2.
     """
     positive = lambdas[lambdas > 0.0]
-    if len(positive) == len(lambdas):
+    if not len(positive):
+        # 0 alone, or nothing but infinity
+        panel.set_xticks(lambdas)
+    elif len(positive) == len(lambdas):
         panel.set_xscale("log")
-        if infinite is not None and len(positive):
+        if infinite is not None:
             panel.set_xticks(_decades(positive) or [positive[0]])
             panel.xaxis.set_major_formatter(_lambda_text)
-    elif len(positive):
+    else:
         panel.set_xscale("symlog", linthresh=positive[0], linscale=_ZERO_DECADES)
         panel.set_xticks([0.0, *(_decades(positive) or [positive[0]])])
         panel.set_xlim(-0.15 * positive[0], _right_edge(positive))
         panel.xaxis.set_major_formatter(_lambda_text)
-    else:
-        panel.set_xticks([0.0])
     if infinite is not None:
         _add_infinite(panel, positive, infinite)
     panel.set_xticks([], minor=True)
@@ -124,7 +125,7 @@ def _right_edge(positive: FloatArray, last: float | None = None) -> float:
 
 def _add_infinite(panel: Axes, positive: FloatArray, infinite: float) -> None:
     """A place of its own right of the last lambda, behind a dotted line."""
-    finite = [float(tick) for tick in panel.get_xticks()] if len(positive) else [0.0]
+    finite = [float(tick) for tick in panel.get_xticks()]
     texts = [_lambda_text(tick, 0.0) for tick in finite]
     panel.set_xticks([*finite, infinite], [*texts, "∞"])
     if len(positive):

@@ -154,8 +154,8 @@ def bin_edges(columns: list[FloatArray]) -> FloatArray:
 def _draw_correlation(panel: Axes, found: list[Autocorrelation], component: str) -> None:
     panel.set_xscale("log")
     longest = max(found, key=lambda each: len(each.lag_s))
-    lag, band = longest.lag_s[1:], longest.white_band[1:]
-    if len(lag):
+    if len(longest.lag_s) > 1:
+        lag, band = thinned_lags(longest.lag_s, longest.white_band)
         panel.fill_between(lag, -band, band, color=_BAND["color"], linewidth=0.0)
     panel.axhline(0.0, **_ZERO)
     for j, each in enumerate(found):
