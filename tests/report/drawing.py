@@ -7,6 +7,7 @@ import io
 import struct
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -17,12 +18,13 @@ from matplotlib.image import imread
 from matplotlib.text import Text
 
 from forcetorque.evaluation.sphere import analyse_sphere
-from forcetorque.experiment import SensorSphere
+from forcetorque.experiment import SensorSphere, TrialGroup, TrialSphere, group_trials
 from forcetorque.report import (
     comparison_figure,
     contact_figure,
     difference_figure,
     force_space_figure,
+    index_figure,
     lambda_difference_figure,
     lambda_force_figure,
     space_figure,
@@ -102,6 +104,30 @@ def _sphere(rng: np.random.Generator) -> bytes:
     return sphere_figure([sphere_of(force, reference), sphere_of(force[:40], None, candidate="new.json", mass=4.7)])
 
 
+def trial_groups(
+    rng: np.random.Generator, *, sensors: int, trials: int = 3, caps: int = 0, with_reference: bool = True
+) -> list[TrialGroup]:
+    """Groups of trials of sensors, the last of which covered a small part of the sphere only."""
+    found = []
+    for k in range(sensors):
+        matrix = np.eye(3) + 0.15 * rng.normal(size=(3, 3))
+        for _ in range(trials):
+            directions = rng.normal(size=(300, 3))
+            if k >= sensors - caps:
+                directions = 0.1 * directions + [0.0, 0.0, 1.0]
+            reference = 46.0 * directions / np.linalg.norm(directions, axis=1, keepdims=True)
+            force = reference @ matrix.T + 5.0 * rng.normal(size=3) + 0.5 * rng.normal(size=(300, 3))
+            sphere = replace(sphere_of(force, reference if with_reference else None, mass=4.7), serial=f"SN{k}")
+            found.append(
+                TrialSphere(file="a.toml", experiment="a", condition=None, number=None, prior=None, sphere=sphere)
+            )
+    return group_trials(found)[0]
+
+
+def _index(rng: np.random.Generator) -> bytes:
+    return index_figure(trial_groups(rng, sensors=4, caps=1))
+
+
 FIGURES: dict[str, Callable[[np.random.Generator], bytes]] = {
     "space": _space,
     "force space": _force_space,
@@ -111,6 +137,7 @@ FIGURES: dict[str, Callable[[np.random.Generator], bytes]] = {
     "contact": _contact,
     "comparison": _comparison,
     "sphere": _sphere,
+    "index": _index,
 }
 """A figure of every kind that is drawn from plain arrays, of random data."""
 

@@ -10,7 +10,7 @@ from typing import Annotated
 import typer
 
 from forcetorque.cli.options import CalibrationsOption, ExperimentArgument, FormatOption, SensorOption
-from forcetorque.cli.output import ExportFormat, Format, OtherSensorsChoice
+from forcetorque.cli.output import ExportFormat, Format, OtherSensorsChoice, TrialsChoice
 from forcetorque.errors import ForceTorqueError
 
 app = typer.Typer(
@@ -95,6 +95,50 @@ def _calibrate(
         sensors=sensor,
         regularisation=regularisation,
         kind=kind,
+        output_format=output_format,
+    )
+
+
+@app.command("compare")
+def _compare(
+    experiments: Annotated[
+        list[Path], typer.Argument(help="Experiment files (TOML), in the order of the trials; see docs/sphere.md.")
+    ],
+    sensor: SensorOption = None,
+    calibration: Annotated[
+        list[Path] | None,
+        typer.Option("--calibration", "-c", help="Calibration file to compare with the prior; repeat for more."),
+    ] = None,
+    interval: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--interval",
+            help="Label or kind of an interval whose motion draws a sphere; repeat for more. Default: the sphere "
+            "intervals of each file, else all.",
+        ),
+    ] = None,
+    trials: Annotated[
+        TrialsChoice,
+        typer.Option("--trials", help="Whether a trial is a file with all its intervals, or each interval."),
+    ] = TrialsChoice.FILES,
+    figure: Annotated[
+        Path | None, typer.Option("--figure", help="PNG of the indices of trials, their mean and the pooled fit.")
+    ] = None,
+    output_format: FormatOption = Format.TABLE,
+) -> None:
+    """Compare the spheres of many sensors, mountings and trials.
+
+    Example: forcetorque compare first.toml second.toml third.toml
+    """
+    from forcetorque.cli.compare import run
+
+    run(
+        experiments,
+        sensors=sensor,
+        calibrations=calibration,
+        intervals=interval,
+        by_interval=trials is TrialsChoice.INTERVALS,
+        figure=figure,
         output_format=output_format,
     )
 
@@ -269,8 +313,8 @@ def _schema(
     name: Annotated[
         str,
         typer.Argument(
-            help="experiment, acceptance, scenario, recording, calibration, accept, calibrate, estimate, evaluate, "
-            "export, gains, inspect, payload, simulate, sphere, study or validate."
+            help="experiment, acceptance, scenario, recording, calibration, accept, calibrate, compare, estimate, "
+            "evaluate, export, gains, inspect, payload, simulate, sphere, study or validate."
         ),
     ],
 ) -> None:

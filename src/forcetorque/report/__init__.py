@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Results for people: figures, from what the experiments gave."""
 
+from forcetorque.report.compare import index_figure
 from forcetorque.report.comparison import comparison_figure
 from forcetorque.report.contacts import contact_figure
 from forcetorque.report.differences import difference_figure
@@ -17,6 +18,7 @@ __all__ = [
     "difference_figure",
     "force_space_figure",
     "gain_figure",
+    "index_figure",
     "lambda_difference_figure",
     "lambda_force_figure",
     "space_figure",
