@@ -125,7 +125,7 @@ def trial_groups(
 
 
 def _index(rng: np.random.Generator) -> bytes:
-    return index_figure(trial_groups(rng, sensors=4, caps=1))
+    return index_figure(trial_groups(rng, sensors=2, trials=2, caps=1))
 
 
 FIGURES: dict[str, Callable[[np.random.Generator], bytes]] = {

@@ -292,9 +292,10 @@ def flat_rows(result: CompareResult) -> list[dict[str, object]]:
 
 def _flat_group(by: GroupFitRow) -> list[tuple[str, dict[str, object]]]:
     ends = {"index_low_kg": by.mean_low_kg, "index_high_kg": by.mean_high_kg}
+    ends["rank"] = by.rank if by.pooled is None else None
     known = by.known > 0
     rows: list[tuple[str, dict[str, object]]] = [
-        ("mean", {"trials": by.known, "identifiable": known, "index_kg": by.mean_index_kg, **ends, "rank": None})
+        ("mean", {"trials": by.known, "identifiable": known, "index_kg": by.mean_index_kg, **ends})
     ]
     if by.pooled is not None:
         rows.append(("pooled", {**_flat_fit(by.pooled), "rank": by.rank}))

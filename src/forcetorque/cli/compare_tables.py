@@ -181,7 +181,7 @@ def _index(fit: EllipsoidRow | None) -> str:
 def _mean(fit: GroupFitRow | None, trials: int) -> str:
     if fit is None or fit.mean_index_kg is None:
         return "-"
-    of = "" if fit.known == trials else f" of {fit.known}"
+    of = "" if fit.known == trials else f", {fit.known} of {trials}"
     return f"{fit.mean_index_kg:.4f}{of}"
 
 
