@@ -212,8 +212,8 @@ TABLES = {
     "[calibration]": ("calibration", "from_reference, lambda_counts2, offset, sphere_intervals, type, with_variables"),
     'name = "small arm"': (
         "top level",
-        "calibration, contact, estimation, interval, load, name, processing, recording, robot, schema, sensor, support, "
-        "trial",
+        "calibration, contact, estimation, interval, load, name, processing, recording, robot, schema, sensor, "
+        "support, trial",
     ),
 }
 
