@@ -92,7 +92,13 @@ def test_a_later_package_is_noticed() -> None:
     assert _violations("recording", {"spatial", "errors", "calibration"}) == {"calibration"}
 
 
-DISTRIBUTIONS = {"icub_models": "icub-models", "pydantic_core": "pydantic", "sklearn": "scikit-learn"}
+DISTRIBUTIONS = {
+    "PIL": "pillow",
+    "fpdf": "fpdf2",
+    "icub_models": "icub-models",
+    "pydantic_core": "pydantic",
+    "sklearn": "scikit-learn",
+}
 """Distribution of an importable name, where they differ."""
 
 PROJECT = tomllib.loads((ROOT.parents[1] / "pyproject.toml").read_text(encoding="utf-8"))["project"]

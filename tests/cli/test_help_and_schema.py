@@ -25,6 +25,7 @@ JSON_SCHEMAS = (
     "calibration",
     "accept",
     "calibrate",
+    "compare",
     "estimate",
     "evaluate",
     "gains",
@@ -138,6 +139,7 @@ def test_experiment_files_fit_the_printed_schema(run: Run, form: str) -> None:
         assert faults({**content, "calibration": {"lambda_counts2": value}}, schema) == []
     for calibration in ({"type": "OwTrTO"}, {"offset": "sphere", "with_variables": True, "sphere_intervals": ["fit"]}):
         assert faults({**content, "calibration": calibration}, schema) == []
+    assert faults({**content, "trial": {"condition": "2 N m", "number": 1}}, schema) == []
     variables = [
         {"name": "temperature"},
         {"name": "supply", "stream": "board", "quantity": "scalar", "column": "supply"},
@@ -149,6 +151,7 @@ def test_experiment_files_fit_the_printed_schema(run: Run, form: str) -> None:
         {"calibration": {"offset": "centralized"}},
         {"sensor": [{**content["sensor"][0], "variable": [{"quantity": "temperature"}]}]},
         {"colour": "red"},
+        {"trial": {"number": 0}},
         {"name": 3},
         {"calibration": {"lambda_counts2": -1}},
         {"sensor": []},

@@ -191,7 +191,7 @@ def test_what_cannot_be_judged_is_said_and_the_rest_is_shown(arm: Path, run: Run
 
 REFUSED = {
     "no experiment": (["fitted.json"], r"expected an experiment file among the files, its samples are drawn; got none"),
-    "missing file": ([PARQUET, "none.json"], r"none.json: expected an experiment file, .* there is none"),
+    "missing file": ([PARQUET, "none.json"], r"none.json: expected a file to report on, there is none"),
     "folder": (
         [PARQUET, "recording"],
         r"recording: expected an experiment file, .* got a folder; name the files in it",

@@ -81,6 +81,7 @@ def test_the_documented_file_is_one(tmp_path: Path) -> None:
     assert parsed.calibration.type == "OnTdTO"
     assert parsed.processing.smoothing is not None
     assert (parsed.interval[0].kind, parsed.interval[0].session) == ("balancing support", "day 3")
+    assert (parsed.trial.condition, parsed.trial.number) == ("2 N m", 1)
 
 
 def test_the_documented_variables_fit_into_it(tmp_path: Path) -> None:
@@ -211,7 +212,8 @@ TABLES = {
     "[calibration]": ("calibration", "from_reference, lambda_counts2, offset, sphere_intervals, type, with_variables"),
     'name = "small arm"': (
         "top level",
-        "calibration, contact, estimation, interval, load, name, processing, recording, robot, schema, sensor, support",
+        "calibration, contact, estimation, interval, load, name, processing, recording, robot, schema, sensor, "
+        "support, trial",
     ),
 }
 

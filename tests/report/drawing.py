@@ -7,6 +7,7 @@ import io
 import struct
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -17,7 +18,7 @@ from matplotlib.image import imread
 from matplotlib.text import Text
 
 from forcetorque.evaluation.sphere import analyse_sphere
-from forcetorque.experiment import SensorSphere
+from forcetorque.experiment import SensorSphere, TrialGroup, TrialSphere, group_trials
 from forcetorque.report import (
     comparison_figure,
     contact_figure,
@@ -25,6 +26,7 @@ from forcetorque.report import (
     excitation_figure,
     force_space_figure,
     held_out_figure,
+    index_figure,
     lambda_difference_figure,
     lambda_force_figure,
     residual_figure,
@@ -133,6 +135,30 @@ def _held_out(rng: np.random.Generator) -> bytes:
     return held_out_figure(curves, worst_ratios={"right": rng.uniform(0.1, 9.0, len(lambdas))})
 
 
+def trial_groups(
+    rng: np.random.Generator, *, sensors: int, trials: int = 3, caps: int = 0, with_reference: bool = True
+) -> list[TrialGroup]:
+    """Groups of trials of sensors, the last of which covered a small part of the sphere only."""
+    found = []
+    for k in range(sensors):
+        matrix = np.eye(3) + 0.15 * rng.normal(size=(3, 3))
+        for _ in range(trials):
+            directions = rng.normal(size=(300, 3))
+            if k >= sensors - caps:
+                directions = 0.1 * directions + [0.0, 0.0, 1.0]
+            reference = 46.0 * directions / np.linalg.norm(directions, axis=1, keepdims=True)
+            force = reference @ matrix.T + 5.0 * rng.normal(size=3) + 0.5 * rng.normal(size=(300, 3))
+            sphere = replace(sphere_of(force, reference if with_reference else None, mass=4.7), serial=f"SN{k}")
+            found.append(
+                TrialSphere(file="a.toml", experiment="a", condition=None, number=None, prior=None, sphere=sphere)
+            )
+    return group_trials(found)[0]
+
+
+def _index(rng: np.random.Generator) -> bytes:
+    return index_figure(trial_groups(rng, sensors=2, trials=2, caps=1))
+
+
 FIGURES: dict[str, Callable[[np.random.Generator], bytes]] = {
     "space": _space,
     "force space": _force_space,
@@ -145,6 +171,7 @@ FIGURES: dict[str, Callable[[np.random.Generator], bytes]] = {
     "residual": _residual,
     "excitation": _excitation,
     "held out": _held_out,
+    "index": _index,
 }
 """A figure of every kind that is drawn from plain arrays, of random data."""
 

@@ -10,6 +10,7 @@ import typer
 
 from forcetorque.cli.parser.accept import accept
 from forcetorque.cli.parser.calibrate import calibrate
+from forcetorque.cli.parser.compare import compare
 from forcetorque.cli.parser.estimate import estimate
 from forcetorque.cli.parser.evaluate import evaluate
 from forcetorque.cli.parser.export import export
@@ -56,6 +57,7 @@ def _version(
 for _command in (
     accept,
     calibrate,
+    compare,
     estimate,
     evaluate,
     export,

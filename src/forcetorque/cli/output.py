@@ -37,6 +37,13 @@ class ExportFormat(StrEnum):
     COEFFICIENTS = "coefficients"
 
 
+class TrialsChoice(StrEnum):
+    """What one trial of a sensor is."""
+
+    FILES = "files"
+    INTERVALS = "intervals"
+
+
 class OtherSensorsChoice(StrEnum):
     """What the other sensors of a sub-model are taken to read."""
 

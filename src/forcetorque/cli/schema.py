@@ -27,6 +27,7 @@ def run(name: str) -> None:
         "calibration": _calibration,
         "accept": _accept,
         "calibrate": _calibrate,
+        "compare": _compare,
         "estimate": _estimate,
         "evaluate": _evaluate,
         "export": _export,
@@ -79,6 +80,12 @@ def _calibrate() -> dict[str, Any]:
     from forcetorque.cli.calibrate import CalibrateResult
 
     return CalibrateResult.model_json_schema()
+
+
+def _compare() -> dict[str, Any]:
+    from forcetorque.cli.compare_result import CompareResult
+
+    return CompareResult.model_json_schema()
 
 
 def _estimate() -> dict[str, Any]:

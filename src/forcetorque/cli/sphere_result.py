@@ -210,8 +210,8 @@ def sphere_row(found: SensorSphere) -> SphereRow:
         directions_covered=analysis.directions,
         no_reference=no_reference,
         one_radius=_radius(analysis.radius, analysis.gravity),
-        without_reference=_ellipsoid(analysis.free, analysis),
-        with_reference=None if mapped is None else _ellipsoid(mapped.fit, analysis),
+        without_reference=ellipsoid_row(analysis.free, analysis),
+        with_reference=None if mapped is None else ellipsoid_row(mapped.fit, analysis),
         moment_without_reference=None if analysis.free_moment is None else _moment_ellipsoid(analysis.free_moment),
         moment_with_reference=None if analysis.moment is None else _moment(analysis.moment),
     )
@@ -259,7 +259,16 @@ def _radius(fit: RadiusFit, gravity: float) -> RadiusRow:
     )
 
 
-def _ellipsoid(fit: EllipsoidFit, analysis: SphereAnalysis) -> EllipsoidRow:
+def ellipsoid_row(fit: EllipsoidFit, analysis: SphereAnalysis) -> EllipsoidRow:
+    """Put an ellipsoid of forces into the form of the result.
+
+    Args:
+        fit: The ellipsoid.
+        analysis: What has its gravity and mass.
+
+    Returns:
+        Its row.
+    """
     gravity, ellipsoid = analysis.gravity, fit.ellipsoid
     return EllipsoidRow(
         identifiable=fit.identifiable,

@@ -4,6 +4,7 @@
 from forcetorque.experiment.acceptance import Acceptance, accept_sensor
 from forcetorque.experiment.acceptance_file import AcceptanceFile, read_acceptance
 from forcetorque.experiment.calibrate import calibrate_sensor
+from forcetorque.experiment.compare import TrialFailure, TrialGroup, TrialSphere, group_trials, read_trials
 from forcetorque.experiment.content import Experiment, ExperimentSensor
 from forcetorque.experiment.estimate import IntervalEstimates, estimate_experiment
 from forcetorque.experiment.evaluate import Verdict, beyond_fitted_range, evaluate_sensor, judged_where_chosen
@@ -43,6 +44,9 @@ __all__ = [
     "StaticChecks",
     "StrongestSample",
     "StudyData",
+    "TrialFailure",
+    "TrialGroup",
+    "TrialSphere",
     "Verdict",
     "accept_sensor",
     "analyse_sensor",
@@ -54,6 +58,7 @@ __all__ = [
     "doubtful_spans",
     "estimate_experiment",
     "evaluate_sensor",
+    "group_trials",
     "inspect_experiment",
     "inspect_recording",
     "judged_where_chosen",
@@ -63,6 +68,7 @@ __all__ = [
     "read_acceptance",
     "read_population",
     "read_study_data",
+    "read_trials",
     "samples_of",
     "select_gains",
     "sphere_intervals",

@@ -148,6 +148,10 @@ class Experiment:
     """What hangs on a wrist sensor, estimated on the calibration intervals; None for a robot or a given load."""
     inputs_sha256: dict[str, str]
     """SHA-256 of every input file, by its path as the experiment names it."""
+    condition: str | None = None
+    """What was done to the sensors, in the user's words; None if the file does not say."""
+    trial: int | None = None
+    """Which trial of its condition it is; None for the order of the files."""
 
     def sensor(self, name: str) -> ExperimentSensor:
         """Find a sensor of the experiment.

@@ -66,6 +66,8 @@ def _of_robot(parsed: schema.ExperimentFile, file: Path) -> Experiment:
         roles=_roles(parsed),
         payload=None,
         inputs_sha256=inputs.sha256(),
+        condition=parsed.trial.condition,
+        trial=parsed.trial.number,
     )
 
 
@@ -105,6 +107,8 @@ def _of_wrist(parsed: schema.ExperimentFile, file: Path) -> Experiment:
         roles=_roles(parsed),
         payload=payload,
         inputs_sha256=inputs.sha256(),
+        condition=parsed.trial.condition,
+        trial=parsed.trial.number,
     )
 
 

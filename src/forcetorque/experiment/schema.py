@@ -126,6 +126,15 @@ class Sensor(Table):
         return self
 
 
+class Trial(Table):
+    """What the recording is to a comparison with others of the same sensor."""
+
+    condition: Text | None = None
+    """What was done to the sensor, in any words, such as the torque of its screws."""
+    number: Annotated[int, Field(ge=1, strict=True)] | None = None
+    """Which trial of its condition it is, from 1; by the order of the files if left out."""
+
+
 class Support(Table):
     """The link that is the only one to touch the world: at rest there, or moving with a known motion."""
 
@@ -294,6 +303,8 @@ class ExperimentFile(Table):
     """How samples are processed."""
     calibration: CalibrationTable = CalibrationTable()
     """How the fit is regularised."""
+    trial: Trial = Trial()
+    """Condition and number, for `forcetorque compare`."""
 
     @model_validator(mode="after")
     def _robot_or_load(self) -> ExperimentFile:

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Results for people: figures, from what the experiments gave."""
 
+from forcetorque.report.compare import index_figure
 from forcetorque.report.comparison import comparison_figure
 from forcetorque.report.contacts import contact_figure
 from forcetorque.report.differences import difference_figure
@@ -22,6 +23,7 @@ __all__ = [
     "force_space_figure",
     "gain_figure",
     "held_out_figure",
+    "index_figure",
     "lambda_difference_figure",
     "lambda_force_figure",
     "residual_figure",

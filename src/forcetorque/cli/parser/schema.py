@@ -12,8 +12,8 @@ def schema(
     name: Annotated[
         str,
         typer.Argument(
-            help="experiment, acceptance, scenario, recording, calibration, accept, calibrate, estimate, evaluate, "
-            "export, gains, inspect, payload, report, simulate, sphere, study or validate."
+            help="experiment, acceptance, scenario, recording, calibration, accept, calibrate, compare, estimate, "
+            "evaluate, export, gains, inspect, payload, report, simulate, sphere, study or validate."
         ),
     ],
 ) -> None:

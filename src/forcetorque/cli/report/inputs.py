@@ -78,7 +78,7 @@ def _content(path: Path) -> dict[str, Any]:
     if path.is_dir():
         raise FormatError(f"{path}: expected {_KINDS}, got a folder; name the files in it")
     if not path.is_file():
-        raise MissingFileError(f"{path}: expected {_KINDS}, there is none")
+        raise MissingFileError(f"{path}: expected a file to report on, there is none")
     try:
         text = path.read_text(encoding="utf-8")
         content = tomllib.loads(text) if path.suffix == ".toml" else json.loads(text)

@@ -6,20 +6,28 @@ from forcetorque.evaluation.sphere.analysis import SphereAnalysis, analyse_spher
 from forcetorque.evaluation.sphere.apparent_mass import apparent_masses, axis_errors, performance_index
 from forcetorque.evaluation.sphere.ellipsoid import Ellipsoid, ellipsoid_of_map
 from forcetorque.evaluation.sphere.findings import RULE, TOLERANCE, CloudForm, EllipsoidFit, RadiusFit
+from forcetorque.evaluation.sphere.pooled import PooledSphere, pool_trials
+from forcetorque.evaluation.sphere.trials import Drift, TrialMean, drift_between, mean_of_trials
 
 __all__ = [
     "RULE",
     "TOLERANCE",
     "CloudForm",
+    "Drift",
     "Ellipsoid",
     "EllipsoidFit",
     "MappedFit",
     "MomentFit",
+    "PooledSphere",
     "RadiusFit",
     "SphereAnalysis",
+    "TrialMean",
     "analyse_sphere",
     "apparent_masses",
     "axis_errors",
+    "drift_between",
     "ellipsoid_of_map",
+    "mean_of_trials",
     "performance_index",
+    "pool_trials",
 ]

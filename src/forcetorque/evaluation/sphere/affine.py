@@ -26,7 +26,7 @@ from forcetorque.evaluation.sphere.findings import (
 )
 from forcetorque.evaluation.sphere.free import is_flat
 from forcetorque.evaluation.sphere.moments import sums_of_products
-from forcetorque.evaluation.sphere.resampling import FEWEST, resampled, whole
+from forcetorque.evaluation.sphere.resampling import FEWEST, Resampled, resampled, whole
 
 _ROUNDING = 1e-14
 """Square of a radius, relative to that of the largest, at which an ellipsoid is flat."""
@@ -101,21 +101,52 @@ def fit_mapped(force: FloatArray, reference: FloatArray, *, radius: float, toler
         return None
     sums, shift = _sums(reference, force)
     (matrix,), (centre,) = _maps(whole(sums), shift)
-    estimates = resampled(sums, lambda mean: _inverse_lengths(_maps(mean, shift)[0] * radius), extent=_reference_extent)
+    estimates = resampled(
+        sums, lambda mean: inverse_lengths_of(_maps(mean, shift)[0] * radius), extent=_reference_extent
+    )
+    centres = resampled(sums, lambda mean: _maps(mean, shift)[1], extent=_reference_extent)
+    error = force - reference @ matrix.T - centre
+    fit = image_of_sphere(
+        matrix, centre, estimates, radius=radius, centre_margin=centres.margin, error=error, tolerance=tolerance
+    )
+    return MappedFit(matrix=matrix, centre=centre, radius=radius, fit=fit)
+
+
+def image_of_sphere(
+    matrix: FloatArray,
+    centre: FloatArray,
+    estimates: Resampled,
+    *,
+    radius: float,
+    centre_margin: FloatArray,
+    error: FloatArray,
+    tolerance: float,
+) -> EllipsoidFit:
+    """Lay a map on the sphere of the weight and judge the ellipsoid.
+
+    Args:
+        matrix: Map of reference forces to measured ones; shape (3, 3).
+        centre: What the sensor reads without force; shape (3,); N.
+        estimates: One over the lengths of the ellipsoid, by `inverse_lengths_of`; k is 6.
+        radius: Weight on the sensor; N.
+        centre_margin: Half of the 95 % interval of the centre; shape (3,); N.
+        error: What the map leaves of the measured forces; shape (n, 3); N.
+        tolerance: Half width of an interval, relative to the mean intersection, up to which it is identifiable.
+
+    Returns:
+        The ellipsoid with its intervals.
+    """
     if not (estimates.whole > 0.0).all():
-        return MappedFit(
-            matrix=matrix, centre=centre, radius=radius, fit=no_ellipsoid("the measured forces lie in a plane")
-        )
+        return no_ellipsoid("the measured forces lie in a plane")
     ellipsoid = ellipsoid_of_map(matrix, centre=centre, radius=radius)
     low, high = estimates.jackknifed
     mean = float(ellipsoid.axis_intersections.mean())
-    why = _against(len(force), relative_margin(low[:3], high[:3], mean), tolerance)
+    why = _against(len(error), relative_margin(low[:3], high[:3], mean), tolerance)
     tilt = not why and relative_margin(low[3:], high[3:], mean) <= tolerance
     if why:
         low, high = estimates.ranged
     index_low, index_high = index_ends([estimates], jackknifed=not why)
-    error = force - reference @ matrix.T - centre
-    fit = EllipsoidFit(
+    return EllipsoidFit(
         ellipsoid=ellipsoid,
         low=lengths_of(high[:3]),
         high=lengths_of(low[:3]),
@@ -123,12 +154,12 @@ def fit_mapped(force: FloatArray, reference: FloatArray, *, radius: float, toler
         half_width_high=lengths_of(low[3:]),
         index_low=index_low,
         index_high=index_high,
+        centre_margin=centre_margin,
         rms=float(np.sqrt((error**2).sum(axis=1).mean())),
         identifiable=not why,
         tilt_identifiable=tilt,
         why=why,
     )
-    return MappedFit(matrix=matrix, centre=centre, radius=radius, fit=fit)
 
 
 def fit_moment(
@@ -209,8 +240,15 @@ def _maps(mean: FloatArray, shift: FloatArray) -> tuple[FloatArray, FloatArray]:
     return matrices, measured - np.einsum("mij,mj->mi", matrices, reference)
 
 
-def _inverse_lengths(spread: FloatArray) -> FloatArray:
-    """One over the lengths of images of the unit sphere, 0 for flat ones; shape (m, 6)."""
+def inverse_lengths_of(spread: FloatArray) -> FloatArray:
+    """Measure images of the unit sphere along the axes.
+
+    Args:
+        spread: The maps; shape (m, 3, 3).
+
+    Returns:
+        One over the axis intersections, then one over the half-widths, 0 for flat images; shape (m, 6).
+    """
     squares = spread @ spread.transpose(0, 2, 1)
     values = np.linalg.eigvalsh(squares)
     solid = values[:, 0] > _ROUNDING * values[:, -1]

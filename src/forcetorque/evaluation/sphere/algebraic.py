@@ -115,6 +115,32 @@ def gradient_weighted_fit(mean: FloatArray, moments: QuadricMoments) -> Quadrics
     return _quadrics(np.concatenate([smallest, constant[:, None]], axis=1), moments)
 
 
+def direct_shape_with_own_centres(sums: FloatArray) -> tuple[FloatArray, FloatArray] | None:
+    """Fit one shape to several clouds by the direct method, each about its own centre and of its own size.
+
+    Args:
+        sums: Sums of products of monomials of each cloud, all divided by the same scale; shape (t, 10, 10).
+
+    Returns:
+        Shape of the mean size, shape (3, 3), and centres, shape (t, 3), in units of the scale; None where the clouds
+        are flat to rounding.
+    """
+    reduced, rest = _without_linear_part(sums)
+    total = reduced.sum(axis=0, keepdims=True)
+    tried = (_constrained(total, k) for k in _K)
+    found = next((coefficients for coefficients in tried if _definite(coefficients)[0]), None)
+    if found is None:
+        return None
+    (matrix,) = _matrices(found)
+    linear = -rest @ found[0]  # (t, 4): 2x, 2y, 2z and 1 of each cloud
+    centres = -np.linalg.solve(matrix, linear[:, :3].T).T
+    level = float(np.average(-(linear[:, :3] * centres).sum(axis=1) - linear[:, 3], weights=sums[:, 9, 9]))
+    shape = matrix / level if level else np.full((3, 3), np.nan)
+    if not (np.isfinite(shape).all() and np.linalg.eigvalsh(shape)[0] > 0.0):
+        return None
+    return shape, centres
+
+
 def smallest_generalised(second: FloatArray, weight: FloatArray) -> FloatArray:
     """Minimise `v^T second v` over `v^T weight v = 1`, for many symmetric pairs at once.
 

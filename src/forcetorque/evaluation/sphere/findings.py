@@ -103,6 +103,8 @@ class EllipsoidFit:
     """Lower end of the sample standard deviation of the three axis intersections."""
     index_high: float
     """Its upper end; infinite where the surface may be open."""
+    centre_margin: FloatArray
+    """Half of the 95 % interval of the centre; infinite without an ellipsoid; shape (3,)."""
     rms: float
     """Root mean square distance from the ellipsoid; NaN without one."""
     identifiable: bool
@@ -114,7 +116,7 @@ class EllipsoidFit:
     """What speaks against the intersections; empty if they are identifiable."""
 
     def __post_init__(self) -> None:
-        for name in ("low", "high", "half_width_low", "half_width_high"):
+        for name in ("low", "high", "half_width_low", "half_width_high", "centre_margin"):
             object.__setattr__(self, name, read_only(getattr(self, name), name=name, shape=(3,)))
 
     @property
@@ -161,6 +163,7 @@ def no_ellipsoid(reason: str) -> EllipsoidFit:
         half_width_high=np.full(3, np.inf),
         index_low=0.0,
         index_high=np.inf,
+        centre_margin=np.full(3, np.inf),
         rms=np.nan,
         identifiable=False,
         tilt_identifiable=False,

@@ -136,6 +136,7 @@ def fit_ellipsoid(cloud: FloatArray, radius: RadiusFit, *, tolerance: float) -> 
         ellipsoid = Ellipsoid(centre=first.centre[0], shape=first.shape[0])
     why = _against(len(cloud), direct, weighted, geometric, slice(0, 3), tolerance) + _squashed(ellipsoid)
     low, high, index_low, index_high = _intervals(direct, weighted, geometric, radius if why else None)
+    centres = resampled(moments.sums, lambda mean: direct_fit(mean, moments).centre, extent=extent)
     return EllipsoidFit(
         ellipsoid=ellipsoid,
         low=low[:3],
@@ -144,6 +145,7 @@ def fit_ellipsoid(cloud: FloatArray, radius: RadiusFit, *, tolerance: float) -> 
         half_width_high=high[3:],
         index_low=index_low,
         index_high=index_high,
+        centre_margin=np.where(np.isfinite(centres.margin), centres.margin, np.inf),
         rms=refined.rms if refined.converged else np.nan,
         identifiable=not why,
         tilt_identifiable=not (why or _against(len(cloud), direct, weighted, geometric, slice(3, 6), tolerance)),

@@ -80,13 +80,24 @@ def _minimise(
     stride = -(-len(cloud) // _FEW)
     for points in (cloud[::stride], cloud) if stride > 1 else (cloud,):
         if fit.converged:
-            fit = _descend(partial(equations, points), fit.parameters, size, len(points))
+            fit = descend(partial(equations, points), fit.parameters, size, len(points))
     return fit
 
 
-def _descend(
+def descend(
     equations: Callable[[FloatArray], NormalEquations | None], start: FloatArray, size: float, count: int
 ) -> GeometricFit:
+    """Go down from a start by the method of Levenberg and Marquardt.
+
+    Args:
+        equations: Normal equations at some parameters; None where there is no surface.
+        start: Parameters, of which the first three are a centre; shape (p,).
+        size: Extent of the cloud.
+        count: Number of points.
+
+    Returns:
+        Where it ended.
+    """
     here, damping = start, _DAMPING
     now = equations(here)
     converged = False

@@ -18,7 +18,7 @@ def small_png(png: bytes) -> bytes:
     Returns:
         The picture as PNG; the one given if that is smaller.
     """
-    from PIL import Image  # comes with matplotlib, which drew the picture
+    from PIL import Image
 
     with Image.open(io.BytesIO(png)) as picture:
         few = picture.convert("RGB").quantize(_COLOURS, dither=Image.Dither.NONE)

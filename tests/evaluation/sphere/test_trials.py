@@ -1,0 +1,142 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The arithmetic of thesis Tables 4.3 and 4.4, and what is said to have drifted."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from forcetorque.errors import ForceTorqueError
+from forcetorque.evaluation.sphere import (
+    TOLERANCE,
+    EllipsoidFit,
+    MappedFit,
+    SphereAnalysis,
+    analyse_sphere,
+    drift_between,
+    mean_of_trials,
+)
+from forcetorque.evaluation.sphere.affine import fit_mapped
+from tests.evaluation.sphere.clouds import DEFORMED, WEIGHT, grid, map_of
+
+TABLES = {
+    "left leg, 2 N m": ((0.5272, 0.7245, 0.8738, 0.7123), 0.7095),
+    "right leg, 1.5 N m": ((0.8974, 0.8789, 0.9156, 0.9620), 0.9135),
+    "right leg, 1 N m": ((0.5778, 0.7143, 0.8389), 0.7103),
+    "right leg, 0.5 N m": ((1.0717, 1.0893, 1.0908, 1.1203), 1.0930),
+    "right leg, mixed1": ((0.7938, 0.7739, 0.8774, 0.8972), 0.8356),
+    "right leg, mixed2": ((1.1639, 1.0797, 1.0860, 1.1283), 1.1145),
+}
+"""Indices of the trials and the printed `Average Std`; kg."""
+PRINTED = 0.00005 + 1e-12
+"""Half of the last printed digit: 2 N m gives 0.70945, which lies on that edge."""
+GRAVITY = 9.81
+
+
+@pytest.mark.parametrize("case", TABLES)
+def test_the_average_of_every_column(case: str) -> None:
+    """The plain mean of the trials is printed, in all six columns to the digit."""
+    indices, average = TABLES[case]
+    mean = mean_of_trials(indices)
+    assert mean.mean == pytest.approx(average, abs=PRINTED)
+    assert mean.count == len(indices)
+    assert mean.low < mean.mean < mean.high
+    assert mean_of_trials(indices[::-1]).mean == pytest.approx(mean.mean, rel=1e-15)
+
+
+def test_another_average_does_not_give_the_tables() -> None:
+    """Negative control: the median and the root mean square each miss four columns at least."""
+    median = sum(abs(np.median(indices) - average) > PRINTED for indices, average in TABLES.values())
+    root = sum(abs(np.sqrt(np.mean(np.square(indices))) - average) > PRINTED for indices, average in TABLES.values())
+    assert median >= 4
+    assert root >= 4
+
+
+def test_the_interval_of_the_mean_is_students() -> None:
+    """By hand for 1 and 3: mean 2, standard error 1, t of one degree of freedom 12.706; below zero is nothing."""
+    mean = mean_of_trials([1.0, 3.0])
+    assert (mean.mean, mean.low) == (2.0, 0.0)
+    assert mean.high == pytest.approx(2.0 + 12.7062, abs=1e-3)
+    assert np.isinf(mean_of_trials([1.0]).high)
+
+
+@pytest.mark.parametrize("bad", [[], [np.nan], [1.0, np.inf]])
+def test_nothing_has_no_mean(bad: list[float]) -> None:
+    """An index that is not known must be left out by who knows it."""
+    with pytest.raises(ForceTorqueError, match="indices: expected at least one number, all finite"):
+        mean_of_trials(bad)
+
+
+def _analysed(
+    rng: np.random.Generator, matrix: np.ndarray, offset: np.ndarray, *, half_deg: float = 120.0
+) -> SphereAnalysis:
+    reference = WEIGHT * grid(800, half_deg)
+    force = reference @ matrix.T / WEIGHT + offset + 0.3 * rng.normal(size=reference.shape)
+    wrench, expected = (np.hstack([f, 0.1 * f[:, ::-1]]) for f in (force, reference))
+    return analyse_sphere(wrench, expected, gravity=GRAVITY)
+
+
+def _fits(found: SphereAnalysis) -> tuple[EllipsoidFit, EllipsoidFit]:
+    """Without the model and with it."""
+    assert found.mapped is not None
+    return found.free, found.mapped.fit
+
+
+def test_drift_is_told_from_noise() -> None:
+    """A changed offset and a changed axis exceed the intervals, each by itself; turned round, signs turn."""
+    rng = np.random.default_rng(1)
+    matrix, offset = map_of(DEFORMED), np.array([5.0, -20.0, 30.0])
+    first = _analysed(rng, matrix, offset)
+    shifted = _analysed(rng, matrix, offset + [0.0, 0.0, 4.0])
+    stretched = _analysed(rng, np.diag([1.0, 1.08, 1.0]) @ matrix, offset)
+    for one, other, third in zip(*map(_fits, (first, shifted, stretched)), strict=True):
+        there, back = drift_between(one, other), drift_between(other, one)
+        assert there is not None
+        assert back is not None
+        np.testing.assert_allclose(there.centre, [0.0, 0.0, 4.0], atol=0.2)
+        np.testing.assert_allclose(back.centre, -there.centre)
+        np.testing.assert_allclose(back.intersections, -there.intersections)
+        assert (there.index, there.index_margin) == (-back.index, back.index_margin)
+        assert there.centre_exceeds[2]
+        assert there.intersections_exceed.sum() <= 1  # one in twenty does by chance
+        assert not there.index_exceeds
+        changed = drift_between(one, third)
+        assert changed is not None
+        assert changed.intersections_exceed.tolist() == [False, True, False]
+        assert changed.index_exceeds
+
+
+def _mapped(rng: np.random.Generator) -> MappedFit:
+    reference = WEIGHT * grid(800, 120.0)
+    force = reference @ map_of(DEFORMED).T / WEIGHT + 0.3 * rng.normal(size=reference.shape)
+    fit = fit_mapped(force, reference, radius=WEIGHT, tolerance=TOLERANCE)
+    assert fit is not None
+    return fit
+
+
+def test_equal_trials_seldom_seem_to_drift() -> None:
+    """Of forty pairs that differ by noise alone, five per hundred at most seem to differ in an axis or the centre."""
+    rng = np.random.default_rng(2)
+    wrong = np.zeros(6)
+    pairs = 40
+    for _ in range(pairs):
+        first, last = (_mapped(rng) for _ in range(2))
+        drift = drift_between(first.fit, last.fit)
+        assert drift is not None
+        wrong += [*drift.intersections_exceed, *drift.centre_exceeds]
+    # 240 trials at 5 %: 12 expected, 24 is beyond three standard deviations
+    assert wrong.sum() <= 24
+
+
+def test_nothing_drifts_that_is_not_known() -> None:
+    """Between a cap and a sphere there is a difference, but none that exceeds anything."""
+    rng = np.random.default_rng(3)
+    first = _analysed(rng, map_of(DEFORMED), np.zeros(3))
+    last = _analysed(rng, map_of(DEFORMED), np.array([0.0, 0.0, 50.0]), half_deg=12.0)
+    drift = drift_between(first.free, last.free)
+    if drift is not None:
+        assert not drift.identifiable
+        assert not drift.index_exceeds
+        assert not drift.centre_exceeds.any()
+        assert not drift.intersections_exceed.any()
+    assert not last.free.identifiable
