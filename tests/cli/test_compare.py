@@ -14,9 +14,9 @@ import numpy as np
 import pytest
 
 from forcetorque.evaluation.sphere import RULE, TOLERANCE
+from tests.axia import write_axia
 from tests.cli.json_schema import faults
 from tests.cli.outcome import Outcome, Run
-from tests.experiment.test_sphere_real import _axia
 from tests.experiments import PARQUET, TWO, add, edit, snapshot
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -267,7 +267,7 @@ def test_a_wrist_of_100_poses_and_of_7(run: Run, data_dir: Path, tmp_path: Path)
     for suffix in ("_100", ""):
         folder = tmp_path / f"axia{suffix}"
         folder.mkdir()
-        paths.append(_axia(data_dir, folder, suffix))
+        paths.append(write_axia(data_dir, folder, suffix))
     result = _ended_with_failures(run("compare", *paths, "--format", "json"))
     (trial,), (failure,) = result["trials"], result["failures"]
     assert trial["samples"] == 100
@@ -284,7 +284,7 @@ def test_halves_of_a_hundred_poses(run: Run, data_dir: Path, tmp_path: Path) -> 
 
     Its interval holds the index of all poses with one offset.
     """
-    path = _axia(data_dir, tmp_path, "_100")
+    path = write_axia(data_dir, tmp_path, "_100")
     whole = run("compare", path, "--format", "json").result()["groups"][0]["with_reference"]
     text = path.read_text(encoding="utf-8")
     assert text.count('label = "all"\nstart_s = 0.0\n') == 1

@@ -8,11 +8,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from scipy.spatial.transform import Rotation
 
 from forcetorque.errors import FitError
 from forcetorque.evaluation.sphere import CloudForm
 from forcetorque.experiment import Experiment, SensorSphere, analyse_sensor, load_experiment, sphere_intervals
+from tests.axia import write_axia
 
 pytestmark = pytest.mark.real_data
 
@@ -138,30 +138,9 @@ def test_the_wrist_of_24_poses(data_dir: Path, tmp_path: Path) -> None:
     np.testing.assert_allclose(analysis.moment.errors, 0.0, atol=0.005)
 
 
-def _axia(data_dir: Path, folder: Path, suffix: str) -> Path:
-    """Poses and wrenches of the Axia, whose wrenches are in the axes of the base, as a table in those of the sensor."""
-    source = data_dir / "ati_axia80_gravity_leledeyuan"
-    pose = np.loadtxt(source / f"recorded_messages_pose{suffix}.txt", delimiter=",")
-    wrench = np.loadtxt(source / f"recorded_messages_wrench{suffix}.txt", delimiter=",")
-    base_R_sensor = Rotation.from_quat(pose[:, 3:])
-    columns = [base_R_sensor.inv().apply(part) for part in (wrench[:, :3], wrench[:, 3:])]
-    down = base_R_sensor.inv().apply([0.0, 0.0, -9.80665])
-    rows = np.hstack([*columns, down])
-    header = "fx,fy,fz,tx,ty,tz,gx,gy,gz"
-    np.savetxt(folder / "poses.csv", rows, delimiter=",", header=header, comments="")
-    text = (EXAMPLES / "07_wrist_payload.toml").read_text(encoding="utf-8")
-    text = text.replace("../../shared/data/ati_gamma_kuka_med14_skrede", ".").replace(
-        "0-calibration_fts-accel.csv", "poses.csv"
-    )
-    head, *_ = text.split("[[interval]]")
-    path = folder / "axia.toml"
-    path.write_text(f'{head}[[interval]]\nlabel = "all"\nstart_s = 0.0\nuse = "calibration"\n')
-    return path
-
-
 def test_the_wrist_of_100_poses(data_dir: Path, tmp_path: Path) -> None:
     """All on one side and drifting by 2 N: one mass is known to 5 %, and three are only with the model."""
-    analysis = _analysed(load_experiment(_axia(data_dir, tmp_path, "_100")), "wrist").analysis
+    analysis = _analysed(load_experiment(write_axia(data_dir, tmp_path, "_100")), "wrist").analysis
     assert analysis.samples == 100
     assert analysis.radius.identifiable
     assert analysis.radius.low / 9.80665 < 1.239 < analysis.radius.high / 9.80665
@@ -174,6 +153,6 @@ def test_the_wrist_of_100_poses(data_dir: Path, tmp_path: Path) -> None:
 
 def test_seven_poses_are_too_few(data_dir: Path, tmp_path: Path) -> None:
     """An ellipsoid has nine unknowns."""
-    experiment = load_experiment(_axia(data_dir, tmp_path, ""))
+    experiment = load_experiment(write_axia(data_dir, tmp_path, ""))
     with pytest.raises(FitError, match="sensor 'wrist', prior: force: expected at least 10 points, got 7"):
         _analysed(experiment, "wrist")

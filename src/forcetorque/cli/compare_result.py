@@ -161,9 +161,7 @@ def trial_row(trial: TrialSphere, number: int) -> TrialRow:
         Its row.
     """
     sphere, analysis = trial.sphere, trial.sphere.analysis
-    mapped, reason = analysis.mapped, sphere.no_reference
-    if reason is None and mapped is None:
-        reason = "the reference forces lie in a plane"
+    mapped = analysis.mapped
     return TrialRow(
         sensor=sphere.sensor,
         serial=sphere.serial,
@@ -178,7 +176,7 @@ def trial_row(trial: TrialSphere, number: int) -> TrialRow:
         gravity_m_s2=analysis.gravity,
         model_mass_kg=analysis.mass,
         form=analysis.form,
-        no_reference=reason,
+        no_reference=sphere.no_fit_with_model,
         with_reference=None if mapped is None else ellipsoid_row(mapped.fit, analysis),
         without_reference=ellipsoid_row(analysis.free, analysis),
     )

@@ -194,9 +194,6 @@ def sphere_row(found: SensorSphere) -> SphereRow:
     """
     analysis = found.analysis
     mapped = analysis.mapped
-    no_reference = found.no_reference
-    if no_reference is None and mapped is None:
-        no_reference = "the reference forces lie in a plane"
     return SphereRow(
         sensor=found.sensor,
         serial=found.serial,
@@ -208,7 +205,7 @@ def sphere_row(found: SensorSphere) -> SphereRow:
         form=analysis.form,
         force_scatter=analysis.scatter,
         directions_covered=analysis.directions,
-        no_reference=no_reference,
+        no_reference=found.no_fit_with_model,
         one_radius=_radius(analysis.radius, analysis.gravity),
         without_reference=ellipsoid_row(analysis.free, analysis),
         with_reference=None if mapped is None else ellipsoid_row(mapped.fit, analysis),

@@ -37,13 +37,20 @@ class SensorSphere:
     fitted_on: tuple[str, ...]
     """Those of them that the calibration was fitted on: it is then judged too kindly."""
     no_reference: str | None
-    """Why there is no reference; None where there is one."""
+    """Why the model gives no reference; None where it does."""
     force: FloatArray
     """What the sensor read; shape (n, 3); N."""
     reference: FloatArray | None
     """What it should have read; shape (n, 3); N."""
     analysis: SphereAnalysis
     """The analysis."""
+
+    @property
+    def no_fit_with_model(self) -> str | None:
+        """Why there is no fit with the model; None where there is one."""
+        if self.analysis.mapped is not None:
+            return None
+        return self.no_reference or "the reference forces lie in a plane"
 
 
 def sphere_intervals(experiment: Experiment, names: Sequence[str] | None) -> tuple[Interval, ...]:

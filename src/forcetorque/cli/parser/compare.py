@@ -9,7 +9,7 @@ from typing import Annotated
 import typer
 
 from forcetorque.cli.output import Format, TrialsChoice
-from forcetorque.cli.parser.options import FormatOption, SensorOption
+from forcetorque.cli.parser.options import ComparedCalibrationsOption, FormatOption, SensorOption, SphereIntervalOption
 
 
 def compare(
@@ -17,18 +17,8 @@ def compare(
         list[Path], typer.Argument(help="Experiment files (TOML), in the order of the trials; see docs/sphere.md.")
     ],
     sensor: SensorOption = None,
-    calibration: Annotated[
-        list[Path] | None,
-        typer.Option("--calibration", "-c", help="Calibration file to compare with the prior; repeat for more."),
-    ] = None,
-    interval: Annotated[
-        list[str] | None,
-        typer.Option(
-            "--interval",
-            help="Label or kind of an interval whose motion draws a sphere; repeat for more. Default: the sphere "
-            "intervals of each file, else all.",
-        ),
-    ] = None,
+    calibration: ComparedCalibrationsOption = None,
+    interval: SphereIntervalOption = None,
     trials: Annotated[
         TrialsChoice,
         typer.Option("--trials", help="Whether a trial is a file with all its intervals, or each interval."),

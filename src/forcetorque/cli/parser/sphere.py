@@ -9,24 +9,20 @@ from typing import Annotated
 import typer
 
 from forcetorque.cli.output import Format
-from forcetorque.cli.parser.options import ExperimentArgument, FormatOption, SensorOption
+from forcetorque.cli.parser.options import (
+    ComparedCalibrationsOption,
+    ExperimentArgument,
+    FormatOption,
+    SensorOption,
+    SphereIntervalOption,
+)
 
 
 def sphere(
     experiment: ExperimentArgument,
     sensor: SensorOption = None,
-    calibration: Annotated[
-        list[Path] | None,
-        typer.Option("--calibration", "-c", help="Calibration file to compare with the prior; repeat for more."),
-    ] = None,
-    interval: Annotated[
-        list[str] | None,
-        typer.Option(
-            "--interval",
-            help="Label or kind of an interval whose motion draws a sphere; repeat for more. Default: the sphere "
-            "intervals of the file, else all.",
-        ),
-    ] = None,
+    calibration: ComparedCalibrationsOption = None,
+    interval: SphereIntervalOption = None,
     figure: Annotated[
         Path | None, typer.Option("--figure", help="PNG of the forces, the ellipsoids and the weight by the model.")
     ] = None,
