@@ -4,7 +4,7 @@ DATA ?= ../shared/data
 VENV := .venv
 BIN := $(VENV)/bin
 
-.PHONY: demo test lint types bench clean
+.PHONY: demo test lint types bench web-types clean
 
 demo: $(VENV)/run.stamp
 	$(BIN)/python examples/01_known_truth.py build/demo
@@ -24,6 +24,10 @@ bench: $(VENV)/test.stamp
 	$(BIN)/python -m benchmarks.calibration --json build/benchmarks/calibration.json
 	$(BIN)/python -m benchmarks.dynamics --json build/benchmarks/dynamics.json
 	$(BIN)/python -m benchmarks.simulation --json build/benchmarks/simulation.json
+
+# the classes of src/forcetorque/viewer/scene.py as the page reads them
+web-types: $(VENV)/run.stamp
+	$(BIN)/python -m forcetorque.viewer.typescript web/src/scene_types.ts
 
 # uv installs exactly what uv.lock says; it is itself installed here, so nothing is assumed
 $(BIN)/uv:
