@@ -1,0 +1,64 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Fewer triangles: vertices in one cell of a grid become one, which is crude and enough to recognise a robot."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from forcetorque.arrays import FloatArray
+from forcetorque.viewer.mesh_files import Triangles
+
+MOST_TRIANGLES = 100_000
+"""Triangles of a whole robot that are left as they are: 3 MB."""
+
+_FINEST, _GROWTH = 1e-3, 1.25
+"""First size of a cell, relative to the extent of the largest mesh, and the factor from one to the next."""
+
+
+def simplified(meshes: Sequence[Triangles], *, most: int = MOST_TRIANGLES) -> tuple[Triangles, ...]:
+    """Reduce meshes together, with one size of cell, until they have few enough triangles.
+
+    Args:
+        meshes: Meshes in m.
+        most: Largest number of triangles of all together.
+
+    Returns:
+        Meshes in the same order; the same ones where they have few enough.
+    """
+    cell = _FINEST * max((float(np.ptp(mesh.vertices, axis=0).max()) for mesh in meshes), default=0.0)
+    reduced = tuple(meshes)
+    while sum(len(mesh.faces) for mesh in reduced) > most:
+        reduced = tuple(clustered(mesh, cell) for mesh in meshes)
+        cell *= _GROWTH
+    return reduced
+
+
+def clustered(mesh: Triangles, cell: float) -> Triangles:
+    """Join the vertices of each cell at their mean, and drop the triangles that thereby vanish.
+
+    Args:
+        mesh: The mesh.
+        cell: Edge of a cell; m.
+
+    Returns:
+        The reduced mesh; no vertex moves by more than the diagonal of a cell.
+    """
+    lowest = mesh.vertices.min(axis=0)
+    keys = np.floor((mesh.vertices - lowest) / cell).astype(np.int64)
+    _, joined = np.unique(keys, axis=0, return_inverse=True)
+    joined = joined.reshape(-1)
+    faces = joined[mesh.faces]
+    solid = (faces[:, 0] != faces[:, 1]) & (faces[:, 1] != faces[:, 2]) & (faces[:, 2] != faces[:, 0])
+    faces = faces[solid]
+    _, first = np.unique(np.sort(faces, axis=1), axis=0, return_index=True)  # two sides of a thin wall fall together
+    kept, faces = np.unique(faces[np.sort(first)], return_inverse=True)
+    return Triangles(vertices=_means(mesh.vertices, joined)[kept], faces=faces.reshape(-1, 3).astype(np.uint32))
+
+
+def _means(values: FloatArray, group: np.ndarray) -> FloatArray:
+    counts = np.bincount(group)
+    sums = np.stack([np.bincount(group, weights=values[:, k]) for k in range(3)], axis=1)
+    means: FloatArray = sums / counts[:, None]
+    return means
