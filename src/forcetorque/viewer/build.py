@@ -190,7 +190,12 @@ def _contacts(
     sources = "; ".join(f"{sensor}: {correction.source}" for sensor, correction in corrections.items())
     what = "that the experiment states" if experiment.contacts else "at the sensors"
     notes.append(f"contact wrenches {what} are estimated with {sources}")
-    notes += dict.fromkeys(f"contacts: left out {text}" for span in spans for text in span.left_out)
+    notes += dict.fromkeys(
+        f"contacts: left out {text}"
+        for span in spans
+        for text in span.left_out
+        if text.startswith("sub-model")  # torques and expected readings are not shown from here
+    )
     found: dict[str, FloatArray] = {}
     for span in spans:
         # its instants are those of the experiment's first sensor, which need not be shown
@@ -213,7 +218,7 @@ def _contacts(
 
 def _places(experiment: Experiment, spans: Sequence[IntervalEstimates]) -> dict[str, Contact]:
     """Contacts by name: the support at its own origin, and those of the experiment or at its sensors."""
-    places = {}
+    places: dict[str, Contact] = {}
     for span in spans:
         support = span.interval.support
         if support is not None:
