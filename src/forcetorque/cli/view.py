@@ -178,7 +178,7 @@ def _span(built: BuiltScene, start_s: float | None, end_s: float | None) -> tupl
 
 def _frames(built: BuiltScene, film: Film) -> int:
     times = read_array(built.block, built.scene.time_s)
-    return int(np.floor((times[film.end] - times[film.start]) * film.fps / film.speed)) + 1
+    return int(np.floor((times[film.end] - times[film.start]) * film.fps / film.speed + 1e-9)) + 1
 
 
 def _serve(

@@ -8,30 +8,22 @@ from dataclasses import dataclass, replace
 from importlib.metadata import version
 from pathlib import Path
 
-import numpy as np
-
-from forcetorque.arrays import FloatArray
 from forcetorque.calibration import Calibration
-from forcetorque.errors import ForceTorqueError
-from forcetorque.estimation import Contact
 from forcetorque.experiment import (
     Experiment,
     ExperimentSensor,
-    IntervalEstimates,
-    estimate_experiment,
     inspect_experiment,
 )
-from forcetorque.experiment.contacts import contacts_at_sensors
 from forcetorque.experiment.inputs import stated_in
-from forcetorque.recording import Interval
+from forcetorque.recording import Finding, Interval
 from forcetorque.recording.alignment import seconds_since
-from forcetorque.robot import build_tree
+from forcetorque.viewer.contacts import scene_contacts
 from forcetorque.viewer.expected import expected_readings
-from forcetorque.viewer.geometry import flat, robot_geometry
+from forcetorque.viewer.geometry import robot_geometry
 from forcetorque.viewer.instants import Posture, posture_at
 from forcetorque.viewer.root_pose import root_poses
-from forcetorque.viewer.scene import Block, ContactSeries, Robot, Scene, SceneFinding, SceneInterval
-from forcetorque.viewer.series import first_corrections, scene_sensor
+from forcetorque.viewer.scene import Block, Robot, Scene, SceneFinding, SceneInterval
+from forcetorque.viewer.series import scene_sensor
 from forcetorque.viewer.tree import scene_joints
 
 
@@ -74,58 +66,67 @@ def build_scene(
         ExperimentError: If the experiment has no sensor of a name, or a calibration may not be applied.
         RecordingError: If there is no sample to show.
     """
+    groups = _by_sensor(experiment, calibrations)
+    names = dict.fromkeys(experiment.sensor(name).name for name in sensors or (s.name for s in experiment.sensors))
+    shown = [experiment.sensor(name) for name in names]
+    recording, model = experiment.recording, experiment.model
+    usable, notes = _without_empty(experiment, shown[0])
+    notes += [f"calibrations of {name!r} are not shown: --sensor leaves it out" for name in groups if name not in names]
+    block, sources = Block(), [*_inputs(experiment), *provenance, f"forcetorque {version('forcetorque')}"]
+    posture = posture_at(recording, model, recording.stream(shown[0].stream))
+    root = root_poses(recording, model, posture, recording.intervals, experiment.processing)
+    expected, lacking = expected_readings(experiment, tuple(names), posture, usable.recording.intervals)
+    notes += [*posture.notes, *root.notes, *lacking]
+    if experiment.processing.smoothing is not None:
+        sources.append("the smoothing of the experiment file is not applied to what is shown")
+    series = [
+        scene_sensor(usable, sensor, groups.get(sensor.name, {}), expected[sensor.name], posture, block, notes, sources)
+        for sensor in shown
+    ]
+    contacts = scene_contacts(usable, groups, posture, block, notes, sources)
+    robot, missing = _robot(experiment, posture, urdf, block, mesh_folders)
+    scene = Scene(
+        title=experiment.name,
+        samples=len(posture.stamp_ns),
+        start_ns=str(recording.start_ns),
+        time_s=block.add(seconds_since(posture.stamp_ns, recording.start_ns), "float64"),
+        positions=block.add(posture.position, "float32"),
+        coordinates=posture.names,
+        root=block.add(root.values, "float32"),
+        robot=robot,
+        sensors=tuple(series),
+        contacts=contacts,
+        intervals=tuple(_interval(interval, recording.start_ns) for interval in recording.intervals),
+        findings=tuple(_finding(finding, recording.start_ns) for finding in inspect_experiment(usable)),
+        notes=(*notes, *missing),
+        provenance=tuple(sources),
+        annotations_url=None,
+    )
+    return BuiltScene(scene=scene, block=block.bytes())
+
+
+def _by_sensor(experiment: Experiment, calibrations: Mapping[str, Calibration]) -> dict[str, dict[str, Calibration]]:
     groups: dict[str, dict[str, Calibration]] = {}
     for name, calibration in calibrations.items():
         with stated_in(name):
             groups.setdefault(experiment.sensor(calibration.sensor.name).name, {})[name] = calibration
-    names = dict.fromkeys(experiment.sensor(name).name for name in sensors or (s.name for s in experiment.sensors))
-    shown = [experiment.sensor(name) for name in names]
-    with_samples, notes = _without_empty(experiment, shown[0])
-    block = Block()
-    posture = posture_at(experiment.recording, experiment.model, experiment.recording.stream(shown[0].stream))
-    root = root_poses(
-        experiment.recording, experiment.model, posture, experiment.recording.intervals, experiment.processing
+    return groups
+
+
+def _robot(
+    experiment: Experiment, posture: Posture, urdf: Path | None, block: Block, mesh_folders: Sequence[Path]
+) -> tuple[Robot, tuple[str, ...]]:
+    model = experiment.model
+    geometry = robot_geometry(model, urdf, block, mesh_folders=mesh_folders)
+    robot = Robot(
+        name=model.name,
+        root_link=model.root_link,
+        links=tuple(model.links),
+        joints=scene_joints(model, posture.names),
+        shapes=geometry.shapes,
+        meshes=geometry.meshes,
     )
-    expected, lacking = expected_readings(experiment, tuple(names), posture, with_samples.recording.intervals)
-    notes += [*posture.notes, *root.notes, *lacking]
-    if experiment.processing.smoothing is not None:
-        notes.append("the smoothing of the experiment file is not applied to what is shown")
-    start_ns = experiment.recording.start_ns
-    # arrays in the order in which a page that is loaded in pieces needs them
-    time_s = block.add(seconds_since(posture.stamp_ns, start_ns), "float64")
-    positions, roots = block.add(posture.position, "float32"), block.add(root.values, "float32")
-    geometry = robot_geometry(experiment.model, urdf, block, mesh_folders=mesh_folders)
-    notes += geometry.notes
-    scene = Scene(
-        title=experiment.name,
-        provenance=(*_inputs(experiment), *provenance, f"forcetorque {version('forcetorque')}"),
-        samples=len(posture.stamp_ns),
-        start_ns=str(start_ns),
-        time_s=time_s,
-        positions=positions,
-        coordinates=posture.names,
-        root=roots,
-        robot=Robot(
-            name=experiment.model.name,
-            root_link=experiment.model.root_link,
-            links=tuple(experiment.model.links),
-            joints=scene_joints(experiment.model, posture.names),
-            shapes=geometry.shapes,
-            meshes=geometry.meshes,
-        ),
-        sensors=tuple(
-            scene_sensor(
-                with_samples, sensor, groups.get(sensor.name, {}), expected[sensor.name], posture, block, notes
-            )
-            for sensor in shown
-        ),
-        contacts=_contacts(with_samples, groups, posture, block, notes),
-        intervals=tuple(_interval(interval, start_ns) for interval in experiment.recording.intervals),
-        findings=_findings(with_samples),
-        notes=tuple(notes),
-        annotations_url=None,
-    )
-    return BuiltScene(scene=scene, block=block.bytes())
+    return robot, geometry.notes
 
 
 def _without_empty(experiment: Experiment, sensor: ExperimentSensor) -> tuple[Experiment, list[str]]:
@@ -159,71 +160,11 @@ def _interval(interval: Interval, start_ns: int) -> SceneInterval:
     )
 
 
-def _findings(experiment: Experiment) -> tuple[SceneFinding, ...]:
-    start_ns = experiment.recording.start_ns
-    return tuple(
-        SceneFinding(
-            stream=finding.stream,
-            kind=finding.kind,
-            message=finding.message,
-            start_s=None if finding.start_ns is None else (finding.start_ns - start_ns) * 1e-9,
-            end_s=None if finding.end_ns is None else (finding.end_ns - start_ns) * 1e-9,
-        )
-        for finding in inspect_experiment(experiment)
+def _finding(finding: Finding, start_ns: int) -> SceneFinding:
+    return SceneFinding(
+        stream=finding.stream,
+        kind=finding.kind,
+        message=finding.message,
+        start_s=None if finding.start_ns is None else (finding.start_ns - start_ns) * 1e-9,
+        end_s=None if finding.end_ns is None else (finding.end_ns - start_ns) * 1e-9,
     )
-
-
-def _contacts(
-    experiment: Experiment,
-    groups: Mapping[str, Mapping[str, Calibration]],
-    posture: Posture,
-    block: Block,
-    notes: list[str],
-) -> tuple[ContactSeries, ...]:
-    """Estimated wrenches of the contacts that the experiment states, or at its sensors, and of the support."""
-    try:
-        corrections = first_corrections(experiment, groups)
-        spans = estimate_experiment(experiment, corrections)
-    except ForceTorqueError as error:
-        notes.append(f"no contact wrenches: {error}")
-        return ()
-    sources = "; ".join(f"{sensor}: {correction.source}" for sensor, correction in corrections.items())
-    what = "that the experiment states" if experiment.contacts else "at the sensors"
-    notes.append(f"contact wrenches {what} are estimated with {sources}")
-    notes += dict.fromkeys(
-        f"contacts: left out {text}"
-        for span in spans
-        for text in span.left_out
-        if text.startswith("sub-model")  # torques and expected readings are not shown from here
-    )
-    found: dict[str, FloatArray] = {}
-    for span in spans:
-        # its instants are those of the experiment's first sensor, which need not be shown
-        at = np.searchsorted(span.stamp_ns, posture.stamp_ns, side="right") - 1
-        inside = (posture.stamp_ns >= span.interval.start_ns) & (posture.stamp_ns < span.interval.end_ns) & (at >= 0)
-        for name in span.estimates.layout.contacts:
-            values = found.setdefault(name, np.full((len(posture.stamp_ns), 6), np.nan))
-            values[inside] = span.estimates.contact(name)[at[inside]]
-    places = _places(experiment, spans)
-    return tuple(
-        ContactSeries(
-            name=name,
-            link=places[name].link,
-            link_H_contact=flat(places[name].link_H_contact),
-            values=block.add(values, "float32"),
-        )
-        for name, values in found.items()
-    )
-
-
-def _places(experiment: Experiment, spans: Sequence[IntervalEstimates]) -> dict[str, Contact]:
-    """Contacts by name: the support at its own origin, and those of the experiment or at its sensors."""
-    places: dict[str, Contact] = {}
-    for span in spans:
-        support = span.interval.support
-        if support is not None:
-            tree = build_tree(experiment.model, support.frame)
-            at_sensors = contacts_at_sensors(tree, [sensor.name for sensor in experiment.sensors])
-            stated = [entry.contact for entry in experiment.contacts]
-            places |= {contact.name: contact for contact in (Contact(link=support.frame), *(stated or at_sensors))}
-    return places

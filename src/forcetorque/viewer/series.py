@@ -52,6 +52,7 @@ def scene_sensor(
     posture: Posture,
     block: Block,
     notes: list[str],
+    sources: list[str],
 ) -> Sensor:
     """Collect the wrenches of a sensor at common instants.
 
@@ -63,12 +64,13 @@ def scene_sensor(
         posture: The instants.
         block: Takes the arrays.
         notes: Takes what is missing.
+        sources: Takes where the rest comes from.
 
     Returns:
         The sensor with its series; none is expected where the model gives nothing.
     """
-    readings = _readings(experiment, sensor, calibrations, notes)
-    spheres = _spheres(experiment, sensor, calibrations, notes)
+    readings = _readings(experiment, sensor, calibrations, notes, sources)
+    spheres = _spheres(experiment, sensor, calibrations, notes, sources)
     series = []
     if np.isfinite(expected).any():
         series.append(_series("expected", "expected", block, expected, sphere=_weight(spheres)))
@@ -105,13 +107,17 @@ def first_corrections(
 
 
 def _readings(
-    experiment: Experiment, sensor: ExperimentSensor, calibrations: Mapping[str, Calibration], notes: list[str]
+    experiment: Experiment,
+    sensor: ExperimentSensor,
+    calibrations: Mapping[str, Calibration],
+    notes: list[str],
+    sources: list[str],
 ) -> list[_Reading]:
     readings = []
     if sensor.quantity == "wrench" or sensor.prior is not None:
         correction = _prior_correction(experiment, sensor, notes)
         name = LOGGED if correction.of_wrench else PRIOR
-        notes.append(f"sensor {sensor.name!r}: {name!r} is {correction.source}")
+        sources.append(f"{sensor.name}: {name} is {correction.source}")
         readings.append(_Reading(name=name, candidate=PRIOR, correction=correction))
     elif not calibrations:
         notes.append(f"sensor {sensor.name!r}: raw counts become wrenches by --calibration or a prior matrix")
@@ -152,7 +158,11 @@ def _values(
 
 
 def _spheres(
-    experiment: Experiment, sensor: ExperimentSensor, calibrations: Mapping[str, Calibration], notes: list[str]
+    experiment: Experiment,
+    sensor: ExperimentSensor,
+    calibrations: Mapping[str, Calibration],
+    notes: list[str],
+    sources: list[str],
 ) -> dict[str, SensorSphere]:
     try:
         intervals = sphere_intervals(experiment, None)
@@ -165,10 +175,8 @@ def _spheres(
             fit = sphere.analysis.free if sphere.analysis.mapped is None else sphere.analysis.mapped.fit
             reason = "; ".join(fit.why)
             notes.append(f"sensor {sensor.name!r}, {sphere.candidate}: no ellipsoid of forces: {reason}")
-    notes.append(
-        f"sensor {sensor.name!r}: sphere and ellipsoids are those of `forcetorque sphere` over "
-        f"{', '.join(repr(interval.label) for interval in intervals)}; gravity draws no sphere of moments but a disc"
-    )
+    labels = ", ".join(repr(interval.label) for interval in intervals)
+    sources.append(f"{sensor.name}: sphere of the weight and ellipsoids as by `forcetorque sphere` over {labels}")
     return {sphere.candidate: sphere for sphere in found}
 
 

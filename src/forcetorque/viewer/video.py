@@ -44,9 +44,10 @@ class Film:
             raise ForceTorqueError(
                 f"video: expected up to 240 frames per second and a positive speed, got {self.fps:g} and {self.speed:g}"
             )
-        if self.width % 2 or self.height % 2 or not (64 <= self.width <= 8192 and 64 <= self.height <= 8192):
+        if self.width % 2 or self.height % 2 or not (160 <= self.width <= 8192 and 120 <= self.height <= 8192):
             raise ForceTorqueError(
-                f"video: expected an even width and height from 64 to 8192 pixels, got {self.width} x {self.height}"
+                "video: expected an even width and height of 160 x 120 to 8192 x 8192 pixels, "
+                f"got {self.width} x {self.height}"
             )
 
 
