@@ -46,8 +46,10 @@ def stale_files() -> list[str]:
     sources += [path for path in (WEB / "src").rglob("*") if path.is_file()]
     present = {f"web/{path.relative_to(WEB).as_posix()}": path for path in sources}
     present |= {name: ASSETS / name for name in recorded if not name.startswith("web/")}
-    changed = [name for name in sorted(recorded.keys() | present.keys()) if digest(present.get(name)) != recorded.get(name)]
-    return [f"{name}: not as the last build saw it" for name in changed]
+    names = sorted(recorded.keys() | present.keys())
+    return [
+        f"{name}: not as the last build saw it" for name in names if digest(present.get(name)) != recorded.get(name)
+    ]
 
 
 def digest(path: Path | None) -> str | None:

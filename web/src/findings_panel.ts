@@ -13,7 +13,9 @@ export function notes(data: SceneData): HTMLElement[] {
   const texts = [...data.scene.notes];
   if (data.samples === 0) texts.push("The scene has no samples.");
   if (texts.length === 0) return [];
-  return [el("section", { class: "notes", "aria-label": "Notes" }, el("ul", {}, ...texts.map((text) => el("li", {}, text))))];
+  const list = el("ul", {}, ...texts.map((text) => el("li", {}, text)));
+  const count = texts.length === 1 ? "1 note" : `${texts.length} notes`;
+  return [el("section", { class: "notes", "aria-label": "Notes" }, el("details", { open: true }, el("summary", {}, count), list))];
 }
 
 /** Intervals of the experiment; each one is a button that goes to its start. */

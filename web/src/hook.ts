@@ -2,6 +2,7 @@
 // What programs may ask of the page: a browser driven by a command, or a test.
 
 import { linkPoses } from "./kinematics";
+import type { PlaneView } from "./planes";
 import type { SpaceView } from "./space_view";
 import { makeVideo, type Stage, type VideoOptions } from "./video";
 
@@ -17,6 +18,10 @@ export interface Hook {
   linkPoses(sample: number): Record<string, number[]>;
   /** Where a sample of a series is on the screen, in the force or moment space; CSS pixels. */
   spacePoint(series: number, sample: number): { x: number; y: number } | null;
+  /** The same in a plane: 0 is x-y, 1 is y-z, 2 is x-z. */
+  planePoint(plane: number, series: number, sample: number): { x: number; y: number } | null;
+  /** Samples whose points are in the clouds. */
+  cloudSamples(): number[];
   /** Make a film; base64 of an MP4 file. */
   video(options?: VideoOptions): Promise<string>;
 }
@@ -28,7 +33,7 @@ declare global {
 }
 
 /** Fill the hook. */
-export function openHook(stage: Stage, space: SpaceView): Omit<Hook, "ready"> {
+export function openHook(stage: Stage, space: SpaceView, planes: readonly PlaneView[]): Omit<Hook, "ready"> {
   return {
     show(sample) {
       const last = Math.max(0, stage.data.samples - 1);
@@ -43,6 +48,8 @@ export function openHook(stage: Stage, space: SpaceView): Omit<Hook, "ready"> {
       const box = space.canvas.getBoundingClientRect();
       return at && { x: box.left + at.x, y: box.top + at.y };
     },
+    planePoint: (plane, series, sample) => planes[plane]?.sampleOnScreen(series, sample) ?? null,
+    cloudSamples: () => [...space.samples()],
     video: async (options = {}) => base64(await makeVideo(stage, options, () => undefined)),
   };
 }

@@ -69,21 +69,17 @@ function build(data: SceneData): void {
   panels.spaceTitle.prepend(button("⟲", () => space.reset(), { "aria-label": "Reset the space's view", title: "Reset the view" }));
   store.on(["sample", "sensor", "hidden", "forceArrows", "momentArrows", "allSensors", "contacts"], () => robot.update(store.state));
   store.on(["sample", "sensor", "quantity", "hidden", "wireframes", "hideIgnored", "marks"], () => space.update(store.state));
-  connectFlat(panels, frames, data, maker, store);
+  const planes = connectFlat(panels, frames, data, maker, store);
   const stage: Stage = { data, store, robot, space, flush: () => frames.flush() };
   fillSide(panels, frames, stage, say);
   describe(panels, stage, robot);
   player(data, store);
   listen(data, store, say);
-  Object.assign(window.ft, openHook(stage, space));
+  Object.assign(window.ft, openHook(stage, space, planes));
   frames.flush();
 }
 
-function connectFlat(panels: Panels, frames: Frames, data: SceneData, maker: CloudMaker, store: Store): void {
-  panels.planes.forEach((panel, k) => {
-    const plane = new PlaneView(panel, ([[0, 1], [1, 2], [0, 2]] as const)[k] ?? [0, 1], frames, data, maker, store);
-    store.on(["sample", "sensor", "quantity", "hidden", "wireframes", "hideIgnored", "marks"], () => plane.update());
-  });
+function connectFlat(panels: Panels, frames: Frames, data: SceneData, maker: CloudMaker, store: Store): PlaneView[] {
   panels.plots.forEach((panel, k) => {
     const plot = new AxisPlot(panel, ([0, 1, 2] as const)[k] ?? 0, frames, data, store);
     store.on(["sensor", "quantity", "hidden", "window", "marks"], () => plot.update());
@@ -91,6 +87,11 @@ function connectFlat(panels: Panels, frames: Frames, data: SceneData, maker: Clo
   });
   const strip = new TimeStrip(panels.strip, frames, data, store);
   store.on(["window", "marks"], () => strip.update());
+  return panels.planes.map((panel, k) => {
+    const plane = new PlaneView(panel, ([[0, 1], [1, 2], [0, 2]] as const)[k] ?? [0, 1], frames, data, maker, store);
+    store.on(["sample", "sensor", "quantity", "hidden", "wireframes", "hideIgnored", "marks"], () => plane.update());
+    return plane;
+  });
 }
 
 function fillSide(panels: Panels, frames: Frames, stage: Stage, say: (text: string) => void): void {

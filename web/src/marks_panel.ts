@@ -21,7 +21,13 @@ export function marksPanel(data: SceneData, store: Store, say: (text: string) =>
     if (marks.length === 0) list.replaceChildren(el("li", { class: "absent" }, "None yet: “Save sample” keeps the one shown."));
     intervals.replaceChildren(...intervalRows(data, store));
   });
-  return el("div", {}, list, intervals, exportButtons(data, store, say));
+  const kept = new Set<readonly Mark[]>(); // lists that were exported
+  addEventListener("beforeunload", (event) => {
+    const { marks } = store.state;
+    if (marks.length > 0 && !kept.has(marks)) event.preventDefault(); // the browser asks before they are lost
+  });
+  const keep = (): void => void kept.add(store.state.marks);
+  return el("div", {}, list, intervals, exportButtons(data, store, say, keep));
 }
 
 function markRow(mark: Mark, store: Store): HTMLLIElement {
@@ -53,18 +59,22 @@ function intervalRows(data: SceneData, store: Store): HTMLLIElement[] {
   });
 }
 
-function exportButtons(data: SceneData, store: Store, say: (text: string) => void): HTMLElement {
+function exportButtons(data: SceneData, store: Store, say: (text: string) => void, keep: () => void): HTMLElement {
   const { title, annotations_url } = data.scene;
+  const offer = (ending: string, text: string, type: string): void => {
+    download(fileName(title, ending), text, type);
+    keep();
+  };
   const row = el("div", { class: "row" },
-    button("Samples as CSV", () => download(fileName(title, "_samples.csv"), toCsv(data, store.state.marks), "text/csv")),
-    button("Intervals as TOML", () => download(fileName(title, "_intervals.toml"), toToml(data, store.state.marks), "application/toml")));
+    button("Samples as CSV", () => offer("_samples.csv", toCsv(data, store.state.marks), "text/csv")),
+    button("Intervals as TOML", () => offer("_intervals.toml", toToml(data, store.state.marks), "application/toml")));
   if (annotations_url !== null) {
-    row.append(button("Write beside the experiment", () => void send(annotations_url, data, store, say), { class: "primary" }));
+    row.append(button("Write beside the experiment", () => void send(annotations_url, data, store, say).then((sent) => { if (sent) keep(); }), { class: "primary" }));
   }
   return row;
 }
 
-async function send(url: string, data: SceneData, store: Store, say: (text: string) => void): Promise<void> {
+async function send(url: string, data: SceneData, store: Store, say: (text: string) => void): Promise<boolean> {
   try {
     const body = JSON.stringify(toAnnotations(data, store.state.marks));
     const answer = await fetch(url, { method: "POST", headers: { "Content-Type": "application/json" }, body });
@@ -72,7 +82,9 @@ async function send(url: string, data: SceneData, store: Store, say: (text: stri
     if (!answer.ok) throw new Error(`${answer.status} ${answer.statusText}: ${text.slice(0, 300)}`);
     const { files } = JSON.parse(text) as { files: string[] };
     say(`Written beside the experiment: ${files.join(", ")}`);
+    return true;
   } catch (error) {
     say(`Not written. ${error instanceof Error ? error.message : String(error)}`);
+    return false;
   }
 }

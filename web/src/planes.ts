@@ -53,6 +53,16 @@ export class PlaneView implements Drawable {
     ];
   }
 
+  /** Where a sample of a series is on the screen; CSS pixels. */
+  sampleOnScreen(series: number, sample: number): { x: number; y: number } | null {
+    const clouds = this.maker.of(this.store.state);
+    const cloud = clouds.clouds[series];
+    if (!cloud) return null;
+    const box = this.canvas.getBoundingClientRect();
+    const [x, y] = this.place(clouds, this.data.vector(cloud.series, sample, this.store.state.quantity));
+    return { x: box.left + x, y: box.top + y };
+  }
+
   /** Draw now. */
   draw(): void {
     const [width, height] = [this.panel.clientWidth, this.panel.clientHeight];

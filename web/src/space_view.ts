@@ -54,6 +54,11 @@ export class SpaceView extends View3D {
     return this.onCanvas(toCube(this.clouds, this.data.vector(cloud.series, sample, this.store.state.quantity)));
   }
 
+  /** Samples whose points are drawn. */
+  samples(): Uint32Array {
+    return this.clouds?.samples ?? new Uint32Array();
+  }
+
   private rebuild(clouds: Clouds, state: State): void {
     empty(this.fixedParts);
     this.fixedParts.add(cube(clouds, state.quantity));

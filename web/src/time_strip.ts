@@ -52,12 +52,7 @@ export class TimeStrip implements Drawable {
     const findings = this.data.scene.findings;
     this.canvas.setAttribute("aria-label", `Time axis with ${intervals.length} intervals and ${findings.length} findings; both are listed beside the plots`);
     for (const { label, start_s, end_s, use } of intervals) this.bar(pen, start_s, end_s, use, label);
-    pen.fillStyle = ALARM;
-    for (const { start_s, end_s } of findings) {
-      if (start_s === null) continue;
-      const [from, to] = [this.pixel(start_s), this.pixel(end_s ?? start_s)];
-      if (to >= LEFT && from <= width - RIGHT) pen.fillRect(from - 0.75, FINDINGS.top, Math.max(1.5, to - from), FINDINGS.height);
-    }
+    for (const { start_s, end_s } of findings) this.finding(pen, start_s, end_s);
     for (const mark of this.store.state.marks) this.flag(pen, mark.time_s, mark.mark);
     pen.fillStyle = INK;
     pen.fillText("intervals", 4, INTERVALS.top + 11);
@@ -76,6 +71,20 @@ export class TimeStrip implements Drawable {
     pen.fillStyle = INK;
     const text = use === "ignore" ? `${label} (ignored)` : label;
     if (pen.measureText(text).width < to - from - 6) pen.fillText(text, from + 4, INTERVALS.top + 11);
+  }
+
+  /** A long one is pale, so that short ones inside it are seen. */
+  private finding(pen: CanvasRenderingContext2D, start: number | null, end: number | null): void {
+    if (start === null) return;
+    const right = this.panel.clientWidth - RIGHT;
+    const [from, to] = [this.pixel(start), this.pixel(end ?? start)];
+    if (to < LEFT || from > right) return;
+    pen.fillStyle = faded(ALARM, 0.25);
+    pen.fillRect(Math.max(LEFT, from), FINDINGS.top, Math.min(right, to) - Math.max(LEFT, from), FINDINGS.height);
+    pen.fillStyle = ALARM;
+    for (const edge of [from, to]) {
+      if (edge >= LEFT && edge <= right) pen.fillRect(edge - 0.75, FINDINGS.top, 1.5, FINDINGS.height);
+    }
   }
 
   private flag(pen: CanvasRenderingContext2D, time: number, mark: "begin" | "end" | "point"): void {

@@ -20,7 +20,7 @@ export function transport(data: SceneData, store: Store, say: (text: string) => 
     store.set({ sample: Math.min(last, Math.max(0, Number.isFinite(wanted) ? wanted : 0)), playing: false });
     number.value = String(store.state.sample);
   });
-  const time = el("output", { class: "time", "aria-label": "Time" });
+  const time = el("time", { "aria-label": "Time" }); // an output would be read aloud at every step
   const play = button("▶ Play", () => togglePlay(data, store), { class: "play" });
   const speeds = SPEEDS.map((s) => [s, `${s}×`] as const);
   const speed = choice("Speed", speeds, "1", (value) => store.set({ speed: Number(value) }));
@@ -30,7 +30,7 @@ export function transport(data: SceneData, store: Store, say: (text: string) => 
     number.value = String(sample);
     const seconds = (data.time[sample] ?? 0).toFixed(3);
     slider.setAttribute("aria-valuetext", `sample ${sample}, ${seconds} s`);
-    time.value = `${seconds} s`;
+    time.textContent = `${seconds} s`;
   });
   store.on(["playing"], () => {
     const { playing } = store.state;

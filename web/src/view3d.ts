@@ -19,6 +19,7 @@ export class View3D implements Drawable {
   private readonly controls: OrbitControls;
   private home: { from: Vector3; at: Vector3 } = { from: new Vector3(3, -3, 2), at: new Vector3() };
   private fixed = false;
+  private size = "";
 
   constructor(
     private readonly panel: HTMLElement,
@@ -37,6 +38,7 @@ export class View3D implements Drawable {
     this.controls = new OrbitControls(this.camera, this.canvas);
     this.controls.addEventListener("change", () => frames.later(this));
     this.canvas.addEventListener("keydown", (event) => this.turnByKey(event));
+    this.fit();
     new ResizeObserver(() => this.fit()).observe(panel);
   }
 
@@ -72,6 +74,7 @@ export class View3D implements Drawable {
   /** Take the size of the panel again. */
   release(): void {
     this.fixed = false;
+    this.size = "";
     this.fit();
   }
 
@@ -83,8 +86,12 @@ export class View3D implements Drawable {
   }
 
   private fit(): void {
-    if (this.fixed || this.panel.clientWidth === 0 || this.panel.clientHeight === 0) return;
-    this.resize(this.panel.clientWidth, this.panel.clientHeight, Math.min(devicePixelRatio, LARGEST_RATIO), true);
+    const { clientWidth: width, clientHeight: height } = this.panel;
+    const ratio = Math.min(devicePixelRatio, LARGEST_RATIO);
+    const size = `${width} ${height} ${ratio}`;
+    if (this.fixed || width === 0 || height === 0 || size === this.size) return;
+    this.size = size;
+    this.resize(width, height, ratio, true);
     this.frames.later(this);
   }
 

@@ -45,13 +45,16 @@ URDF = """<robot name="arm">
     <material name="tool"><color rgba="0.9 0.75 0.4 1"/></material></visual></link>
   <joint name="turn" type="continuous"><parent link="base"/><child link="column"/><origin xyz="0 0 0.2"/>
     <axis xyz="0 0 1"/></joint>
-  <joint name="lift" type="revolute"><parent link="column"/><child link="upper"/><origin xyz="0 0 0.3" rpy="0.3 0 0.2"/>
-    <axis xyz="0 1 0"/><limit lower="-2" upper="2" effort="1" velocity="1"/></joint>
-  <joint name="shoulder_mount" type="fixed"><parent link="upper"/><child link="fore_base"/><origin xyz="0.3 0 0"/></joint>
+  <joint name="lift" type="revolute"><parent link="column"/><child link="upper"/>
+    <origin xyz="0 0 0.3" rpy="0.3 0 0.2"/><axis xyz="0 1 0"/>
+    <limit lower="-2" upper="2" effort="1" velocity="1"/></joint>
+  <joint name="shoulder_mount" type="fixed"><parent link="upper"/><child link="fore_base"/>
+    <origin xyz="0.3 0 0"/></joint>
   <link name="fore_base"/>
   <joint name="reach" type="prismatic"><parent link="fore_base"/><child link="fore"/><axis xyz="1 0 0"/>
     <limit lower="0" upper="0.2" effort="1" velocity="1"/></joint>
-  <joint name="wrist_mount" type="fixed"><parent link="fore"/><child link="hand"/><origin xyz="0.2 0 0" rpy="0 0.4 0"/></joint>
+  <joint name="wrist_mount" type="fixed"><parent link="fore"/><child link="hand"/>
+    <origin xyz="0.2 0 0" rpy="0 0.4 0"/></joint>
 </robot>"""
 
 HAND = """solid hand
@@ -177,11 +180,13 @@ def arm_scene(
 
 def _positions(samples: int) -> FloatArray:
     phase = np.linspace(0.0, 1.0, samples, endpoint=False)
-    return np.column_stack([
-        1.6 * np.sin(2 * np.pi * 2 * phase),
-        0.9 * np.sin(2 * np.pi * 7 * phase + 0.4),
-        0.08 + 0.06 * np.sin(2 * np.pi * 3 * phase),
-    ])
+    return np.column_stack(
+        [
+            1.6 * np.sin(2 * np.pi * 2 * phase),
+            0.9 * np.sin(2 * np.pi * 7 * phase + 0.4),
+            0.08 + 0.06 * np.sin(2 * np.pi * 3 * phase),
+        ]
+    )
 
 
 def _root_row(sample: int) -> list[float]:
