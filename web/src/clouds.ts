@@ -8,6 +8,7 @@ import type { Ellipsoid, Sphere, WrenchSeries } from "./scene_types";
 import type { State } from "./store";
 import { everyKth } from "./thin";
 
+/** Most points of all series together. */
 const LIMIT = 20_000;
 /** Values farther than this many half widths of nearly all others do not widen the view. */
 const FAR = 3;
@@ -60,8 +61,9 @@ function makeClouds(
 ): Clouds {
   const left = new Uint8Array(data.samples);
   for (const { start_s, end_s } of spans) left.fill(1, firstAt(data, start_s), firstAt(data, end_s));
-  const samples = everyKth(data.samples, LIMIT, (i) => left[i] === 0);
   const sensor = data.sensor(place);
+  const limit = Math.floor(LIMIT / Math.max(1, sensor?.wrenches.length ?? 0));
+  const samples = everyKth(data.samples, limit, (i) => left[i] === 0);
   const clouds = (sensor?.wrenches ?? []).map((series) => ({
     series,
     colour: sensor ? seriesColour(sensor, series) : "#000000",

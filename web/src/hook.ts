@@ -12,6 +12,8 @@ export interface Hook {
   ready: Promise<boolean>;
   /** Show a sample; it is drawn when this returns. */
   show(sample: number): void;
+  /** Show what was shown first; saved samples are lost. */
+  reset(): void;
   /** The sample that is shown. */
   sample(): number;
   /** Poses of all links in the world, row by row. */
@@ -34,7 +36,13 @@ declare global {
 
 /** Fill the hook. */
 export function openHook(stage: Stage, space: SpaceView, planes: readonly PlaneView[]): Omit<Hook, "ready"> {
+  const first = stage.store.state;
   return {
+    reset() {
+      stage.store.set(first);
+      for (const view of [stage.robot, stage.space]) view.reset();
+      stage.flush();
+    },
     show(sample) {
       const last = Math.max(0, stage.data.samples - 1);
       stage.store.set({ sample: Math.min(last, Math.max(0, sample)), playing: false });

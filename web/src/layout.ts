@@ -35,11 +35,11 @@ export function layout(data: SceneData, store: Store, footer: (say: (text: strin
   const side = el("aside", { class: "side", "aria-label": "Details" });
   const robotTitle = el("div", { class: "tools" });
   const spaceTitle = el("div", { class: "tools" });
-  const views = el("div", { class: "views" });
-  views.append(
-    panel("Robot", "robot", views, robotTitle, robot, scale),
-    panel("Force space", "space", views, spaceTitle, space),
-    panel("Planes", "planes", views, el("div", { class: "tools" }), el("div", { class: "three" }, ...planes)));
+  const views = el("div", { class: "views" },
+    panel(store, "Robot", "robot", robotTitle, robot, scale),
+    panel(store, "Force space", "space", spaceTitle, space),
+    panel(store, "Planes", "planes", el("div", { class: "tools" }), el("div", { class: "three" }, ...planes)));
+  store.on(["large"], () => { views.dataset["large"] = store.state.large ?? ""; });
   const unzoom = button("Whole recording", () => store.set({ window: data.span }), { class: "unzoom" });
   store.on(["window"], () => {
     const [start, end] = data.span;
@@ -74,15 +74,18 @@ function header(data: SceneData, store: Store): HTMLElement {
   return el("header", {}, el("h1", { title: data.scene.title }, data.scene.title), sensor, quantity, keys);
 }
 
-function panel(title: string, name: string, views: HTMLElement, tools: HTMLElement, ...content: HTMLElement[]): HTMLElement {
-  const section = el("section", { class: `panel ${name}`, "aria-label": title });
-  const larger = button("⤢", () => {
-    const on = views.dataset["large"] !== name;
-    if (on) views.dataset["large"] = name;
-    else delete views.dataset["large"];
-    for (const other of views.querySelectorAll("[data-larger]")) other.setAttribute("aria-pressed", String(on && other === larger));
-  }, { "aria-label": `Enlarge ${title.toLowerCase()}`, "aria-pressed": "false", "data-larger": true, title: "Enlarge" });
+function panel(
+  store: Store,
+  title: string,
+  name: "robot" | "space" | "planes",
+  tools: HTMLElement,
+  ...content: HTMLElement[]
+): HTMLElement {
+  const larger = button("⤢", () => store.set({ large: store.state.large === name ? null : name }), {
+    "aria-label": `Enlarge ${title.toLowerCase()}`, title: "Enlarge",
+  });
+  store.on(["large"], () => larger.setAttribute("aria-pressed", String(store.state.large === name)));
   tools.append(larger);
-  section.append(el("div", { class: "heading" }, el("h2", {}, title), tools), ...content);
-  return section;
+  const heading = el("div", { class: "heading" }, el("h2", {}, title), tools);
+  return el("section", { class: `panel ${name}`, "aria-label": title }, heading, ...content);
 }

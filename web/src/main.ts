@@ -56,7 +56,7 @@ function build(data: SceneData): void {
   const store = new Store({
     sample: 0, sensor: 0, quantity: "force", hidden: new Set(), forceArrows: true, momentArrows: true, allSensors: true,
     contacts: true, wireframes: true, hideIgnored: false, marks: [], markKind: "point", window: data.span,
-    playing: false, speed: 1,
+    large: null, playing: false, speed: 1,
   });
   const frames = new Frames();
   const say = (text: string): void => { panels.status.textContent = text; };

@@ -10,7 +10,7 @@ import { markedIntervals } from "./marks";
 import { FIRST, UNIT, type SceneData } from "./scene_data";
 import type { WrenchSeries } from "./scene_types";
 import type { Store } from "./store";
-import { minMax, range } from "./thin";
+import { minMax } from "./thin";
 
 /** Width of the axis on the left, shared with the strip of intervals; CSS pixels. */
 export const LEFT = 58;
@@ -74,7 +74,7 @@ export class AxisPlot implements Drawable {
     const place = FIRST[state.quantity] + this.axis;
     const series = this.shown();
     const columns = series.map((one) => ({ values: this.data.floats(one.values), place }));
-    this.bounds = yBounds(columns);
+    this.bounds = yBounds(series.map((one) => this.data.range(one, place)));
     const first = Math.max(0, this.data.sampleAt(state.window[0]));
     const end = Math.min(this.data.samples, this.data.sampleAt(state.window[1]) + 2);
     const line = minMax(this.data.time, columns, first, end, width - LEFT - RIGHT);
@@ -147,8 +147,8 @@ export class AxisPlot implements Drawable {
   }
 }
 
-function yBounds(columns: readonly { values: Float32Array; place: number }[]): [number, number] {
-  const found = columns.map(({ values, place }) => range(values, place)).filter((r) => r !== null);
+function yBounds(ranges: readonly ([number, number] | null)[]): [number, number] {
+  const found = ranges.filter((r) => r !== null);
   if (found.length === 0) return [-1, 1];
   const low = Math.min(...found.map(([value]) => value));
   const high = Math.max(...found.map(([, value]) => value));

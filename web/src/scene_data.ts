@@ -2,6 +2,7 @@
 // The scene with its arrays.
 
 import type { ArrayRef, ContactSeries, Scene, Sensor, WrenchSeries } from "./scene_types";
+import { range } from "./thin";
 
 /** What a wrench is made of. */
 export type Quantity = "force" | "moment";
@@ -19,6 +20,7 @@ export class SceneData {
   readonly time: Float64Array;
   readonly positions: Float32Array;
   readonly root: Float32Array;
+  private readonly ranges = new Map<string, [number, number] | null>();
 
   constructor(
     readonly scene: Scene,
@@ -54,6 +56,16 @@ export class SceneData {
     const values = this.floats(series.values);
     const at = 6 * sample + FIRST[quantity];
     return [values[at] ?? Number.NaN, values[at + 1] ?? Number.NaN, values[at + 2] ?? Number.NaN];
+  }
+
+  /** Lowest and highest value of a series at one place of its rows; null if all are absent. */
+  range(series: WrenchSeries, place: number): [number, number] | null {
+    const key = `${series.values.offset} ${place}`;
+    const known = this.ranges.get(key);
+    if (known !== undefined) return known;
+    const found = range(this.floats(series.values), place);
+    this.ranges.set(key, found);
+    return found;
   }
 
   /** Coordinate of a column at a sample; rad or m; NaN where absent. */

@@ -124,14 +124,14 @@ export class SpaceView extends View3D {
 
 function points(clouds: Clouds, cloud: Cloud): Points {
   const places = new Float32Array(cloud.points.length);
+  const middle = new Vector3(...clouds.centre);
   let count = 0;
+  const at = new Vector3();
   for (let k = 0; k + 2 < cloud.points.length; k += 3) {
-    const at = toCube(clouds, cloud.points.subarray(k, k + 3));
-    if (!Number.isFinite(at.x + at.y + at.z)) continue;
-    at.toArray(places, count);
-    count += 3;
+    at.fromArray(cloud.points, k).sub(middle).divideScalar(clouds.half); // as toCube
+    if (Number.isFinite(at.x + at.y + at.z)) at.toArray(places, count++ * 3);
   }
   const geometry = new BufferGeometry();
-  geometry.setAttribute("position", new BufferAttribute(places.subarray(0, count), 3));
+  geometry.setAttribute("position", new BufferAttribute(places.subarray(0, 3 * count), 3));
   return new Points(geometry, new PointsMaterial({ color: cloud.colour, size: 3, sizeAttenuation: false, map: dotTexture(), alphaTest: 0.5 }));
 }

@@ -24,6 +24,8 @@ export interface State {
   readonly markKind: Mark["mark"];
   /** Instants between which the time plots show; s. */
   readonly window: readonly [number, number];
+  /** The panel that takes the place of all views. */
+  readonly large: "robot" | "space" | "planes" | null;
   readonly playing: boolean;
   /** Seconds of the recording per second. */
   readonly speed: number;

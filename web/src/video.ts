@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A film of the robot and its force space. Each frame is drawn for its own instant, however long that takes, so the
-// same scene gives the same frames.
+// same scene gives the same frames. The H.264 encoders of browsers pack the same frames into different bytes each
+// time; VP9 with a fixed quantizer does not.
 
 import { ArrayBufferTarget, Muxer } from "mp4-muxer";
 
@@ -13,11 +14,14 @@ import type { View3D } from "./view3d";
 const CAPTION = 44; // pixels below the views
 const KEY_FRAME_S = 2;
 const WAITING = 4; // frames that the encoder may be behind
-const CODECS = [
-  { codec: "avc1.640028", muxer: "avc" },
-  { codec: "avc1.42002a", muxer: "avc" },
-  { codec: "vp09.00.40.08", muxer: "vp9" },
-] as const;
+const CODECS = {
+  h264: ["avc1.640028", "avc1.42002a"],
+  vp9: ["vp09.00.40.08"],
+} as const;
+const QUANTIZER = 24; // of 0 to 63: no difference to be seen
+
+/** How frames are packed: H.264 plays everywhere, VP9 gives the same bytes every time. */
+export type Codec = keyof typeof CODECS;
 
 /** Which part of the recording, how fast, and how large. */
 export interface VideoOptions {
@@ -33,7 +37,17 @@ export interface VideoOptions {
   readonly height?: number;
   /** Seconds of the recording per second of the film; 1 if left out. */
   readonly speed?: number;
+  /** H.264, or VP9 where the browser has no H.264, if left out. */
+  readonly codec?: Codec;
 }
+
+interface Format {
+  readonly config: VideoEncoderConfig;
+  readonly codec: Codec;
+}
+
+/** What the types of the standard library lack. */
+type EncodeOptions = VideoEncoderEncodeOptions & { vp9?: { quantizer: number } };
 
 /** What a film needs of the page. */
 export interface Stage {
@@ -64,15 +78,15 @@ export async function makeVideo(stage: Stage, options: VideoOptions, progress: (
     throw new Error(`video: expected an even width and height of at least 64 x 64, got ${width} x ${height}`);
   }
   const times = frameTimes(stage.data, options);
-  const format = await supported(width, height, fps);
+  const { config, codec } = await supported(options.codec ? [options.codec] : ["h264", "vp9"], width, height, fps);
   const target = new ArrayBufferTarget();
-  const muxer = new Muxer({ target, video: { codec: format.muxer, width, height, frameRate: fps }, fastStart: "in-memory" });
+  const muxer = new Muxer({ target, video: { codec: codec === "h264" ? "avc" : "vp9", width, height, frameRate: fps }, fastStart: "in-memory" });
   let failure: Error | null = null;
   const encoder = new VideoEncoder({
     output: (chunk, meta) => muxer.addVideoChunk(chunk, meta),
     error: (error) => { failure = error; },
   });
-  encoder.configure(format.config);
+  encoder.configure(config);
   const canvas = new OffscreenCanvas(width, height);
   const before = stage.store.state;
   stage.store.set({ playing: false });
@@ -81,7 +95,8 @@ export async function makeVideo(stage: Stage, options: VideoOptions, progress: (
     for (const [k, time] of times.entries()) {
       drawFrame(stage, canvas, stage.data.sampleAt(time));
       const frame = new VideoFrame(canvas, { timestamp: Math.round((k * 1e6) / fps), duration: Math.round(1e6 / fps) });
-      encoder.encode(frame, { keyFrame: k % Math.round(KEY_FRAME_S * fps) === 0 });
+      const wanted: EncodeOptions = { keyFrame: k % Math.max(1, Math.round(KEY_FRAME_S * fps)) === 0, vp9: { quantizer: QUANTIZER } };
+      encoder.encode(frame, wanted);
       frame.close();
       progress((k + 1) / times.length);
       do await new Promise((resume) => setTimeout(resume, 0)); // lets the encoder and the page work
@@ -98,17 +113,21 @@ export async function makeVideo(stage: Stage, options: VideoOptions, progress: (
   return clearDates(new Uint8Array(target.buffer));
 }
 
-async function supported(width: number, height: number, framerate: number): Promise<{ config: VideoEncoderConfig; muxer: "avc" | "vp9" }> {
+async function supported(codecs: readonly Codec[], width: number, height: number, framerate: number): Promise<Format> {
   if (typeof VideoEncoder === "undefined") throw new Error("video: this browser has no WebCodecs; Chromium has");
-  for (const { codec, muxer } of CODECS) {
-    const config: VideoEncoderConfig = {
-      codec, width, height, framerate, bitrate: 4_000_000, latencyMode: "quality", hardwareAcceleration: "prefer-software",
-      ...(muxer === "avc" ? { avc: { format: "avc" as const } } : {}),
-    };
-    const answer = await VideoEncoder.isConfigSupported(config).catch(() => null);
-    if (answer?.supported) return { config, muxer };
+  for (const codec of codecs) {
+    const rate = codec === "h264"
+      ? { bitrate: 4_000_000, avc: { format: "avc" as const } }
+      : { bitrateMode: "quantizer" as const };
+    for (const name of CODECS[codec]) {
+      const config: VideoEncoderConfig = {
+        codec: name, width, height, framerate, latencyMode: "quality", hardwareAcceleration: "prefer-software", ...rate,
+      };
+      const answer = await VideoEncoder.isConfigSupported(config).catch(() => null);
+      if (answer?.supported) return { config, codec };
+    }
   }
-  throw new Error(`video: this browser encodes neither H.264 nor VP9 at ${width} x ${height}`);
+  throw new Error(`video: this browser does not encode ${codecs.join(" or ")} at ${width} x ${height}`);
 }
 
 function drawFrame(stage: Stage, canvas: OffscreenCanvas, sample: number): void {

@@ -10,7 +10,6 @@ import { label } from "./labels3d";
 import type { Quantity, SceneData } from "./scene_data";
 import type { ContactSeries, WrenchSeries } from "./scene_types";
 import type { State } from "./store";
-import { range } from "./thin";
 
 const QUANTITIES: readonly Quantity[] = ["force", "moment"];
 /** Share of the robot's size that the largest wrench is long. */
@@ -111,10 +110,12 @@ export class WrenchArrows extends Group {
 
   private unit(quantity: Quantity): number {
     const first = quantity === "force" ? 0 : 3;
-    const all = this.data.scene.sensors.flatMap((sensor) => sensor.wrenches.filter((w) => w.role === "expected").length > 0
-      ? sensor.wrenches.filter((w) => w.role === "expected") : sensor.wrenches);
+    const all = this.data.scene.sensors.flatMap(({ wrenches }) => {
+      const expected = wrenches.filter(({ role }) => role === "expected");
+      return expected.some((series) => this.data.range(series, first) !== null) ? expected : wrenches;
+    });
     const largest = all.flatMap((series) => [0, 1, 2].map((axis) => {
-      const found = range(this.data.floats(series.values), first + axis);
+      const found = this.data.range(series, first + axis);
       return found ? Math.max(-found[0], found[1]) : 0;
     }));
     const peak = Math.max(0, ...largest);
