@@ -449,7 +449,7 @@ def _view(
     ] = None,
     mesh_dir: Annotated[
         list[Path] | None,
-        typer.Option("--mesh-dir", help="Folder with the packages that the URDF's meshes are in; repeat for more."),
+        typer.Option("--mesh-dir", help="Folder that holds the packages of meshes, or is one; repeat for more."),
     ] = None,
     video: Annotated[Path | None, typer.Option("--video", help="File for a video (MP4); needs chromium.")] = None,
     fps: Annotated[float, typer.Option("--fps", help="Frames per second of the video.")] = 25.0,

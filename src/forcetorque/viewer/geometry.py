@@ -46,7 +46,7 @@ def robot_geometry(
         model: The robot.
         urdf: Its file; None for a load without one.
         block: Takes the meshes.
-        mesh_folders: Folders with packages of meshes that are looked at first.
+        mesh_folders: Folders with packages of meshes, or packages themselves, that are looked at first.
 
     Returns:
         Shapes and meshes; sticks from joint to joint for links whose meshes are missing, and for all links where
@@ -78,6 +78,7 @@ class _Library:
 
     def __init__(self, urdf: Path | None, mesh_folders: Sequence[Path]) -> None:
         self.urdf = urdf
+        self.given = tuple(mesh_folders)
         self.folders = () if urdf is None else package_folders(urdf, mesh_folders)
         self.read: list[Triangles] = []
         self._known: dict[tuple[str, tuple[float, ...]], int | None] = {}
@@ -104,7 +105,7 @@ class _Library:
         return [*found, *(f"{len(files)} mesh(es) not read: {reason}" for reason, files in self._unread.items())]
 
     def _open(self, name: str, scale: tuple[float, ...], urdf: Path) -> Triangles | None:
-        file = find_mesh(name, urdf, self.folders)
+        file = find_mesh(name, urdf, self.folders, packages=self.given)
         if file is None:
             self._missing[name] = None
             return None

@@ -54,13 +54,14 @@ def package_folders(urdf: Path, given: Sequence[Path] = ()) -> tuple[Path, ...]:
     return tuple(folder for folder in dict.fromkeys(candidates) if folder.is_dir())
 
 
-def find_mesh(name: str, urdf: Path, folders: Sequence[Path]) -> Path | None:
+def find_mesh(name: str, urdf: Path, folders: Sequence[Path], *, packages: Sequence[Path] = ()) -> Path | None:
     """Find a mesh file.
 
     Args:
         name: What the URDF calls it: `package://NAME/FILE`, `model://NAME/FILE`, `file://FILE`, or a path.
         urdf: URDF file.
-        folders: Folders that hold packages, or are a package themselves.
+        folders: Folders that hold packages.
+        packages: Folders that are the package itself, whatever its name.
 
     Returns:
         The first file that exists; None if there is none.
@@ -70,8 +71,8 @@ def find_mesh(name: str, urdf: Path, folders: Sequence[Path]) -> Path | None:
         rest = name
     path = Path(unquote(rest) if separator else rest)
     if scheme in ("package", "model") and separator:
-        inside = Path(*path.parts[1:])
-        candidates = [candidate for folder in folders for candidate in (folder / path, folder / inside)]
+        candidates = [folder / path for folder in folders]
+        candidates += [folder / Path(*path.parts[1:]) for folder in packages]
     elif separator and scheme != "file":
         return None
     else:

@@ -32,7 +32,7 @@ def page_of(
     *,
     data_url: str | None = None,
     annotations_url: str | None = None,
-    assets: Traversable = ASSETS,
+    assets: Traversable | None = None,
 ) -> bytes:
     """Write the page of a scene.
 
@@ -43,7 +43,7 @@ def page_of(
         built: The scene.
         data_url: Where the page fetches the arrays; they are inside it if None.
         annotations_url: Where the page sends saved samples; nowhere if None.
-        assets: Folder of the template and the bundle.
+        assets: Folder of the template and the bundle; that of the package if None.
 
     Returns:
         HTML.
@@ -51,10 +51,11 @@ def page_of(
     Raises:
         MissingFileError: If the bundle has not been built.
     """
+    folder = assets or ASSETS
     for name in BUNDLE:
-        if not (assets / name).is_file():
-            raise MissingFileError(f"{assets / name}: expected the viewer's bundle, there is none; run `make web`")
-    script, style, licences = ((assets / name).read_text(encoding="utf-8") for name in BUNDLE)
+        if not (folder / name).is_file():
+            raise MissingFileError(f"{folder / name}: expected the viewer's bundle, there is none; run `make web`")
+    script, style, licences = ((folder / name).read_text(encoding="utf-8") for name in BUNDLE)
     scene = replace(built.scene, annotations_url=annotations_url)
     # neither must end the element early; in strings and regular expressions both mean the same as before
     inline = re.sub("</(?=script)", r"<\\/", script, flags=re.IGNORECASE).replace("<!--", r"\x3c!--")
@@ -69,7 +70,7 @@ def page_of(
         "data": "" if data_url is not None else base64.b64encode(built.block).decode(),
         "script": inline,
     }
-    text = (assets / "page.html").read_text(encoding="utf-8")
+    text = (folder / "page.html").read_text(encoding="utf-8")
     first, *pieces = text.split("{{")
     page = [first]
     for piece in pieces:
@@ -78,13 +79,13 @@ def page_of(
     return "".join(page).encode()
 
 
-def write_page(path: Path, built: BuiltScene, *, assets: Traversable = ASSETS) -> int:
+def write_page(path: Path, built: BuiltScene, *, assets: Traversable | None = None) -> int:
     """Write the page as one file that works offline, also from disk.
 
     Args:
         path: File to write or to replace.
         built: The scene.
-        assets: Folder of the template and the bundle.
+        assets: Folder of the template and the bundle; that of the package if None.
 
     Returns:
         Its size; bytes.
