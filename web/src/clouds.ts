@@ -88,11 +88,17 @@ function pick(values: Float32Array, samples: Uint32Array, first: number): Float3
 
 function bounds(clouds: readonly Cloud[]): Pick<Clouds, "centre" | "half"> {
   const edges = [0, 1, 2].map((axis) => {
-    const values = clouds.flatMap(({ points }) => [...points.filter((value, k) => k % 3 === axis && !Number.isNaN(value))]);
+    const values = clouds.flatMap(({ points }) => [
+      ...points.filter((value, k) => k % 3 === axis && !Number.isNaN(value)),
+    ]);
     const found = values.length > 0 ? [interval(Float64Array.from(values).sort())] : [];
-    const spheres = clouds.flatMap(({ sphere }) => (sphere ? [[sphere.centre[axis] ?? 0, sphere.radius] as const] : []));
+    const spheres = clouds.flatMap(({ sphere }) =>
+      sphere ? [[sphere.centre[axis] ?? 0, sphere.radius] as const] : [],
+    );
     const all = [...found, ...spheres.map(([middle, radius]) => [middle - radius, middle + radius] as const)];
-    return all.length > 0 ? [Math.min(...all.map(([low]) => low)), Math.max(...all.map(([, high]) => high))] as const : [0, 0] as const;
+    return all.length > 0
+      ? ([Math.min(...all.map(([low]) => low)), Math.max(...all.map(([, high]) => high))] as const)
+      : ([0, 0] as const);
   });
   const [x, y, z] = edges.map(([low, high]) => (low + high) / 2);
   const widest = Math.max(...edges.map(([low, high]) => high - low));

@@ -30,5 +30,10 @@ export function seriesColour(sensor: Sensor, series: WrenchSeries): string {
 
 /** The same colour with an opacity from 0 to 1. */
 export function faded(colour: string, opacity: number): string {
-  return colour + Math.round(opacity * 255).toString(16).padStart(2, "0");
+  return (
+    colour +
+    Math.round(opacity * 255)
+      .toString(16)
+      .padStart(2, "0")
+  );
 }

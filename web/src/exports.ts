@@ -32,7 +32,7 @@ export function toToml(data: SceneData, marks: readonly Mark[]): string {
       `use = ${tomlText(interval.use)}`,
     ];
     if (interval.support !== null) lines.push(`support = ${tomlText(interval.support)}`);
-    else if (interval.use !== "ignore") lines.push("# support = \"...\"  # state the link that stands still");
+    else if (interval.use !== "ignore") lines.push('# support = "..."  # state the link that stands still');
     return `${lines.join("\n")}\n`;
   });
   return tables.length > 0 ? tables.join("\n") : "# no interval: save a sample as begin and a later one as end\n";
@@ -63,7 +63,7 @@ function number(value: number): string {
 }
 
 function quoted(cell: string): string {
-  return /[",\r\n]/.test(cell) ? `"${cell.replaceAll("\"", "\"\"")}"` : cell;
+  return /[",\r\n]/.test(cell) ? `"${cell.replaceAll('"', '""')}"` : cell;
 }
 
 // a JSON text is a basic string of TOML, apart from the delete character

@@ -15,7 +15,13 @@ export function notes(data: SceneData): HTMLElement[] {
   if (texts.length === 0) return [];
   const list = el("ul", {}, ...texts.map((text) => el("li", {}, text)));
   const count = texts.length === 1 ? "1 note" : `${texts.length} notes`;
-  return [el("section", { class: "notes", "aria-label": "Notes" }, el("details", { open: true }, el("summary", {}, count), list))];
+  return [
+    el(
+      "section",
+      { class: "notes", "aria-label": "Notes" },
+      el("details", { open: true }, el("summary", {}, count), list),
+    ),
+  ];
 }
 
 /** Intervals of the experiment; each one is a button that goes to its start. */
@@ -24,8 +30,9 @@ export function intervalsPanel(data: SceneData, store: Store): HTMLElement {
     const chip = el("span", { class: "chip" });
     chip.style.background = USES[interval.use];
     const go = button(interval.label, () => jump(data, store, interval.start_s), { class: "link" });
-    const span = `${interval.start_s.toFixed(1)}–${interval.end_s.toFixed(1)} s, ${interval.use}${interval.support ? `, on ${interval.support}` : ""}`;
-    return el("li", {}, chip, go, el("span", { class: "muted" }, span));
+    const span = `${interval.start_s.toFixed(1)}–${interval.end_s.toFixed(1)} s, ${interval.use}`;
+    const support = interval.support === null ? "" : `, on ${interval.support}`;
+    return el("li", {}, chip, go, el("span", { class: "muted" }, span + support));
   });
   return folded(`Intervals (${rows.length})`, rows, rows.length > 0 ? "" : "The experiment names none.");
 }
@@ -36,7 +43,8 @@ export function findingsPanel(data: SceneData, store: Store): HTMLElement {
   const rows = findings.slice(0, LONGEST).map((finding) => {
     const { start_s } = finding;
     const name = `${finding.kind}${start_s === null ? "" : ` at ${start_s.toFixed(2)} s`}`;
-    const head = start_s === null ? el("b", {}, name) : button(name, () => jump(data, store, start_s), { class: "link" });
+    const head =
+      start_s === null ? el("b", {}, name) : button(name, () => jump(data, store, start_s), { class: "link" });
     return el("li", {}, head, el("span", { class: "muted" }, `${finding.stream}: ${finding.message}`));
   });
   if (findings.length > LONGEST) rows.push(el("li", {}, `and ${findings.length - LONGEST} more`));
@@ -48,5 +56,11 @@ function jump(data: SceneData, store: Store, seconds: number): void {
 }
 
 function folded(title: string, rows: HTMLLIElement[], empty: string): HTMLElement {
-  return el("details", {}, el("summary", {}, title), el("ul", { class: "entries" }, ...rows), el("p", { class: "absent" }, empty));
+  return el(
+    "details",
+    {},
+    el("summary", {}, title),
+    el("ul", { class: "entries" }, ...rows),
+    el("p", { class: "absent" }, empty),
+  );
 }

@@ -39,6 +39,15 @@ export function listen(data: SceneData, store: Store, say: (text: string) => voi
   });
 }
 
+/** Give the arrows back after a choice by mouse: a list or radio button would keep them for itself. */
+export function releaseAfterMouse(): void {
+  document.addEventListener("change", ({ target }) => {
+    const keeps =
+      target instanceof HTMLSelectElement || (target instanceof HTMLInputElement && target.type === "radio");
+    if (keeps && !target.matches(":focus-visible")) target.blur();
+  });
+}
+
 /** Whether the focused element has its own use of a key. */
 function takes(target: EventTarget | null, key: string): boolean {
   if (target instanceof HTMLInputElement) {

@@ -30,10 +30,22 @@ export function rootPose(data: SceneData, sample: number): Pose {
   if (values.length < 7 || values.some(Number.isNaN)) return IDENTITY;
   const s = 2 / (qw * qw + qx * qx + qy * qy + qz * qz); // float32 components are a unit only nearly
   return [
-    1 - s * (qy * qy + qz * qz), s * (qx * qy - qz * qw), s * (qx * qz + qy * qw), x,
-    s * (qx * qy + qz * qw), 1 - s * (qx * qx + qz * qz), s * (qy * qz - qx * qw), y,
-    s * (qx * qz - qy * qw), s * (qy * qz + qx * qw), 1 - s * (qx * qx + qy * qy), z,
-    0, 0, 0, 1,
+    1 - s * (qy * qy + qz * qz),
+    s * (qx * qy - qz * qw),
+    s * (qx * qz + qy * qw),
+    x,
+    s * (qx * qy + qz * qw),
+    1 - s * (qx * qx + qz * qz),
+    s * (qy * qz - qx * qw),
+    y,
+    s * (qx * qz - qy * qw),
+    s * (qy * qz + qx * qw),
+    1 - s * (qx * qx + qy * qy),
+    z,
+    0,
+    0,
+    0,
+    1,
   ];
 }
 
@@ -65,9 +77,21 @@ function across(joint: Joint, data: SceneData, sample: number): Pose {
   const s = Math.sin(q);
   const v = 2 * Math.sin(q / 2) ** 2;
   return [
-    1 - v * (y * y + z * z), v * x * y - s * z, v * x * z + s * y, 0,
-    v * x * y + s * z, 1 - v * (x * x + z * z), v * y * z - s * x, 0,
-    v * x * z - s * y, v * y * z + s * x, 1 - v * (x * x + y * y), 0,
-    0, 0, 0, 1,
+    1 - v * (y * y + z * z),
+    v * x * y - s * z,
+    v * x * z + s * y,
+    0,
+    v * x * y + s * z,
+    1 - v * (x * x + z * z),
+    v * y * z - s * x,
+    0,
+    v * x * z - s * y,
+    v * y * z + s * x,
+    1 - v * (x * x + y * y),
+    0,
+    0,
+    0,
+    0,
+    1,
   ];
 }

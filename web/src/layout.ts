@@ -35,22 +35,32 @@ export function layout(data: SceneData, store: Store, footer: (say: (text: strin
   const side = el("aside", { class: "side", "aria-label": "Details" });
   const robotTitle = el("div", { class: "tools" });
   const spaceTitle = el("div", { class: "tools" });
-  const views = el("div", { class: "views" },
+  const views = el(
+    "div",
+    { class: "views" },
     panel(store, "Robot", "robot", robotTitle, robot, scale),
     panel(store, "Force space", "space", spaceTitle, space),
-    panel(store, "Planes", "planes", el("div", { class: "tools" }), el("div", { class: "three" }, ...planes)));
-  store.on(["large"], () => { views.dataset["large"] = store.state.large ?? ""; });
+    panel(store, "Planes", "planes", el("div", { class: "tools" }), el("div", { class: "three" }, ...planes)),
+  );
+  store.on(["large"], () => {
+    views.dataset["large"] = store.state.large ?? "";
+  });
   const unzoom = button("Whole recording", () => store.set({ window: data.span }), { class: "unzoom" });
   store.on(["window"], () => {
     const [start, end] = data.span;
     unzoom.hidden = store.state.window[0] === start && store.state.window[1] === end;
   });
   const time = el("section", { class: "times", "aria-label": "Time plots" }, strip, ...plots, unzoom);
-  const app = el("div", { class: "app" },
+  const app = el(
+    "div",
+    { class: "app" },
     header(data, store),
     el("main", {}, views, time),
     side,
-    footer((text) => { status.textContent = text; }));
+    footer((text) => {
+      status.textContent = text;
+    }),
+  );
   store.on(["quantity"], () => {
     const heading = app.querySelector(".space h2");
     if (heading) heading.textContent = store.state.quantity === "force" ? "Force space" : "Torque space";
@@ -61,16 +71,27 @@ export function layout(data: SceneData, store: Store, footer: (say: (text: strin
 function header(data: SceneData, store: Store): HTMLElement {
   const sensors = data.scene.sensors.map((s, k) => [String(k), s.serial ? `${s.name} (${s.serial})` : s.name] as const);
   const sensor = choice("Sensor", sensors, "0", (value) => store.set({ sensor: Number(value) }));
-  store.on(["sensor"], () => { sensor.value = String(store.state.sensor); });
+  store.on(["sensor"], () => {
+    sensor.value = String(store.state.sensor);
+  });
   const quantity = el("span", { class: "segments", role: "radiogroup", "aria-label": "Quantity" });
-  for (const [value, text] of [["force", "Force"], ["moment", "Torque"]] as const) {
+  for (const [value, text] of [
+    ["force", "Force"],
+    ["moment", "Torque"],
+  ] as const) {
     const radio = el("input", { type: "radio", name: "quantity", value });
     radio.addEventListener("change", () => store.set({ quantity: value satisfies Quantity }));
-    store.on(["quantity"], () => { radio.checked = store.state.quantity === value; });
+    store.on(["quantity"], () => {
+      radio.checked = store.state.quantity === value;
+    });
     quantity.append(el("label", {}, radio, el("span", {}, text)));
   }
-  const keys = el("details", { class: "keys" }, el("summary", {}, "Keys"),
-    el("dl", {}, ...KEYS.flatMap(([key, does]) => [el("dt", {}, key), el("dd", {}, does)])));
+  const keys = el(
+    "details",
+    { class: "keys" },
+    el("summary", {}, "Keys"),
+    el("dl", {}, ...KEYS.flatMap(([key, does]) => [el("dt", {}, key), el("dd", {}, does)])),
+  );
   return el("header", {}, el("h1", { title: data.scene.title }, data.scene.title), sensor, quantity, keys);
 }
 
@@ -82,7 +103,8 @@ function panel(
   ...content: HTMLElement[]
 ): HTMLElement {
   const larger = button("⤢", () => store.set({ large: store.state.large === name ? null : name }), {
-    "aria-label": `Enlarge ${title.toLowerCase()}`, title: "Enlarge",
+    "aria-label": `Enlarge ${title.toLowerCase()}`,
+    title: "Enlarge",
   });
   store.on(["large"], () => larger.setAttribute("aria-pressed", String(store.state.large === name)));
   tools.append(larger);

@@ -12,7 +12,7 @@ export type Progress = (loaded: number, total: number) => void;
 /** Read the header in the page. */
 export function readHeader(): Scene {
   const text = document.getElementById("scene")?.textContent;
-  if (!text) throw new Error("the page holds no scene: expected a script element with id \"scene\"");
+  if (!text) throw new Error('the page holds no scene: expected a script element with id "scene"');
   const scene = JSON.parse(text) as Scene;
   if (scene.schema !== "forcetorque/scene/1") {
     throw new Error(`expected a scene of schema "forcetorque/scene/1", got ${JSON.stringify(scene.schema)}`);
@@ -23,7 +23,7 @@ export function readHeader(): Scene {
 /** Read the block: base64 in the page, or the file that the page names. */
 export async function readBlock(progress: Progress): Promise<ArrayBuffer> {
   const element = document.getElementById("data");
-  if (!element) throw new Error("the page holds no data: expected a script element with id \"data\"");
+  if (!element) throw new Error('the page holds no data: expected a script element with id "data"');
   const url = element.dataset["url"];
   if (url) return fetchInPieces(url, progress);
   const block = decodeBase64(element.textContent ?? "");

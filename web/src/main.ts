@@ -9,7 +9,7 @@ import { button, el } from "./dom";
 import { findingsPanel, intervalsPanel, notes } from "./findings_panel";
 import { Frames } from "./frames";
 import { openHook } from "./hook";
-import { listen } from "./keyboard";
+import { listen, releaseAfterMouse } from "./keyboard";
 import { layout, type Panels } from "./layout";
 import { readBlock, readHeader } from "./load";
 import { marksPanel } from "./marks_panel";
@@ -54,27 +54,51 @@ async function start(): Promise<boolean> {
 
 function build(data: SceneData): void {
   const store = new Store({
-    sample: 0, sensor: 0, quantity: "force", hidden: new Set(), forceArrows: true, momentArrows: true, allSensors: true,
-    contacts: true, wireframes: true, hideIgnored: false, marks: [], markKind: "point", window: data.span,
-    large: null, playing: false, speed: 1,
+    sample: 0,
+    sensor: 0,
+    quantity: "force",
+    hidden: new Set(),
+    forceArrows: true,
+    momentArrows: true,
+    allSensors: true,
+    contacts: true,
+    wireframes: true,
+    hideIgnored: false,
+    marks: [],
+    markKind: "point",
+    window: data.span,
+    large: null,
+    playing: false,
+    speed: 1,
   });
   const frames = new Frames();
-  const say = (text: string): void => { panels.status.textContent = text; };
+  const say = (text: string): void => {
+    panels.status.textContent = text;
+  };
   const panels: Panels = layout(data, store, () => transport(data, store, say));
   (document.getElementById("viewer") ?? document.body).append(panels.app);
   const maker = new CloudMaker(data);
   const robot = new RobotView(panels.robot, frames, data);
   const space = new SpaceView(panels.space, frames, data, maker, store);
-  panels.robotTitle.prepend(button("⟲", () => robot.reset(), { "aria-label": "Reset the robot's view", title: "Reset the view" }));
-  panels.spaceTitle.prepend(button("⟲", () => space.reset(), { "aria-label": "Reset the space's view", title: "Reset the view" }));
-  store.on(["sample", "sensor", "hidden", "forceArrows", "momentArrows", "allSensors", "contacts"], () => robot.update(store.state));
-  store.on(["sample", "sensor", "quantity", "hidden", "wireframes", "hideIgnored", "marks"], () => space.update(store.state));
+  panels.robotTitle.prepend(
+    button("⟲", () => robot.reset(), { "aria-label": "Reset the robot's view", title: "Reset the view" }),
+  );
+  panels.spaceTitle.prepend(
+    button("⟲", () => space.reset(), { "aria-label": "Reset the space's view", title: "Reset the view" }),
+  );
+  store.on(["sample", "sensor", "hidden", "forceArrows", "momentArrows", "allSensors", "contacts"], () =>
+    robot.update(store.state),
+  );
+  store.on(["sample", "sensor", "quantity", "hidden", "wireframes", "hideIgnored", "marks"], () =>
+    space.update(store.state),
+  );
   const planes = connectFlat(panels, frames, data, maker, store);
   const stage: Stage = { data, store, robot, space, flush: () => frames.flush() };
   fillSide(panels, frames, stage, say);
   describe(panels, stage, robot);
   player(data, store);
   listen(data, store, say);
+  releaseAfterMouse();
   Object.assign(window.ft, openHook(stage, space, planes));
   frames.flush();
 }
@@ -88,7 +112,20 @@ function connectFlat(panels: Panels, frames: Frames, data: SceneData, maker: Clo
   const strip = new TimeStrip(panels.strip, frames, data, store);
   store.on(["window", "marks"], () => strip.update());
   return panels.planes.map((panel, k) => {
-    const plane = new PlaneView(panel, ([[0, 1], [1, 2], [0, 2]] as const)[k] ?? [0, 1], frames, data, maker, store);
+    const plane = new PlaneView(
+      panel,
+      (
+        [
+          [0, 1],
+          [1, 2],
+          [0, 2],
+        ] as const
+      )[k] ?? [0, 1],
+      frames,
+      data,
+      maker,
+      store,
+    );
     store.on(["sample", "sensor", "quantity", "hidden", "wireframes", "hideIgnored", "marks"], () => plane.update());
     return plane;
   });
@@ -100,14 +137,23 @@ function fillSide(panels: Panels, frames: Frames, stage: Stage, say: (text: stri
     el("section", { "aria-label": title }, el("h2", {}, title), ...content);
   const values = new ValuesPanel(data, store, frames);
   const joints = new JointsPanel(data, store, frames);
-  const provenance = el("details", {}, el("summary", {}, "Origin of the data"),
-    el("ul", { class: "entries" }, ...data.scene.provenance.map((line) => el("li", {}, line))));
+  const provenance = el(
+    "details",
+    {},
+    el("summary", {}, "Origin of the data"),
+    el("ul", { class: "entries" }, ...data.scene.provenance.map((line) => el("li", {}, line))),
+  );
   panels.side.append(
     ...notes(data),
     section("Series", seriesPanel(data, store), values.root),
     section("Shown", switchPanel(data, store)),
     section("Saved samples", marksPanel(data, store, say), panels.status),
-    joints.root, findingsPanel(data, store), intervalsPanel(data, store), videoPanel(stage, say), provenance);
+    joints.root,
+    findingsPanel(data, store),
+    intervalsPanel(data, store),
+    videoPanel(stage, say),
+    provenance,
+  );
 }
 
 /** Keep the texts of the views true: how long arrows are, and what a screen reader says of the pictures. */

@@ -7,7 +7,11 @@ import { inOrder, markedIntervals, type Mark, type Use } from "./marks";
 import type { SceneData } from "./scene_data";
 import type { Store } from "./store";
 
-const USES: readonly (readonly [Use, string])[] = [["ignore", "ignore"], ["calibration", "calibration"], ["validation", "validation"]];
+const USES: readonly (readonly [Use, string])[] = [
+  ["ignore", "ignore"],
+  ["calibration", "calibration"],
+  ["validation", "validation"],
+];
 
 /** Saved samples, intervals, and their exports. */
 export function marksPanel(data: SceneData, store: Store, say: (text: string) => void): HTMLElement {
@@ -18,7 +22,8 @@ export function marksPanel(data: SceneData, store: Store, say: (text: string) =>
     if (!list.contains(document.activeElement) || list.children.length !== marks.length) {
       list.replaceChildren(...inOrder(marks).map((mark) => markRow(mark, store)));
     }
-    if (marks.length === 0) list.replaceChildren(el("li", { class: "absent" }, "None yet: “Save sample” keeps the one shown."));
+    if (marks.length === 0)
+      list.replaceChildren(el("li", { class: "absent" }, "None yet: “Save sample” keeps the one shown."));
     intervals.replaceChildren(...intervalRows(data, store));
   });
   const kept = new Set<readonly Mark[]>(); // lists that were exported
@@ -41,11 +46,17 @@ function markRow(mark: Mark, store: Store): HTMLLIElement {
     store.set({ marks });
   });
   const remove = (): void => store.set({ marks: store.state.marks.filter((other) => other !== current) });
-  return el("li", {},
-    button(`${mark.sample}`, () => store.set({ sample: mark.sample, playing: false }), { class: "link", "aria-label": `Go to ${name}` }),
+  return el(
+    "li",
+    {},
+    button(`${mark.sample}`, () => store.set({ sample: mark.sample, playing: false }), {
+      class: "link",
+      "aria-label": `Go to ${name}`,
+    }),
     el("span", { class: "muted" }, `${mark.time_s.toFixed(2)} s ${mark.mark}`),
     text,
-    button("✕", remove, { "aria-label": `Delete ${name}` }));
+    button("✕", remove, { "aria-label": `Delete ${name}` }),
+  );
 }
 
 function intervalRows(data: SceneData, store: Store): HTMLLIElement[] {
@@ -65,11 +76,23 @@ function exportButtons(data: SceneData, store: Store, say: (text: string) => voi
     download(fileName(title, ending), text, type);
     keep();
   };
-  const row = el("div", { class: "row" },
+  const row = el(
+    "div",
+    { class: "row" },
     button("Samples as CSV", () => offer("_samples.csv", toCsv(data, store.state.marks), "text/csv")),
-    button("Intervals as TOML", () => offer("_intervals.toml", toToml(data, store.state.marks), "application/toml")));
+    button("Intervals as TOML", () => offer("_intervals.toml", toToml(data, store.state.marks), "application/toml")),
+  );
   if (annotations_url !== null) {
-    row.append(button("Write beside the experiment", () => void send(annotations_url, data, store, say).then((sent) => { if (sent) keep(); }), { class: "primary" }));
+    row.append(
+      button(
+        "Write beside the experiment",
+        () =>
+          void send(annotations_url, data, store, say).then((sent) => {
+            if (sent) keep();
+          }),
+        { class: "primary" },
+      ),
+    );
   }
   return row;
 }

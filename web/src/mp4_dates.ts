@@ -12,7 +12,7 @@ export function clearDates(file: Uint8Array<ArrayBuffer>): Uint8Array<ArrayBuffe
 
 function walk(file: Uint8Array, start: number, end: number): void {
   const view = new DataView(file.buffer, file.byteOffset, file.byteLength);
-  for (let at = start; at + 8 <= end; ) {
+  for (let at = start; at + 8 <= end;) {
     const size = view.getUint32(at);
     const type = String.fromCharCode(...file.subarray(at + 4, at + 8));
     if (CONTAINERS.has(type)) walk(file, at + 8, at + size);

@@ -30,7 +30,10 @@ export class PlaneView implements Drawable {
     private readonly store: Store,
   ) {
     const [i, j] = plane;
-    this.canvas = el("canvas", { role: "img", "aria-label": `Plane ${"xyz"[i] ?? ""}-${"xyz"[j] ?? ""} of the force or moment space` });
+    this.canvas = el("canvas", {
+      role: "img",
+      "aria-label": `Plane ${"xyz"[i] ?? ""}-${"xyz"[j] ?? ""} of the force or moment space`,
+    });
     panel.append(this.canvas);
     this.canvas.addEventListener("click", (event) => this.jump(event));
     new ResizeObserver(() => frames.later(this)).observe(panel);
@@ -79,7 +82,11 @@ export class PlaneView implements Drawable {
     pen.drawImage(this.points, 0, 0, width, height);
     for (const cloud of this.visible(clouds)) {
       const [x, y] = this.place(clouds, this.data.vector(cloud.series, state.sample, state.quantity));
-      for (const [radius, colour] of [[6.5, "#ffffff"], [5, cloud.colour], [1.8, "#ffffff"]] as const) {
+      for (const [radius, colour] of [
+        [6.5, "#ffffff"],
+        [5, cloud.colour],
+        [1.8, "#ffffff"],
+      ] as const) {
         pen.fillStyle = colour;
         pen.beginPath();
         pen.arc(x, y, radius, 0, 2 * Math.PI);
@@ -106,7 +113,10 @@ export class PlaneView implements Drawable {
         if (Number.isFinite(x + y)) pen.fillRect(x - 0.8, y - 0.8, 1.6, 1.6);
       }
       if (!this.store.state.wireframes) continue;
-      const shapes = [[cloud.sphere && asEllipsoid(cloud.sphere), "#777777"], [cloud.ellipsoid, cloud.colour]] as const;
+      const shapes = [
+        [cloud.sphere && asEllipsoid(cloud.sphere), "#777777"],
+        [cloud.ellipsoid, cloud.colour],
+      ] as const;
       for (const [shape, colour] of shapes) {
         if (!shape) continue;
         pen.strokeStyle = colour;

@@ -100,8 +100,33 @@ export class AxisPlot implements Drawable {
         y: { range: () => this.bounds }, // pinned: a range of its own would go blank when the window moves
       },
       axes: [
-        { show: true, size: last ? 20 : 0, font: FONT, stroke: INK, grid: { stroke: "#eceff3" }, ticks: { size: last ? 4 : 0 }, label: last ? "time [s]" : "", labelSize: last ? AXIS_LABEL : 0, labelGap: 0, gap: 2, labelFont: FONT, values: last ? (_, at) => at.map(String) : () => [] },
-        { size: LEFT - 14, font: FONT, stroke: INK, grid: { stroke: "#eceff3" }, ticks: { size: 4 }, gap: 2, space: 22, label: `${letter}${"xyz"[this.axis] ?? ""} [${UNIT[state.quantity]}]`, labelSize: 14, labelGap: 0, labelFont: FONT },
+        {
+          show: true,
+          size: last ? 20 : 0,
+          font: FONT,
+          stroke: INK,
+          grid: { stroke: "#eceff3" },
+          ticks: { size: last ? 4 : 0 },
+          label: last ? "time [s]" : "",
+          labelSize: last ? AXIS_LABEL : 0,
+          labelGap: 0,
+          gap: 2,
+          labelFont: FONT,
+          values: last ? (_, at) => at.map(String) : () => [],
+        },
+        {
+          size: LEFT - 14,
+          font: FONT,
+          stroke: INK,
+          grid: { stroke: "#eceff3" },
+          ticks: { size: 4 },
+          gap: 2,
+          space: 22,
+          label: `${letter}${"xyz"[this.axis] ?? ""} [${UNIT[state.quantity]}]`,
+          labelSize: 14,
+          labelGap: 0,
+          labelFont: FONT,
+        },
       ],
       series: [
         {},
@@ -125,7 +150,8 @@ export class AxisPlot implements Drawable {
       if (to > from) plot.ctx.fillRect(from, top, to - from, height);
     };
     const intervals = [...this.data.scene.intervals, ...markedIntervals(this.data, this.store.state.marks)];
-    for (const { start_s, end_s, use } of intervals) bar(start_s, end_s, faded(USES[use], use === "ignore" ? 0.3 : 0.12));
+    for (const { start_s, end_s, use } of intervals)
+      bar(start_s, end_s, faded(USES[use], use === "ignore" ? 0.3 : 0.12));
   }
 
   private zoom(plot: uPlot): void {
@@ -137,7 +163,9 @@ export class AxisPlot implements Drawable {
 
   private jumpOnClick(plot: uPlot): void {
     let from = 0;
-    plot.over.addEventListener("mousedown", (event) => { from = event.clientX; });
+    plot.over.addEventListener("mousedown", (event) => {
+      from = event.clientX;
+    });
     plot.over.addEventListener("click", (event) => {
       if (Math.abs(event.clientX - from) > MOVED) return;
       const at = plot.posToVal(event.clientX - plot.over.getBoundingClientRect().left, "x");

@@ -2,8 +2,19 @@
 // The robot's shapes, moved link by link; without shapes, lines between the links' origins.
 
 import {
-  BoxGeometry, BufferAttribute, BufferGeometry, Color, CylinderGeometry, DoubleSide, Group, LineBasicMaterial,
-  LineSegments, Mesh, MeshLambertMaterial, SphereGeometry, Vector3,
+  BoxGeometry,
+  BufferAttribute,
+  BufferGeometry,
+  Color,
+  CylinderGeometry,
+  DoubleSide,
+  Group,
+  LineBasicMaterial,
+  LineSegments,
+  Mesh,
+  MeshLambertMaterial,
+  SphereGeometry,
+  Vector3,
 } from "three";
 
 import { toMatrix } from "./arrows";
@@ -27,7 +38,8 @@ export class RobotModel extends Group {
       this.add(link);
     }
     for (const shape of shapes) this.links.get(shape.link)?.add(this.solid(shape));
-    this.bones = shapes.length === 0 ? new LineSegments(new BufferGeometry(), new LineBasicMaterial({ color: INK })) : null;
+    this.bones =
+      shapes.length === 0 ? new LineSegments(new BufferGeometry(), new LineBasicMaterial({ color: INK })) : null;
     if (this.bones) {
       this.bones.frustumCulled = false;
       this.add(this.bones);
@@ -41,7 +53,9 @@ export class RobotModel extends Group {
       link.visible = pose !== undefined; // a link that no joint reaches is nowhere
       if (pose) link.matrix.copy(toMatrix(pose));
     }
-    this.bones?.geometry.setFromPoints(this.data.scene.robot.joints.flatMap((j) => [origin(poses, j.parent), origin(poses, j.child)]));
+    this.bones?.geometry.setFromPoints(
+      this.data.scene.robot.joints.flatMap((j) => [origin(poses, j.parent), origin(poses, j.child)]),
+    );
   }
 
   private solid(shape: Shape): Mesh {

@@ -27,12 +27,17 @@ export function seriesPanel(data: SceneData, store: Store): HTMLElement {
     for (const series of sensor?.wrenches ?? []) {
       const chip = el("span", { class: "chip" });
       chip.style.background = sensor ? seriesColour(sensor, series) : "";
-      const { row, box } = checkBox([chip, series.name], !store.state.hidden.has(series.name), (shown) => {
-        const hidden = new Set(store.state.hidden);
-        if (shown) hidden.delete(series.name);
-        else hidden.add(series.name);
-        store.set({ hidden });
-      }, series.name);
+      const { row, box } = checkBox(
+        [chip, series.name],
+        !store.state.hidden.has(series.name),
+        (shown) => {
+          const hidden = new Set(store.state.hidden);
+          if (shown) hidden.delete(series.name);
+          else hidden.add(series.name);
+          store.set({ hidden });
+        },
+        series.name,
+      );
       list.append(row);
       if (series.name === focused) box.focus();
     }
@@ -47,7 +52,9 @@ export function switchPanel(data: SceneData, store: Store): HTMLElement {
   for (const [key, text] of SWITCHES) {
     if (key === "contacts" && data.scene.contacts.length === 0) continue;
     const { row, box } = checkBox([text], store.state[key], (on) => store.set({ [key]: on } as Partial<State>));
-    store.on([key], () => { box.checked = store.state[key]; });
+    store.on([key], () => {
+      box.checked = store.state[key];
+    });
     group.append(row);
   }
   return group;

@@ -16,7 +16,9 @@ const TEXT = 0.17;
 export function cube(clouds: Clouds, quantity: Quantity): Group {
   const group = new Group();
   const corner = (k: number): Vector3 => new Vector3(k & 1 ? 1 : -1, k & 2 ? 1 : -1, k & 4 ? 1 : -1);
-  const edges = [0, 1, 2, 3, 4, 5, 6, 7].flatMap((k) => [1, 2, 4].filter((bit) => !(k & bit)).flatMap((bit) => [corner(k), corner(k | bit)]));
+  const edges = [0, 1, 2, 3, 4, 5, 6, 7].flatMap((k) =>
+    [1, 2, 4].filter((bit) => !(k & bit)).flatMap((bit) => [corner(k), corner(k | bit)]),
+  );
   group.add(lines(edges, FAINT));
   for (const axis of [0, 1, 2]) group.add(...scale(clouds, quantity, axis));
   return group;

@@ -81,10 +81,23 @@ export class SpaceView extends View3D {
       const at = toCube(clouds, this.data.vector(cloud.series, state.sample, state.quantity));
       if (!Number.isFinite(at.x + at.y + at.z)) continue;
       const geometry = new BufferGeometry().setFromPoints([at]);
-      for (const [size, colour] of [[17, "#ffffff"], [14, cloud.colour], [5, "#ffffff"]] as const) {
-        const dot = new Points(geometry, new PointsMaterial({
-          color: colour, size, sizeAttenuation: false, map: dotTexture(), transparent: true, depthTest: false, alphaTest: 0.5,
-        }));
+      for (const [size, colour] of [
+        [17, "#ffffff"],
+        [14, cloud.colour],
+        [5, "#ffffff"],
+      ] as const) {
+        const dot = new Points(
+          geometry,
+          new PointsMaterial({
+            color: colour,
+            size,
+            sizeAttenuation: false,
+            map: dotTexture(),
+            transparent: true,
+            depthTest: false,
+            alphaTest: 0.5,
+          }),
+        );
         dot.renderOrder = 20;
         this.markers.add(dot);
       }
@@ -97,7 +110,9 @@ export class SpaceView extends View3D {
 
   private jumpOnClick(): void {
     let from: [number, number] = [0, 0];
-    this.canvas.addEventListener("pointerdown", (event) => { from = [event.clientX, event.clientY]; });
+    this.canvas.addEventListener("pointerdown", (event) => {
+      from = [event.clientX, event.clientY];
+    });
     this.canvas.addEventListener("click", (event) => {
       if (Math.hypot(event.clientX - from[0], event.clientY - from[1]) > MOVED) return;
       const box = this.canvas.getBoundingClientRect();
@@ -133,5 +148,8 @@ function points(clouds: Clouds, cloud: Cloud): Points {
   }
   const geometry = new BufferGeometry();
   geometry.setAttribute("position", new BufferAttribute(places.subarray(0, 3 * count), 3));
-  return new Points(geometry, new PointsMaterial({ color: cloud.colour, size: 3, sizeAttenuation: false, map: dotTexture(), alphaTest: 0.5 }));
+  return new Points(
+    geometry,
+    new PointsMaterial({ color: cloud.colour, size: 3, sizeAttenuation: false, map: dotTexture(), alphaTest: 0.5 }),
+  );
 }

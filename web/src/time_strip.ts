@@ -50,7 +50,10 @@ export class TimeStrip implements Drawable {
     pen.font = "10px system-ui, 'DejaVu Sans', sans-serif";
     const intervals = [...this.data.scene.intervals, ...markedIntervals(this.data, this.store.state.marks)];
     const findings = this.data.scene.findings;
-    this.canvas.setAttribute("aria-label", `Time axis with ${intervals.length} intervals and ${findings.length} findings; both are listed beside the plots`);
+    this.canvas.setAttribute(
+      "aria-label",
+      `Time axis with ${intervals.length} intervals and ${findings.length} findings; both are listed beside the plots`,
+    );
     for (const { label, start_s, end_s, use } of intervals) this.bar(pen, start_s, end_s, use, label);
     for (const { start_s, end_s } of findings) this.finding(pen, start_s, end_s);
     for (const mark of this.store.state.marks) this.flag(pen, mark.time_s, mark.mark);
@@ -95,7 +98,13 @@ export class TimeStrip implements Drawable {
     pen.fillRect(x - 0.75, 0, 1.5, this.panel.clientHeight);
     pen.beginPath();
     if (tip === 0) pen.arc(x, 4, 3.5, 0, 2 * Math.PI);
-    else for (const [a, b] of [[x, 0], [x + tip, 4], [x, 8]] as const) pen.lineTo(a, b);
+    else
+      for (const [a, b] of [
+        [x, 0],
+        [x + tip, 4],
+        [x, 8],
+      ] as const)
+        pen.lineTo(a, b);
     pen.fill();
   }
 
@@ -117,6 +126,8 @@ export class TimeStrip implements Drawable {
       ...findings
         .filter((f) => f.start_s !== null && f.start_s - near <= time && time <= (f.end_s ?? f.start_s) + near)
         .map((f) => `${f.stream}: ${f.kind}: ${f.message}`),
-    ].slice(0, 12).join("\n");
+    ]
+      .slice(0, 12)
+      .join("\n");
   }
 }

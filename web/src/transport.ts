@@ -12,7 +12,14 @@ const KINDS = ["point", "begin", "end"] as const;
 /** The bar below the plots. */
 export function transport(data: SceneData, store: Store, say: (text: string) => void): HTMLElement {
   const last = Math.max(0, data.samples - 1);
-  const slider = el("input", { type: "range", min: 0, max: last, step: 1, "aria-label": "Sample slider", class: "slider" });
+  const slider = el("input", {
+    type: "range",
+    min: 0,
+    max: last,
+    step: 1,
+    "aria-label": "Sample slider",
+    class: "slider",
+  });
   slider.addEventListener("input", () => store.set({ sample: Number(slider.value), playing: false }));
   const number = el("input", { type: "number", min: 0, max: last, step: 1, "aria-label": "Sample number" });
   number.addEventListener("change", () => {
@@ -38,12 +45,18 @@ export function transport(data: SceneData, store: Store, say: (text: string) => 
     play.setAttribute("aria-label", playing ? "Pause" : "Play");
     play.setAttribute("aria-pressed", String(playing));
   });
-  return el("footer", { class: "transport" },
-    play, speed,
+  return el(
+    "footer",
+    { class: "transport" },
+    play,
+    speed,
     button("−1", () => step(data, store, -1), { "aria-label": "One sample back" }),
     slider,
     button("+1", () => step(data, store, 1), { "aria-label": "One sample on" }),
-    number, time, saving(data, store, say));
+    number,
+    time,
+    saving(data, store, say),
+  );
 }
 
 function saving(data: SceneData, store: Store, say: (text: string) => void): HTMLElement {
@@ -51,10 +64,17 @@ function saving(data: SceneData, store: Store, say: (text: string) => void): HTM
   for (const kind of KINDS) {
     const radio = el("input", { type: "radio", name: "mark-kind", value: kind });
     radio.addEventListener("change", () => store.set({ markKind: kind }));
-    store.on(["markKind"], () => { radio.checked = store.state.markKind === kind; });
+    store.on(["markKind"], () => {
+      radio.checked = store.state.markKind === kind;
+    });
     group.append(el("label", {}, radio, el("span", {}, kind)));
   }
-  return el("span", { class: "saving" }, group, button("Save sample", () => save(data, store, say), { class: "primary" }));
+  return el(
+    "span",
+    { class: "saving" },
+    group,
+    button("Save sample", () => save(data, store, say), { class: "primary" }),
+  );
 }
 
 /** Save the sample that is shown; after a begin an end is offered, after an end a begin. */

@@ -35,10 +35,15 @@ export class ValuesPanel implements Drawable {
         chip.style.background = sensor ? seriesColour(sensor, series) : "";
         return el("tr", {}, el("th", { scope: "row", title: series.name, "aria-label": series.name }, chip), ...cells);
       });
-    this.root.replaceChildren(el("table", {},
-      el("caption", {}, `${quantity === "force" ? "Force" : "Torque"} [${UNIT[quantity]}]`),
-      el("thead", {}, el("tr", {}, ...head.map((text) => el("th", { scope: "col" }, text)))),
-      el("tbody", {}, ...rows)));
+    this.root.replaceChildren(
+      el(
+        "table",
+        {},
+        el("caption", {}, `${quantity === "force" ? "Force" : "Torque"} [${UNIT[quantity]}]`),
+        el("thead", {}, el("tr", {}, ...head.map((text) => el("th", { scope: "col" }, text)))),
+        el("tbody", {}, ...rows),
+      ),
+    );
   }
 }
 
@@ -61,12 +66,18 @@ export class JointsPanel implements Drawable {
   draw(): void {
     if (!this.root.open) return;
     const { sample } = this.store.state;
-    this.body.replaceChildren(...this.data.scene.coordinates.map((name, k) => {
-      const value = this.data.position(sample, k);
-      const length = this.data.isLength(k);
-      const text = Number.isNaN(value) ? "absent" : length ? `${value.toFixed(4)} m` : `${(value * DEGREES).toFixed(2)}°`;
-      return el("tr", {}, el("th", { scope: "row" }, name), el("td", {}, text));
-    }));
+    this.body.replaceChildren(
+      ...this.data.scene.coordinates.map((name, k) => {
+        const value = this.data.position(sample, k);
+        const length = this.data.isLength(k);
+        const text = Number.isNaN(value)
+          ? "absent"
+          : length
+            ? `${value.toFixed(4)} m`
+            : `${(value * DEGREES).toFixed(2)}°`;
+        return el("tr", {}, el("th", { scope: "row" }, name), el("td", {}, text));
+      }),
+    );
   }
 }
 

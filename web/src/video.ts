@@ -72,7 +72,11 @@ export function frameTimes(data: SceneData, options: VideoOptions): number[] {
 }
 
 /** Make the film; the bytes of an MP4 file. */
-export async function makeVideo(stage: Stage, options: VideoOptions, progress: (share: number) => void): Promise<Uint8Array<ArrayBuffer>> {
+export async function makeVideo(
+  stage: Stage,
+  options: VideoOptions,
+  progress: (share: number) => void,
+): Promise<Uint8Array<ArrayBuffer>> {
   const { fps = 20, width = 960, height = 480 } = options;
   if (width % 2 !== 0 || height % 2 !== 0 || width < 64 || height < 64) {
     throw new Error(`video: expected an even width and height of at least 64 x 64, got ${width} x ${height}`);
@@ -80,11 +84,17 @@ export async function makeVideo(stage: Stage, options: VideoOptions, progress: (
   const times = frameTimes(stage.data, options);
   const { config, codec } = await supported(options.codec ? [options.codec] : ["h264", "vp9"], width, height, fps);
   const target = new ArrayBufferTarget();
-  const muxer = new Muxer({ target, video: { codec: codec === "h264" ? "avc" : "vp9", width, height, frameRate: fps }, fastStart: "in-memory" });
+  const muxer = new Muxer({
+    target,
+    video: { codec: codec === "h264" ? "avc" : "vp9", width, height, frameRate: fps },
+    fastStart: "in-memory",
+  });
   let failure: Error | null = null;
   const encoder = new VideoEncoder({
     output: (chunk, meta) => muxer.addVideoChunk(chunk, meta),
-    error: (error) => { failure = error; },
+    error: (error) => {
+      failure = error;
+    },
   });
   encoder.configure(config);
   const canvas = new OffscreenCanvas(width, height);
@@ -95,11 +105,15 @@ export async function makeVideo(stage: Stage, options: VideoOptions, progress: (
     for (const [k, time] of times.entries()) {
       drawFrame(stage, canvas, stage.data.sampleAt(time));
       const frame = new VideoFrame(canvas, { timestamp: Math.round((k * 1e6) / fps), duration: Math.round(1e6 / fps) });
-      const wanted: EncodeOptions = { keyFrame: k % Math.max(1, Math.round(KEY_FRAME_S * fps)) === 0, vp9: { quantizer: QUANTIZER } };
+      const wanted: EncodeOptions = {
+        keyFrame: k % Math.max(1, Math.round(KEY_FRAME_S * fps)) === 0,
+        vp9: { quantizer: QUANTIZER },
+      };
       encoder.encode(frame, wanted);
       frame.close();
       progress((k + 1) / times.length);
-      do await new Promise((resume) => setTimeout(resume, 0)); // lets the encoder and the page work
+      do
+        await new Promise((resume) => setTimeout(resume, 0)); // lets the encoder and the page work
       while (encoder.encodeQueueSize > WAITING && failure === null);
       if (failure !== null) throw failure;
     }
@@ -116,12 +130,19 @@ export async function makeVideo(stage: Stage, options: VideoOptions, progress: (
 async function supported(codecs: readonly Codec[], width: number, height: number, framerate: number): Promise<Format> {
   if (typeof VideoEncoder === "undefined") throw new Error("video: this browser has no WebCodecs; Chromium has");
   for (const codec of codecs) {
-    const rate = codec === "h264"
-      ? { bitrate: 4_000_000, avc: { format: "avc" as const } }
-      : { bitrateMode: "quantizer" as const };
+    const rate =
+      codec === "h264"
+        ? { bitrate: 4_000_000, avc: { format: "avc" as const } }
+        : { bitrateMode: "quantizer" as const };
     for (const name of CODECS[codec]) {
       const config: VideoEncoderConfig = {
-        codec: name, width, height, framerate, latencyMode: "quality", hardwareAcceleration: "prefer-software", ...rate,
+        codec: name,
+        width,
+        height,
+        framerate,
+        latencyMode: "quality",
+        hardwareAcceleration: "prefer-software",
+        ...rate,
       };
       const answer = await VideoEncoder.isConfigSupported(config).catch(() => null);
       if (answer?.supported) return { config, codec };

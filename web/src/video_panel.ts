@@ -10,7 +10,15 @@ export function videoPanel(stage: Stage, say: (text: string) => void): HTMLEleme
     el("input", { type: "number", "aria-label": label, value, min, step });
   const [start, end] = [field("Video start in seconds", 0, 0, 0.1), field("Video end in seconds", 0, 0, 0.1)];
   const [fps, speed] = [field("Video frames per second", 20, 1, 1), field("Video speed", 1, 0.1, 0.1)];
-  const codec = choice("Video codec", [["h264", "H.264: plays everywhere"], ["vp9", "VP9: same file every time"]], "h264", () => undefined);
+  const codec = choice(
+    "Video codec",
+    [
+      ["h264", "H.264: plays everywhere"],
+      ["vp9", "VP9: same file every time"],
+    ],
+    "h264",
+    () => undefined,
+  );
   const bar = el("progress", { max: 1, value: 0, "aria-label": "Video progress" });
   bar.hidden = true;
   stage.store.on(["window"], () => {
@@ -25,7 +33,9 @@ export function videoPanel(stage: Stage, say: (text: string) => void): HTMLEleme
       const [a, b, f, s] = [start, end, fps, speed].map((input) => input.valueAsNumber);
       const [first, last] = [a ?? 0, b ?? 0].map((seconds) => stage.data.nearestSample(seconds));
       const options = { start: first ?? 0, end: last ?? 0, fps: f ?? 20, speed: s ?? 1, codec: codec.value as Codec };
-      const film = await makeVideo(stage, options, (share) => { bar.value = share; });
+      const film = await makeVideo(stage, options, (share) => {
+        bar.value = share;
+      });
       download(fileName(stage.data.scene.title, ".mp4"), film, "video/mp4");
       say("The video is made.");
     } catch (error) {
@@ -35,8 +45,18 @@ export function videoPanel(stage: Stage, say: (text: string) => void): HTMLEleme
       bar.hidden = true;
     }
   }
-  return el("details", {}, el("summary", {}, "Video"),
-    el("div", { class: "row video" },
-      el("label", {}, "from", start), el("label", {}, "to", end), el("label", {}, "frames/s", fps), el("label", {}, "speed", speed)),
-    el("div", { class: "row" }, codec, record, bar));
+  return el(
+    "details",
+    {},
+    el("summary", {}, "Video"),
+    el(
+      "div",
+      { class: "row video" },
+      el("label", {}, "from", start),
+      el("label", {}, "to", end),
+      el("label", {}, "frames/s", fps),
+      el("label", {}, "speed", speed),
+    ),
+    el("div", { class: "row" }, codec, record, bar),
+  );
 }

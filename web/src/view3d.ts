@@ -4,6 +4,7 @@
 import { Color, PerspectiveCamera, Scene, Vector3, WebGLRenderer } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 
+import { el } from "./dom";
 import type { Drawable, Frames } from "./frames";
 
 const TURN = Math.PI / 24;
@@ -15,7 +16,7 @@ export class View3D implements Drawable {
   readonly canvas: HTMLCanvasElement;
   readonly scene = new Scene();
   readonly camera = new PerspectiveCamera(35, 1, 0.01, 100);
-  private readonly renderer: WebGLRenderer;
+  private readonly renderer: WebGLRenderer | null;
   private readonly controls: OrbitControls;
   private home: { from: Vector3; at: Vector3 } = { from: new Vector3(3, -3, 2), at: new Vector3() };
   private fixed = false;
@@ -26,13 +27,14 @@ export class View3D implements Drawable {
     name: string,
     readonly frames: Frames,
   ) {
-    // the picture is kept after it is shown, so that it can be copied into a film
-    this.renderer = new WebGLRenderer({ antialias: true, preserveDrawingBuffer: true });
-    this.canvas = this.renderer.domElement;
+    this.renderer = makeRenderer();
+    this.canvas = this.renderer?.domElement ?? document.createElement("canvas");
     this.canvas.tabIndex = 0;
     this.canvas.setAttribute("role", "img");
     this.canvas.setAttribute("aria-label", name);
     panel.append(this.canvas);
+    if (!this.renderer)
+      panel.append(el("p", { class: "overlay absent" }, "This browser draws nothing in 3-D: it has no WebGL 2."));
     this.scene.background = new Color("#ffffff");
     this.camera.up.set(0, 0, 1);
     this.controls = new OrbitControls(this.camera, this.canvas);
@@ -62,7 +64,7 @@ export class View3D implements Drawable {
 
   /** Draw now. */
   draw(): void {
-    this.renderer.render(this.scene, this.camera);
+    this.renderer?.render(this.scene, this.camera);
   }
 
   /** Draw in a fixed size, one pixel each, until `release`. */
@@ -96,8 +98,8 @@ export class View3D implements Drawable {
   }
 
   private resize(width: number, height: number, ratio: number, style: boolean): void {
-    this.renderer.setPixelRatio(ratio);
-    this.renderer.setSize(width, height, style);
+    this.renderer?.setPixelRatio(ratio);
+    this.renderer?.setSize(width, height, style);
     this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();
     this.camera.updateMatrixWorld();
@@ -126,5 +128,15 @@ export class View3D implements Drawable {
     this.camera.position.copy(this.controls.target).add(arm);
     this.controls.update();
     this.frames.later(this);
+  }
+}
+
+/** Planes, plots and numbers work without a graphics card, so its absence is no end of the page. */
+function makeRenderer(): WebGLRenderer | null {
+  try {
+    // the picture is kept after it is shown, so that it can be copied into a film
+    return new WebGLRenderer({ antialias: true, preserveDrawingBuffer: true });
+  } catch {
+    return null;
   }
 }

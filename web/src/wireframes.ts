@@ -28,13 +28,16 @@ export function wireframe({ centre, axes }: Ellipsoid, colour: string, opacity: 
   }
   const geometry = new BufferGeometry();
   geometry.setAttribute("position", new BufferAttribute(Float32Array.from(places), 3));
-  return new LineSegments(geometry, new LineBasicMaterial({ color: colour, opacity, transparent: true, depthWrite: false }));
+  return new LineSegments(
+    geometry,
+    new LineBasicMaterial({ color: colour, opacity, transparent: true, depthWrite: false }),
+  );
 }
 
 /** The ellipse in which an ellipsoid is seen along an axis, as points; both axes of the plane.
  *
- * The outline of centre + A u on two rows P of A is centre + P u over u in the row space of P: with P P^T = C, the points
- * C^(1/2) (cos, sin), which the lower Cholesky factor of C gives as well.
+ * With P the two rows of A of the plane, it is centre + L (cos, sin) for any L with L L^T = P P^T; here L is the lower
+ * Cholesky factor.
  */
 export function outline({ centre, axes }: Ellipsoid, plane: readonly [number, number]): [number, number][] {
   const [i, j] = plane;
@@ -51,7 +54,9 @@ export function outline({ centre, axes }: Ellipsoid, plane: readonly [number, nu
 
 function* unitSphere(): Generator<[number[], number[]]> {
   const at = (latitude: number, longitude: number): number[] => [
-    Math.cos(latitude) * Math.cos(longitude), Math.cos(latitude) * Math.sin(longitude), Math.sin(latitude),
+    Math.cos(latitude) * Math.cos(longitude),
+    Math.cos(latitude) * Math.sin(longitude),
+    Math.sin(latitude),
   ];
   const turn = (2 * Math.PI) / STEPS;
   for (let m = 0; m < MERIDIANS / 2; m++) {

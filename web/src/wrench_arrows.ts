@@ -114,10 +114,12 @@ export class WrenchArrows extends Group {
       const expected = wrenches.filter(({ role }) => role === "expected");
       return expected.some((series) => this.data.range(series, first) !== null) ? expected : wrenches;
     });
-    const largest = all.flatMap((series) => [0, 1, 2].map((axis) => {
-      const found = this.data.range(series, first + axis);
-      return found ? Math.max(-found[0], found[1]) : 0;
-    }));
+    const largest = all.flatMap((series) =>
+      [0, 1, 2].map((axis) => {
+        const found = this.data.range(series, first + axis);
+        return found ? Math.max(-found[0], found[1]) : 0;
+      }),
+    );
     const peak = Math.max(0, ...largest);
     return peak > 0 ? (LONGEST * this.size) / peak : 1;
   }

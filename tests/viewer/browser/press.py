@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -15,6 +16,15 @@ def download(page: Page, button: str) -> tuple[str, bytes]:
     with page.expect_download() as offer:
         page.get_by_role("button", name=button).click()
     return offer.value.suggested_filename, Path(offer.value.path()).read_bytes()
+
+
+def wait_until(page: Page, happened: Callable[[], bool]) -> None:
+    """Look again until something has happened; the page's policy lets no text be run, so it cannot look by itself."""
+    for _ in range(600):
+        if happened():
+            return
+        page.wait_for_timeout(50)
+    raise AssertionError("it did not happen within 30 s")
 
 
 def picture(page: Page, name: str) -> str:

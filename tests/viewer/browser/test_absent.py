@@ -59,3 +59,21 @@ def test_damaged_data_is_an_error_that_is_read(visit: Visit, arm: Arm) -> None:
     assert "the data are 1000 bytes long" in str(alert.text_content())
     assert any("1000 bytes" in error for error in visit.errors)
     visit.errors.clear()
+
+
+def test_no_graphics(visit: Visit, arm: Arm) -> None:
+    """Without WebGL the 3-D views say so; planes, plots and numbers work."""
+    file = visit.folder / "flat.html"
+    file.write_bytes(page_of(arm.built))
+    page = visit.blank()
+    page.add_init_script("""const get = HTMLCanvasElement.prototype.getContext;
+        HTMLCanvasElement.prototype.getContext = function (kind, ...rest) {
+            return kind.startsWith("webgl") ? null : get.call(this, kind, ...rest); };""")
+    page.goto(file.as_uri())
+    page.evaluate("window.ft.ready")
+    assert page.get_by_text("This browser draws nothing in 3-D").count() == 2
+    at = page.evaluate("window.ft.planePoint(0, 1, 425)")
+    page.mouse.click(at["x"], at["y"])
+    assert page.evaluate("window.ft.sample()") != 0
+    assert all("WebGL" in error for error in visit.errors)  # three.js reports it too
+    visit.errors.clear()

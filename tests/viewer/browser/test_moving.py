@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 from tests.viewer.browser.arm_scene import SAMPLES, Arm
+from tests.viewer.browser.press import wait_until
 
 if TYPE_CHECKING:
     from playwright.sync_api import Page
@@ -87,7 +88,7 @@ def test_play_moves_on_and_pause_stops(page: Page, sample: Callable[[], int]) ->
     """Playing shows later and later samples, and stops when told or at the end."""
     page.get_by_label("Speed", exact=True).select_option("2")
     page.get_by_role("button", name="Play").click()
-    page.wait_for_function("window.ft.sample() > 10")
+    wait_until(page, lambda: sample() > 10)
     page.get_by_role("button", name="Pause").click()
     stopped = sample()
     page.wait_for_timeout(300)
@@ -125,7 +126,7 @@ def test_everything_without_a_mouse(page: Page, sample: Callable[[], int]) -> No
     page.keyboard.press("s")
     assert page.get_by_label("Saved samples").get_by_role("listitem").count() == 1
     page.keyboard.press(" ")
-    page.wait_for_function("window.ft.sample() > 0")
+    wait_until(page, lambda: sample() > 0)
     page.keyboard.press(" ")
     reached = set()
     for _ in range(60):
@@ -158,3 +159,16 @@ def test_everything_without_a_mouse(page: Page, sample: Callable[[], int]) -> No
     assert sample() == 77
     number.press("s")
     assert page.get_by_label("Saved samples").get_by_role("listitem").count() == 1, "a box keeps its keys"
+
+
+def test_arrows_step_after_a_choice_by_mouse(page: Page, sample: Callable[[], int]) -> None:
+    """A clicked radio button does not keep the arrows; one that was reached by keyboard does."""
+    page.get_by_role("radiogroup", name="Quantity").get_by_text("Torque").click()
+    page.keyboard.press("ArrowRight")
+    assert sample() == 1
+    assert page.get_by_label("Torque", exact=True).is_checked()
+    page.get_by_label("Sensor", exact=True).focus()
+    page.keyboard.press("Tab")
+    page.keyboard.press("ArrowLeft")
+    assert sample() == 1
+    assert page.get_by_label("Force", exact=True).is_checked()
