@@ -27,6 +27,11 @@ def wait_until(page: Page, happened: Callable[[], bool]) -> None:
     raise AssertionError("it did not happen within 30 s")
 
 
+def wait_for_drawing(page: Page) -> None:
+    """Let the page draw what has changed; it does so in the next frame of the browser."""
+    page.evaluate("new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))")
+
+
 def picture(page: Page, name: str) -> str:
     """What a view shows, as the address of a PNG."""
     address = page.get_by_role("img", name=name).first.evaluate("canvas => canvas.toDataURL()")

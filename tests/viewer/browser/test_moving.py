@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from tests.viewer.browser.arm_scene import SAMPLES, Arm
-from tests.viewer.browser.press import wait_until
+from tests.viewer.browser.press import wait_for_drawing, wait_until
 
 if TYPE_CHECKING:
     from playwright.sync_api import Page
@@ -62,10 +62,12 @@ def test_drag_on_a_plot_shows_a_part_of_the_time(page: Page, sample: Callable[[]
     page.mouse.move(box["x"] + 0.6 * box["width"], y, steps=3)
     page.mouse.up()
     assert sample() == 0
+    wait_for_drawing(page)
     page.mouse.click(box["x"] + 0.5 * box["width"], y)  # now the middle of what was dragged
     wanted = arm.time_s[0] + 0.55 * (arm.time_s[-1] - arm.time_s[0])
     assert abs(arm.time_s[sample()] - wanted) < 2 * PIXEL_S
     page.get_by_role("button", name="Whole recording").click()
+    wait_for_drawing(page)
     page.mouse.click(box["x"] + 0.25 * box["width"], y)
     wanted = arm.time_s[0] + 0.25 * (arm.time_s[-1] - arm.time_s[0])
     assert abs(arm.time_s[sample()] - wanted) < 2 * PIXEL_S
