@@ -165,6 +165,21 @@ def test_sphere_and_ellipsoid_lie_in_the_clouds(intact: Path) -> None:
         assert np.median(np.linalg.norm(unit, axis=0)) == pytest.approx(1.0, abs=0.1)
 
 
+def test_ellipsoids_of_a_long_log_see_a_part_of_it(intact: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """From every third sample they are nearly the same, and the page says that they are."""
+    whole = _view(intact / PARQUET)
+    monkeypatch.setattr("forcetorque.viewer.series._SPHERE_SAMPLES", 500)
+    part = _view(intact / PARQUET)
+    assert any(line.endswith("over 'fit', 'judge', from one sample in 3") for line in part.scene.provenance)
+    for name in ("prior", "expected"):
+        np.testing.assert_array_equal(_values(part, name), _values(whole, name))
+    ours, theirs = (_series(scene.scene.sensors[0], "prior").ellipsoid_force for scene in (part, whole))
+    assert ours is not None
+    assert theirs is not None
+    np.testing.assert_allclose(ours.centre, theirs.centre, rtol=0, atol=0.05)
+    assert ours.centre != theirs.centre
+
+
 def test_a_logged_wrench_is_shown_and_not_recovered(intact: Path) -> None:
     """A stream of wrenches gives the series `logged`, with the offset over the calibration interval."""
     built = _view(intact / YARP)

@@ -21,6 +21,7 @@ from forcetorque.viewer.contacts import scene_contacts
 from forcetorque.viewer.expected import expected_readings
 from forcetorque.viewer.geometry import robot_geometry
 from forcetorque.viewer.instants import Posture, posture_at
+from forcetorque.viewer.once import Priors, differentiated
 from forcetorque.viewer.root_pose import root_poses
 from forcetorque.viewer.scene import Block, Robot, Scene, SceneFinding, SceneInterval
 from forcetorque.viewer.series import scene_sensor
@@ -75,15 +76,19 @@ def build_scene(
     block, sources = Block(), [*_inputs(experiment), *provenance, f"forcetorque {version('forcetorque')}"]
     posture = posture_at(recording, model, recording.stream(shown[0].stream))
     root = root_poses(recording, model, posture, recording.intervals, experiment.processing)
-    expected, lacking = expected_readings(experiment, tuple(names), posture, usable.recording.intervals)
+    computed = differentiated(usable)
+    priors = Priors(computed)
+    expected, lacking = expected_readings(computed, tuple(names), posture)
     notes += [*posture.notes, *root.notes, *lacking]
     if experiment.processing.smoothing is not None:
         sources.append("the smoothing of the experiment file is not applied to what is shown")
     series = [
-        scene_sensor(usable, sensor, groups.get(sensor.name, {}), expected[sensor.name], posture, block, notes, sources)
-        for sensor in shown
+        scene_sensor(
+            computed, one, groups.get(one.name, {}), expected[one.name], posture, priors, block, notes, sources
+        )
+        for one in shown
     ]
-    contacts = scene_contacts(usable, groups, posture, block, notes, sources)
+    contacts = scene_contacts(computed, groups, posture, priors, block, notes, sources)
     robot, missing = _robot(experiment, posture, urdf, block, mesh_folders)
     scene = Scene(
         title=experiment.name,

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -11,19 +12,20 @@ from forcetorque.arrays import FloatArray
 from forcetorque.calibration import Calibration
 from forcetorque.errors import ForceTorqueError
 from forcetorque.estimation import Contact
-from forcetorque.experiment import Experiment, IntervalEstimates, estimate_experiment
+from forcetorque.experiment import Correction, Experiment, IntervalEstimates, corrections_of, estimate_experiment
 from forcetorque.experiment.contacts import contacts_at_sensors
 from forcetorque.robot import build_tree
 from forcetorque.viewer.geometry import flat
 from forcetorque.viewer.instants import Posture
+from forcetorque.viewer.once import Priors
 from forcetorque.viewer.scene import Block, ContactSeries
-from forcetorque.viewer.series import first_corrections
 
 
 def scene_contacts(
     experiment: Experiment,
     groups: Mapping[str, Mapping[str, Calibration]],
     posture: Posture,
+    priors: Priors,
     block: Block,
     notes: list[str],
     sources: list[str],
@@ -34,6 +36,7 @@ def scene_contacts(
         experiment: The experiment, without intervals that hold no sample.
         groups: Calibrations by sensor and name; of each sensor the first is used.
         posture: The instants.
+        priors: How sensors are read without a calibration.
         block: Takes the arrays.
         notes: Takes what is missing.
         sources: Takes where the rest comes from.
@@ -42,7 +45,7 @@ def scene_contacts(
         Contacts, NaN outside intervals; none where the log does not allow to estimate them.
     """
     try:
-        corrections = first_corrections(experiment, groups)
+        corrections = _first_corrections(experiment, groups, priors)
         spans = estimate_experiment(experiment, corrections)
     except ForceTorqueError as error:
         notes.append(f"no contact wrenches: {error}")
@@ -74,6 +77,16 @@ def scene_contacts(
         )
         for name, values in found.items()
     )
+
+
+def _first_corrections(
+    experiment: Experiment, groups: Mapping[str, Mapping[str, Calibration]], priors: Priors
+) -> dict[str, Correction]:
+    """How every sensor is read where one way is needed: by its first calibration, else its prior."""
+    first = dict(next(iter(group.items())) for group in groups.values())
+    calibrated = replace(experiment, sensors=tuple(s for s in experiment.sensors if s.name in groups))
+    found = corrections_of(calibrated, first)
+    return {sensor.name: found.get(sensor.name) or priors.of(sensor) for sensor in experiment.sensors}
 
 
 def _places(experiment: Experiment, spans: Sequence[IntervalEstimates]) -> dict[str, Contact]:

@@ -13,21 +13,22 @@ from forcetorque.estimation import Question, estimate, required_joints_of
 from forcetorque.estimation.root_motion import joints_to_support
 from forcetorque.estimation.samples import robot_motion_at
 from forcetorque.experiment import Experiment
-from forcetorque.recording import Interval, MovingSupport, Support
+from forcetorque.recording import MovingSupport, Support
 from forcetorque.robot import build_tree
 from forcetorque.viewer.instants import Posture
 
 
 def expected_readings(
-    experiment: Experiment, sensors: Sequence[str], posture: Posture, intervals: Sequence[Interval]
+    experiment: Experiment, sensors: Sequence[str], posture: Posture
 ) -> tuple[dict[str, FloatArray], list[str]]:
     """Evaluate the model at every instant that lies in an interval with a support.
 
+    Where several intervals hold an instant, the first with a support rules.
+
     Args:
-        experiment: The experiment.
+        experiment: The experiment, without intervals that hold no sample.
         sensors: Names of the sensors.
         posture: The instants.
-        intervals: Intervals; where several hold an instant, the first with a support rules.
 
     Returns:
         Expected readings by sensor, NaN where there is none, of shape (n, 6) in N, N m; and what is missing.
@@ -37,7 +38,7 @@ def expected_readings(
     notes: dict[str, None] = {}
     left = np.ones(n, dtype=bool)
     spans: dict[int, tuple[Support | MovingSupport, np.ndarray]] = {}
-    for interval in intervals:
+    for interval in experiment.recording.intervals:
         if interval.support is not None:
             inside = left & (posture.stamp_ns >= interval.start_ns) & (posture.stamp_ns < interval.end_ns)
             left &= ~inside

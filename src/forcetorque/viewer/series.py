@@ -18,7 +18,6 @@ from forcetorque.experiment import (
     ExperimentSensor,
     SensorSphere,
     analyse_sensor,
-    corrections_of,
     sphere_intervals,
 )
 from forcetorque.experiment.fitness import require_fit
@@ -27,10 +26,13 @@ from forcetorque.recording.alignment import require_overlap
 from forcetorque.robot import SensorFrame
 from forcetorque.viewer.geometry import flat
 from forcetorque.viewer.instants import Posture
+from forcetorque.viewer.once import Priors
 from forcetorque.viewer.scene import Block, Ellipsoid, Sensor, Sphere, WrenchSeries
 
 PRIOR = "prior"
 """Name of the series that is read through the prior matrix."""
+_SPHERE_SAMPLES = 50_000
+"""Samples of a log from which on ellipsoids are fitted to a part of them."""
 LOGGED = "logged"
 """Name of the series of a stream that holds wrenches."""
 
@@ -50,6 +52,7 @@ def scene_sensor(
     calibrations: Mapping[str, Calibration],
     expected: FloatArray,
     posture: Posture,
+    priors: Priors,
     block: Block,
     notes: list[str],
     sources: list[str],
@@ -62,6 +65,7 @@ def scene_sensor(
         calibrations: Calibrations of that sensor by name.
         expected: What the model expects; shape (n, 6); N, N m.
         posture: The instants.
+        priors: How sensors are read without a calibration.
         block: Takes the arrays.
         notes: Takes what is missing.
         sources: Takes where the rest comes from.
@@ -69,7 +73,7 @@ def scene_sensor(
     Returns:
         The sensor with its series; none is expected where the model gives nothing.
     """
-    readings = _readings(experiment, sensor, calibrations, notes, sources)
+    readings = _readings(experiment, sensor, calibrations, priors, notes, sources)
     spheres = _spheres(experiment, sensor, calibrations, notes, sources)
     series = []
     if np.isfinite(expected).any():
@@ -90,32 +94,17 @@ def scene_sensor(
     )
 
 
-def first_corrections(
-    experiment: Experiment, calibrations: Mapping[str, Mapping[str, Calibration]]
-) -> dict[str, Correction]:
-    """Decide how every sensor is read where one way is needed: by its first calibration, else its prior.
-
-    Args:
-        experiment: The experiment.
-        calibrations: Calibrations by sensor and name.
-
-    Returns:
-        Corrections by sensor.
-    """
-    first = [next(iter(group.items())) for group in calibrations.values() if group]
-    return corrections_of(experiment, dict(first))
-
-
 def _readings(
     experiment: Experiment,
     sensor: ExperimentSensor,
     calibrations: Mapping[str, Calibration],
+    priors: Priors,
     notes: list[str],
     sources: list[str],
 ) -> list[_Reading]:
     readings = []
     if sensor.quantity == "wrench" or sensor.prior is not None:
-        correction = _prior_correction(experiment, sensor, notes)
+        correction = _prior_correction(sensor, priors, notes)
         name = LOGGED if correction.of_wrench else PRIOR
         sources.append(f"{sensor.name}: {name} is {correction.source}")
         readings.append(_Reading(name=name, candidate=PRIOR, correction=correction))
@@ -129,10 +118,10 @@ def _readings(
     return readings
 
 
-def _prior_correction(experiment: Experiment, sensor: ExperimentSensor, notes: list[str]) -> Correction:
+def _prior_correction(sensor: ExperimentSensor, priors: Priors, notes: list[str]) -> Correction:
     """The prior with the offset that the calibration intervals give; with none where they do not."""
     try:
-        return corrections_of(replace(experiment, sensors=(sensor,)), {})[sensor.name]
+        return priors.of(sensor)
     except ForceTorqueError as error:
         notes.append(f"sensor {sensor.name!r}: no offset is removed from the prior reading: {error}")
     of_wrench = sensor.quantity == "wrench" or sensor.prior is None
@@ -166,7 +155,8 @@ def _spheres(
 ) -> dict[str, SensorSphere]:
     try:
         intervals = sphere_intervals(experiment, None)
-        found = analyse_sensor(experiment, sensor, intervals, calibrations)
+        thinned, every = _thinned(experiment, sensor)
+        found = analyse_sensor(thinned, sensor, intervals, calibrations)
     except ForceTorqueError as error:
         notes.append(f"sensor {sensor.name!r}: no sphere and no ellipsoid: {error}")
         return {}
@@ -176,8 +166,22 @@ def _spheres(
             reason = "; ".join(fit.why)
             notes.append(f"sensor {sensor.name!r}, {sphere.candidate}: no ellipsoid of forces: {reason}")
     labels = ", ".join(repr(interval.label) for interval in intervals)
-    sources.append(f"{sensor.name}: sphere of the weight and ellipsoids as by `forcetorque sphere` over {labels}")
+    sources.append(
+        f"{sensor.name}: sphere of the weight and ellipsoids as by `forcetorque sphere` over {labels}{every}"
+    )
     return {sphere.candidate: sphere for sphere in found}
+
+
+def _thinned(experiment: Experiment, sensor: ExperimentSensor) -> tuple[Experiment, str]:
+    """Leave samples out of a long log, of which ellipsoids need not see all; and say so."""
+    stream = experiment.recording.stream(sensor.stream)
+    step = -(-len(stream) // _SPHERE_SAMPLES)
+    if step == 1 or experiment.processing.smoothing is not None:  # a filter needs them all
+        return experiment, ""
+    signals = {name: replace(signal, values=signal.values[::step]) for name, signal in stream.signals.items()}
+    fewer = replace(stream, stamp_ns=stream.stamp_ns[::step], sequence=None, signals=signals)
+    streams = {**experiment.recording.streams, stream.name: fewer}
+    return replace(experiment, recording=replace(experiment.recording, streams=streams)), f", from one sample in {step}"
 
 
 def _weight(spheres: Mapping[str, SensorSphere]) -> Sphere | None:

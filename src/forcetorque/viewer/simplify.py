@@ -13,9 +13,12 @@ from forcetorque.viewer.mesh_files import Triangles
 MOST_TRIANGLES = 100_000
 """Triangles of a whole robot that are left as they are: 3 MB."""
 
-_FINEST, _GROWTH = 1e-3, 1.25
-"""First size of a cell, relative to the extent of the largest mesh, and the factor from one to the next."""
+_FIRST, _GROWTH = 0.8, 1.25
+"""First size of a cell, relative to one that gives two triangles for each square of surface, and the factor from one
+to the next."""
 
+_SMALLEST_M = 1e-6
+"""Smallest first size of a cell, for triangles without area."""
 _MOST_NUMBERS = 9e18
 """Largest whole number of 64 bits."""
 
@@ -30,12 +33,17 @@ def simplified(meshes: Sequence[Triangles], *, most: int = MOST_TRIANGLES) -> tu
     Returns:
         Meshes in the same order; the same ones where they have few enough.
     """
-    cell = _FINEST * max((float(np.ptp(mesh.vertices, axis=0).max()) for mesh in meshes), default=0.0)
+    cell = max(_FIRST * float(np.sqrt(2.0 * sum(_area(mesh) for mesh in meshes) / most)), _SMALLEST_M)
     reduced = tuple(meshes)
     while sum(len(mesh.faces) for mesh in reduced) > most:
         reduced = tuple(clustered(mesh, cell) for mesh in meshes)
         cell *= _GROWTH
     return reduced
+
+
+def _area(mesh: Triangles) -> float:
+    a, b, c = (mesh.vertices[mesh.faces[:, k]] for k in range(3))
+    return float(0.5 * np.linalg.norm(np.cross(b - a, c - a), axis=1).sum())
 
 
 def clustered(mesh: Triangles, cell: float) -> Triangles:
