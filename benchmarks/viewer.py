@@ -39,14 +39,15 @@ def main() -> None:
             experiment = _experiment(Path(name) / str(samples), urdf, samples)
             warm = not seconds  # the first scene compiles and fills caches
             for number in range(rounds + warm):
-                start = time.perf_counter()
+                start, processor = time.perf_counter(), time.process_time()
                 built = build_scene(experiment, {}, urdf=urdf)
-                done = time.perf_counter()
+                done, processor = time.perf_counter(), time.process_time() - processor
                 size = _page_size(built, Path(name))
                 if number or not warm:
                     seconds.setdefault(f"build {samples}", []).append(done - start)
                     seconds.setdefault(f"page {samples}", []).append(time.perf_counter() - done)
             figures |= {
+                f"build {samples}, processor s": processor,
                 f"block {samples}, MB": len(built.block) / 1e6,
                 f"header {samples}, MB": len(scene_json(built.scene)) / 1e6,
                 f"page {samples}, MB": size / 1e6,

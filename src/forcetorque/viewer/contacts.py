@@ -91,12 +91,11 @@ def _first_corrections(
 
 def _places(experiment: Experiment, spans: Sequence[IntervalEstimates]) -> dict[str, Contact]:
     """Contacts by name: the support at its own origin, and those of the experiment or at its sensors."""
+    stated = [entry.contact for entry in experiment.contacts]
     places: dict[str, Contact] = {}
-    for span in spans:
-        support = span.interval.support
-        if support is not None:
-            tree = build_tree(experiment.model, support.frame)
-            at_sensors = contacts_at_sensors(tree, [sensor.name for sensor in experiment.sensors])
-            stated = [entry.contact for entry in experiment.contacts]
-            places |= {contact.name: contact for contact in (Contact(link=support.frame), *(stated or at_sensors))}
+    supports = {span.interval.support.frame for span in spans if span.interval.support is not None}
+    for frame in sorted(supports):
+        tree = build_tree(experiment.model, frame)
+        at_sensors = contacts_at_sensors(tree, [sensor.name for sensor in experiment.sensors])
+        places |= {contact.name: contact for contact in (Contact(link=frame), *(stated or at_sensors))}
     return places

@@ -14,7 +14,7 @@ from forcetorque.estimation.root_motion import joints_to_support
 from forcetorque.estimation.samples import robot_motion_at
 from forcetorque.experiment import Experiment
 from forcetorque.recording import MovingSupport, Support
-from forcetorque.robot import build_tree
+from forcetorque.robot import BodyTree, build_tree
 from forcetorque.viewer.instants import Posture
 
 
@@ -49,9 +49,10 @@ def expected_readings(
         if not len(chosen):
             continue
         answerable = []
+        tree = build_tree(experiment.model, support.frame)
         for sensor in sensors:
             try:
-                lacking = _lacking(experiment, sensor, support)
+                lacking = _lacking(experiment, tree, sensor, support)
             except ForceTorqueError as error:
                 notes[f"sensor {sensor!r}: no expected wrench on {support.frame!r}: {error}"] = None
                 continue
@@ -63,7 +64,7 @@ def expected_readings(
         if not answerable:
             continue
         try:
-            readings = _evaluate(experiment, answerable, support, posture, chosen)
+            readings = _evaluate(experiment, tree, answerable, support, posture, chosen)
         except ForceTorqueError as error:
             notes[f"no expected wrenches on {support.frame!r}: {error}"] = None
             continue
@@ -74,13 +75,9 @@ def expected_readings(
     return found, list(notes)
 
 
-def _question(experiment: Experiment, sensors: Sequence[str], support: Support | MovingSupport) -> Question:
-    return Question(tree=build_tree(experiment.model, support.frame), expected=tuple(sensors), equations=())
-
-
-def _lacking(experiment: Experiment, sensor: str, support: Support | MovingSupport) -> list[str]:
+def _lacking(experiment: Experiment, tree: BodyTree, sensor: str, support: Support | MovingSupport) -> list[str]:
     """Joints that the expected reading of a sensor needs and no stream holds."""
-    needed = required_joints_of(_question(experiment, (sensor,), support))
+    needed = required_joints_of(Question(tree=tree, expected=(sensor,), equations=()))
     needed += joints_to_support(experiment.model, experiment.recording, support)
     logged = experiment.recording.joint_signals("position")
     return [joint for joint in dict.fromkeys(needed) if joint not in logged]
@@ -88,12 +85,13 @@ def _lacking(experiment: Experiment, sensor: str, support: Support | MovingSuppo
 
 def _evaluate(
     experiment: Experiment,
+    tree: BodyTree,
     sensors: Sequence[str],
     support: Support | MovingSupport,
     posture: Posture,
     chosen: np.ndarray,
 ) -> dict[str, FloatArray]:
-    question = _question(experiment, sensors, support)
+    question = Question(tree=tree, expected=tuple(sensors), equations=())
     joints, root = robot_motion_at(
         experiment.recording,
         experiment.model,

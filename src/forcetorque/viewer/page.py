@@ -18,7 +18,7 @@ from forcetorque.viewer.build import BuiltScene
 from forcetorque.viewer.scene import scene_json
 
 MOST_SAMPLES = 200_000
-"""Samples above which a page is not written as one file: browsers read some 40 MB of it at once."""
+"""Samples above which a page is not written as one file: that of a humanoid then has some 90 MB, read at once."""
 
 ASSETS: Traversable = files("forcetorque.viewer") / "assets"
 """The page's template, and the bundle that `make web` builds."""
