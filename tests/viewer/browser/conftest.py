@@ -41,7 +41,7 @@ FLAGS = (
 )
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")  # while it lives, nothing else in this process may drive a browser or run a loop
 def playwright() -> Iterator[Playwright]:
     """What drives the browser."""
     if importlib.util.find_spec("playwright") is None:
@@ -52,7 +52,7 @@ def playwright() -> Iterator[Playwright]:
         yield driver
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def chromium(playwright: Playwright) -> Iterator[Browser]:
     """The browser of the system."""
     program = next(filter(None, map(shutil.which, BROWSERS)), None)
@@ -125,9 +125,9 @@ def arm(tmp_path_factory: pytest.TempPathFactory) -> Arm:
     return arm_scene(tmp_path_factory.mktemp("arm"))
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def shared(chromium: Browser, arm: Arm, tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[Visit, Page]]:
-    """That scene, opened once: a browser that draws by processor takes seconds to open it."""
+    """That scene, opened once for several tests: a browser that draws by processor takes seconds."""
     visit = Visit(chromium, tmp_path_factory.mktemp("shared"))
     yield visit, visit.open(arm.built)
     visit.close()
