@@ -4,12 +4,12 @@ DATA ?= ../shared/data
 VENV := .venv
 BIN := $(VENV)/bin
 
-.PHONY: demo test lint types bench clean
+.PHONY: demo test lint types bench web web-check web-types clean
 
 demo: $(VENV)/run.stamp
 	$(BIN)/python examples/01_known_truth.py build/demo
 
-test: lint types
+test: lint types web-check
 	$(BIN)/pytest tests --data=$(DATA)
 
 lint: $(VENV)/test.stamp
@@ -25,6 +25,17 @@ bench: $(VENV)/test.stamp
 	$(BIN)/python -m benchmarks.dynamics --json build/benchmarks/dynamics.json
 	$(BIN)/python -m benchmarks.simulation --json build/benchmarks/simulation.json
 	$(BIN)/python -m benchmarks.sphere --json build/benchmarks/sphere.json
+
+# the viewer's page, built from web/ and committed: who installs the library needs no npm
+web:
+	cd web && npm ci && npm run build
+
+web-check: $(VENV)/test.stamp
+	$(BIN)/python web/check_bundle.py
+
+# the classes of src/forcetorque/viewer/scene.py as the page reads them
+web-types: $(VENV)/run.stamp
+	$(BIN)/python -m forcetorque.viewer.typescript web/src/scene_types.ts
 
 # uv installs exactly what uv.lock says; it is itself installed here, so nothing is assumed
 $(BIN)/uv:

@@ -23,6 +23,7 @@ from forcetorque.cli.parser.simulate import simulate
 from forcetorque.cli.parser.sphere import sphere
 from forcetorque.cli.parser.study import study
 from forcetorque.cli.parser.validate import validate
+from forcetorque.cli.parser.view import view
 from forcetorque.errors import ForceTorqueError
 
 app = typer.Typer(
@@ -70,5 +71,6 @@ for _command in (
     sphere,
     study,
     validate,
+    view,
 ):
     app.command(_command.__name__)(_command)

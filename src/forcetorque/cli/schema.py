@@ -40,6 +40,7 @@ def run(name: str) -> None:
         "sphere": _sphere,
         "study": _study,
         "validate": _validate,
+        "view": _view,
     }
     if name not in known:
         raise ForceTorqueError(f"no schema is called {name!r}; {known_names(name, known)}")
@@ -158,3 +159,9 @@ def _validate() -> dict[str, Any]:
     from forcetorque.cli.validate_result import ValidateResult
 
     return ValidateResult.model_json_schema()
+
+
+def _view() -> dict[str, Any]:
+    from forcetorque.cli.view import ViewResult
+
+    return ViewResult.model_json_schema()

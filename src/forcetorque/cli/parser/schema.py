@@ -13,7 +13,7 @@ def schema(
         str,
         typer.Argument(
             help="experiment, acceptance, scenario, recording, calibration, accept, calibrate, compare, estimate, "
-            "evaluate, export, gains, inspect, payload, report, simulate, sphere, study or validate."
+            "evaluate, export, gains, inspect, payload, report, simulate, sphere, study, validate or view."
         ),
     ],
 ) -> None:

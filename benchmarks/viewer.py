@@ -1,0 +1,110 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Scenes of a humanoid's log of 20 000, 200 000 and 1 000 000 samples: seconds to build and to write, and sizes."""
+
+from __future__ import annotations
+
+import tempfile
+import time
+from pathlib import Path
+
+import numpy as np
+
+from benchmarks.harness import arguments, write_result
+from forcetorque.exchange.icub import encode_matrix, write_matrix_file
+from forcetorque.experiment import Experiment, load_experiment
+from forcetorque.recording import write_recording
+from forcetorque.robot import read_urdf
+from forcetorque.simulation import FAMILIES, SimulatedSensor, Stand, random_movement, record
+from forcetorque.simulation.robots import named_robot
+from forcetorque.viewer import MOST_SAMPLES, BuiltScene, build_scene, page_of
+from forcetorque.viewer.page import ASSETS, BUNDLE
+from forcetorque.viewer.scene import scene_json
+
+SIZES, QUICK_SIZES = (20_000, 200_000, 1_000_000), (2_000, 20_000)
+SHARE = {"calibration": (0.02, 0.5), "validation": (0.5, 0.98)}
+"""Parts of the log in the two intervals."""
+SENSORS = 2
+"""Sensors that are shown."""
+
+
+def main() -> None:
+    """Build the scenes and write seconds and sizes."""
+    options = arguments(__doc__ or "")
+    rounds = 2  # minutes each
+    urdf = named_robot(["iCubGazeboV2_7", "biped"])
+    seconds: dict[str, list[float]] = {}
+    figures: dict[str, float] = {}
+    with tempfile.TemporaryDirectory() as name:
+        for samples in QUICK_SIZES if options.quick else SIZES:
+            experiment = _experiment(Path(name) / str(samples), urdf, samples)
+            warm = not seconds  # the first scene compiles and fills caches
+            for number in range(rounds + warm):
+                start, processor = time.perf_counter(), time.process_time()
+                built = build_scene(experiment, {}, urdf=urdf)
+                done, processor = time.perf_counter(), time.process_time() - processor
+                size = _page_size(built, Path(name))
+                if number or not warm:
+                    seconds.setdefault(f"build {samples}", []).append(done - start)
+                    seconds.setdefault(f"page {samples}", []).append(time.perf_counter() - done)
+            figures |= {
+                f"build {samples}, processor s": processor,
+                f"block {samples}, MB": len(built.block) / 1e6,
+                f"header {samples}, MB": len(scene_json(built.scene)) / 1e6,
+                f"page {samples}, MB": size / 1e6,
+            }
+            print(f"{samples}: {seconds[f'build {samples}']} s, {figures}")
+    write_result(
+        options.json,
+        ratios={},
+        seconds=seconds,
+        accuracy={"joints": len(built.scene.coordinates), "sensors": len(built.scene.sensors)},
+        rounds=rounds,
+        packages=("numpy", "scipy", "trimesh"),
+        figures=figures,
+    )
+
+
+def _page_size(built: BuiltScene, folder: Path) -> int:
+    """Bytes of the file, or of the page that is served where there are too many samples for one."""
+    if all((ASSETS / name).is_file() for name in BUNDLE):
+        assets = None
+    else:  # without the bundle its size is missing
+        assets = folder
+        (folder / "page.html").write_bytes((ASSETS / "page.html").read_bytes())
+        for name in BUNDLE:
+            (folder / name).write_text("", encoding="utf-8")
+    served = None if built.scene.samples <= MOST_SAMPLES else "data.bin"
+    return len(page_of(built, data_url=served, assets=assets))
+
+
+def _experiment(folder: Path, urdf: Path, samples: int, *, rate_hz: float = 100.0) -> Experiment:
+    """A humanoid that moves all joints, on its root link."""
+    folder.mkdir()
+    model = read_urdf(urdf)
+    stand = Stand(model=model, support=model.root_link, gravity_direction=np.array([0.0, 0.0, -1.0]))
+    movement = random_movement(stand, rng=np.random.default_rng(1), duration_s=samples / rate_hz)
+    matrix = encode_matrix(np.linalg.inv(FAMILIES["standard"].nominal()))
+    write_matrix_file(folder / "matrix_S1.txt", matrix)
+    sensor = SimulatedSensor(matrix=matrix.matrix, offset=np.zeros(6), noise_counts=3.0, noise_corner_hz=0.5)
+    names = list(model.sensors)[:SENSORS]
+    recording = record(movement, dict.fromkeys(names, sensor), rate_hz=rate_hz, rng=np.random.default_rng(2))
+    write_recording(folder / "recording", recording)
+    start, end = ((stamp - recording.start_ns) * 1e-9 for stamp in recording.span_ns)
+    tables = [
+        'schema = "forcetorque/experiment/1"\nname = "benchmark"',
+        f'[robot]\nurdf = "{urdf.as_posix()}"',
+        '[recording]\nformat = "parquet"\npath = "recording"',
+        *(f'[[sensor]]\nname = "{n}"\nstream = "{n}"\nserial = "S1"\nprior = "matrix_S1.txt"' for n in names),
+        f'[[support]]\nframe = "{model.root_link}"\ngravity_direction = [0.0, 0.0, -1.0]',
+        *(
+            f'[[interval]]\nlabel = "{use}"\nstart_s = {start + first * (end - start)}\n'
+            f'end_s = {start + last * (end - start)}\nuse = "{use}"\nsupport = "{model.root_link}"'
+            for use, (first, last) in SHARE.items()
+        ),
+    ]
+    (folder / "experiment.toml").write_text("\n\n".join(tables) + "\n", encoding="utf-8")
+    return load_experiment(folder / "experiment.toml")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,187 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Samples and intervals that were saved in the page, as files beside the experiment."""
+
+from __future__ import annotations
+
+import csv
+import io
+from pathlib import Path
+from typing import Annotated, Literal
+
+import numpy as np
+from pydantic import BaseModel, ConfigDict, Field, FiniteFloat
+
+from forcetorque.arrays import FloatArray
+from forcetorque.atomic import write_bytes_atomically
+from forcetorque.errors import ForceTorqueError
+from forcetorque.recording import Use
+from forcetorque.viewer.build import BuiltScene
+from forcetorque.viewer.scene import SceneInterval, read_array
+
+Label = Annotated[str, Field(max_length=200)]
+
+
+class _Sent(BaseModel):
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+
+class SavedSample(_Sent):
+    """A sample that somebody saved."""
+
+    sample: Annotated[int, Field(ge=0)]
+    """Its number."""
+    time_s: FiniteFloat
+    """Its time; s."""
+    mark: Literal["begin", "end", "point"]
+    """Whether something begins or ends there."""
+    label: Label
+    """What was written to it."""
+    use: Use
+    """Use of the interval that begins there."""
+
+
+class SavedInterval(_Sent):
+    """An interval that somebody marked."""
+
+    label: Label
+    """Its label."""
+    start_s: FiniteFloat
+    """Start; s."""
+    end_s: FiniteFloat
+    """End, itself excluded; s."""
+    use: Use
+    """What its samples are for."""
+
+
+class Annotations(_Sent):
+    """Everything that was saved in a page."""
+
+    samples: tuple[SavedSample, ...]
+    """Saved samples."""
+    intervals: tuple[SavedInterval, ...]
+    """Marked intervals."""
+
+
+def samples_csv(annotations: Annotations, built: BuiltScene) -> str:
+    """Write saved samples with their joint configurations (thesis Table 4.2).
+
+    Args:
+        annotations: What was saved.
+        built: The scene in which it was saved.
+
+    Returns:
+        Comma-separated text; joints in degrees, or m where prismatic.
+
+    Raises:
+        ForceTorqueError: If a sample is not in the scene.
+    """
+    scene = built.scene
+    positions, times = read_array(built.block, scene.positions), read_array(built.block, scene.time_s)
+    slides = {joint.name for joint in scene.robot.joints if joint.type == "prismatic"}
+    is_slide = [name in slides for name in scene.coordinates]
+    names = [f"{name}_{'m' if slide else 'deg'}" for name, slide in zip(scene.coordinates, is_slide, strict=True)]
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(["sample", "time_s", "mark", "label", *names])
+    for saved in annotations.samples:
+        if saved.sample >= scene.samples:
+            raise ForceTorqueError(f"sample {saved.sample}: expected a number below {scene.samples}")
+        row = np.asarray(positions[saved.sample], dtype=np.float64)
+        time = _seconds(float(times[saved.sample]))
+        writer.writerow([saved.sample, time, saved.mark, saved.label, *_configuration(row, is_slide)])
+    return text.getvalue()
+
+
+def intervals_toml(annotations: Annotations, built: BuiltScene) -> str:
+    """Write marked intervals as an experiment file has them.
+
+    Args:
+        annotations: What was saved.
+        built: The scene in which it was saved.
+
+    Returns:
+        `[[interval]]` tables; the support is that of the experiment's interval which holds them.
+
+    Raises:
+        ForceTorqueError: If an interval ends before it begins.
+    """
+    tables = ["# intervals marked in the viewer; copy them into the experiment file\n"]
+    for interval in annotations.intervals:
+        if not interval.start_s < interval.end_s:
+            raise ForceTorqueError(f"interval {interval.label!r}: expected an end after its start")
+        support = _support(interval, built.scene.intervals)
+        lines = [
+            "[[interval]]",
+            f"label = {_quoted(interval.label)}",
+            f"start_s = {_seconds(interval.start_s)}",
+            f"end_s = {_seconds(interval.end_s)}",
+            f'use = "{interval.use.value}"',
+        ]
+        if support is not None:
+            lines.append(f"support = {_quoted(support)}")
+        elif interval.use is not Use.IGNORE:
+            lines.append('# support = "..."  # state the link that stands still: no interval of the experiment says it')
+        tables.append("\n".join(lines) + "\n")
+    return "\n".join(tables)
+
+
+def save_annotations(annotations: Annotations, built: BuiltScene, experiment: Path) -> tuple[Path, Path]:
+    """Write both files beside an experiment file, in place of those of the same names.
+
+    Args:
+        annotations: What was saved.
+        built: The scene in which it was saved.
+        experiment: The experiment file, `NAME.toml`.
+
+    Returns:
+        `NAME.samples.csv` and `NAME.intervals.toml`.
+    """
+    samples, intervals = saved_files(experiment)
+    table, tables = samples_csv(annotations, built), intervals_toml(annotations, built)  # both or none
+    write_bytes_atomically(samples, table.encode())
+    write_bytes_atomically(intervals, tables.encode())
+    return samples, intervals
+
+
+def saved_files(experiment: Path) -> tuple[Path, Path]:
+    """Name the files of saved samples and intervals.
+
+    Args:
+        experiment: The experiment file, `NAME.toml`.
+
+    Returns:
+        `NAME.samples.csv` and `NAME.intervals.toml` beside it.
+    """
+    return experiment.with_suffix(".samples.csv"), experiment.with_suffix(".intervals.toml")
+
+
+def _configuration(row: FloatArray, is_slide: list[bool]) -> list[str]:
+    return [f"{value:.6f}" if slide else f"{np.rad2deg(value):.4f}" for value, slide in zip(row, is_slide, strict=True)]
+
+
+def _support(interval: SavedInterval, intervals: tuple[SceneInterval, ...]) -> str | None:
+    # the end of the last sample may lie a period beyond that of the log
+    last = max((each.end_s for each in intervals), default=interval.end_s)
+    for each in intervals:
+        if each.support is not None and each.start_s <= interval.start_s < each.end_s:
+            return each.support if min(interval.end_s, last) <= each.end_s else None
+    return None
+
+
+def _seconds(value: float) -> str:
+    """Seconds to the nanosecond, as a float of TOML."""
+    whole, _, fraction = f"{value:.9f}".partition(".")
+    return f"{whole}.{fraction.rstrip('0') or '0'}"
+
+
+def _quoted(text: str) -> str:
+    """A basic string of TOML."""
+    escaped = (
+        f"\\{character}"
+        if character in '"\\'
+        else character
+        if character.isprintable()
+        else "".join(f"\\u{ord(character):04x}" if ord(character) < 0x10000 else f"\\U{ord(character):08x}")
+        for character in text
+    )
+    return f'"{"".join(escaped)}"'

@@ -1,0 +1,175 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""From an experiment to the scene of its whole log."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from importlib.metadata import version
+from pathlib import Path
+
+from forcetorque.calibration import Calibration
+from forcetorque.experiment import (
+    Experiment,
+    ExperimentSensor,
+    inspect_experiment,
+)
+from forcetorque.experiment.inputs import stated_in
+from forcetorque.recording import Finding, Interval
+from forcetorque.recording.alignment import seconds_since
+from forcetorque.viewer.contacts import scene_contacts
+from forcetorque.viewer.expected import expected_readings
+from forcetorque.viewer.geometry import robot_geometry
+from forcetorque.viewer.instants import Posture, posture_at
+from forcetorque.viewer.once import Priors, differentiated
+from forcetorque.viewer.root_pose import root_poses
+from forcetorque.viewer.scene import Block, Robot, Scene, SceneFinding, SceneInterval
+from forcetorque.viewer.series import scene_sensor
+from forcetorque.viewer.tree import scene_joints
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class BuiltScene:
+    """A scene with its arrays."""
+
+    scene: Scene
+    """The header."""
+    block: bytes
+    """The arrays."""
+
+
+def build_scene(
+    experiment: Experiment,
+    calibrations: Mapping[str, Calibration],
+    *,
+    urdf: Path | None = None,
+    sensors: Sequence[str] | None = None,
+    mesh_folders: Sequence[Path] = (),
+    provenance: Sequence[str] = (),
+) -> BuiltScene:
+    """Collect everything that the viewer shows of an experiment.
+
+    The instants are the stamps of the first shown sensor; other streams are interpolated at them. What is absent
+    becomes a note and not an error, but for calibrations that may not be applied. Values are not smoothed.
+
+    Args:
+        experiment: The experiment.
+        calibrations: Calibrations by name.
+        urdf: File of the robot, for its looks; None for a load without one.
+        sensors: Sensors to show; all of the experiment if None.
+        mesh_folders: Folders with packages of meshes that are looked at first.
+        provenance: Lines to add to the list of inputs.
+
+    Returns:
+        The scene.
+
+    Raises:
+        ExperimentError: If the experiment has no sensor of a name, or a calibration may not be applied.
+        RecordingError: If there is no sample to show.
+    """
+    groups = _by_sensor(experiment, calibrations)
+    names = dict.fromkeys(experiment.sensor(name).name for name in sensors or (s.name for s in experiment.sensors))
+    shown = [experiment.sensor(name) for name in names]
+    recording, model = experiment.recording, experiment.model
+    usable, notes = _without_empty(experiment, shown[0])
+    notes += [f"calibrations of {name!r} are not shown: --sensor leaves it out" for name in groups if name not in names]
+    block, sources = Block(), [*_inputs(experiment), *provenance, f"forcetorque {version('forcetorque')}"]
+    posture = posture_at(recording, model, recording.stream(shown[0].stream))
+    root = root_poses(recording, model, posture, recording.intervals, experiment.processing)
+    computed = differentiated(usable)
+    priors = Priors(computed)
+    expected, lacking = expected_readings(computed, tuple(names), posture)
+    notes += [*posture.notes, *root.notes, *lacking]
+    if experiment.processing.smoothing is not None:
+        sources.append("the smoothing of the experiment file is not applied to what is shown")
+    series = [
+        scene_sensor(
+            computed, one, groups.get(one.name, {}), expected[one.name], posture, priors, block, notes, sources
+        )
+        for one in shown
+    ]
+    contacts = scene_contacts(computed, groups, posture, priors, block, notes, sources)
+    robot, missing = _robot(experiment, posture, urdf, block, mesh_folders)
+    scene = Scene(
+        title=experiment.name,
+        samples=len(posture.stamp_ns),
+        start_ns=str(recording.start_ns),
+        time_s=block.add(seconds_since(posture.stamp_ns, recording.start_ns), "float64"),
+        positions=block.add(posture.position, "float32"),
+        coordinates=posture.names,
+        root=block.add(root.values, "float32"),
+        robot=robot,
+        sensors=tuple(series),
+        contacts=contacts,
+        intervals=tuple(_interval(interval, recording.start_ns) for interval in recording.intervals),
+        findings=tuple(_finding(finding, recording.start_ns) for finding in inspect_experiment(usable)),
+        notes=(*notes, *missing),
+        provenance=tuple(sources),
+        annotations_url=None,
+    )
+    return BuiltScene(scene=scene, block=block.bytes())
+
+
+def _by_sensor(experiment: Experiment, calibrations: Mapping[str, Calibration]) -> dict[str, dict[str, Calibration]]:
+    groups: dict[str, dict[str, Calibration]] = {}
+    for name, calibration in calibrations.items():
+        with stated_in(name):
+            groups.setdefault(experiment.sensor(calibration.sensor.name).name, {})[name] = calibration
+    return groups
+
+
+def _robot(
+    experiment: Experiment, posture: Posture, urdf: Path | None, block: Block, mesh_folders: Sequence[Path]
+) -> tuple[Robot, tuple[str, ...]]:
+    model = experiment.model
+    geometry = robot_geometry(model, urdf, block, mesh_folders=mesh_folders)
+    robot = Robot(
+        name=model.name,
+        root_link=model.root_link,
+        links=tuple(model.links),
+        joints=scene_joints(model, posture.names),
+        shapes=geometry.shapes,
+        meshes=geometry.meshes,
+    )
+    return robot, geometry.notes
+
+
+def _without_empty(experiment: Experiment, sensor: ExperimentSensor) -> tuple[Experiment, list[str]]:
+    """Leave out intervals that hold no sample of a sensor, and say which."""
+    recording = experiment.recording
+    stamps = recording.stream(sensor.stream).stamp_ns
+    start, end = recording.span_ns
+    kept, notes = [], []
+    for interval in recording.intervals:
+        inside = (stamps >= interval.start_ns) & (stamps < interval.end_ns)
+        if inside.any() and start <= interval.start_ns and interval.end_ns <= end + 1:
+            kept.append(interval)
+        else:
+            notes.append(f"interval {interval.label!r} is left out: it holds no sample, or ends outside the log")
+    if notes:
+        experiment = replace(experiment, recording=recording.with_intervals(kept))
+    return experiment, notes
+
+
+def _inputs(experiment: Experiment) -> list[str]:
+    return [f"{name} sha256 {digest}" for name, digest in sorted(experiment.inputs_sha256.items())]
+
+
+def _interval(interval: Interval, start_ns: int) -> SceneInterval:
+    return SceneInterval(
+        label=interval.label,
+        use=interval.use.value,
+        start_s=(interval.start_ns - start_ns) * 1e-9,
+        end_s=(interval.end_ns - start_ns) * 1e-9,
+        support=None if interval.support is None else interval.support.frame,
+    )
+
+
+def _finding(finding: Finding, start_ns: int) -> SceneFinding:
+    return SceneFinding(
+        stream=finding.stream,
+        kind=finding.kind,
+        message=finding.message,
+        start_s=None if finding.start_ns is None else (finding.start_ns - start_ns) * 1e-9,
+        end_s=None if finding.end_ns is None else (finding.end_ns - start_ns) * 1e-9,
+    )

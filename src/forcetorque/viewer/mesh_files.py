@@ -1,0 +1,131 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Mesh files: found by the names that URDF files give them, and read as triangles."""
+
+from __future__ import annotations
+
+import importlib.util
+import os
+import sys
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+from urllib.parse import unquote
+
+import numpy as np
+import numpy.typing as npt
+
+from forcetorque.arrays import FloatArray
+from forcetorque.errors import FormatError, MissingExtraError
+
+FORMATS = (".stl", ".obj", ".ply", ".glb", ".dae")
+"""Suffixes of the forms that are read."""
+
+_PREFIXES = ("AMENT_PREFIX_PATH", "CMAKE_PREFIX_PATH")
+"""Variables with folders whose `share` holds packages."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Triangles:
+    """A mesh in the axes of its file."""
+
+    vertices: FloatArray
+    """Shape (v, 3); m after scaling."""
+    faces: npt.NDArray[np.uint32]
+    """Indices of vertices; shape (f, 3)."""
+
+
+def package_folders(urdf: Path, given: Sequence[Path] = ()) -> tuple[Path, ...]:
+    """List the folders in which the packages of `package://` names may lie.
+
+    Args:
+        urdf: URDF file.
+        given: Folders that are looked at first.
+
+    Returns:
+        Folders that exist: those given, those around the file, those of ROS_PACKAGE_PATH, AMENT_PREFIX_PATH and
+        CMAKE_PREFIX_PATH, and that of the installed package icub-models.
+    """
+    around = urdf.resolve().parents
+    listed = [Path(text) for text in os.environ.get("ROS_PACKAGE_PATH", "").split(os.pathsep) if text]
+    for variable in _PREFIXES:
+        listed += [Path(text) / "share" for text in os.environ.get(variable, "").split(os.pathsep) if text]
+    candidates = [*given, *around[:4], *listed, *_icub_models()]
+    return tuple(folder for folder in dict.fromkeys(candidates) if folder.is_dir())
+
+
+def find_mesh(name: str, urdf: Path, folders: Sequence[Path], *, packages: Sequence[Path] = ()) -> Path | None:
+    """Find a mesh file.
+
+    Args:
+        name: What the URDF calls it: `package://NAME/FILE`, `model://NAME/FILE`, `file://FILE`, or a path.
+        urdf: URDF file.
+        folders: Folders that hold packages.
+        packages: Folders that are the package itself, whatever its name.
+
+    Returns:
+        The first file that exists; None if there is none.
+    """
+    scheme, separator, rest = name.partition("://")
+    if not separator:
+        rest = name
+    path = Path(unquote(rest) if separator else rest)
+    if scheme in ("package", "model") and separator:
+        candidates = [folder / path for folder in folders]
+        candidates += [folder / Path(*path.parts[1:]) for folder in packages]
+    elif separator and scheme != "file":
+        return None
+    else:
+        candidates = [urdf.parent / path, *(folder / path for folder in folders if not path.is_absolute())]
+    return next((candidate for candidate in candidates if candidate.is_file()), None)
+
+
+def read_mesh(file: Path, scale: Sequence[float]) -> Triangles:
+    """Read a mesh file.
+
+    Args:
+        file: STL, OBJ, PLY, GLB or, where `pycollada` is installed, DAE.
+        scale: Factors along the axes of the file.
+
+    Returns:
+        Its triangles, scaled.
+
+    Raises:
+        MissingExtraError: If what reads the form is not installed.
+        FormatError: If it cannot be read or holds no triangles.
+    """
+    if file.suffix.lower() not in FORMATS:
+        raise FormatError(f"{file}: expected a mesh that ends in {', '.join(FORMATS)}")
+    if importlib.util.find_spec("trimesh") is None:
+        raise MissingExtraError("meshes need trimesh: pip install 'forcetorque[viewer]'")
+    if file.suffix.lower() == ".dae" and importlib.util.find_spec("collada") is None:
+        raise MissingExtraError("meshes in DAE need pycollada: pip install pycollada")
+    vertices, faces = _load(file)
+    if not len(faces) or not np.isfinite(vertices).all() or faces.min() < 0 or faces.max() >= len(vertices):
+        raise FormatError(f"{file}: expected triangles, got none or damaged ones")
+    factors = np.asarray(scale, dtype=np.float64)
+    if np.prod(factors) < 0.0:
+        faces = faces[:, ::-1]  # a mirror image turns triangles inside out
+    return Triangles(vertices=vertices * factors, faces=np.ascontiguousarray(faces, dtype=np.uint32))
+
+
+def _load(file: Path) -> tuple[FloatArray, npt.NDArray[np.int64]]:
+    import trimesh
+
+    try:
+        with file.open("rb") as stream:
+            # without a resolver nothing beside the file, such as a texture, is read
+            loaded: Any = trimesh.load(stream, file_type=file.suffix[1:].lower(), force="mesh", skip_materials=True)
+    except Exception as error:
+        raise FormatError(f"{file}: expected a mesh, got {type(error).__name__}: {error}") from error
+    vertices = np.asarray(getattr(loaded, "vertices", np.empty((0, 3))), dtype=np.float64)
+    faces = np.asarray(getattr(loaded, "faces", np.empty((0, 3))), dtype=np.int64)
+    return vertices.reshape(-1, 3), faces.reshape(-1, 3)
+
+
+def _icub_models() -> list[Path]:
+    """Share folder of the package icub-models, without importing it."""
+    found = importlib.util.find_spec("icub_models")
+    places = [Path(place) for place in (found.submodule_search_locations or ())] if found else []
+    candidates = [place / "share" for place in places] + [place.parent / "share" for place in places]
+    return [*candidates, *([Path(sys.prefix) / "share"] if found else [])]

@@ -1,0 +1,86 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What several parts of a scene need, computed once."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from forcetorque.errors import ForceTorqueError
+from forcetorque.experiment import Correction, Experiment, ExperimentSensor, corrections_of
+from forcetorque.recording import Signal, Stream
+from forcetorque.recording.smoothing import smooth
+
+_DERIVATIVES = {"velocity": 1, "acceleration": 2}
+
+
+class Priors:
+    """How sensors are read without a calibration, as `corrections_of` has it."""
+
+    def __init__(self, experiment: Experiment) -> None:
+        self._experiment = experiment
+        self._known: dict[str, Correction | ForceTorqueError] = {}
+
+    def of(self, sensor: ExperimentSensor) -> Correction:
+        """Give the prior, or the logged wrench, with the offset that the calibration intervals give.
+
+        Args:
+            sensor: A sensor of the experiment.
+
+        Returns:
+            How it is read.
+
+        Raises:
+            ForceTorqueError: If it has no prior, or its offset cannot be found.
+        """
+        if sensor.name not in self._known:
+            try:
+                alone = replace(self._experiment, sensors=(sensor,))
+                self._known[sensor.name] = corrections_of(alone, {})[sensor.name]
+            except ForceTorqueError as error:
+                self._known[sensor.name] = error
+        found = self._known[sensor.name]
+        if isinstance(found, ForceTorqueError):
+            raise found
+        return found
+
+
+def differentiated(experiment: Experiment) -> Experiment:
+    """Put the derivatives of joint positions beside them, which are else computed again for every interval.
+
+    Args:
+        experiment: The experiment.
+
+    Returns:
+        One that gives the same wrenches; the same one where derivatives are logged or cannot be computed.
+    """
+    streams = experiment.recording.streams
+    logged = any(_DERIVATIVES.keys() & stream.signals.keys() for stream in streams.values())
+    if experiment.processing.logged_derivatives or logged:
+        return experiment
+    try:
+        made = {name: _with_derivatives(stream, experiment) for name, stream in streams.items()}
+    except ForceTorqueError:
+        return experiment  # whoever needs them says why there are none
+    return replace(
+        experiment,
+        recording=replace(experiment.recording, streams=made),
+        processing=replace(experiment.processing, logged_derivatives=True),
+    )
+
+
+def _with_derivatives(stream: Stream, experiment: Experiment) -> Stream:
+    if "position" not in stream.signals:
+        return stream
+    position = stream.signals["position"]
+    window = experiment.processing.derivative_window
+    signals = dict(stream.signals)
+    for quantity, derivative in _DERIVATIVES.items():
+        # joint by joint, because a NaN counts for all columns that are filtered together
+        columns = [
+            smooth(stream.stamp_ns, column[:, None], window, derivative=derivative) for column in position.values.T
+        ]
+        units = tuple(unit + ("/s" if derivative == 1 else "/s2") for unit in position.units)
+        signals[quantity] = Signal(quantity=quantity, values=np.hstack(columns), columns=position.columns, units=units)
+    return replace(stream, signals=signals)

@@ -1,0 +1,154 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Where the robot's root link is in a world whose z axis is up."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from forcetorque.arrays import FloatArray, IntArray
+from forcetorque.errors import ForceTorqueError
+from forcetorque.estimation import Processing
+from forcetorque.estimation.samples import robot_motion_at
+from forcetorque.recording import Interval, MovingSupport, Recording, Support
+from forcetorque.robot import JointMotion, RobotModel, build_tree, joints_between, link_pose
+from forcetorque.spatial import make_pose, split_pose
+from forcetorque.viewer.instants import Posture
+
+_BLOCK = 65_536
+"""Samples whose poses are computed at once: 8 MB."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class RootPoses:
+    """Poses of the root link."""
+
+    values: FloatArray
+    """x, y, z in m, then qw, qx, qy, qz; shape (n, 7)."""
+    notes: tuple[str, ...]
+    """What was assumed."""
+
+
+def root_poses(
+    recording: Recording, model: RobotModel, posture: Posture, intervals: Sequence[Interval], processing: Processing
+) -> RootPoses:
+    """Stand the robot on its supports.
+
+    The support frame of an interval stands still at the origin, and gravity points to -z. Outside intervals the
+    support is that of the nearest one in time. A moving support is kept at the origin and turned as the IMU says.
+
+    Args:
+        recording: The recording, for an IMU.
+        model: The robot.
+        posture: Joints at the instants.
+        intervals: Intervals; those without a support do not matter.
+        processing: Filters and gravity.
+
+    Returns:
+        Poses at the instants.
+    """
+    n = len(posture.stamp_ns)
+    values = np.tile([0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0], (n, 1))
+    supported = [interval for interval in intervals if interval.support is not None]
+    if not supported:
+        return RootPoses(values=values, notes=("no interval states a support: the root link is drawn upright",))
+    nearest, inside = _nearest(posture.stamp_ns, supported)
+    notes = [] if inside.all() else ["outside intervals the robot stands on the support of the nearest one"]
+    groups: dict[int, list[int]] = {}
+    for k, interval in enumerate(supported):
+        groups.setdefault(id(interval.support), []).append(k)
+    for members in groups.values():
+        support = supported[members[0]].support
+        chosen = np.flatnonzero(np.isin(nearest, members))
+        if support is None or not len(chosen):
+            continue
+        try:
+            world_R_support = _rotations(recording, model, posture, support, chosen, processing)
+        except ForceTorqueError as error:
+            notes.append(f"support {support.frame!r} is drawn upright: {error}")
+            world_R_support = np.eye(3)
+        else:
+            if isinstance(support, MovingSupport):
+                notes.append(f"support {support.frame!r} moves: it is kept in its place, and upright as its IMU says")
+        values[chosen] = _standing(model, posture, support.frame, world_R_support, chosen)
+    return RootPoses(values=values, notes=tuple(notes))
+
+
+def upright(gravity_direction: FloatArray) -> FloatArray:
+    """Give the smallest rotation that turns directions of gravity to -z.
+
+    Args:
+        gravity_direction: Directions along which things fall, of any length; shape (..., 3).
+
+    Returns:
+        `world_R_frame`; shape (..., 3, 3).
+    """
+    up = -gravity_direction / np.linalg.norm(gravity_direction, axis=-1, keepdims=True)
+    # half-way quaternion (1 + up.z, up x z); upside down it is a half turn about x
+    quat_xyzw = np.stack([up[..., 1], -up[..., 0], np.zeros_like(up[..., 0]), 1.0 + up[..., 2]], axis=-1)
+    turned = np.linalg.norm(quat_xyzw, axis=-1, keepdims=True) < 1e-9
+    quat_xyzw = np.where(turned, [1.0, 0.0, 0.0, 0.0], quat_xyzw)
+    matrices: FloatArray = Rotation.from_quat(quat_xyzw.reshape(-1, 4)).as_matrix().reshape(*up.shape, 3)
+    return matrices
+
+
+def _nearest(stamp_ns: IntArray, intervals: Sequence[Interval]) -> tuple[IntArray, np.ndarray]:
+    """Index of the nearest interval, the first of those that hold an instant, and whether one holds it."""
+    best = np.zeros(len(stamp_ns), dtype=np.int64)
+    least = np.full(len(stamp_ns), np.iinfo(np.int64).max)
+    for k, interval in enumerate(intervals):
+        away = np.maximum(np.maximum(interval.start_ns - stamp_ns, stamp_ns - (interval.end_ns - 1)), 0)
+        best = np.where(away < least, k, best)
+        least = np.minimum(away, least)
+    return best, least == 0
+
+
+def _rotations(
+    recording: Recording,
+    model: RobotModel,
+    posture: Posture,
+    support: Support | MovingSupport,
+    chosen: IntArray,
+    processing: Processing,
+) -> FloatArray:
+    """`world_R_support`; shape (3, 3), or (m, 3, 3) for one that moves."""
+    if isinstance(support, Support):
+        return upright(support.gravity_direction)
+    _, motion = robot_motion_at(
+        recording, model, support, (), posture.stream, posture.stamp_ns[chosen], processing=processing
+    )
+    down = -np.broadcast_to(motion.proper_acceleration, (len(chosen), 3))
+    known = np.isfinite(down).all(axis=1) & (np.linalg.norm(down, axis=1) > 0.0)
+    if not known.any():
+        return np.eye(3)
+    latest = np.maximum.accumulate(np.where(known, np.arange(len(down)), -1))
+    return upright(down[np.where(latest < 0, int(np.argmax(known)), latest)])
+
+
+def _standing(
+    model: RobotModel, posture: Posture, frame: str, world_R_support: FloatArray, chosen: IntArray
+) -> FloatArray:
+    """Poses of the root link seen from a support at the origin; shape (m, 7)."""
+    tree = build_tree(model, frame)
+    joints = joints_between(tree, model.root_link)
+    found = np.empty((len(chosen), 7))
+    for start in range(0, len(chosen), _BLOCK):
+        block = slice(start, start + _BLOCK)
+        support_H_root = link_pose(tree, _joints(posture, joints, chosen[block]), model.root_link)
+        turn = world_R_support if world_R_support.ndim == 2 else world_R_support[block]
+        rotation, position = split_pose(make_pose(turn, np.zeros(3)) @ support_H_root)
+        quat_xyzw = Rotation.from_matrix(rotation).as_quat(canonical=True)
+        found[block] = np.hstack([position, quat_xyzw[:, 3:], quat_xyzw[:, :3]])
+    return found
+
+
+def _joints(posture: Posture, names: Sequence[str], chosen: IntArray) -> JointMotion:
+    """Positions of some joints; zero for those that were not logged, as they are drawn."""
+    values = np.zeros((len(chosen), len(names)))
+    for k, name in enumerate(names):
+        if name in posture.names:
+            values[:, k] = posture.position[chosen, posture.names.index(name)]
+    return JointMotion.at_rest(names, values)

@@ -1,0 +1,303 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The scene that the page draws: a header of these classes, and one block of bytes with its arrays.
+
+The page knows the same classes as TypeScript (`typescript.py`). Values are in SI units; poses are `a_H_b` with
+`p_a = a_H_b p_b`, row by row as 16 numbers; wrenches are force then moment.
+"""
+
+from __future__ import annotations
+
+import json
+from dataclasses import asdict, dataclass
+from typing import Any, Literal
+
+import numpy as np
+import numpy.typing as npt
+
+ALIGNMENT = 8
+"""Every array starts at a multiple of this many bytes."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ArrayRef:
+    """An array in the block: little-endian, in C order; NaN is absent."""
+
+    offset: int
+    """Where it starts; bytes, a multiple of 8."""
+    shape: tuple[int, ...]
+    """Its shape."""
+    dtype: Literal["float32", "float64", "uint32"]
+    """Its type."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Joint:
+    """A joint; its coordinate is `multiplier * column + offset`.
+
+    Pose of the child = pose of the parent * parent_H_child * (turn by, or slide along, axis times coordinate).
+    """
+
+    name: str
+    """Name."""
+    type: Literal["fixed", "rotary", "prismatic"]
+    """How it moves."""
+    parent: str
+    """Parent link."""
+    child: str
+    """Child link."""
+    parent_H_child: tuple[float, ...]
+    """Pose of the child at coordinate zero; 16 numbers."""
+    axis: tuple[float, ...]
+    """Unit axis in the child frame; 3 numbers."""
+    column: int | None
+    """Index into `coordinates`; null where it stays at `offset`."""
+    multiplier: float
+    """Ratio to the column."""
+    offset: float
+    """Value where the column is zero; rad or m."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Shape:
+    """Something to draw at a link."""
+
+    link: str
+    """Link."""
+    link_H_shape: tuple[float, ...]
+    """Its pose; 16 numbers."""
+    kind: Literal["box", "cylinder", "sphere", "mesh"]
+    """What it is."""
+    size: tuple[float, ...]
+    """Box: x, y, z; cylinder: radius, length along z; sphere: radius; mesh: scale x, y, z."""
+    mesh: int | None
+    """Index into `meshes`; null unless the kind is mesh."""
+    colour: tuple[float, ...]
+    """Red, green, blue, opacity from 0 to 1."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Mesh:
+    """Triangles."""
+
+    vertices: ArrayRef
+    """Shape (v, 3) float32."""
+    faces: ArrayRef
+    """Indices of vertices; shape (f, 3) uint32."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Robot:
+    """The robot as a tree of links."""
+
+    name: str
+    """Name of the model."""
+    root_link: str
+    """Link whose pose in the world is `root`."""
+    links: tuple[str, ...]
+    """Links."""
+    joints: tuple[Joint, ...]
+    """Joints, parents before children."""
+    shapes: tuple[Shape, ...]
+    """What to draw."""
+    meshes: tuple[Mesh, ...]
+    """Meshes of the shapes."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Sphere:
+    """A sphere in the space of forces or moments."""
+
+    centre: tuple[float, ...]
+    """Centre; 3 numbers."""
+    radius: float
+    """Radius."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Ellipsoid:
+    """Points `centre + axes u` for every unit vector u."""
+
+    centre: tuple[float, ...]
+    """Centre; 3 numbers."""
+    axes: tuple[float, ...]
+    """Half axes as the columns of a matrix, row by row; 9 numbers."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class WrenchSeries:
+    """Wrenches of a sensor, in its frame and in its own sign convention."""
+
+    name: str
+    """What it is, in words."""
+    role: Literal["expected", "measured"]
+    """At most one series of a sensor is expected."""
+    values: ArrayRef
+    """Shape (n, 6) float32; N, N m."""
+    reference_force: Sphere | None
+    """Sphere that gravity draws by the model; on the expected series; N."""
+    reference_moment: Sphere | None
+    """The same of the moments; N m."""
+    ellipsoid_force: Ellipsoid | None
+    """Ellipsoid that the forces draw; N; null where it is not identifiable."""
+    ellipsoid_moment: Ellipsoid | None
+    """Ellipsoid that the moments draw; N m; null where it is not identifiable."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Sensor:
+    """A force-torque sensor."""
+
+    name: str
+    """Name in the robot model."""
+    serial: str
+    """Serial number."""
+    link: str
+    """Link that its frame is given in."""
+    link_H_sensor: tuple[float, ...]
+    """Pose of its frame; 16 numbers."""
+    wrenches: tuple[WrenchSeries, ...]
+    """The expected wrench, what was logged or the prior gives, then one series per calibration."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ContactSeries:
+    """Wrenches of the world on the robot at one place."""
+
+    name: str
+    """Name of the contact."""
+    link: str
+    """Link that is touched."""
+    link_H_contact: tuple[float, ...]
+    """Pose of the contact frame; 16 numbers."""
+    values: ArrayRef
+    """In the contact frame; shape (n, 6) float32; N, N m."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SceneInterval:
+    """An interval of the experiment."""
+
+    label: str
+    """Label."""
+    use: Literal["calibration", "validation", "ignore"]
+    """What its samples are for."""
+    start_s: float
+    """Start; s."""
+    end_s: float
+    """End, itself excluded; s."""
+    support: str | None
+    """Support frame."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SceneFinding:
+    """Something that is wrong with the recording."""
+
+    stream: str
+    """Stream."""
+    kind: str
+    """Kind in one word."""
+    message: str
+    """Description."""
+    start_s: float | None
+    """First instant; s; null where it has none."""
+    end_s: float | None
+    """Last instant; s; null where it has none."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Scene:
+    """Everything that the page shows."""
+
+    schema: Literal["forcetorque/scene/1"] = "forcetorque/scene/1"
+    """Form of the header."""
+    title: str
+    """Name of the experiment."""
+    provenance: tuple[str, ...]
+    """Files with hashes and code version, a line each."""
+    samples: int
+    """Number of samples n."""
+    start_ns: str
+    """Stamp of second 0 as a decimal number; ns."""
+    time_s: ArrayRef
+    """Seconds since the start of the recording, as intervals count them; shape (n,) float64."""
+    positions: ArrayRef
+    """Joint coordinates; shape (n, d) float32; rad or m."""
+    coordinates: tuple[str, ...]
+    """Joints of the d columns."""
+    root: ArrayRef
+    """Pose of the root link in the world, z up: x, y, z, then qw, qx, qy, qz; shape (n, 7) float32; m."""
+    robot: Robot
+    """The robot."""
+    sensors: tuple[Sensor, ...]
+    """Sensors."""
+    contacts: tuple[ContactSeries, ...]
+    """Contacts that were estimated."""
+    intervals: tuple[SceneInterval, ...]
+    """Intervals in the order of the experiment."""
+    findings: tuple[SceneFinding, ...]
+    """Findings in the order of time."""
+    notes: tuple[str, ...]
+    """What is absent, and why."""
+    annotations_url: str | None
+    """Where the page sends saved samples; null in a file."""
+
+
+class Block:
+    """Collects the arrays of a scene in one block of bytes."""
+
+    def __init__(self) -> None:
+        self._parts: list[bytes] = []
+        self._size = 0
+
+    def add(self, values: npt.NDArray[Any], dtype: Literal["float32", "float64", "uint32"]) -> ArrayRef:
+        """Append an array.
+
+        Args:
+            values: The array.
+            dtype: Type to store it in.
+
+        Returns:
+            Where it is.
+        """
+        data = np.ascontiguousarray(values, dtype=np.dtype(dtype).newbyteorder("<")).tobytes()
+        padding = -len(data) % ALIGNMENT
+        reference = ArrayRef(offset=self._size, shape=tuple(values.shape), dtype=dtype)
+        self._parts.append(data + b"\0" * padding)
+        self._size += len(data) + padding
+        return reference
+
+    def bytes(self) -> bytes:
+        """Give the whole block.
+
+        Returns:
+            Its bytes.
+        """
+        return b"".join(self._parts)
+
+
+def read_array(block: bytes, reference: ArrayRef) -> npt.NDArray[Any]:
+    """Give an array of a block.
+
+    Args:
+        block: The block.
+        reference: Where the array is.
+
+    Returns:
+        The array, not to be changed.
+    """
+    dtype = np.dtype(reference.dtype).newbyteorder("<")
+    count = int(np.prod(reference.shape))
+    return np.frombuffer(block, dtype=dtype, count=count, offset=reference.offset).reshape(reference.shape)
+
+
+def scene_json(scene: Scene) -> str:
+    """Write the header of a scene.
+
+    Args:
+        scene: The scene.
+
+    Returns:
+        JSON in one line, without NaN.
+    """
+    return json.dumps(asdict(scene), allow_nan=False, ensure_ascii=False, separators=(",", ":"))

@@ -1,0 +1,87 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The classes of a scene as TypeScript: `python -m forcetorque.viewer.typescript web/src/scene_types.ts`."""
+
+from __future__ import annotations
+
+import ast
+import dataclasses
+import inspect
+import sys
+import types
+from pathlib import Path
+from typing import Any, Literal, Union, get_args, get_origin, get_type_hints
+
+from forcetorque.atomic import write_bytes_atomically
+from forcetorque.viewer import scene
+
+_HEAD = (
+    "// SPDX-License-Identifier: BSD-3-Clause",
+    "// Written by `make web-types` from src/forcetorque/viewer/scene.py; change that file instead.",
+)
+_WORDS = {str: "string", int: "number", float: "number", bool: "boolean", type(None): "null"}
+
+
+def scene_types() -> str:
+    """Write the classes as TypeScript.
+
+    Returns:
+        Text of the module.
+    """
+    classes = [item for item in vars(scene).values() if inspect.isclass(item) and dataclasses.is_dataclass(item)]
+    return "\n\n".join(["\n".join(_HEAD), *map(_interface, classes)]) + "\n"
+
+
+def _interface(cls: type) -> str:
+    hints, told = get_type_hints(cls), _field_docstrings(cls)
+    lines = [*_comment(inspect.getdoc(cls) or "", ""), f"export interface {cls.__name__} {{"]
+    for field in dataclasses.fields(cls):
+        lines += [*_comment(told[field.name], "  "), f"  readonly {field.name}: {typescript_of(hints[field.name])};"]
+    return "\n".join([*lines, "}"])
+
+
+def typescript_of(hint: Any) -> str:
+    """Write one type as TypeScript.
+
+    Args:
+        hint: Type of a field.
+
+    Returns:
+        The type of what JSON makes of such a value.
+
+    Raises:
+        TypeError: If JSON has no such value.
+    """
+    if hint in _WORDS:
+        return _WORDS[hint]
+    if dataclasses.is_dataclass(hint):
+        return str(getattr(hint, "__name__", hint))
+    arguments = get_args(hint)
+    if get_origin(hint) is Literal:
+        return " | ".join(f'"{word}"' for word in arguments)
+    if get_origin(hint) in (Union, types.UnionType):
+        return " | ".join(map(typescript_of, arguments))
+    if get_origin(hint) is tuple and arguments[1:] == (...,):
+        return f"readonly {typescript_of(arguments[0])}[]"
+    raise TypeError(f"{hint}: expected text, a number, a class of the scene, a Literal, a union or tuple[X, ...]")
+
+
+def _field_docstrings(cls: type) -> dict[str, str]:
+    """Docstrings that stand below the fields."""
+    (definition,) = ast.parse(inspect.getsource(cls)).body
+    statements = definition.body if isinstance(definition, ast.ClassDef) else []
+    told = {}
+    for field, text in zip(statements, statements[1:], strict=False):
+        if isinstance(field, ast.AnnAssign) and isinstance(text, ast.Expr) and isinstance(text.value, ast.Constant):
+            told[ast.unparse(field.target)] = str(text.value.value)
+    return told
+
+
+def _comment(text: str, indent: str) -> list[str]:
+    lines = text.splitlines()
+    if len(lines) == 1:
+        return [f"{indent}/** {lines[0]} */"]
+    return [f"{indent}/**", *(f"{indent} * {line}".rstrip() for line in lines), f"{indent} */"]
+
+
+if __name__ == "__main__":
+    write_bytes_atomically(Path(sys.argv[1]), scene_types().encode())

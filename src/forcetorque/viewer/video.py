@@ -1,0 +1,133 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A video of the page, frame by frame in a browser without a window."""
+
+from __future__ import annotations
+
+import base64
+import binascii
+import importlib.util
+import os
+import shutil
+from dataclasses import dataclass
+from pathlib import Path
+
+from forcetorque.errors import ForceTorqueError, MissingExtraError, MissingFileError
+
+BROWSERS = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable", "chrome")
+"""Programs that are looked for, in this order."""
+
+_READY_S = 60.0
+"""Patience until the page runs; s."""
+
+_ARGUMENTS = ("--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--disable-background-networking")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Film:
+    """What of a recording is filmed, and how."""
+
+    start: int
+    """First sample."""
+    end: int
+    """Last sample."""
+    fps: float
+    """Frames per second."""
+    speed: float
+    """Seconds of the recording per second of the video."""
+    width: int
+    """Width; pixels."""
+    height: int
+    """Height; pixels."""
+
+    def __post_init__(self) -> None:
+        if not (0 < self.fps <= 240 and 0 < self.speed < float("inf")):
+            raise ForceTorqueError(
+                f"video: expected up to 240 frames per second and a positive speed, got {self.fps:g} and {self.speed:g}"
+            )
+        if self.width % 2 or self.height % 2 or not (160 <= self.width <= 8192 and 120 <= self.height <= 8192):
+            raise ForceTorqueError(
+                "video: expected an even width and height of 160 x 120 to 8192 x 8192 pixels, "
+                f"got {self.width} x {self.height}"
+            )
+
+
+def find_browser(given: Path | None = None) -> Path:
+    """Find a browser that can draw without a window.
+
+    Args:
+        given: Program to use; None to look for one.
+
+    Returns:
+        Its path.
+
+    Raises:
+        MissingFileError: If there is none.
+    """
+    if given is not None:
+        if given.is_file():
+            return given
+        raise MissingFileError(f"--browser {given}: expected a program, there is none")
+    for name in BROWSERS:
+        found = shutil.which(name)
+        if found is not None:
+            return Path(found)
+    raise MissingFileError(
+        f"--video: expected a browser ({', '.join(BROWSERS)}), there is none; install chromium or name one by --browser"
+    )
+
+
+def require_playwright() -> None:
+    """Check that what drives a browser is installed.
+
+    Raises:
+        MissingExtraError: If it is not.
+    """
+    if importlib.util.find_spec("playwright") is None:
+        raise MissingExtraError("--video needs playwright: pip install 'forcetorque[video]'")
+
+
+def film_page(url: str, film: Film, *, browser: Path) -> bytes:
+    """Let the page film itself.
+
+    Args:
+        url: Address of the page on this machine; nothing else is reached.
+        film: What is filmed.
+        browser: The browser.
+
+    Returns:
+        The video, MP4.
+
+    Raises:
+        ForceTorqueError: If the page or the browser fails.
+    """
+    require_playwright()
+    from playwright.sync_api import Error, sync_playwright
+
+    root = getattr(os, "geteuid", lambda: 1)() == 0
+    options = [*_ARGUMENTS, *(["--no-sandbox"] if root else [])]  # the sandbox does not work for root
+    wanted = {
+        "start": film.start,
+        "end": film.end,
+        "fps": film.fps,
+        "speed": film.speed,
+        "width": film.width,
+        "height": film.height,
+    }
+    try:
+        with (
+            sync_playwright() as driver,
+            driver.chromium.launch(executable_path=str(browser), args=options) as program,
+        ):
+            page = program.new_page(viewport={"width": film.width, "height": film.height})
+            page.route(lambda address: not address.startswith((url, "blob:", "data:")), lambda route: route.abort())
+            page.set_default_timeout(_READY_S * 1000)
+            page.goto(url)
+            page.wait_for_function("window.ft !== undefined")
+            page.evaluate("window.ft.ready")
+            text = page.evaluate("wanted => window.ft.video(wanted)", wanted)  # waits as long as it takes
+    except Error as error:
+        raise ForceTorqueError(f"{browser}: the page could not be filmed: {error}") from error
+    try:
+        return base64.b64decode(str(text), validate=True)
+    except binascii.Error as error:
+        raise ForceTorqueError(f"{browser}: expected a video, got {str(text)[:60]!r}") from error

@@ -1,0 +1,45 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A fresh copy of a small complete experiment, and a stand-in for the page's bundle."""
+
+from __future__ import annotations
+
+import shutil
+from pathlib import Path
+
+import pytest
+
+from forcetorque.experiment import load_experiment
+from forcetorque.viewer import BuiltScene, build_scene
+from forcetorque.viewer.page import ASSETS
+from tests.experiments import PARQUET, write_experiments
+
+
+@pytest.fixture(scope="session")
+def intact(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Folder of the experiment; nobody changes it."""
+    folder = tmp_path_factory.mktemp("intact")
+    write_experiments(folder)
+    return folder
+
+
+@pytest.fixture
+def arm(intact: Path, tmp_path: Path) -> Path:
+    """Folder with a copy of the experiment, to damage."""
+    return Path(shutil.copytree(intact, tmp_path / "arm"))
+
+
+@pytest.fixture(scope="session")
+def built(intact: Path) -> BuiltScene:
+    """Scene of the intact experiment."""
+    return build_scene(load_experiment(intact / PARQUET), {}, urdf=intact / "arm.urdf")
+
+
+@pytest.fixture(scope="session")
+def assets(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Folder with the page's template and a bundle that does nothing."""
+    folder = tmp_path_factory.mktemp("assets")
+    (folder / "page.html").write_text((ASSETS / "page.html").read_text(encoding="utf-8"), encoding="utf-8")
+    (folder / "viewer.js").write_text("window.ft = '</script><!-- é';", encoding="utf-8")
+    (folder / "viewer.css").write_text("#viewer { color: black }", encoding="utf-8")
+    (folder / "THIRD_PARTY_LICENSES.txt").write_text("some -- licence", encoding="utf-8")
+    return folder

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The points of a sensor's force or moment space, shared by the view in space and the planes.
+
+import { seriesColour } from "./colours";
+import { ignoredSpans } from "./marks";
+import { FIRST, type Quantity, type SceneData } from "./scene_data";
+import type { Ellipsoid, Sphere, WrenchSeries } from "./scene_types";
+import type { State } from "./store";
+import { everyKth } from "./thin";
+
+/** Most points of all series together. */
+const LIMIT = 20_000;
+/** Values farther than this many half widths of nearly all others do not widen the view. */
+const FAR = 3;
+
+/** Points of one series. */
+export interface Cloud {
+  readonly series: WrenchSeries;
+  readonly colour: string;
+  /** Rows of three, one for each sample of the clouds; NaN where absent. */
+  readonly points: Float32Array;
+  readonly ellipsoid: Ellipsoid | null;
+  readonly sphere: Sphere | null;
+}
+
+/** Points of all series of a sensor. */
+export interface Clouds {
+  /** Samples that the points are of. */
+  readonly samples: Uint32Array;
+  readonly clouds: readonly Cloud[];
+  /** Middle of the view. */
+  readonly centre: readonly [number, number, number];
+  /** Half the edge of the cube that is shown. */
+  readonly half: number;
+}
+
+/** Makes the clouds of the state, and remembers the last ones. */
+export class CloudMaker {
+  private key = "";
+  private last: Clouds = { samples: new Uint32Array(), clouds: [], centre: [0, 0, 0], half: 1 };
+
+  constructor(private readonly data: SceneData) {}
+
+  /** Clouds of all series of the chosen sensor, whether they are shown or not. */
+  of(state: State): Clouds {
+    const spans = state.hideIgnored ? ignoredSpans(this.data, state.marks) : [];
+    const key = JSON.stringify([state.sensor, state.quantity, spans.map((s) => [s.start_s, s.end_s])]);
+    if (key !== this.key) {
+      this.key = key;
+      this.last = makeClouds(this.data, state.sensor, state.quantity, spans);
+    }
+    return this.last;
+  }
+}
+
+function makeClouds(
+  data: SceneData,
+  place: number,
+  quantity: Quantity,
+  spans: readonly { start_s: number; end_s: number }[],
+): Clouds {
+  const left = new Uint8Array(data.samples);
+  for (const { start_s, end_s } of spans) left.fill(1, firstAt(data, start_s), firstAt(data, end_s));
+  const sensor = data.sensor(place);
+  const limit = Math.floor(LIMIT / Math.max(1, sensor?.wrenches.length ?? 0));
+  const samples = everyKth(data.samples, limit, (i) => left[i] === 0);
+  const clouds = (sensor?.wrenches ?? []).map((series) => ({
+    series,
+    colour: sensor ? seriesColour(sensor, series) : "#000000",
+    points: pick(data.floats(series.values), samples, FIRST[quantity]),
+    ellipsoid: quantity === "force" ? series.ellipsoid_force : series.ellipsoid_moment,
+    sphere: quantity === "force" ? series.reference_force : series.reference_moment,
+  }));
+  return { samples, clouds, ...bounds(clouds) };
+}
+
+/** First sample at or after an instant. */
+function firstAt(data: SceneData, seconds: number): number {
+  const before = data.sampleAt(seconds);
+  return (data.time[before] ?? 0) < seconds ? before + 1 : before;
+}
+
+function pick(values: Float32Array, samples: Uint32Array, first: number): Float32Array {
+  const points = new Float32Array(3 * samples.length);
+  samples.forEach((sample, k) => points.set(values.subarray(6 * sample + first, 6 * sample + first + 3), 3 * k));
+  return points;
+}
+
+function bounds(clouds: readonly Cloud[]): Pick<Clouds, "centre" | "half"> {
+  const edges = [0, 1, 2].map((axis) => {
+    const values = clouds.flatMap(({ points }) => [
+      ...points.filter((value, k) => k % 3 === axis && !Number.isNaN(value)),
+    ]);
+    const found = values.length > 0 ? [interval(Float64Array.from(values).sort())] : [];
+    const spheres = clouds.flatMap(({ sphere }) =>
+      sphere ? [[sphere.centre[axis] ?? 0, sphere.radius] as const] : [],
+    );
+    const all = [...found, ...spheres.map(([middle, radius]) => [middle - radius, middle + radius] as const)];
+    return all.length > 0
+      ? ([Math.min(...all.map(([low]) => low)), Math.max(...all.map(([, high]) => high))] as const)
+      : ([0, 0] as const);
+  });
+  const [x, y, z] = edges.map(([low, high]) => (low + high) / 2);
+  const widest = Math.max(...edges.map(([low, high]) => high - low));
+  return { centre: [x ?? 0, y ?? 0, z ?? 0], half: widest > 0 ? 0.55 * widest : 1 };
+}
+
+function interval(sorted: Float64Array): [number, number] {
+  const at = (share: number): number => sorted[Math.round(share * (sorted.length - 1))] ?? 0;
+  const [low, middle, high] = [at(0.01), at(0.5), at(0.99)];
+  const reach = FAR * Math.max(high - middle, middle - low);
+  return [Math.max(at(0), middle - reach), Math.min(at(1), middle + reach)];
+}

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Colours that are told apart without colour vision: Okabe and Ito, "Color universal design", 2008.
+
+import type { Sensor, WrenchSeries } from "./scene_types";
+
+/** Ink of text, axes and the expected wrench. */
+export const INK = "#1f2430";
+/** Lines that only guide the eye. */
+export const FAINT = "#c9ced6";
+/** Current sample and chosen things. */
+export const ACCENT = "#0072B2";
+/** Findings. */
+export const ALARM = "#D55E00";
+/** Axes x, y, z of frames. */
+export const AXES = ["#D55E00", "#009E73", "#0072B2"] as const;
+/** Wrenches of the world on the robot. */
+export const CONTACT = "#7a4a00";
+/** Tints of intervals by their use. */
+export const USES = { calibration: "#56B4E9", validation: "#009E73", ignore: "#8a8f98" } as const;
+
+const EXPECTED = "#000000";
+const MEASURED = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9"] as const;
+
+/** Colour of a sensor's series: black if expected, else by its place among the measured ones. */
+export function seriesColour(sensor: Sensor, series: WrenchSeries): string {
+  if (series.role === "expected") return EXPECTED;
+  const place = sensor.wrenches.filter((w) => w.role === "measured").indexOf(series);
+  return MEASURED[place % MEASURED.length] ?? MEASURED[0];
+}
+
+/** The same colour with an opacity from 0 to 1. */
+export function faded(colour: string, opacity: number): string {
+  return (
+    colour +
+    Math.round(opacity * 255)
+      .toString(16)
+      .padStart(2, "0")
+  );
+}

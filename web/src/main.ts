@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Puts the page together.
+
+import "uplot/dist/uPlot.min.css";
+import "./style.css";
+
+import { CloudMaker } from "./clouds";
+import { button, el } from "./dom";
+import { findingsPanel, intervalsPanel, notes } from "./findings_panel";
+import { Frames } from "./frames";
+import { openHook } from "./hook";
+import { listen, releaseAfterMouse } from "./keyboard";
+import { layout, type Panels } from "./layout";
+import { readBlock, readHeader } from "./load";
+import { marksPanel } from "./marks_panel";
+import { PlaneView } from "./planes";
+import { AxisPlot } from "./plots";
+import { RobotView } from "./robot_view";
+import { SceneData } from "./scene_data";
+import { seriesPanel, switchPanel } from "./series_panel";
+import { SpaceView } from "./space_view";
+import { Store } from "./store";
+import { TimeStrip } from "./time_strip";
+import { player, transport } from "./transport";
+import { JointsPanel, ValuesPanel } from "./values_panel";
+import type { Stage } from "./video";
+import { videoPanel } from "./video_panel";
+
+window.ft = { ready: start() } as typeof window.ft;
+
+async function start(): Promise<boolean> {
+  if (document.readyState === "loading") {
+    await new Promise((resume) => document.addEventListener("DOMContentLoaded", resume, { once: true }));
+  }
+  const bar = el("progress", { "aria-label": "Loading the data" });
+  const waiting = el("div", { class: "waiting", role: "status" }, "Loading the data ", bar);
+  document.body.append(waiting);
+  try {
+    const scene = readHeader();
+    document.title ||= scene.title;
+    const block = await readBlock((loaded, total) => {
+      if (total > 0) [bar.max, bar.value] = [total, loaded];
+    });
+    build(new SceneData(scene, block));
+    waiting.remove();
+    document.documentElement.dataset["ready"] = "true";
+    return true;
+  } catch (error) {
+    waiting.replaceChildren(`This page cannot be shown. ${error instanceof Error ? error.message : String(error)}`);
+    waiting.setAttribute("role", "alert");
+    throw error;
+  }
+}
+
+function build(data: SceneData): void {
+  const store = new Store({
+    sample: 0,
+    sensor: 0,
+    quantity: "force",
+    hidden: new Set(),
+    forceArrows: true,
+    momentArrows: true,
+    allSensors: true,
+    contacts: true,
+    wireframes: true,
+    hideIgnored: false,
+    marks: [],
+    markKind: "point",
+    window: data.span,
+    large: null,
+    playing: false,
+    speed: 1,
+  });
+  const frames = new Frames();
+  const say = (text: string): void => {
+    panels.status.textContent = text;
+  };
+  const panels: Panels = layout(data, store, () => transport(data, store, say));
+  (document.getElementById("viewer") ?? document.body).append(panels.app);
+  const maker = new CloudMaker(data);
+  const robot = new RobotView(panels.robot, frames, data);
+  const space = new SpaceView(panels.space, frames, data, maker, store);
+  panels.robotTitle.prepend(
+    button("⟲", () => robot.reset(), { "aria-label": "Reset the robot's view", title: "Reset the view" }),
+  );
+  panels.spaceTitle.prepend(
+    button("⟲", () => space.reset(), { "aria-label": "Reset the space's view", title: "Reset the view" }),
+  );
+  store.on(["sample", "sensor", "hidden", "forceArrows", "momentArrows", "allSensors", "contacts"], () =>
+    robot.update(store.state),
+  );
+  store.on(["sample", "sensor", "quantity", "hidden", "wireframes", "hideIgnored", "marks"], () =>
+    space.update(store.state),
+  );
+  const planes = connectFlat(panels, frames, data, maker, store);
+  const stage: Stage = { data, store, robot, space, flush: () => frames.flush() };
+  fillSide(panels, frames, stage, say);
+  describe(panels, stage, robot);
+  player(data, store);
+  listen(data, store, say);
+  releaseAfterMouse();
+  Object.assign(window.ft, openHook(stage, space, planes));
+  frames.flush();
+}
+
+function connectFlat(panels: Panels, frames: Frames, data: SceneData, maker: CloudMaker, store: Store): PlaneView[] {
+  panels.plots.forEach((panel, k) => {
+    const plot = new AxisPlot(panel, ([0, 1, 2] as const)[k] ?? 0, frames, data, store);
+    store.on(["sensor", "quantity", "hidden", "window", "marks"], () => plot.update());
+    store.on(["sample"], () => plot.moveCursor());
+  });
+  const strip = new TimeStrip(panels.strip, frames, data, store);
+  store.on(["window", "marks"], () => strip.update());
+  return panels.planes.map((panel, k) => {
+    const plane = new PlaneView(
+      panel,
+      (
+        [
+          [0, 1],
+          [1, 2],
+          [0, 2],
+        ] as const
+      )[k] ?? [0, 1],
+      frames,
+      data,
+      maker,
+      store,
+    );
+    store.on(["sample", "sensor", "quantity", "hidden", "wireframes", "hideIgnored", "marks"], () => plane.update());
+    return plane;
+  });
+}
+
+function fillSide(panels: Panels, frames: Frames, stage: Stage, say: (text: string) => void): void {
+  const { data, store } = stage;
+  const section = (title: string, ...content: HTMLElement[]): HTMLElement =>
+    el("section", { "aria-label": title }, el("h2", {}, title), ...content);
+  const values = new ValuesPanel(data, store, frames);
+  const joints = new JointsPanel(data, store, frames);
+  const provenance = el(
+    "details",
+    {},
+    el("summary", {}, "Origin of the data"),
+    el("ul", { class: "entries" }, ...data.scene.provenance.map((line) => el("li", {}, line))),
+  );
+  panels.side.append(
+    ...notes(data),
+    section("Series", seriesPanel(data, store), values.root),
+    section("Shown", switchPanel(data, store)),
+    section("Saved samples", marksPanel(data, store, say), panels.status),
+    joints.root,
+    findingsPanel(data, store),
+    intervalsPanel(data, store),
+    videoPanel(stage, say),
+    provenance,
+  );
+}
+
+/** Keep the texts of the views true: how long arrows are, and what a screen reader says of the pictures. */
+function describe(panels: Panels, { data, store, space }: Stage, robot: RobotView): void {
+  const { force, moment } = robot.wrenches.metresPer;
+  const round = (unit: number): string => String(Number((0.1 / unit).toPrecision(2)));
+  panels.scale.textContent = `0.1 m of arrow: ${round(force)} N, ${round(moment)} N m`;
+  store.on(["sample", "sensor", "quantity"], () => {
+    const { sample, sensor, quantity } = store.state;
+    const when = `sample ${sample}, ${(data.time[sample] ?? 0).toFixed(3)} s`;
+    robot.canvas.setAttribute("aria-label", `Robot ${data.scene.robot.name} in its posture at ${when}`);
+    const name = data.sensor(sensor)?.name ?? "no sensor";
+    space.canvas.setAttribute("aria-label", `${quantity === "force" ? "Force" : "Torque"} space of ${name} at ${when}`);
+  });
+}

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The robot in its posture, with the wrenches at its sensors.
+
+import { Box3, DirectionalLight, GridHelper, HemisphereLight, Vector3 } from "three";
+
+import type { Frames } from "./frames";
+import { linkPoses, type Pose } from "./kinematics";
+import { origin, RobotModel } from "./robot_model";
+import type { SceneData } from "./scene_data";
+import type { State } from "./store";
+import { View3D } from "./view3d";
+import { WrenchArrows } from "./wrench_arrows";
+
+const POSTURES = 24;
+
+/** The view of the robot. */
+export class RobotView extends View3D {
+  readonly wrenches: WrenchArrows;
+  private readonly model: RobotModel;
+
+  constructor(
+    panel: HTMLElement,
+    frames: Frames,
+    private readonly data: SceneData,
+  ) {
+    super(panel, "Robot in its posture at the current sample", frames);
+    const light = new DirectionalLight("#ffffff", 1.9);
+    light.position.set(2, -3, 5);
+    this.scene.add(new HemisphereLight("#ffffff", "#b9bec8", 2.2), light);
+    this.model = new RobotModel(data);
+    this.scene.add(this.model);
+    const room = this.reach();
+    const size = Math.max(room.getSize(new Vector3()).length(), 1e-3);
+    this.wrenches = new WrenchArrows(data, size);
+    this.scene.add(this.wrenches);
+    this.floor(room, size);
+    const middle = room.getCenter(new Vector3());
+    this.lookFrom(middle.clone().add(new Vector3(0.82, -0.95, 0.45).multiplyScalar(size)), middle);
+  }
+
+  /** Show the state. */
+  update(state: State): void {
+    const poses = linkPoses(this.data, state.sample);
+    this.model.place(poses);
+    this.wrenches.update(state, poses);
+    this.frames.later(this);
+  }
+
+  /** Room of the robot over postures of the whole recording. */
+  private reach(): Box3 {
+    const count = Math.min(POSTURES, Math.max(1, this.data.samples));
+    const postures = Array.from({ length: count }, (_, k) => Math.floor((k * this.data.samples) / count));
+    const room = new Box3();
+    let poses = new Map<string, Pose>();
+    for (const sample of postures) {
+      poses = linkPoses(this.data, sample);
+      for (const link of poses.keys()) room.expandByPoint(origin(poses, link));
+    }
+    this.model.place(poses);
+    this.model.updateMatrixWorld(true);
+    return room.union(new Box3().setFromObject(this.model));
+  }
+
+  private floor(room: Box3, size: number): void {
+    const grid = new GridHelper(2 * size, 20, "#c9ced6", "#e6e9ee");
+    grid.rotateX(Math.PI / 2); // drawn in x-z, wanted in x-y
+    const middle = room.getCenter(new Vector3());
+    grid.position.set(middle.x, middle.y, room.min.z);
+    this.scene.add(grid);
+  }
+}

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The scene with its arrays.
+
+import type { ArrayRef, ContactSeries, Scene, Sensor, WrenchSeries } from "./scene_types";
+import { range } from "./thin";
+
+/** What a wrench is made of. */
+export type Quantity = "force" | "moment";
+
+/** Unit of a quantity. */
+export const UNIT = { force: "N", moment: "N m" } as const;
+
+/** Where a quantity starts in a wrench. */
+export const FIRST = { force: 0, moment: 3 } as const;
+
+type Vector = [number, number, number];
+
+/** Header and arrays of a scene. */
+export class SceneData {
+  readonly time: Float64Array;
+  readonly positions: Float32Array;
+  readonly root: Float32Array;
+  private readonly ranges = new Map<string, [number, number] | null>();
+
+  constructor(
+    readonly scene: Scene,
+    private readonly block: ArrayBuffer,
+  ) {
+    this.time = this.doubles(scene.time_s);
+    this.positions = this.floats(scene.positions);
+    this.root = this.floats(scene.root);
+  }
+
+  /** Number of samples. */
+  get samples(): number {
+    return this.scene.samples;
+  }
+
+  /** Values of a float32 array. */
+  floats(ref: ArrayRef): Float32Array {
+    return new Float32Array(this.block, this.placed(ref, "float32", 4), size(ref));
+  }
+
+  /** Values of a float64 array. */
+  doubles(ref: ArrayRef): Float64Array {
+    return new Float64Array(this.block, this.placed(ref, "float64", 8), size(ref));
+  }
+
+  /** Values of a uint32 array. */
+  integers(ref: ArrayRef): Uint32Array {
+    return new Uint32Array(this.block, this.placed(ref, "uint32", 4), size(ref));
+  }
+
+  /** Force or moment of a series at a sample; NaN where absent. */
+  vector(series: WrenchSeries | ContactSeries, sample: number, quantity: Quantity): Vector {
+    const values = this.floats(series.values);
+    const at = 6 * sample + FIRST[quantity];
+    return [values[at] ?? Number.NaN, values[at + 1] ?? Number.NaN, values[at + 2] ?? Number.NaN];
+  }
+
+  /** Lowest and highest value of a series at one place of its rows; null if all are absent. */
+  range(series: WrenchSeries, place: number): [number, number] | null {
+    const key = `${series.values.offset} ${place}`;
+    const known = this.ranges.get(key);
+    if (known !== undefined) return known;
+    const found = range(this.floats(series.values), place);
+    this.ranges.set(key, found);
+    return found;
+  }
+
+  /** Coordinate of a column at a sample; rad or m; NaN where absent. */
+  position(sample: number, column: number): number {
+    return this.positions[sample * this.scene.coordinates.length + column] ?? Number.NaN;
+  }
+
+  /** Whether a coordinate is a length; its joint is then prismatic. */
+  isLength(column: number): boolean {
+    const name = this.scene.coordinates[column];
+    return this.scene.robot.joints.some((joint) => joint.name === name && joint.type === "prismatic");
+  }
+
+  /** The sensor of this place, if there is one. */
+  sensor(place: number): Sensor | undefined {
+    return this.scene.sensors[place];
+  }
+
+  /** Last sample at or before an instant; the first one if all are later. */
+  sampleAt(seconds: number): number {
+    let low = 0;
+    let high = this.samples;
+    while (low < high) {
+      const middle = (low + high) >> 1;
+      if ((this.time[middle] ?? 0) <= seconds) low = middle + 1;
+      else high = middle;
+    }
+    return Math.max(0, low - 1);
+  }
+
+  /** Sample closest to an instant. */
+  nearestSample(seconds: number): number {
+    const before = this.sampleAt(seconds);
+    const after = Math.min(before + 1, this.samples - 1);
+    const nearer = Math.abs((this.time[after] ?? 0) - seconds) < Math.abs((this.time[before] ?? 0) - seconds);
+    return Math.max(0, nearer ? after : before);
+  }
+
+  /** First and last instant; s. */
+  get span(): [number, number] {
+    return [this.time[0] ?? 0, this.time[this.samples - 1] ?? 0];
+  }
+
+  private placed(ref: ArrayRef, dtype: ArrayRef["dtype"], bytes: number): number {
+    if (ref.dtype !== dtype) throw new Error(`expected an array of ${dtype}, got ${ref.dtype}`);
+    if (ref.offset + bytes * size(ref) > this.block.byteLength) {
+      const needed = ref.offset + bytes * size(ref);
+      throw new Error(`an array ends at byte ${needed}, the data are ${this.block.byteLength} bytes long`);
+    }
+    return ref.offset;
+  }
+}
+
+function size(ref: ArrayRef): number {
+  return ref.shape.reduce((product, length) => product * length, 1);
+}

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Written by `make web-types` from src/forcetorque/viewer/scene.py; change that file instead.
+
+/** An array in the block: little-endian, in C order; NaN is absent. */
+export interface ArrayRef {
+  /** Where it starts; bytes, a multiple of 8. */
+  readonly offset: number;
+  /** Its shape. */
+  readonly shape: readonly number[];
+  /** Its type. */
+  readonly dtype: "float32" | "float64" | "uint32";
+}
+
+/**
+ * A joint; its coordinate is `multiplier * column + offset`.
+ *
+ * Pose of the child = pose of the parent * parent_H_child * (turn by, or slide along, axis times coordinate).
+ */
+export interface Joint {
+  /** Name. */
+  readonly name: string;
+  /** How it moves. */
+  readonly type: "fixed" | "rotary" | "prismatic";
+  /** Parent link. */
+  readonly parent: string;
+  /** Child link. */
+  readonly child: string;
+  /** Pose of the child at coordinate zero; 16 numbers. */
+  readonly parent_H_child: readonly number[];
+  /** Unit axis in the child frame; 3 numbers. */
+  readonly axis: readonly number[];
+  /** Index into `coordinates`; null where it stays at `offset`. */
+  readonly column: number | null;
+  /** Ratio to the column. */
+  readonly multiplier: number;
+  /** Value where the column is zero; rad or m. */
+  readonly offset: number;
+}
+
+/** Something to draw at a link. */
+export interface Shape {
+  /** Link. */
+  readonly link: string;
+  /** Its pose; 16 numbers. */
+  readonly link_H_shape: readonly number[];
+  /** What it is. */
+  readonly kind: "box" | "cylinder" | "sphere" | "mesh";
+  /** Box: x, y, z; cylinder: radius, length along z; sphere: radius; mesh: scale x, y, z. */
+  readonly size: readonly number[];
+  /** Index into `meshes`; null unless the kind is mesh. */
+  readonly mesh: number | null;
+  /** Red, green, blue, opacity from 0 to 1. */
+  readonly colour: readonly number[];
+}
+
+/** Triangles. */
+export interface Mesh {
+  /** Shape (v, 3) float32. */
+  readonly vertices: ArrayRef;
+  /** Indices of vertices; shape (f, 3) uint32. */
+  readonly faces: ArrayRef;
+}
+
+/** The robot as a tree of links. */
+export interface Robot {
+  /** Name of the model. */
+  readonly name: string;
+  /** Link whose pose in the world is `root`. */
+  readonly root_link: string;
+  /** Links. */
+  readonly links: readonly string[];
+  /** Joints, parents before children. */
+  readonly joints: readonly Joint[];
+  /** What to draw. */
+  readonly shapes: readonly Shape[];
+  /** Meshes of the shapes. */
+  readonly meshes: readonly Mesh[];
+}
+
+/** A sphere in the space of forces or moments. */
+export interface Sphere {
+  /** Centre; 3 numbers. */
+  readonly centre: readonly number[];
+  /** Radius. */
+  readonly radius: number;
+}
+
+/** Points `centre + axes u` for every unit vector u. */
+export interface Ellipsoid {
+  /** Centre; 3 numbers. */
+  readonly centre: readonly number[];
+  /** Half axes as the columns of a matrix, row by row; 9 numbers. */
+  readonly axes: readonly number[];
+}
+
+/** Wrenches of a sensor, in its frame and in its own sign convention. */
+export interface WrenchSeries {
+  /** What it is, in words. */
+  readonly name: string;
+  /** At most one series of a sensor is expected. */
+  readonly role: "expected" | "measured";
+  /** Shape (n, 6) float32; N, N m. */
+  readonly values: ArrayRef;
+  /** Sphere that gravity draws by the model; on the expected series; N. */
+  readonly reference_force: Sphere | null;
+  /** The same of the moments; N m. */
+  readonly reference_moment: Sphere | null;
+  /** Ellipsoid that the forces draw; N; null where it is not identifiable. */
+  readonly ellipsoid_force: Ellipsoid | null;
+  /** Ellipsoid that the moments draw; N m; null where it is not identifiable. */
+  readonly ellipsoid_moment: Ellipsoid | null;
+}
+
+/** A force-torque sensor. */
+export interface Sensor {
+  /** Name in the robot model. */
+  readonly name: string;
+  /** Serial number. */
+  readonly serial: string;
+  /** Link that its frame is given in. */
+  readonly link: string;
+  /** Pose of its frame; 16 numbers. */
+  readonly link_H_sensor: readonly number[];
+  /** The expected wrench, what was logged or the prior gives, then one series per calibration. */
+  readonly wrenches: readonly WrenchSeries[];
+}
+
+/** Wrenches of the world on the robot at one place. */
+export interface ContactSeries {
+  /** Name of the contact. */
+  readonly name: string;
+  /** Link that is touched. */
+  readonly link: string;
+  /** Pose of the contact frame; 16 numbers. */
+  readonly link_H_contact: readonly number[];
+  /** In the contact frame; shape (n, 6) float32; N, N m. */
+  readonly values: ArrayRef;
+}
+
+/** An interval of the experiment. */
+export interface SceneInterval {
+  /** Label. */
+  readonly label: string;
+  /** What its samples are for. */
+  readonly use: "calibration" | "validation" | "ignore";
+  /** Start; s. */
+  readonly start_s: number;
+  /** End, itself excluded; s. */
+  readonly end_s: number;
+  /** Support frame. */
+  readonly support: string | null;
+}
+
+/** Something that is wrong with the recording. */
+export interface SceneFinding {
+  /** Stream. */
+  readonly stream: string;
+  /** Kind in one word. */
+  readonly kind: string;
+  /** Description. */
+  readonly message: string;
+  /** First instant; s; null where it has none. */
+  readonly start_s: number | null;
+  /** Last instant; s; null where it has none. */
+  readonly end_s: number | null;
+}
+
+/** Everything that the page shows. */
+export interface Scene {
+  /** Form of the header. */
+  readonly schema: "forcetorque/scene/1";
+  /** Name of the experiment. */
+  readonly title: string;
+  /** Files with hashes and code version, a line each. */
+  readonly provenance: readonly string[];
+  /** Number of samples n. */
+  readonly samples: number;
+  /** Stamp of second 0 as a decimal number; ns. */
+  readonly start_ns: string;
+  /** Seconds since the start of the recording, as intervals count them; shape (n,) float64. */
+  readonly time_s: ArrayRef;
+  /** Joint coordinates; shape (n, d) float32; rad or m. */
+  readonly positions: ArrayRef;
+  /** Joints of the d columns. */
+  readonly coordinates: readonly string[];
+  /** Pose of the root link in the world, z up: x, y, z, then qw, qx, qy, qz; shape (n, 7) float32; m. */
+  readonly root: ArrayRef;
+  /** The robot. */
+  readonly robot: Robot;
+  /** Sensors. */
+  readonly sensors: readonly Sensor[];
+  /** Contacts that were estimated. */
+  readonly contacts: readonly ContactSeries[];
+  /** Intervals in the order of the experiment. */
+  readonly intervals: readonly SceneInterval[];
+  /** Findings in the order of time. */
+  readonly findings: readonly SceneFinding[];
+  /** What is absent, and why. */
+  readonly notes: readonly string[];
+  /** Where the page sends saved samples; null in a file. */
+  readonly annotations_url: string | null;
+}

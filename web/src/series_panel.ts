@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Which series and parts are shown; the colours are the legend of every view.
+
+import { seriesColour } from "./colours";
+import { checkBox, el } from "./dom";
+import type { SceneData } from "./scene_data";
+import type { State, Store } from "./store";
+
+type Switch = "forceArrows" | "momentArrows" | "allSensors" | "contacts" | "wireframes" | "hideIgnored";
+
+const SWITCHES: readonly (readonly [key: Switch, text: string])[] = [
+  ["forceArrows", "Force arrows"],
+  ["momentArrows", "Moment arrows (two heads)"],
+  ["allSensors", "Arrows of all sensors"],
+  ["contacts", "Contact wrenches"],
+  ["wireframes", "Ellipsoids and reference sphere"],
+  ["hideIgnored", "Hide ignored intervals in the clouds"],
+];
+
+/** Check boxes of the series of the chosen sensor. */
+export function seriesPanel(data: SceneData, store: Store): HTMLElement {
+  const list = el("div", { role: "group", "aria-label": "Series" });
+  store.on(["sensor", "hidden"], () => {
+    const sensor = data.sensor(store.state.sensor);
+    const focused = list.contains(document.activeElement) ? document.activeElement?.getAttribute("aria-label") : null;
+    list.replaceChildren();
+    for (const series of sensor?.wrenches ?? []) {
+      const chip = el("span", { class: "chip" });
+      chip.style.background = sensor ? seriesColour(sensor, series) : "";
+      const { row, box } = checkBox(
+        [chip, series.name],
+        !store.state.hidden.has(series.name),
+        (shown) => {
+          const hidden = new Set(store.state.hidden);
+          if (shown) hidden.delete(series.name);
+          else hidden.add(series.name);
+          store.set({ hidden });
+        },
+        series.name,
+      );
+      list.append(row);
+      if (series.name === focused) box.focus();
+    }
+    if (!sensor?.wrenches.length) list.append(el("p", { class: "absent" }, "No wrenches of this sensor."));
+  });
+  return list;
+}
+
+/** Check boxes of what else is drawn. */
+export function switchPanel(data: SceneData, store: Store): HTMLElement {
+  const group = el("div", { role: "group", "aria-label": "Shown" });
+  for (const [key, text] of SWITCHES) {
+    if (key === "contacts" && data.scene.contacts.length === 0) continue;
+    const { row, box } = checkBox([text], store.state[key], (on) => store.set({ [key]: on } as Partial<State>));
+    store.on([key], () => {
+      box.checked = store.state[key];
+    });
+    group.append(row);
+  }
+  return group;
+}

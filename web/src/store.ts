@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The one state that every part of the page shows, and changes.
+
+import type { Mark } from "./marks";
+import type { Quantity } from "./scene_data";
+
+/** What the page shows. */
+export interface State {
+  readonly sample: number;
+  /** Place of the sensor in the scene. */
+  readonly sensor: number;
+  readonly quantity: Quantity;
+  /** Names of series that are switched off. */
+  readonly hidden: ReadonlySet<string>;
+  readonly forceArrows: boolean;
+  readonly momentArrows: boolean;
+  readonly allSensors: boolean;
+  readonly contacts: boolean;
+  readonly wireframes: boolean;
+  /** Whether samples of ignored intervals are left out of the clouds. */
+  readonly hideIgnored: boolean;
+  readonly marks: readonly Mark[];
+  /** What the next saved sample is. */
+  readonly markKind: Mark["mark"];
+  /** Instants between which the time plots show; s. */
+  readonly window: readonly [number, number];
+  /** The panel that takes the place of all views. */
+  readonly large: "robot" | "space" | "planes" | null;
+  readonly playing: boolean;
+  /** Seconds of the recording per second. */
+  readonly speed: number;
+}
+
+type Key = keyof State;
+
+/** Holds the state and tells those who asked what changed. */
+export class Store {
+  private readonly listeners: { keys: ReadonlySet<Key>; call: () => void }[] = [];
+
+  constructor(private current: State) {}
+
+  /** The state now. */
+  get state(): State {
+    return this.current;
+  }
+
+  /** Change parts of the state, and call everybody who shows one of them. */
+  set(patch: Partial<State>): void {
+    const changed = (Object.keys(patch) as Key[]).filter((key) => patch[key] !== this.current[key]);
+    if (changed.length === 0) return;
+    this.current = { ...this.current, ...patch };
+    for (const { keys, call } of this.listeners) if (changed.some((key) => keys.has(key))) call();
+  }
+
+  /** Call now, and whenever one of these parts changes. */
+  on(keys: readonly Key[], call: () => void): void {
+    this.listeners.push({ keys: new Set(keys), call });
+    call();
+  }
+}
