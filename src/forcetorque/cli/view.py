@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import hashlib
 import sys
 import threading
 from collections.abc import Sequence
@@ -15,11 +14,11 @@ import numpy as np
 from pydantic import BaseModel, ConfigDict, Field
 
 from forcetorque.atomic import write_bytes_atomically
-from forcetorque.calibration import read_calibration
 from forcetorque.cli.output import Format, console, print_result, start_logging
+from forcetorque.cli.reading import read_calibrations, read_experiment
+from forcetorque.cli.scene import scene_of
 from forcetorque.errors import ForceTorqueError, MissingFileError
-from forcetorque.experiment import load_experiment, parse_experiment
-from forcetorque.viewer import BuiltScene, ViewerServer, build_scene, page_of, write_page
+from forcetorque.viewer import BuiltScene, ViewerServer, page_of, write_page
 from forcetorque.viewer.annotations import Annotations, save_annotations, saved_files
 from forcetorque.viewer.scene import read_array
 from forcetorque.viewer.serve import ANNOTATIONS_URL, DATA_URL
@@ -97,7 +96,8 @@ def run(
         Film(start=0, end=0, fps=fps, speed=speed, width=size[0], height=size[1])
         require_playwright()
         program = find_browser(browser)
-    built = _build(path, calibrations, sensors, mesh_folders, log)
+    loaded = read_calibrations(calibrations)
+    built = scene_of(path, read_experiment(path, log), loaded, sensors=sensors, mesh_folders=mesh_folders)
     for note in built.scene.notes:
         log.info("%s", note)
     result = ViewResult(
@@ -137,29 +137,6 @@ def _refuse_contradictions(path: Path, output: Path | None, port: int | None, vi
     for file in (output, video):
         if file is not None and not file.resolve().parent.is_dir():
             raise MissingFileError(f"{file}: expected an existing folder to write to, there is none")
-
-
-def _build(
-    path: Path,
-    calibrations: Sequence[Path] | None,
-    sensors: Sequence[str] | None,
-    mesh_folders: Sequence[Path] | None,
-    log: Logger,
-) -> BuiltScene:
-    loaded = {str(file): read_calibration(file) for file in calibrations or ()}
-    for folder in mesh_folders or ():
-        if not folder.is_dir():
-            raise MissingFileError(f"--mesh-dir {folder}: expected a folder, there is none")
-    log.info("reading %s", path)
-    robot = parse_experiment(path).robot
-    return build_scene(
-        load_experiment(path),
-        loaded,
-        urdf=None if robot is None else path.parent / robot.urdf,
-        sensors=sensors,
-        mesh_folders=mesh_folders or (),
-        provenance=[f"{file} sha256 {hashlib.sha256(Path(file).read_bytes()).hexdigest()}" for file in loaded],
-    )
 
 
 def _span(built: BuiltScene, start_s: float | None, end_s: float | None) -> tuple[int, int]:

@@ -1,122 +1,27 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A real browser without a window, in which the page is opened as a user would."""
+"""The viewer's page in a real browser."""
 
 from __future__ import annotations
 
-import importlib.util
-import shutil
 from collections.abc import Callable, Iterator
-from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import pytest
 
-from forcetorque.viewer import BuiltScene, page_of
+from tests.browser import Visit, chromium, playwright, visit
 from tests.viewer.browser.arm_scene import Arm, arm_scene
 
 if TYPE_CHECKING:
-    from playwright.sync_api import Browser, Page, Playwright
+    from playwright.sync_api import Browser, Page
 
-BROWSERS = ("chromium", "chromium-browser", "google-chrome")
-SIZE = {"width": 1000, "height": 650}
-PATIENCE_MS = 20_000
+__all__ = ["chromium", "playwright", "visit"]
+
 FIRST = """() => {
     document.activeElement.blur();
     for (const part of document.querySelectorAll("details")) part.open = part.closest(".notes") !== null;
     window.ft.reset();
 }"""
 """Brings a page back to what it showed first."""
-# a processor draws in place of a graphics card, the same on every machine of one kind; nothing is asked of the network
-FLAGS = (
-    "--no-sandbox",
-    "--disable-gpu",
-    "--use-gl=angle",
-    "--use-angle=swiftshader",
-    "--enable-unsafe-swiftshader",
-    "--disable-quic",
-    "--no-first-run",
-    "--disable-background-networking",
-    "--disable-component-update",
-    "--disable-sync",
-)
-
-
-@pytest.fixture(scope="module")  # while it lives, nothing else in this process may drive a browser or run a loop
-def playwright() -> Iterator[Playwright]:
-    """What drives the browser."""
-    if importlib.util.find_spec("playwright") is None:
-        pytest.skip("playwright is not installed")
-    from playwright.sync_api import sync_playwright
-
-    with sync_playwright() as driver:
-        yield driver
-
-
-@pytest.fixture(scope="module")
-def chromium(playwright: Playwright) -> Iterator[Browser]:
-    """The browser of the system."""
-    program = next(filter(None, map(shutil.which, BROWSERS)), None)
-    if program is None:
-        pytest.skip(f"no browser: none of {', '.join(BROWSERS)} is installed")
-    browser = playwright.chromium.launch(executable_path=program, args=list(FLAGS))
-    yield browser
-    browser.close()
-
-
-class Visit:
-    """Pages of one test, and what went wrong in them."""
-
-    def __init__(self, browser: Browser, folder: Path) -> None:
-        self.folder = folder
-        self.errors: list[str] = []
-        self.requests: list[str] = []
-        self._browser = browser
-        self._contexts: list[Any] = []
-
-    def open(self, built: BuiltScene) -> Page:
-        """Open a scene as one file, without a network."""
-        file = self.folder / f"view{len(self._contexts)}.html"
-        file.write_bytes(page_of(built))
-        return self.go(file.as_uri(), offline=True)
-
-    def go(self, url: str, *, offline: bool = False) -> Page:
-        """Open an address and wait until everything is drawn."""
-        page = self.blank(offline=offline)
-        page.goto(url)
-        page.evaluate("window.ft.ready")
-        return page
-
-    def blank(self, *, offline: bool = True) -> Page:
-        """A page that shows nothing yet."""
-        context = self._browser.new_context(viewport=SIZE, offline=offline, accept_downloads=True)  # type: ignore[arg-type]
-        self._contexts.append(context)
-        context.set_default_timeout(PATIENCE_MS)
-        page = context.new_page()
-        page.on("pageerror", lambda error: self.errors.append(str(error)))
-        page.on("console", lambda line: self.errors.append(line.text) if line.type == "error" else None)
-        page.on("request", lambda request: self.requests.append(request.url))
-        return page
-
-    def close(self) -> None:
-        """Close everything."""
-        for context in self._contexts:
-            context.close()
-
-    def strangers(self) -> list[str]:
-        """Requests that left the machine."""
-        near = ("file:", "data:", "blob:", "http://127.0.0.1:")
-        return [url for url in self.requests if not url.startswith(near)]
-
-
-@pytest.fixture
-def visit(chromium: Browser, tmp_path: Path) -> Iterator[Visit]:
-    """Pages of one test; none may report an error or ask another machine for anything."""
-    visit = Visit(chromium, tmp_path)
-    yield visit
-    visit.close()
-    assert visit.requests, "no page was opened"
-    assert visit.errors == []
-    assert visit.strangers() == []
 
 
 @pytest.fixture(scope="session")

@@ -9,8 +9,8 @@ from pathlib import Path
 import pytest
 
 from forcetorque.viewer import BuiltScene, page_of
+from tests.browser import Visit
 from tests.viewer.browser.arm_scene import Arm, arm_scene
-from tests.viewer.browser.conftest import Visit
 
 pytestmark = pytest.mark.browser
 

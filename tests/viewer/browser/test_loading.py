@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 import pytest
 
 from forcetorque.viewer import page_of
+from tests.browser import Visit
 from tests.viewer.browser.arm_scene import Arm
-from tests.viewer.browser.conftest import Visit
 
 if TYPE_CHECKING:
     from playwright.sync_api import Page

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pytest
 
+from tests.browser import Visit
 from tests.viewer.browser.arm_scene import SAMPLES, Arm
-from tests.viewer.browser.conftest import Visit
 from tests.viewer.browser.press import picture
 
 if TYPE_CHECKING:

@@ -10,8 +10,8 @@ import pytest
 from forcetorque.errors import ForceTorqueError
 from forcetorque.viewer import ViewerServer, page_of
 from forcetorque.viewer.annotations import Annotations
+from tests.browser import Visit
 from tests.viewer.browser.arm_scene import Arm, arm_scene
-from tests.viewer.browser.conftest import Visit
 
 pytestmark = pytest.mark.browser
 

@@ -25,6 +25,9 @@ def report(
     ],
     title: Annotated[str | None, typer.Option("--title", help="Title. Default: names of the experiments.")] = None,
     population: PopulationOption = None,
+    viewer: Annotated[
+        bool, typer.Option("--viewer", help="Put the viewer of each experiment into the HTML; some 1 MB and more.")
+    ] = False,
     output_format: FormatOption = Format.TABLE,
 ) -> None:
     """Write everything about sensors into one document, verdict first.
@@ -33,4 +36,4 @@ def report(
     """
     from forcetorque.cli.report import run
 
-    run(results, outputs=output, title=title, population=population, output_format=output_format)
+    run(results, outputs=output, title=title, population=population, with_viewer=viewer, output_format=output_format)

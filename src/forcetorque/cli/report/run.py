@@ -14,12 +14,12 @@ from forcetorque.cli.reading import read_experiment
 from forcetorque.cli.report.gather import Demands, gather_experiment
 from forcetorque.cli.report.inputs import sort_inputs
 from forcetorque.cli.report.result import ReportResult
-from forcetorque.cli.report.sections import report_document
+from forcetorque.cli.report.sections import report_document, viewer_section
 from forcetorque.errors import ExperimentError, ForceTorqueError
 from forcetorque.experiment import read_population
 from forcetorque.experiment.fitness import by_sensor
 from forcetorque.experiment.inputs import stated_in
-from forcetorque.report.document import Document, html_bytes, pdf_bytes
+from forcetorque.report.document import Document, Section, html_bytes, pdf_bytes
 
 _WRITERS: dict[str, Callable[[Document], bytes]] = {".html": html_bytes, ".pdf": pdf_bytes}
 
@@ -30,6 +30,7 @@ def run(
     outputs: Sequence[Path],
     title: str | None,
     population: Sequence[Path] | None,
+    with_viewer: bool,
     output_format: Format,
 ) -> None:
     """Write one document about the sensors of experiments.
@@ -39,6 +40,7 @@ def run(
         outputs: Files to write, .html or .pdf; the numbers are written beside the first, as .json.
         title: Title of the document.
         population: Matrix files, calibrations or folders of them, of other sensors.
+        with_viewer: Whether the viewer stands in the HTML.
         output_format: Form of the result.
 
     Raises:
@@ -53,6 +55,7 @@ def run(
     others = read_population(population) if population else None
     demands = Demands(acceptance=given.acceptance, population=others)
     material, unused = [], dict(given.calibrations)
+    viewers: list[Section] = []
     for path in given.experiments:
         experiment = read_experiment(path, log)
         known = {name for sensor in experiment.model.sensors.values() for name in (sensor.name, *sensor.aliases)}
@@ -66,6 +69,9 @@ def run(
         with stated_in(str(path)):
             groups = by_sensor(experiment, own)
             material.append(gather_experiment(path, experiment, groups, demands, log.info))
+            if with_viewer:
+                log.info("building the viewer")
+                viewers.append(viewer_section(path, experiment, own))
     for file, calibration in unused.items():
         raise ExperimentError(f"{file}: calibrates {calibration.sensor.name!r}, which none of the experiments has")
     names = ", ".join(dict.fromkeys(each.report.experiment for each in material))
@@ -77,7 +83,7 @@ def run(
         results=given.results,
     )
     log.info("drawing")
-    document = report_document(result, material)
+    document = report_document(result, material, viewers)
     for output in outputs:
         write_bytes_atomically(output, _WRITERS[output.suffix.lower()](document))
     numbers = outputs[0].with_suffix(".json")

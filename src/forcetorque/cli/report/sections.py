@@ -3,26 +3,34 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
 
 from forcetorque import report as figures
+from forcetorque.calibration import Calibration
 from forcetorque.cli.report import tables
 from forcetorque.cli.report.gather import ExperimentMaterial, SensorMaterial
 from forcetorque.cli.report.result import ReportResult
+from forcetorque.cli.scene import scene_of
 from forcetorque.cli.words import short_names
-from forcetorque.report.document import Block, Document, Figure, List, Section, Text, Tone, Verdict
+from forcetorque.errors import ForceTorqueError
+from forcetorque.experiment import Experiment
+from forcetorque.report.document import Block, Document, Figure, List, Page, Section, Text, Tone, Verdict
 from forcetorque.spatial import WRENCH_COMPONENTS
+from forcetorque.viewer import MOST_SAMPLES, page_of
 
 
-def report_document(result: ReportResult, material: Sequence[ExperimentMaterial]) -> Document:
+def report_document(
+    result: ReportResult, material: Sequence[ExperimentMaterial], viewers: Sequence[Section] = ()
+) -> Document:
     """Put numbers and figures into the order in which they are read.
 
     Args:
         result: The numbers.
         material: Samples for the figures, experiment after experiment.
+        viewers: Sections with a viewer.
 
     Returns:
         The document.
@@ -34,7 +42,7 @@ def report_document(result: ReportResult, material: Sequence[ExperimentMaterial]
         for sensor in each.sensors:
             title = f"{sensor.report.sensor} ({sensor.report.serial})"
             parts.append(_sensor(f"{title}, {each.report.experiment}" if several else title, sensor))
-    parts += [_findings(each) for each in material]
+    parts += [*viewers, *(_findings(each) for each in material)]
     for file, content in result.results.items():
         shown = tuple(tables.result_tables(content))
         note = Text(text=f"{file}, {content['schema']}")
@@ -48,6 +56,34 @@ def report_document(result: ReportResult, material: Sequence[ExperimentMaterial]
         created=result.created,
         sections=tuple(parts),
     )
+
+
+def viewer_section(path: Path, experiment: Experiment, calibrations: Mapping[str, Calibration]) -> Section:
+    """Put the viewer of an experiment into a section.
+
+    Args:
+        path: Experiment file.
+        experiment: What it points to.
+        calibrations: Calibrations by their file.
+
+    Returns:
+        The section.
+
+    Raises:
+        ForceTorqueError: If there are too many samples for one file.
+    """
+    built = scene_of(path, experiment, calibrations)
+    if built.scene.samples > MOST_SAMPLES:
+        raise ForceTorqueError(
+            f"--viewer: expected at most {MOST_SAMPLES} samples inside a document, got {built.scene.samples}; leave it "
+            "out and serve them with `forcetorque view`"
+        )
+    page = Page(
+        html=page_of(built),
+        title=f"Viewer of {experiment.name}",
+        instead=f"The HTML file has a viewer here; `forcetorque view {path}` opens it too.",
+    )
+    return Section(title=f"Posture and forces: {experiment.name}", blocks=(page,))
 
 
 def _verdicts(material: Sequence[ExperimentMaterial]) -> Iterator[Section]:

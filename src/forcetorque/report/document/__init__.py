@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Documents: headings, verdicts, tables and figures, written as one HTML file or as PDF."""
 
-from forcetorque.report.document.content import Block, Document, Figure, List, Section, Table, Text, Tone, Verdict
+from forcetorque.report.document.content import Block, Document, Figure, List, Page, Section, Table, Text, Tone, Verdict
 from forcetorque.report.document.html import html_bytes
 from forcetorque.report.document.pdf import pdf_bytes
 
@@ -10,6 +10,7 @@ __all__ = [
     "Document",
     "Figure",
     "List",
+    "Page",
     "Section",
     "Table",
     "Text",

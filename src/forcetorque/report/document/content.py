@@ -85,7 +85,19 @@ class Figure:
     """What it shows, for who cannot see it."""
 
 
-Block = Verdict | Text | List | Table | Figure
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Page:
+    """A page of its own inside the document, to be worked with; only where a document can hold one."""
+
+    html: bytes
+    """The page, which needs nothing else."""
+    title: str
+    """What it is."""
+    instead: str
+    """What stands in its place where no page can be."""
+
+
+Block = Verdict | Text | List | Table | Figure | Page
 """Anything that stands in a section."""
 
 

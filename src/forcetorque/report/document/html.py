@@ -9,10 +9,10 @@ from importlib import resources
 from typing import Any
 
 from forcetorque.errors import MissingExtraError
-from forcetorque.report.document.content import Block, Document, Figure, List, Table, Text, Verdict
+from forcetorque.report.document.content import Block, Document, Figure, List, Page, Table, Text, Verdict
 from forcetorque.report.document.small_png import small_png
 
-_KINDS = {Verdict: "verdict", Text: "text", List: "list", Table: "table", Figure: "figure"}
+_KINDS = {Verdict: "verdict", Text: "text", List: "list", Table: "table", Figure: "figure", Page: "page"}
 
 
 def html_bytes(document: Document) -> bytes:
@@ -22,7 +22,7 @@ def html_bytes(document: Document) -> bytes:
         document: The document.
 
     Returns:
-        The file, UTF-8.
+        The file, UTF-8. A page inside it runs its own scripts and cannot reach the document.
 
     Raises:
         MissingExtraError: If jinja2 is not installed.

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from forcetorque.errors import MissingExtraError
-from forcetorque.report.document.content import Block, Document, Figure, List, Section, Table, Text, Tone, Verdict
+from forcetorque.report.document.content import Block, Document, Figure, List, Page, Section, Table, Text, Tone, Verdict
 from forcetorque.report.document.small_png import small_png
 
 if TYPE_CHECKING:
@@ -89,6 +89,8 @@ def _block(page: FPDF, block: Block) -> None:
             _table(page, block)
         case Figure():
             _figure(page, block)
+        case Page():
+            _line(page, block.instead, _BODY_POINTS)
 
 
 def _line(

@@ -1,0 +1,32 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A report with the viewer in it, written by the command from a small complete experiment."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from datetime import UTC, datetime
+from pathlib import Path
+
+import pytest
+
+from forcetorque.calibration import write_calibration
+from forcetorque.experiment import calibrate_sensor, load_experiment
+from tests.browser import chromium, playwright, visit
+from tests.experiments import PARQUET, write_experiments
+
+__all__ = ["chromium", "playwright", "visit"]
+
+
+@pytest.fixture(scope="module")
+def report(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The document."""
+    folder = tmp_path_factory.mktemp("report")
+    write_experiments(folder)
+    experiment = load_experiment(folder / PARQUET)
+    created = datetime(2020, 1, 1, tzinfo=UTC).isoformat()
+    fitted = calibrate_sensor(experiment, experiment.sensors[0], code_version="1", created=created)
+    write_calibration(folder / "fitted.json", fitted)
+    words = ["report", PARQUET, "fitted.json", "--viewer", "-o", "report.html"]
+    subprocess.run([sys.executable, "-m", "forcetorque", *words], cwd=folder, check=True, capture_output=True)
+    return folder / "report.html"

@@ -1,0 +1,98 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A report opens, reads, prints and works in a real browser, without a network."""
+
+from __future__ import annotations
+
+import io
+import unicodedata
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+import pytest
+from PIL import Image
+from pypdf import PdfReader
+
+from tests.browser import Visit
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Page
+
+pytestmark = pytest.mark.browser
+
+NARROW = {"width": 420, "height": 800}
+"""Size of a telephone."""
+
+
+def _letters(text: str) -> str:
+    """Its letters alone: paper has spaces of its own, and signs that stand for two letters."""
+    return "".join(unicodedata.normalize("NFKC", text).split())
+
+
+def _open(visit: Visit, report: Path) -> Page:
+    page = visit.blank()
+    page.goto(report.as_uri())
+    return page
+
+
+def test_the_verdict_is_on_the_first_screen(visit: Visit, report: Path) -> None:
+    """Title, then verdict, both without scrolling; every picture is drawn and every link leads somewhere."""
+    page = _open(visit, report)
+    assert page.get_by_role("heading", level=1).is_visible()
+    verdict = page.locator(".verdict").first.bounding_box()
+    assert verdict is not None
+    assert verdict["y"] + verdict["height"] < page.viewport_size["height"]  # type: ignore[index]
+    widths = page.locator("img").evaluate_all("images => images.map(image => image.complete ? image.naturalWidth : 0)")
+    assert len(widths) == 6
+    assert min(widths) >= 1000
+    targets = page.locator("nav a").evaluate_all("links => links.map(a => document.querySelector(a.hash) !== null)")
+    assert len(targets) > 4
+    assert all(targets)
+
+
+@pytest.mark.parametrize("size", [NARROW, {"width": 1400, "height": 900}], ids=["narrow", "wide"])
+def test_nothing_sticks_out(visit: Visit, report: Path, size: dict[str, int]) -> None:
+    """Wide tables scroll by themselves, the page does not."""
+    page = _open(visit, report)
+    page.set_viewport_size(size)  # type: ignore[arg-type]
+    assert page.evaluate("document.documentElement.scrollWidth") <= size["width"]
+    if size == NARROW:
+        tables = page.locator(".scroll").evaluate_all("all => all.some(one => one.scrollWidth > one.clientWidth)")
+        assert tables, "control: some table is wider than the screen"
+
+
+def test_the_screen_shows_something(visit: Visit, report: Path) -> None:
+    """Dark words on white, and the colour of the verdict; the same page gives the same pixels."""
+    page = _open(visit, report)
+    shots = [page.screenshot() for _ in range(2)]
+    assert shots[0] == shots[1]
+    pixels = np.asarray(Image.open(io.BytesIO(shots[0])).convert("L"), dtype=int)
+    assert 0.005 < (pixels < 100).mean() < 0.3
+    assert (pixels > 240).mean() > 0.6
+
+
+def test_it_prints(visit: Visit, report: Path) -> None:
+    """On paper there is the text of the verdict, and a sentence where the viewer is on the screen."""
+    page = _open(visit, report)
+    printed = PdfReader(io.BytesIO(page.pdf(format="A4", print_background=False)))
+    text = _letters(" ".join(sheet.extract_text() for sheet in printed.pages))
+    assert _letters(page.locator(".verdict span").nth(1).inner_text()) in text
+    assert _letters("The HTML file has a viewer here") in text
+    page.emulate_media(media="screen")
+    assert not page.get_by_text("The HTML file has a viewer here").is_visible()
+
+
+def test_the_viewer_works_inside(visit: Visit, report: Path) -> None:
+    """It draws, jumps, and cannot reach the document around it."""
+    page = _open(visit, report)
+    page.locator("iframe").scroll_into_view_if_needed()
+    frame = page.frame_locator("iframe")
+    number = frame.get_by_label("Sample number")
+    number.wait_for()
+    number.fill("40")
+    number.press("Enter")
+    inside = page.frames[1]
+    assert inside.evaluate("window.ft.sample()") == 40
+    assert "SecurityError" in inside.evaluate(
+        "(() => { try { return parent.document.title } catch (e) { return String(e) } })()"
+    )
