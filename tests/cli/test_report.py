@@ -96,7 +96,7 @@ def result(reported: Path, monkeypatch: pytest.MonkeyPatch) -> Any:
 def test_the_numbers_are_those_of_the_other_commands(result: Any, run: Run) -> None:
     """Row by row; the file beside the document holds what is printed, and it fits its schema."""
     assert faults(result, run("schema", "report").result()) == []
-    assert json.loads(Path("report.json").read_text(encoding="utf-8")) == result
+    assert json.loads(Path("report.numbers.json").read_text(encoding="utf-8")) == result
     sensor = _sensor(result)
     same = ("-c", "fitted.json", "--format", "json")
     assert sensor["evaluation"] == run("evaluate", PARQUET, *same).result()["verdicts"]
@@ -117,13 +117,13 @@ def test_the_verdict_comes_first_and_says_what_the_numbers_say(result: Any) -> N
     first, second, *_ = sensor["verdict"]
     assert first["tone"] == "bad"
     assert "fitted.json is not accepted: 1 of 2 criteria fail: matrix.condition" in first["text"]
-    prior, new = (
-        next(row for row in sensor["evaluation"] if row["offset"] == "fitted" and row["candidate"] == name)
-        for name in ("prior", "fitted.json")
+    force, moment = (row for row in sensor["comparisons"] if row["offset"] == "fitted")
+    assert (second["tone"], force["quantity"], moment["quantity"]) == ("good", "force", "moment")
+    assert (
+        f"force error {force['mean']:.2f} N against {force['prior_mean']:.2f} N with the prior (better"
+        in second["text"]
     )
-    assert second["tone"] == "good"
-    for row in (prior, new):
-        assert f"{row['force_error_mean_N']:.2f} ±{row['force_error_standard_error_N']:.2f} N" in second["text"]
+    assert f"moment error {moment['mean']:.3f} N m against {moment['prior_mean']:.3f} N m" in second["text"]
     lines = _words("report.html")
     title, verdict, measured = (lines.index(text) for text in (result["title"], first["text"], "Intervals"))
     assert title < verdict < measured
@@ -176,17 +176,42 @@ def test_without_a_calibration_the_priors_are_shown(arm: Path, run: Run) -> None
 
 
 def test_what_cannot_be_judged_is_said_and_the_rest_is_shown(arm: Path, run: Run) -> None:
-    """An experiment whose only interval was fitted: no errors, but spheres, static checks and uncertainty."""
+    """No interval to judge on: no errors, but spheres, static checks and uncertainty."""
     edit(arm / PARQUET, 'use = "validation"', 'use = "ignore"')
     sensor = _sensor(run("report", PARQUET, "fitted.json", "-o", "report.html", "--format", "json").result())
-    assert set(sensor["not_judged"]) == {"evaluation", "contact forces", "joint torques"}
+    assert sensor["not_judged"]
     assert sensor["evaluation"] == []
     assert sensor["spheres"]
     assert sensor["static"]
     unknown = [line["text"] for line in sensor["verdict"] if line["tone"] == "unknown"]
-    assert any(text.startswith("not judged: evaluation: ") for text in unknown)
+    assert any(text.startswith("not judged: errors of fitted.json: ") for text in unknown)
     assert "Errors on data that was not fitted" not in _words("report.html")
     assert "Uncertainty" in _words("report.html")
+
+
+def test_nothing_is_shown_of_a_calibration_on_data_that_it_was_fitted_on(arm: Path, run: Run) -> None:
+    """Fitted and judged intervals change places: another calibration is judged, the fitted one is not."""
+    edit(arm / PARQUET, 'label = "fit"\nstart_s = 0.5\nend_s = 14.0', 'label = "fit"\nstart_s = 0.5\nend_s = 7.0')
+    assert run("calibrate", PARQUET, "-o", "early.json").code == 0
+    edit(arm / PARQUET, "start_s = 14.5\nend_s = 23.5", "start_s = 8.0\nend_s = 13.0")
+    words = (PARQUET, "fitted.json", "early.json", "-o", "report.html", "--format", "json")
+    sensor = _sensor(run("report", *words).result())
+    assert "was fitted on the interval" in sensor["not_judged"]["errors of fitted.json"]
+    for rows in ("evaluation", "contact_forces", "joint_torques", "comparisons", "independence"):
+        assert {row["candidate"] for row in sensor[rows]} <= {"prior", "early.json"}
+        assert "early.json" in {row["candidate"] for row in sensor[rows]}
+    flattered = [line for line in sensor["verdict"] if "which flatters: it was fitted on" in line["text"]]
+    assert all(line["tone"] == "caution" for line in flattered)
+
+
+def test_the_order_of_intervals_in_the_file_does_not_matter(arm: Path, run: Run) -> None:
+    """Two judged intervals, the later one first: figures and numbers come in the order of time."""
+    later = 'label = "judge"\nstart_s = 19.0\nend_s = 23.5\nuse = "validation"\nsupport = "base"\n'
+    first = '\n[[interval]]\nlabel = "first"\nstart_s = 14.5\nend_s = 18.5'
+    edit(arm / PARQUET, 'label = "judge"\nstart_s = 14.5\nend_s = 23.5', later + first)
+    sensor = _sensor(run("report", PARQUET, "fitted.json", "-o", "report.html", "--format", "json").result())
+    assert sensor["not_judged"] == {}
+    assert sensor["comparisons"]
 
 
 REFUSED = {
@@ -202,8 +227,10 @@ REFUSED = {
     "two limits": ([PARQUET, "a.toml", "b.toml"], r"expected one acceptance file, got 2"),
     "foreign calibration": (
         [PARQUET, "foreign.json"],
-        r"foreign.json: calibrates 'leg_ft', which none of the experiments",
+        r"foreign.json: calibrates leg_ft \(SIM001\), which none of the experiments has; they have arm_ft \(SIM001\)",
     ),
+    "other serial": ([PARQUET, "serial.json"], r"serial.json: calibrates arm_ft \(SIM009\), which none"),
+    "no result": ([PARQUET, "truth.json"], r"truth.json: expected .*, got the schema 'forcetorque/truth/1'"),
 }
 
 
@@ -218,6 +245,9 @@ def test_bad_input_is_one_line_and_nothing_is_written(arm: Path, run: Run, name:
     content = json.loads(Path("fitted.json").read_text(encoding="utf-8"))
     content["sensor"]["name"] = "leg_ft"
     Path("foreign.json").write_text(json.dumps(content), encoding="utf-8")
+    content["sensor"] |= {"name": "arm_ft", "serial": "SIM009"}
+    Path("serial.json").write_text(json.dumps(content), encoding="utf-8")
+    Path("truth.json").write_text('{"schema": "forcetorque/truth/1"}', encoding="utf-8")
     files, message = REFUSED[name]
     before = snapshot(arm)
     ended = run("report", *files, "-o", "report.html")
@@ -234,15 +264,33 @@ def test_other_kinds_of_files_are_refused_before_anything_is_read(arm: Path, run
     assert not Path("report.html").exists()
 
 
+@pytest.mark.parametrize(
+    ("outputs", "message"),
+    [
+        (["limits.html"], "limits.numbers.json: this is a file to read; choose another --output"),
+        (["none/report.html"], "none/report.html: expected an existing folder to write to, there is none"),
+    ],
+)
+def test_no_file_to_read_is_written_over(arm: Path, run: Run, outputs: list[str], message: str) -> None:
+    """Neither a document nor its numbers take the place of an input; it is said before the work."""
+    shutil.copy("fitted.json", "limits.numbers.json")
+    before = snapshot(arm)
+    ended = run("report", PARQUET, "limits.numbers.json", *(word for file in outputs for word in ("-o", file)))
+    assert ended.code == 2
+    assert message in ended.error()
+    assert ended.log == []
+    assert snapshot(arm) == before
+
+
 @pytest.mark.real_data
 def test_a_real_leg(data_dir: Path, run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """The verdict on the yoga log: better with its own offset, no difference with a re-estimated one."""
+    """The verdict on the yoga log: better with its own offset, and what makes that doubtful."""
     monkeypatch.chdir(tmp_path)
     assert run("calibrate", YOGA, "-o", "leg.json").code == 0
     sensor = _sensor(run("report", YOGA, "leg.json", "-o", "leg.html", "-o", "leg.pdf", "--format", "json").result())
-    tones = [line["tone"] for line in sensor["verdict"]]
-    assert tones == ["good", "caution", "caution", "caution"]
-    assert "does not tell from none" in sensor["verdict"][1]["text"]
-    assert "moved 5 of 6 raw directions" in sensor["verdict"][3]["text"]
+    texts = {line["tone"]: line["text"] for line in reversed(sensor["verdict"])}
+    assert "with its own offset" in texts["good"]
+    assert any("moved 5 of 6 raw directions" in line["text"] for line in sensor["verdict"])
+    assert any("independent samples" in line["text"] for line in sensor["verdict"])
     assert Path("leg.html").stat().st_size < NORMAL_BYTES
     assert min(count for row in sensor["independence"] for count in row["independent"]) < 200

@@ -16,14 +16,19 @@ from forcetorque.calibration import Calibration
 from forcetorque.cli.accept_result import criterion_rows, measured_row
 from forcetorque.cli.evaluate_result import verdict_row
 from forcetorque.cli.inspect_result import finding_row
-from forcetorque.cli.output import finite_or_none
-from forcetorque.cli.report.result import ExperimentReport, IndependenceRow, IntervalRow, SensorReport, StreamRow
+from forcetorque.cli.report.comparisons import comparison_rows, independence_rows
+from forcetorque.cli.report.result import (
+    ExperimentReport,
+    IntervalRow,
+    SensorReport,
+    StreamRow,
+)
 from forcetorque.cli.report.verdicts import sensor_verdict
 from forcetorque.cli.sphere_result import sphere_row
 from forcetorque.cli.validate_result import best_rows, contact_force_row, joint_torque_row
 from forcetorque.errors import ForceTorqueError
-from forcetorque.evaluation import autocorrelation
 from forcetorque.experiment import (
+    PRIOR,
     AcceptanceFile,
     Experiment,
     ExperimentSensor,
@@ -38,6 +43,7 @@ from forcetorque.experiment import (
     inspect_experiment,
     judged_where_chosen,
     judged_wrenches,
+    require_unseen,
     sphere_intervals,
     validate_sensor,
 )
@@ -152,39 +158,64 @@ def _gather_sensor(
     demands: Demands,
 ) -> SensorMaterial:
     tried = _Reasons()
-    verdicts = tried.attempt("evaluation", partial(evaluate_sensor, experiment, sensor, calibrations)) or []
-    judged = tried.attempt("evaluation", partial(judged_wrenches, experiment, sensor, calibrations))
-    contacts = tried.attempt("contact forces", partial(validate_sensor, experiment, sensor, calibrations)) or []
-    torques = tried.attempt("joint torques", partial(compare_joint_torques, experiment, sensor, calibrations))
+    unseen = _unseen(experiment, sensor, calibrations, tried)
+    # where every calibration has seen the judged data there is nothing to judge it on; without any, the prior is judged
+    judges = bool(unseen) or not calibrations
+    verdicts = judged = contacts = torques = None
+    if judges:
+        verdicts = tried.attempt("evaluation", partial(evaluate_sensor, experiment, sensor, unseen))
+        contacts = tried.attempt("contact forces", partial(validate_sensor, experiment, sensor, unseen))
+        torques = tried.attempt("joint torques", partial(compare_joint_torques, experiment, sensor, unseen))
+    if verdicts:
+        judged = tried.attempt("wrenches", partial(judged_wrenches, experiment, sensor, unseen))
+    for k, words in enumerate(() if torques is None else torques.left_out):
+        tried.reasons[f"joint torques ({k + 1})"] = words
     spheres = tried.attempt("spheres", partial(_spheres, experiment, sensor, calibrations)) or []
+    independence = tried.attempt("independence", partial(independence_rows, judged)) if judged else None
+    comparisons = tried.attempt("comparison", partial(comparison_rows, judged)) if judged else None
     checks, criteria = [], []
     candidates: list[tuple[str, Calibration] | None] = [*calibrations.items()] or [None]
     for candidate in candidates:
+        name = PRIOR if candidate is None else Path(candidate[0]).name
         checked = partial(check_sensor, experiment, sensor, candidate, population=demands.population)
-        found = tried.attempt("static checks", checked)
+        found = tried.attempt(f"static checks of {name}", checked)
         checks += [] if found is None else [measured_row(found)]
         if demands.acceptance is not None:
             judge = partial(accept_sensor, experiment, sensor, demands.acceptance, candidate)
-            accepted = tried.attempt("acceptance", partial(judge, others=others, population=demands.population))
+            by_limits = partial(judge, others=others, population=demands.population)
+            accepted = tried.attempt(f"acceptance of {name}", by_limits)
             criteria += [] if accepted is None else criterion_rows(accepted)
     report = SensorReport(
         sensor=sensor.name,
         serial=sensor.serial,
         verdict=[],
-        evaluation=[verdict_row(verdict) for verdict in verdicts],
-        independence=[] if judged is None else _independence(judged),
-        contact_forces=[contact_force_row(verdict) for verdict in contacts],
-        best=best_rows(contacts),
-        joint_torques=[] if torques is None else [joint_torque_row(verdict) for verdict in torques.verdicts],
+        evaluation=[verdict_row(verdict) for verdict in verdicts or ()],
+        comparisons=comparisons or [],
+        independence=independence or [],
+        contact_forces=[contact_force_row(verdict) for verdict in contacts or ()],
+        best=best_rows(contacts or ()),
+        joint_torques=[joint_torque_row(verdict) for verdict in torques.verdicts] if torques else [],
         spheres=[sphere_row(sphere) for sphere in spheres],
         static=checks,
         criteria=criteria,
         calibrations=dict(calibrations),
-        warnings=[words for file, one in calibrations.items() for words in _warnings(experiment, sensor, file, one)],
+        warnings=[words for file, one in unseen.items() for words in _warnings(experiment, sensor, file, one, tried)],
         not_judged=tried.reasons,
     )
     report.verdict = sensor_verdict(report)
     return SensorMaterial(report=report, judged=judged, spheres=tuple(spheres))
+
+
+def _unseen(
+    experiment: Experiment, sensor: ExperimentSensor, calibrations: Mapping[str, Calibration], tried: _Reasons
+) -> dict[str, Calibration]:
+    """Calibrations that may be applied and have not been fitted on what is judged."""
+    unseen = {}
+    for file, calibration in calibrations.items():
+        fits = partial(require_unseen, file, calibration, experiment, sensor)
+        if tried.attempt(f"errors of {Path(file).name}", lambda check=fits: check() or True):  # type: ignore[misc]
+            unseen[file] = calibration
+    return unseen
 
 
 def _spheres(
@@ -193,28 +224,15 @@ def _spheres(
     return analyse_sensor(experiment, sensor, sphere_intervals(experiment, None), calibrations)
 
 
-def _warnings(experiment: Experiment, sensor: ExperimentSensor, file: str, calibration: Calibration) -> list[str]:
-    tried = _Reasons()
-    beyond = tried.attempt("range", lambda: beyond_fitted_range(experiment, sensor, calibration)) or ()
-    chosen = tried.attempt("choice", lambda: judged_where_chosen(experiment, calibration)) or ()
+def _warnings(
+    experiment: Experiment, sensor: ExperimentSensor, file: str, calibration: Calibration, tried: _Reasons
+) -> list[str]:
     name = Path(file).name
+    beyond = tried.attempt(f"range of {name}", partial(beyond_fitted_range, experiment, sensor, calibration))
+    chosen = tried.attempt(f"choice of {name}", partial(judged_where_chosen, experiment, calibration))
     return [
-        *(f"{name}: {sentence}" for sentence in beyond),
-        *(f"{name} was chosen among others on {label!r} too, so the verdict on it flatters" for label in chosen),
-    ]
-
-
-def _independence(judged: JudgedWrenches) -> list[IndependenceRow]:
-    return [
-        IndependenceRow(
-            candidate=name,
-            samples=len(judged.time_s),
-            independent=[
-                finite_or_none(autocorrelation(error, judged.time_s).effective_count)
-                for error in (wrench - judged.reference).T
-            ],
-        )
-        for name, wrench in judged.measured
+        *(f"{name}: {sentence}" for sentence in beyond or ()),
+        *(f"{name} was chosen among others on {label!r} too, so the verdict on it flatters" for label in chosen or ()),
     ]
 
 

@@ -5,14 +5,20 @@ from __future__ import annotations
 
 import json
 import tomllib
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from forcetorque.calibration import Calibration, read_calibration
-from forcetorque.errors import FormatError, MissingFileError
-from forcetorque.experiment import AcceptanceFile, read_acceptance
+from forcetorque.errors import ExperimentError, FormatError, MissingFileError
+from forcetorque.experiment import AcceptanceFile, Experiment, read_acceptance
+
+RESULTS = {
+    "accept", "calibrate", "compare", "estimate", "evaluate", "export", "gains", "inspect", "payload", "simulate",
+    "sphere", "study", "validate",
+}  # fmt: skip
+"""Commands whose results are shown."""
 
 _KINDS = "an experiment file, a calibration, an acceptance file or the JSON result of a command"
 
@@ -58,7 +64,7 @@ def sort_inputs(paths: Sequence[Path]) -> ReportInputs:
                 acceptance.append(read_acceptance(path))
             case ["forcetorque", "calibration"]:
                 calibrations[str(path)] = read_calibration(path)
-            case ["forcetorque", _] if path.suffix == ".json":
+            case ["forcetorque", kind] if kind in RESULTS:
                 results[str(path)] = content
             case _:
                 raise FormatError(f"{path}: expected {_KINDS}, got the schema {content.get('schema')!r}")
@@ -72,6 +78,45 @@ def sort_inputs(paths: Sequence[Path]) -> ReportInputs:
         acceptance=acceptance[0] if acceptance else None,
         results=results,
     )
+
+
+def assign_calibrations(
+    experiments: Sequence[Experiment], calibrations: Mapping[str, Calibration]
+) -> list[dict[str, Calibration]]:
+    """Find the sensors that calibrations are of, by name and serial number: robots share names.
+
+    Args:
+        experiments: The experiments.
+        calibrations: Calibrations by name of their file.
+
+    Returns:
+        For every experiment the calibrations of its sensors.
+
+    Raises:
+        ExperimentError: If a calibration is of no sensor of any experiment.
+    """
+    assigned: list[dict[str, Calibration]] = [{} for _ in experiments]
+    for file, calibration in calibrations.items():
+        wanted = (calibration.sensor.name, calibration.sensor.serial)
+        for experiment, own in zip(experiments, assigned, strict=True):
+            if wanted in _identities(experiment):
+                own[file] = calibration
+        if not any(file in own for own in assigned):
+            known = sorted({f"{name} ({serial})" for each in experiments for name, serial in _identities(each)})
+            raise ExperimentError(
+                f"{file}: calibrates {wanted[0]} ({wanted[1]}), which none of the experiments has; they have "
+                + ", ".join(known)
+            )
+    return assigned
+
+
+def _identities(experiment: Experiment) -> set[tuple[str, str]]:
+    """Names, also those that the robot has beside them, and serial numbers."""
+    return {
+        (name, sensor.serial)
+        for sensor in experiment.sensors
+        for name in (sensor.name, *experiment.model.sensor(sensor.name).aliases)
+    }
 
 
 def _content(path: Path) -> dict[str, Any]:

@@ -18,7 +18,7 @@ from forcetorque.cli.validate_result import BestRow, ContactForceRow, JointTorqu
 class VerdictLine(BaseModel):
     """A sentence of the verdict."""
 
-    tone: Literal["good", "caution", "bad", "unknown"]
+    tone: Literal["good", "caution", "bad", "unknown", "note"]
     """How good it is."""
     text: str
     """The sentence."""
@@ -35,6 +35,37 @@ class IndependenceRow(BaseModel):
     """Effective number of independent samples per component; none where the error does not change."""
 
 
+class ComparisonRow(BaseModel):
+    """A calibration against its prior on the same samples: norms of the errors, and what they differ by."""
+
+    candidate: str
+    """The calibration file."""
+    prior: str
+    """Its prior, as the evaluation names it."""
+    offset: Literal["fitted", "re-estimated"]
+    """Offset of the fitted data, or re-estimated on the judged samples."""
+    quantity: Literal["force", "moment"]
+    """What the errors are of."""
+    unit: Literal["N", "N m"]
+    """Unit of the errors."""
+    samples: int
+    """Number of judged samples."""
+    independent: float | None
+    """How many independent ones their differences are worth; none where they do not change."""
+    mean: float
+    """Mean norm of the error with the calibration."""
+    prior_mean: float
+    """The same with its prior."""
+    gain: float
+    """Mean of the differences, prior less calibration."""
+    gain_low: float | None
+    """Lower end of its 95 % interval; none where the samples are too few to tell."""
+    gain_high: float | None
+    """Upper end."""
+    constant: float
+    """Norm of the mean error vector: the part that another offset would take away."""
+
+
 class SensorReport(BaseModel):
     """Everything about one sensor; what could not be judged is empty and stands in `not_judged`."""
 
@@ -46,6 +77,8 @@ class SensorReport(BaseModel):
     """What the rest comes to."""
     evaluation: list[VerdictRow]
     """Errors on data that was not fitted."""
+    comparisons: list[ComparisonRow]
+    """Calibrations against their priors."""
     independence: list[IndependenceRow]
     """What these errors are worth."""
     contact_forces: list[ContactForceRow]

@@ -11,14 +11,15 @@ from pathlib import Path
 from forcetorque.atomic import write_bytes_atomically
 from forcetorque.cli.output import Format, console, print_result, start_logging
 from forcetorque.cli.reading import read_experiment
-from forcetorque.cli.report.gather import Demands, gather_experiment
-from forcetorque.cli.report.inputs import sort_inputs
+from forcetorque.cli.report.gather import Demands, ExperimentMaterial, gather_experiment
+from forcetorque.cli.report.inputs import assign_calibrations, sort_inputs
 from forcetorque.cli.report.result import ReportResult
 from forcetorque.cli.report.sections import report_document, viewer_section
-from forcetorque.errors import ExperimentError, ForceTorqueError
+from forcetorque.errors import ForceTorqueError, MissingFileError
 from forcetorque.experiment import read_population
 from forcetorque.experiment.fitness import by_sensor
 from forcetorque.experiment.inputs import stated_in
+from forcetorque.report.canvas import new_figure
 from forcetorque.report.document import Document, Section, html_bytes, pdf_bytes
 
 _WRITERS: dict[str, Callable[[Document], bytes]] = {".html": html_bytes, ".pdf": pdf_bytes}
@@ -37,43 +38,31 @@ def run(
 
     Args:
         paths: Experiment files, calibrations, an acceptance file and results of other commands, in any order.
-        outputs: Files to write, .html or .pdf; the numbers are written beside the first, as .json.
+        outputs: Files to write, .html or .pdf; the numbers are written beside the first, as .numbers.json.
         title: Title of the document.
         population: Matrix files, calibrations or folders of them, of other sensors.
         with_viewer: Whether the viewer stands in the HTML.
         output_format: Form of the result.
 
     Raises:
-        ForceTorqueError: If a file to write is of no known kind.
-        ExperimentError: If a calibration is of no sensor of the experiments.
+        ForceTorqueError: If a file cannot be written, or a calibration is of no sensor of the experiments.
     """
     log = start_logging()
-    for output in outputs:
-        if output.suffix.lower() not in _WRITERS:
-            raise ForceTorqueError(f"--output {output}: expected a name that ends in {' or '.join(_WRITERS)}")
+    numbers = outputs[0].with_suffix(".numbers.json")
+    _refuse_outputs(outputs, numbers, paths)
     given = sort_inputs(paths)
-    others = read_population(population) if population else None
-    demands = Demands(acceptance=given.acceptance, population=others)
-    material, unused = [], dict(given.calibrations)
+    demands = Demands(acceptance=given.acceptance, population=read_population(population) if population else None)
+    experiments = [(path, read_experiment(path, log)) for path in given.experiments]
+    own = assign_calibrations([experiment for _, experiment in experiments], given.calibrations)
+    material: list[ExperimentMaterial] = []
     viewers: list[Section] = []
-    for path in given.experiments:
-        experiment = read_experiment(path, log)
-        known = {name for sensor in experiment.model.sensors.values() for name in (sensor.name, *sensor.aliases)}
-        named = {sensor.name for sensor in experiment.sensors}
-        own = {
-            file: one
-            for file, one in given.calibrations.items()
-            if one.sensor.name in known and experiment.model.sensor(one.sensor.name).name in named
-        }
-        unused = {file: one for file, one in unused.items() if file not in own}
+    for (path, experiment), calibrations in zip(experiments, own, strict=True):
         with stated_in(str(path)):
-            groups = by_sensor(experiment, own)
+            groups = by_sensor(experiment, calibrations)
             material.append(gather_experiment(path, experiment, groups, demands, log.info))
             if with_viewer:
                 log.info("building the viewer")
-                viewers.append(viewer_section(path, experiment, own))
-    for file, calibration in unused.items():
-        raise ExperimentError(f"{file}: calibrates {calibration.sensor.name!r}, which none of the experiments has")
+                viewers.append(viewer_section(path, experiment, calibrations))
     names = ", ".join(dict.fromkeys(each.report.experiment for each in material))
     result = ReportResult(
         title=title or f"Force-torque sensors: {names}",
@@ -86,7 +75,6 @@ def run(
     document = report_document(result, material, viewers)
     for output in outputs:
         write_bytes_atomically(output, _WRITERS[output.suffix.lower()](document))
-    numbers = outputs[0].with_suffix(".json")
     write_bytes_atomically(numbers, result.model_dump_json(by_alias=True, indent=1).encode())
     rows = [
         {"experiment": each.experiment, "sensor": sensor.sensor, "serial": sensor.serial, **line.model_dump()}
@@ -96,6 +84,23 @@ def run(
     ]
     files = [str(output) for output in (*outputs, numbers)]
     print_result(result.model_dump(mode="json", by_alias=True), rows, output_format, show=lambda: _show(result, files))
+
+
+def _refuse_outputs(outputs: Sequence[Path], numbers: Path, inputs: Sequence[Path]) -> None:
+    """What cannot be written is said before the work: other kinds of files, folders that are missing, the inputs."""
+    given = {path.resolve() for path in inputs}
+    for output in outputs:
+        if output.suffix.lower() not in _WRITERS:
+            raise ForceTorqueError(f"--output {output}: expected a name that ends in {' or '.join(_WRITERS)}")
+        if not output.resolve().parent.is_dir():
+            raise MissingFileError(f"{output}: expected an existing folder to write to, there is none")
+    for file in (*outputs, numbers):
+        if file.resolve() in given:
+            raise ForceTorqueError(f"{file}: this is a file to read; choose another --output")
+    empty = Document(title="", subtitle="", created=datetime.now(UTC).isoformat(timespec="seconds"), sections=())
+    for output in outputs:  # also whether what writes it is installed
+        _WRITERS[output.suffix.lower()](empty)
+    new_figure(1.0)
 
 
 def _show(result: ReportResult, files: Sequence[str]) -> None:

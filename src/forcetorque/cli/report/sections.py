@@ -10,7 +10,7 @@ import numpy as np
 
 from forcetorque import report as figures
 from forcetorque.calibration import Calibration
-from forcetorque.cli.report import tables
+from forcetorque.cli.report import sphere_tables, tables
 from forcetorque.cli.report.gather import ExperimentMaterial, SensorMaterial
 from forcetorque.cli.report.result import ReportResult
 from forcetorque.cli.scene import scene_of
@@ -125,14 +125,24 @@ def _sensor(title: str, sensor: SensorMaterial) -> Section:
         ("What the sensor can do", _static),
         ("Acceptance", _acceptance),
     )
-    made = ((name, tuple(make(sensor))) for name, make in makers)
+    made = ((name, tuple(_drawn(make(sensor)))) for name, make in makers)
     return Section(title=title, sections=tuple(Section(title=name, blocks=blocks) for name, blocks in made if blocks))
+
+
+def _drawn(blocks: Iterator[Block]) -> Iterator[Block]:
+    """Blocks up to one that cannot be made, which is said: it does not cost the document."""
+    try:
+        yield from blocks
+    except ForceTorqueError as error:
+        yield Text(text=f"What follows could not be drawn: {error}")
 
 
 def _errors(sensor: SensorMaterial) -> Iterator[Block]:
     report, judged = sensor.report, sensor.judged
     if report.evaluation:
         yield tables.evaluation_table(report)
+    if report.comparisons:
+        yield tables.comparison_table(report)
     if judged is None:
         return
     names = short_names([name for name, _ in judged.measured])
@@ -153,7 +163,10 @@ def _errors(sensor: SensorMaterial) -> Iterator[Block]:
 def _space(sensor: SensorMaterial) -> Iterator[Block]:
     report = sensor.report
     if sensor.spheres:
-        yield tables.sphere_table(report.spheres)
+        yield sphere_tables.sphere_table(report.spheres)
+        yield sphere_tables.mass_table(report.spheres)
+        if any(row.moment_with_reference is not None for row in report.spheres):
+            yield sphere_tables.moment_table(report.spheres)
         reasons = {
             f"{Path(row.candidate).name}, {label}: not identifiable: {'; '.join(fit.why)}"
             for row in report.spheres

@@ -3,13 +3,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
 from forcetorque.calibration import Calibration
 from forcetorque.cli.accept_result import CriterionRow, MeasuredRow
 from forcetorque.cli.report.result import ExperimentReport, SensorReport
-from forcetorque.cli.sphere_result import SphereRow
 from forcetorque.cli.words import short_names, with_error
 from forcetorque.report.document import Table
 from forcetorque.spatial import WRENCH_COMPONENTS, WRENCH_UNITS
@@ -95,34 +94,30 @@ def torque_table(report: SensorReport) -> Table:
     )  # fmt: skip
 
 
-def sphere_table(rows: Sequence[SphereRow]) -> Table:
-    """Show masses, errors and index in the form of thesis Table 4.1, with and without the model.
+def comparison_table(report: SensorReport) -> Table:
+    """Show calibrations against their priors.
 
     Args:
-        rows: Sphere analyses of a sensor.
+        report: Numbers of the sensor.
 
     Returns:
-        A row per candidate and fit.
+        A row per candidate, offset and quantity.
     """
-    names = short_names([row.candidate for row in rows])
-    shown = []
-    for row in rows:
-        for label, fit in (("with model", row.with_reference), ("without", row.without_reference)):
-            if fit is None:
-                continue
-            high = "any" if fit.index_high_kg is None else f"{fit.index_high_kg:.3f}"
-            shown.append((
-                names[row.candidate], label, *_three(fit.mass_kg, 3), *_three(fit.error_N, 2),
-                "-" if fit.index_kg is None else f"{fit.index_kg:.3f}", f"{fit.index_low_kg:.3f} to {high}",
-                "yes" if fit.identifiable else "no",
-            ))  # fmt: skip
+    names = short_names([row.candidate for row in report.evaluation])
     return Table(
-        caption="Apparent mass per axis, its error as a force, and the performance index; what is not identifiable "
-        "cannot be compared",
+        caption="Mean norm of the error against that of the prior on the same samples, and the 95 % interval of the "
+        "difference; what is constant in the error another offset would take away",
         headings=(
-            "candidate", "fit", "x, kg", "y, kg", "z, kg", "error x, N", "y, N", "z, N", "index, kg", "range", "known"
+            "candidate", "prior", "offset", "error of", "mean", "of the prior", "less by", "range", "constant", "unit",
+            "independent",
         ),
-        rows=tuple(shown),
+        rows=tuple(
+            (names[row.candidate], names[row.prior], row.offset, row.quantity, f"{row.mean:.3f}",
+             f"{row.prior_mean:.3f}", f"{row.gain:.3f}",
+             "-" if row.gain_low is None or row.gain_high is None else f"{row.gain_low:.3f} to {row.gain_high:.3f}",
+             f"{row.constant:.3f}", row.unit, "-" if row.independent is None else f"{row.independent:.0f}")
+            for row in report.comparisons
+        ),
     )  # fmt: skip
 
 
@@ -295,24 +290,33 @@ def result_tables(content: Mapping[str, Any]) -> list[Table]:
         content: The result.
 
     Returns:
-        A table per list of rows, of their plain cells.
+        A table per list of rows; lists and tables inside a row become columns of their own.
     """
     tables = []
     for key, rows in content.items():
         if not (isinstance(rows, list) and rows and all(isinstance(row, dict) for row in rows)):
             continue
-        headings = [
-            name
-            for name in dict.fromkeys(name for row in rows for name in row)
-            if not any(isinstance(row.get(name), (dict, list)) for row in rows)
-        ]
-        shown = tuple(tuple(_cell(row.get(name)) for name in headings) for row in rows[:_MOST_ROWS])
-        tables.append(Table(caption=key.replace("_", " "), headings=tuple(headings), rows=shown))
+        flat = [dict(_flattened(row)) for row in rows[:_MOST_ROWS]]
+        headings = tuple(dict.fromkeys(name for row in flat for name in row))
+        more = f"; {len(rows) - len(flat)} more rows are in its file" if len(rows) > len(flat) else ""
+        shown = tuple(tuple(_cell(row.get(name)) for name in headings) for row in flat)
+        tables.append(Table(caption=key.replace("_", " ") + more, headings=headings, rows=shown))
     return tables
 
 
-def _three(values: Sequence[float] | None, digits: int) -> list[str]:
-    return ["-"] * 3 if values is None else [f"{value:.{digits}f}" for value in values]
+def _flattened(value: Any, name: str = "") -> Iterator[tuple[str, Any]]:
+    """Plain cells of a row, with the names that lead to them."""
+    if isinstance(value, dict):
+        for key, part in value.items():
+            yield from _flattened(part, f"{name} {key}".strip())
+    elif isinstance(value, list) and value and all(isinstance(part, (int, float, type(None))) for part in value):
+        axes = {3: "xyz", 6: WRENCH_COMPONENTS}.get(len(value), range(len(value)))
+        for axis, part in zip(axes, value, strict=True):
+            yield f"{name} {axis}", part
+    elif isinstance(value, list):
+        yield name, ", ".join(str(part) for part in value)
+    else:
+        yield name, value
 
 
 def _scientific(value: float, error: float | None) -> str:

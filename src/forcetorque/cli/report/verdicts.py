@@ -3,21 +3,20 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 from typing import Literal
 
 from forcetorque.cli.evaluate_result import VerdictRow
-from forcetorque.cli.report.result import SensorReport, VerdictLine
+from forcetorque.cli.report.result import ComparisonRow, SensorReport, VerdictLine
 from forcetorque.cli.words import short_names, with_error
 
-_APART = 2.0
-"""Standard errors by which two means must differ before one is called better."""
+_FEWEST = 20
+"""Samples below which nothing is called good."""
 
 _FEW_INDEPENDENT = 20.0
 """Independent samples below which a standard error from ten blocks is itself a guess."""
 
-Tone = Literal["good", "caution", "bad", "unknown"]
+Tone = Literal["good", "caution", "bad", "unknown", "note"]
 
 
 def sensor_verdict(report: SensorReport) -> list[VerdictLine]:
@@ -58,38 +57,53 @@ def _acceptance(report: SensorReport) -> Iterator[tuple[Tone, str]]:
 
 def _errors(report: SensorReport) -> Iterator[tuple[Tone, str]]:
     names = short_names([row.candidate for row in report.evaluation])
-    for offset in dict.fromkeys(row.offset for row in report.evaluation):
-        rows = [row for row in report.evaluation if row.offset == offset]
-        priors = [row for row in rows if row.candidate not in report.calibrations]
-        fitted = [row for row in rows if row.candidate in report.calibrations]
-        condition = "its own offset" if offset == "fitted" else "the offset re-estimated"
-        for row in fitted or priors:
-            name = names[row.candidate]
-            text = f"{name} with {condition}: mean force error {_force(row)} N over {row.samples} unseen samples"
-            if not fitted:
-                yield "unknown", f"{text}; no calibration was given to compare it with"
-            elif not priors:
-                yield "unknown", f"{text}; it has no prior to compare it with"
-            else:
-                tone, words = _compared(row, priors[0])
-                yield tone, f"{text}, {_force(priors[0])} N with the prior: {words}"
+    for row in report.evaluation:
+        condition = "its own offset" if row.offset == "fitted" else "the offset re-estimated"
+        start = f"{names[row.candidate]} with {condition}, {row.samples} samples that were not fitted: "
+        compared = [one for one in report.comparisons if (one.candidate, one.offset) == (row.candidate, row.offset)]
+        if compared:
+            constant = f"; {compared[0].constant:.2f} N is constant" if row.offset == "fitted" else ""
+            words = "; ".join(f"{one.quantity} error {_compared(one)}" for one in compared)
+            yield _tone(compared), start + words + constant
+        elif row.candidate in report.calibrations:
+            yield "unknown", f"{start}{_plain(row)}; it has no prior to compare it with"
+        elif not report.calibrations:
+            yield "unknown", f"{start}{_plain(row)}; no calibration was given to compare it with"
+    if any(row.offset == "fitted" for row in report.comparisons):
+        yield (
+            "note",
+            "its own offset is one draw: intervals say how the error scatters in these recordings, not how the offset "
+            "changes from one switching on to the next",
+        )
 
 
-def _force(row: VerdictRow) -> str:
-    return with_error(row.force_error_mean_N, row.force_error_standard_error_N, digits=2)
+def _plain(row: VerdictRow) -> str:
+    force = with_error(row.force_error_mean_N, row.force_error_standard_error_N, digits=2)
+    moment = with_error(row.moment_error_mean_Nm, row.moment_error_standard_error_Nm, digits=3)
+    return f"force error {force} N, moment error {moment} N m"
 
 
-def _compared(new: VerdictRow, prior: VerdictRow) -> tuple[Tone, str]:
-    errors = (new.force_error_standard_error_N, prior.force_error_standard_error_N)
-    if None in errors:
-        return "caution", "too few samples to tell them apart"
-    uncertainty = math.hypot(*(error for error in errors if error is not None))
-    gain = prior.force_error_mean_N - new.force_error_mean_N
-    if abs(gain) <= _APART * uncertainty:
-        return "caution", f"a difference that the recording does not tell from none ({gain:.2f} ±{uncertainty:.2f} N)"
-    if gain < 0.0:
-        return "bad", "worse"
-    return "good", f"better, {new.force_error_mean_N / prior.force_error_mean_N:.0%} of it is left"
+def _verdict_of(row: ComparisonRow) -> Literal["better", "worse", "unclear"]:
+    if row.gain_low is None or row.gain_high is None or row.samples < _FEWEST or row.gain_low <= 0.0 <= row.gain_high:
+        return "unclear"
+    return "better" if row.gain_low > 0.0 else "worse"
+
+
+def _compared(row: ComparisonRow) -> str:
+    digits = 2 if row.quantity == "force" else 3
+    means = f"{row.mean:.{digits}f} {row.unit} against {row.prior_mean:.{digits}f} {row.unit} with the prior"
+    if row.gain_low is None or row.gain_high is None or row.samples < _FEWEST:
+        return f"{means} (too few samples to tell them apart)"
+    interval = f"less by {row.gain:.{digits}f}, {row.gain_low:.{digits}f} to {row.gain_high:.{digits}f}"
+    words = {"better": "better", "worse": "worse", "unclear": "no difference that the recording shows"}
+    return f"{means} ({words[_verdict_of(row)]}: {interval})"
+
+
+def _tone(rows: list[ComparisonRow]) -> Tone:
+    found = {_verdict_of(row) for row in rows}
+    if "worse" in found:
+        return "bad"
+    return "good" if "better" in found else "caution"
 
 
 def _independence(report: SensorReport) -> Iterator[tuple[Tone, str]]:
@@ -115,11 +129,12 @@ def _excitation(report: SensorReport) -> Iterator[tuple[Tone, str]]:
 
 
 def _saturation(report: SensorReport) -> Iterator[tuple[Tone, str]]:
-    for row in report.static[:1]:
-        shares = {one.label: one.saturated_share for one in row.recording if one.saturated_share > 0.0}
-        if shares:
-            worst = max(shares, key=shares.__getitem__)
-            yield "bad", f"saturated or held in {len(shares)} interval(s), most in {worst!r}: {shares[worst]:.2%} of it"
+    # every candidate is read from the same recording
+    shares = {one.label: one.saturated_share for row in report.static for one in row.recording}
+    hit = {label: share for label, share in shares.items() if share > 0.0}
+    if hit:
+        worst = max(hit, key=hit.__getitem__)
+        yield "bad", f"saturated or held in {len(hit)} interval(s), most in {worst!r}: {hit[worst]:.2%} of it"
 
 
 def _sphere(report: SensorReport) -> Iterator[tuple[Tone, str]]:
@@ -129,4 +144,9 @@ def _sphere(report: SensorReport) -> Iterator[tuple[Tone, str]]:
         if fit is None or not fit.identifiable or fit.index_kg is None:
             continue
         high = "" if fit.index_high_kg is None else f" ({fit.index_low_kg:.3f} to {fit.index_high_kg:.3f})"
-        yield "unknown", f"{names[row.candidate]}: the three axes weigh the limb {fit.index_kg:.3f} kg apart{high}"
+        text = f"{names[row.candidate]}: the three axes weigh the limb {fit.index_kg:.3f} kg apart{high}"
+        if row.fitted_on:
+            labels = ", ".join(map(repr, row.fitted_on))
+            yield "caution", f"{text}, which flatters: it was fitted on {labels}"
+        else:
+            yield "note", text

@@ -16,11 +16,12 @@ class Tone(StrEnum):
     CAUTION = "caution"
     BAD = "bad"
     UNKNOWN = "unknown"
+    NOTE = "note"
 
     @property
     def sign(self) -> str:
         """A sign that stands before the verdict."""
-        return {Tone.GOOD: "✓", Tone.CAUTION: "!", Tone.BAD: "✗", Tone.UNKNOWN: "?"}[self]
+        return {Tone.GOOD: "✓", Tone.CAUTION: "!", Tone.BAD: "✗", Tone.UNKNOWN: "?", Tone.NOTE: "·"}[self]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
