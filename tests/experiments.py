@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -146,6 +147,16 @@ def _words(values: FloatArray) -> str:
 
 def _list(values: FloatArray) -> str:
     return f"({_words(values)}) [ok]"
+
+
+def holed(recording: Recording, name: str, start_s: float, end_s: float) -> Recording:
+    """Give the recording with a gap of some seconds in the raw counts of one stream."""
+    stream = recording.stream(name)
+    signal = stream.signal("raw")
+    seconds = (stream.stamp_ns - recording.start_ns) * 1e-9
+    values = np.where(((seconds >= start_s) & (seconds < end_s))[:, None], np.nan, signal.values)
+    broken = replace(stream, signals={**stream.signals, "raw": replace(signal, values=values)})
+    return replace(recording, streams={**recording.streams, name: broken})
 
 
 def edit(file: Path, old: str, new: str) -> Path:

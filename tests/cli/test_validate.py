@@ -9,10 +9,12 @@ from pathlib import Path
 
 import numpy as np
 
+from forcetorque.experiment import load_experiment
+from forcetorque.recording import write_recording
 from forcetorque.spatial import WRENCH_COMPONENTS
 from tests.cli.json_schema import faults
 from tests.cli.outcome import Run
-from tests.experiments import PARQUET, TWO, snapshot
+from tests.experiments import PARQUET, TWO, add, edit, holed, snapshot
 
 INBOARD = ("shoulder_yaw", "shoulder_pitch", "shoulder_roll")
 """Joints between the support and the arm's sensor."""
@@ -96,3 +98,55 @@ def test_wrong_words_are_refused_in_one_line(arm: Path, run: Run) -> None:
     assert "sub_model: expected one of the two" in run("validate", PARQUET, "--sub-model", "leg").error()
     assert "no link 'leg'" in run("validate", PARQUET, "--contact", "leg").error()
     assert run("validate", PARQUET, "--others", "both").code == 2
+
+
+def test_what_is_left_out_is_warned_of_and_every_row_counts_its_own_samples(arm: Path, run: Run) -> None:
+    """A short interval, and one whose first second is a gap: the title gives no count where rows differ."""
+    assert "arm_ft; per axis" not in run("validate", PARQUET).out
+    edit(arm / PARQUET, "end_s = 23.5", "end_s = 17.0")
+    for label, start_s, end_s in (("rest", 17.0, 22.0), ("blink", 22.5, 23.0)):
+        interval = f'label = "{label}"\nstart_s = {start_s}\nend_s = {end_s}\nuse = "validation"\nsupport = "base"'
+        add(arm / PARQUET, f"\n[[interval]]\n{interval}\n")
+    write_recording(arm / "holed", holed(load_experiment(PARQUET).recording, "arm_ft", 17.0, 18.1))
+    edit(arm / PARQUET, 'path = "recording"', 'path = "holed"')
+    done = run("validate", PARQUET, "-c", "fitted.json", "--format", "json")
+    left_out = done.result()["left_out"]
+    assert "arm_ft: interval 'blink': it ends within its first 1 s, after which it would be judged" in left_out
+    for name in ("prior", "fitted.json"):
+        words = f"arm_ft: contact force by {name} over 'rest', offset re-estimated: every sample of its first second"
+        assert [line for line in left_out if line.startswith(words)]
+    for line in left_out:
+        assert f"WARNING: left out: {line}" in done.log
+    counts = {(row["candidate"], row["offset"]): row["samples"] for row in done.result()["contact_forces"]}
+    assert len(set(counts.values())) == 2
+    shown = run("validate", PARQUET, "-c", "fitted.json").out
+    assert "free sub-model arm_ft; per axis" in shown
+    table = shown[: shown.index("joint torques")].splitlines()
+    rows = [line.split() for line in table if line.startswith((" prior", " fitted.json"))]
+    assert [int(row[-1]) for row in rows] == list(counts.values())
+
+
+def test_it_is_said_where_no_offset_was_removed(arm: Path, run: Run) -> None:
+    """By the prior alone, in a file without an interval to fit; a calibration carries the offset of its prior."""
+    assert "no offset removed" not in run("validate", PARQUET).out
+    edit(arm / PARQUET, 'use = "calibration"', 'use = "ignore"')
+    alone = run("validate", PARQUET)
+    assert "arm_ft, prior, offset fitted: read by the prior matrix_SIM001.txt, no offset removed" in alone.out
+    rows = run("validate", PARQUET, "--format", "json").result()
+    for row in (*rows["contact_forces"], *rows["joint_torques"]):
+        assert row["offset_source"].endswith("no offset removed") == (row["offset"] == "fitted")
+    assert "no offset removed" not in run("validate", PARQUET, "-c", "fitted.json").out
+
+
+def test_the_prior_is_the_one_of_evaluate(arm: Path, run: Run) -> None:
+    """In a file without an interval to fit, both give it the offset that the calibration carries; the numbers agree."""
+    edit(arm / PARQUET, 'use = "calibration"', 'use = "ignore"')
+    words = (PARQUET, "-c", "fitted.json", "--format", "json")
+    judged = {(r["candidate"], r["offset"]): r for r in run("evaluate", *words).result()["verdicts"]}
+    rows = {(r["candidate"], r["offset"]): r for r in run("validate", *words).result()["contact_forces"]}
+    for name, prior in (("prior", None), ("fitted.json", "prior")):
+        one, other = judged[name, "fitted"], rows[name, "fitted"]
+        # evaluate judges the first second too, one in nine
+        assert abs(one["force_error_mean_N"] / other["force_mean_N"] - 1.0) < 0.15
+        assert (one["prior"], one["offset_source"]) == (other["prior"], other["offset_source"])
+        assert one["prior"] == prior

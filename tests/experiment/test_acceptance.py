@@ -26,7 +26,7 @@ from forcetorque.experiment import (
 )
 from forcetorque.experiment.criterion import Bound, Criterion
 from forcetorque.spatial import WRENCH_COMPONENTS
-from tests.experiments import MOUNTED, PARQUET, TWO, YARP, edit
+from tests.experiments import MOUNTED, PARQUET, TWO, YARP, edit, holed
 from tests.warm_experiments import TEMPERATURE, with_variables
 
 ANY = [1e9] * 6
@@ -183,6 +183,18 @@ def test_a_calibration_may_be_called_prior(drifting: Experiment) -> None:
     first, second = (_criteria(drifting, spec, (called, calibration)) for called in (name, "prior"))
     assert [each.measured for each in first.values()] == [each.measured for each in second.values()]
     assert first["improvement.force_error_ratio"].measured < 0.5
+
+
+def test_an_offset_that_gaps_do_not_give_cannot_be_judged(arm: Path) -> None:
+    """Where the first second is a gap, contact forces are judged with the fitted offset only; else the gap is named."""
+    experiment = load_experiment(arm / PARQUET)
+    gap = replace(experiment, recording=holed(experiment.recording, "arm_ft", 14.5, 15.6))
+    as_fitted = _spec(validate={"force_mean_N": 1e9, "offset": "fitted"})
+    assert [each.passed for each in accept_sensor(gap, gap.sensors[0], as_fitted).criteria] == [True]
+    with pytest.raises(
+        ExperimentError, match=r"\[validate\] cannot be judged: contact force by prior over 'judge', off"
+    ):
+        accept_sensor(gap, gap.sensors[0], _spec(validate={"force_mean_N": 1e9, "offset": "re-estimated"}))
 
 
 def test_the_offset_is_that_which_is_asked_for(arm: Path) -> None:

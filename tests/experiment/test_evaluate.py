@@ -11,7 +11,15 @@ import pytest
 
 from forcetorque.calibration import Calibration
 from forcetorque.errors import ExperimentError, SerialNumberError, ShapeError
-from forcetorque.experiment import Experiment, calibrate_sensor, evaluate_sensor, load_experiment, samples_of
+from forcetorque.evaluation import autocorrelation
+from forcetorque.experiment import (
+    Experiment,
+    calibrate_sensor,
+    evaluate_sensor,
+    judged_wrenches,
+    load_experiment,
+    samples_of,
+)
 from forcetorque.recording import Use
 from tests.experiments import PARQUET, YARP, add, edit
 
@@ -170,3 +178,73 @@ def test_without_a_calibration_the_prior_of_the_experiment_is_judged(
     for one, other in zip(alone, carried, strict=True):
         np.testing.assert_allclose(one.errors.rmse, other.errors.rmse, rtol=1e-9)
         assert one.errors.count == other.errors.count
+
+
+def test_intervals_are_judged_in_the_order_of_time(arm: Path, fitted: Calibration) -> None:
+    """Where the file lists the later one first, wrenches are those of the file in order; time never falls."""
+    edit(arm / PARQUET, "end_s = 23.5", "end_s = 17.0")
+    rest = 'label = "rest"\nstart_s = 17.0\nend_s = 23.5\nuse = "validation"\nsupport = "base"\n'
+    ordered = load_experiment(add(arm / PARQUET, f"\n[[interval]]\n{rest}"))
+    intervals = ordered.recording.intervals
+    turned = replace(ordered, recording=ordered.recording.with_intervals(intervals[::-1]))
+    assert [interval.label for interval in turned.intervals(Use.VALIDATION)] == ["rest", "judge"]
+    for given in ({"new": fitted}, {}):
+        one, other = (judged_wrenches(each, each.sensors[0], given) for each in (ordered, turned))
+        assert (np.diff(other.time_s) > 0.0).all()
+        assert autocorrelation(other.reference[:, 0], other.time_s).count == len(other.time_s)
+        np.testing.assert_array_equal(one.time_s, other.time_s)
+        for (name, first), (_, second) in zip(one.measured, other.measured, strict=True):
+            np.testing.assert_allclose(first, second, atol=1e-9, err_msg=name)  # N, N m; rounding
+
+
+def test_every_calibration_names_the_prior_to_compare_it_with(experiment: Experiment, fitted: Calibration) -> None:
+    """Also where the prior is shared; priors, and a calibration without one, have none."""
+    assert fitted.prior is not None
+    moved = fitted.model_copy(update={"prior": fitted.prior.model_copy(update={"offset": fitted.prior.offset + 1.0})})
+    bare = fitted.model_copy(update={"prior": None})
+    given = {"a": fitted, "b": _fitted(experiment, 1e6), "c": moved, "prior": bare}
+    judged = judged_wrenches(experiment, experiment.sensors[0], given)
+    assert judged.priors == {"a": "prior of a", "b": "prior of a", "c": "prior of c"}
+    assert [each.name for each in judged.candidates] == [name for name, _ in judged.measured]
+    verdicts = evaluate_sensor(experiment, experiment.sensors[0], given)
+    assert {(v.candidate, v.prior) for v in verdicts} == {
+        ("prior of a", None),
+        ("prior of c", None),
+        ("a", "prior of a"),
+        ("b", "prior of a"),
+        ("c", "prior of c"),
+        ("prior", None),
+    }
+
+
+def test_calibrations_one_by_one_are_judged_as_together(experiment: Experiment, fitted: Calibration) -> None:
+    """Each, and the prior that it names, has the same errors, whoever else is judged."""
+    given = {"a": fitted, "b": _fitted(experiment, 1e6)}
+    sensor = experiment.sensors[0]
+    together = {(v.candidate, v.offset): v for v in evaluate_sensor(experiment, sensor, given)}
+    compared = 0
+    for name, calibration in given.items():
+        alone = {(v.candidate, v.offset): v for v in evaluate_sensor(experiment, sensor, {name: calibration})}
+        for offset in ("fitted", "re-estimated"):
+            one, other = alone[name, offset], together[name, offset]
+            assert (one.prior, other.prior) == ("prior", "prior of a")
+            for a, b in ((one, other), (alone["prior", offset], together["prior of a", offset])):
+                np.testing.assert_allclose(a.errors.rmse, b.errors.rmse, rtol=1e-9)
+                assert a.errors.force_mean_error == pytest.approx(b.errors.force_mean_error, rel=1e-9)
+                compared += 1
+    assert compared == 8
+
+
+def test_where_the_offset_comes_from_is_said(experiment: Experiment, fitted: Calibration) -> None:
+    """That of a prior from the fitted data, of a calibration from its file; of a prior alone, perhaps from nowhere."""
+    sensor = experiment.sensors[0]
+    sources = {(v.candidate, v.offset): v.offset_source for v in evaluate_sensor(experiment, sensor, {"new": fitted})}
+    assert sources == {
+        ("prior", "fitted"): "the prior matrix_SIM001.txt, offset of the data that new was fitted on",
+        ("new", "fitted"): "new",
+        ("prior", "re-estimated"): "the judged samples themselves",
+        ("new", "re-estimated"): "the judged samples themselves",
+    }
+    judged = experiment.recording.with_intervals(experiment.intervals(Use.VALIDATION))
+    alone, _ = evaluate_sensor(replace(experiment, recording=judged), sensor, {})
+    assert alone.offset_source == "the prior matrix_SIM001.txt, no offset removed"

@@ -22,6 +22,10 @@ class VerdictRow(BaseModel):
     """The calibration file, or its prior: `prior`, and `prior of FILE` among several files."""
     offset: Literal["fitted", "re-estimated"]
     """Offset of the fitted data, or re-estimated on the judged samples."""
+    offset_source: str
+    """Where that offset comes from, in words."""
+    prior: str | None
+    """Candidate that is the prior of a calibration file; null for a prior, and where the file has none."""
     samples: int
     """Number of judged samples."""
     rmse: list[float]
@@ -72,6 +76,8 @@ def verdict_row(verdict: Verdict) -> VerdictRow:
         serial=verdict.serial,
         candidate=verdict.candidate,
         offset="fitted" if verdict.offset == "fitted" else "re-estimated",
+        offset_source=verdict.offset_source,
+        prior=verdict.prior,
         samples=errors.count,
         rmse=errors.rmse.tolist(),
         bias=errors.bias.tolist(),

@@ -18,11 +18,17 @@ from forcetorque.cli.validate_result import (
     contact_force_row,
     joint_torque_row,
 )
-from forcetorque.cli.words import with_error
+from forcetorque.cli.words import short_names, with_error
 from forcetorque.evaluation import OtherSensors
-from forcetorque.experiment import ContactForceVerdict, JointTorqueVerdict, compare_joint_torques, validate_sensor
+from forcetorque.experiment import (
+    ContactForceVerdict,
+    JointTorqueVerdict,
+    compare_contact_forces,
+    compare_joint_torques,
+)
 from forcetorque.experiment.fitness import by_sensor, one_per_sensor
 from forcetorque.experiment.inputs import stated_in
+from forcetorque.experiment.readings import NO_OFFSET
 from forcetorque.spatial import WRENCH_COMPONENTS, WRENCH_UNITS
 
 if TYPE_CHECKING:
@@ -79,10 +85,11 @@ def run(
                 "sub_model": sub_model,
                 "contact": contact,
             }
-            verdicts += validate_sensor(experiment, experiment.sensor(name), groups.get(name, {}), **question)
+            forces = compare_contact_forces(experiment, experiment.sensor(name), groups.get(name, {}), **question)
             compared = compare_joint_torques(experiment, experiment.sensor(name), groups.get(name, {}), **question)
+            verdicts += forces.verdicts
             torques += compared.verdicts
-            left_out |= dict.fromkeys(f"{name}: {words}" for words in compared.left_out)
+            left_out |= dict.fromkeys(f"{name}: {words}" for words in (*forces.left_out, *compared.left_out))
     result = ValidateResult(
         experiment=experiment.name,
         other_sensors=other_sensors.value,
@@ -113,6 +120,8 @@ def _show(result: ValidateResult) -> None:
         words = f"; but for {', '.join(other)}" if other else ", on every axis"
         screen.print(f"{best.sensor}, offset {best.offset}: best is {best.by_magnitude}{words}", soft_wrap=True)
     for sensor in dict.fromkeys(row.sensor for row in result.contact_forces):
+        for candidate, words in _without_offset(result, sensor).items():
+            screen.print(f"{sensor}, {candidate}, offset fitted: read by {words}", soft_wrap=True)
         torques = [row for row in result.joint_torques if row.sensor == sensor]
         if torques:
             screen.print(_torque_table(torques))
@@ -121,18 +130,28 @@ def _show(result: ValidateResult) -> None:
     screen.print(f"other sensors: as {'the model expects' if result.other_sensors == 'model' else 'they measured'}")
 
 
+def _without_offset(result: ValidateResult, sensor: str) -> dict[str, str]:
+    """What candidates are read by whose wrenches have whatever offset the sensor has."""
+    rows = [row for row in result.contact_forces if row.sensor == sensor]
+    return {row.candidate: row.offset_source for row in rows if row.offset_source.endswith(NO_OFFSET)}
+
+
 def _table(rows: Sequence[ContactForceRow]) -> Table:
     headings = [f"{component}, {unit}" for component, unit in zip(WRENCH_COMPONENTS, WRENCH_UNITS, strict=True)]
     first = rows[0]
+    alike = len({row.samples for row in rows}) == 1
+    count = f", {first.samples} samples" if alike else ""
     made = table(
-        "candidate", "offset", *headings, "force, N", "moment, N m",
-        title=f"{first.sensor} ({first.serial}): contact wrench of the free sub-model {first.sub_model}, "
-        f"{first.samples} samples; per axis: mean absolute value",
+        "candidate", "offset", *headings, "force, N", "moment, N m", *([] if alike else ["samples"]),
+        title=f"{first.sensor} ({first.serial}): contact wrench of the free sub-model {first.sub_model}{count}; "
+        "per axis: mean absolute value",
     )  # fmt: skip
+    labels = short_names([row.candidate for row in rows])
     for row in rows:
         error = "" if row.force_mean_error_N is None else f" ±{row.force_mean_error_N:.2f}"
         values = [f"{value:.3f}" for value in row.mean_absolute]
-        made.add_row(row.candidate, row.offset, *values, f"{row.force_mean_N:.2f}{error}", f"{row.moment_mean_Nm:.3f}")
+        norms = [f"{row.force_mean_N:.2f}{error}", f"{row.moment_mean_Nm:.3f}"]
+        made.add_row(labels[row.candidate], row.offset, *values, *norms, *([] if alike else [str(row.samples)]))
     return made
 
 
@@ -143,6 +162,7 @@ def _torque_table(rows: Sequence[JointTorqueRow]) -> Table:
         *(["RMSE from logged"] if has_logged else []),
         title=f"{rows[0].sensor} ({rows[0].serial}): joint torques estimated from it, less those of the model",
     )  # fmt: skip
+    labels = short_names([row.candidate for row in rows])
     for row in sorted(rows, key=_place(rows)):
         values = [
             with_error(row.rmse, row.rmse_error, digits=3),
@@ -150,7 +170,7 @@ def _torque_table(rows: Sequence[JointTorqueRow]) -> Table:
             f"{row.largest:.3f}",
         ]
         from_logged = [] if row.logged_rmse is None else [with_error(row.logged_rmse, row.logged_rmse_error, digits=3)]
-        made.add_row(row.joint, row.offset, row.candidate, *values, row.unit, str(row.samples), *from_logged)
+        made.add_row(row.joint, row.offset, labels[row.candidate], *values, row.unit, str(row.samples), *from_logged)
     return made
 
 

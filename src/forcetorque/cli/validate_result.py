@@ -22,9 +22,13 @@ class ContactForceRow(BaseModel):
     sub_model: str
     """Sub-model that nothing touches."""
     candidate: str
-    """The calibration file, or `prior`."""
+    """The calibration file, or its prior: `prior`, and `prior of FILE` among several files."""
     offset: Literal["re-estimated", "fitted"]
     """Offset from the first second of every judged interval, or that of the candidate."""
+    offset_source: str
+    """Where that offset comes from, in words."""
+    prior: str | None
+    """Candidate that is the prior of a calibration file; null for a prior, and where the file has none."""
     samples: int
     """Number of judged samples."""
     force_mean_N: float
@@ -45,9 +49,13 @@ class JointTorqueRow(BaseModel):
     serial: str
     """Its serial number."""
     candidate: str
-    """The calibration file, or `prior`."""
+    """The calibration file, or its prior: `prior`, and `prior of FILE` among several files."""
     offset: Literal["re-estimated", "fitted"]
     """Offset from the first second of every judged interval, or that of the candidate."""
+    offset_source: str
+    """Where that offset comes from, in words."""
+    prior: str | None
+    """Candidate that is the prior of a calibration file; null for a prior, and where the file has none."""
     joint: str
     """A joint whose torque depends on the sensor."""
     unit: Literal["N m", "N"]
@@ -103,7 +111,7 @@ class ValidateResult(BaseModel):
     joint_torques: list[JointTorqueRow]
     """One per sensor, candidate, offset and joint that depends on the sensor."""
     left_out: list[str]
-    """Torques that the log does not allow to estimate, in words."""
+    """Torques that the log does not allow to estimate, and what gaps and short intervals leave out, in words."""
 
 
 def contact_force_row(verdict: ContactForceVerdict) -> ContactForceRow:
@@ -122,6 +130,8 @@ def contact_force_row(verdict: ContactForceVerdict) -> ContactForceRow:
         sub_model=verdict.sub_model,
         candidate=verdict.candidate,
         offset=verdict.offset.value,
+        offset_source=verdict.offset_source,
+        prior=verdict.prior,
         samples=errors.count,
         force_mean_N=errors.force_mean,
         force_mean_error_N=finite_or_none(errors.force_mean_error),
@@ -145,6 +155,8 @@ def joint_torque_row(verdict: JointTorqueVerdict) -> JointTorqueRow:
         serial=verdict.serial,
         candidate=verdict.candidate,
         offset=verdict.offset.value,
+        offset_source=verdict.offset_source,
+        prior=verdict.prior,
         joint=verdict.joint,
         unit=verdict.unit,
         samples=errors.count,

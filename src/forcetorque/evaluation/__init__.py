@@ -22,6 +22,7 @@ from forcetorque.evaluation.gains import (
 )
 from forcetorque.evaluation.joint_torques import TorqueErrors, TorqueMap, joints_of_sensor, torque_errors, torque_map
 from forcetorque.evaluation.model_findings import model_findings
+from forcetorque.evaluation.paired import PairedDifference, PairedMean, paired_difference
 from forcetorque.evaluation.population import PopulationPosition, position_in_population
 from forcetorque.evaluation.static_checks import MatrixChecks, OffsetChange, matrix_checks, offset_change
 from forcetorque.evaluation.wrench_errors import WrenchErrors, errors_from_zero, offset_removed, wrench_errors
@@ -39,6 +40,8 @@ __all__ = [
     "MatrixChecks",
     "OffsetChange",
     "OtherSensors",
+    "PairedDifference",
+    "PairedMean",
     "PooledErrors",
     "PopulationPosition",
     "TorqueErrors",
@@ -56,6 +59,7 @@ __all__ = [
     "model_findings",
     "offset_change",
     "offset_removed",
+    "paired_difference",
     "position_in_population",
     "strongest_samples",
     "torque_errors",

@@ -4,6 +4,7 @@
 from forcetorque.experiment.acceptance import Acceptance, accept_sensor
 from forcetorque.experiment.acceptance_file import AcceptanceFile, read_acceptance
 from forcetorque.experiment.calibrate import calibrate_sensor
+from forcetorque.experiment.candidates import JudgedCandidate, judged_candidates
 from forcetorque.experiment.compare import TrialFailure, TrialGroup, TrialSphere, group_trials, read_trials
 from forcetorque.experiment.content import Experiment, ExperimentSensor
 from forcetorque.experiment.estimate import IntervalEstimates, estimate_experiment
@@ -22,11 +23,17 @@ from forcetorque.experiment.sphere import SensorSphere, analyse_sensor, sphere_i
 from forcetorque.experiment.static_checks import StaticChecks, check_sensor
 from forcetorque.experiment.study import SensorStudy, study_sensor
 from forcetorque.experiment.study_data import StudyData, read_study_data
-from forcetorque.experiment.validate import ContactForceVerdict, validate_sensor
+from forcetorque.experiment.validate import (
+    ContactForceComparison,
+    ContactForceVerdict,
+    compare_contact_forces,
+    validate_sensor,
+)
 
 __all__ = [
     "Acceptance",
     "AcceptanceFile",
+    "ContactForceComparison",
     "ContactForceVerdict",
     "Correction",
     "Experiment",
@@ -37,6 +44,7 @@ __all__ = [
     "JointPosition",
     "JointTorqueVerdict",
     "JointTorques",
+    "JudgedCandidate",
     "JudgedWrenches",
     "SensorGains",
     "SensorSphere",
@@ -53,6 +61,7 @@ __all__ = [
     "beyond_fitted_range",
     "calibrate_sensor",
     "check_sensor",
+    "compare_contact_forces",
     "compare_joint_torques",
     "corrections_of",
     "doubtful_spans",
@@ -61,6 +70,7 @@ __all__ = [
     "group_trials",
     "inspect_experiment",
     "inspect_recording",
+    "judged_candidates",
     "judged_where_chosen",
     "judged_wrenches",
     "load_experiment",

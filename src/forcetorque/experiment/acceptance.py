@@ -14,12 +14,12 @@ from forcetorque.calibration import Calibration
 from forcetorque.errors import ExperimentError, ForceTorqueError
 from forcetorque.evaluation import OtherSensors, WrenchErrors
 from forcetorque.experiment import acceptance_file as limits
+from forcetorque.experiment.candidates import PRIOR
 from forcetorque.experiment.content import Experiment, ExperimentSensor
 from forcetorque.experiment.criterion import Bound, Criterion, at_limit, at_limits
 from forcetorque.experiment.evaluate import evaluate_sensor
-from forcetorque.experiment.judged import PRIOR
 from forcetorque.experiment.static_checks import IntervalQuality, StaticChecks, check_sensor
-from forcetorque.experiment.validate import validate_sensor
+from forcetorque.experiment.validate import compare_contact_forces
 from forcetorque.spatial import WRENCH_COMPONENTS
 
 _Checked = TypeVar("_Checked")
@@ -138,14 +138,17 @@ def _ratio(new: float, prior: float) -> float:
 def _validate(subject: _Subject, stated: limits.Validate) -> Iterator[Criterion]:
     candidates = {} if subject.calibration is None else dict([subject.calibration])
     name = next(iter(candidates), PRIOR)
-    verdicts = validate_sensor(
+    compared = compare_contact_forces(
         subject.experiment,
         subject.sensor,
         candidates,
         others=subject.others,
         other_sensors=OtherSensors(stated.other_sensors),
     )
-    (errors,) = [each.errors for each in verdicts if (each.candidate, each.offset.value) == (name, stated.offset)]
+    verdicts = {(each.candidate, each.offset.value): each.errors for each in compared.verdicts}
+    errors = verdicts.get((name, stated.offset))
+    if errors is None:
+        raise ExperimentError("; ".join(compared.left_out))
     n = errors.count
     yield from at_limit("validate.force_mean_N", errors.force_mean, stated.force_mean_N, "N", count=n)
     yield from at_limit("validate.moment_mean_Nm", errors.moment_mean, stated.moment_mean_Nm, "N m", count=n)

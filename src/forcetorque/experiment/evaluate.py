@@ -32,6 +32,10 @@ class Verdict:
     """Name of the calibration, or the prior of one."""
     offset: str
     """`fitted`: that of the fitted data; `re-estimated`: on the judged samples."""
+    offset_source: str
+    """Where that offset comes from, in words."""
+    prior: str | None
+    """Name of the prior that a calibration is to be compared with; None for a prior, and where it has none."""
     errors: WrenchErrors
     """Errors over all judged samples."""
 
@@ -48,7 +52,8 @@ def evaluate_sensor(
 
     Returns:
         For every candidate the errors with the offset of the fitted data and with the offset
-        re-estimated on the judged samples; a prior that several calibrations share comes once.
+        re-estimated on the judged samples; a prior that several calibrations share comes once. Judged one by one,
+        calibrations that need the same variables have the same errors as together.
 
     Raises:
         SerialNumberError: If a calibration is of another sensor.
@@ -63,11 +68,13 @@ def evaluate_sensor(
         Verdict(
             sensor=sensor.name,
             serial=sensor.serial,
-            candidate=candidate,
+            candidate=candidate.name,
             offset=kind,
+            offset_source=candidate.correction.source if kind == "fitted" else "the judged samples themselves",
+            prior=candidate.prior,
             errors=wrench_errors(wrenches, judged.reference),
         )
-        for candidate, measured in judged.measured
+        for candidate, (_, measured) in zip(judged.candidates, judged.measured, strict=True)
         for kind, wrenches in (("fitted", measured), ("re-estimated", offset_removed(measured, judged.reference)))
     ]
 

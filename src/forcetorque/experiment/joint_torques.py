@@ -9,11 +9,11 @@ from typing import Literal
 
 import numpy as np
 
-from forcetorque.arrays import BoolArray, FloatArray, IntArray
+from forcetorque.arrays import FloatArray, IntArray
 from forcetorque.calibration import Calibration
 from forcetorque.errors import ExperimentError
 from forcetorque.estimation import Estimates, Question, estimate, required_joints_of
-from forcetorque.estimation.samples import pick_samples, robot_motion_at
+from forcetorque.estimation.samples import robot_motion_at
 from forcetorque.evaluation import (
     ContactForceValidation,
     OtherSensors,
@@ -23,15 +23,16 @@ from forcetorque.evaluation import (
     torque_errors,
     torque_map,
 )
+from forcetorque.experiment.candidates import JudgedCandidate, judged_candidates
 from forcetorque.experiment.content import Experiment, ExperimentSensor
+from forcetorque.experiment.first_second import OffsetClock, gap_words, nothing_left, offset_words
 from forcetorque.experiment.inputs import stated_in
 from forcetorque.experiment.readings import Correction, corrections_of, wrench_at
-from forcetorque.experiment.validate import candidates_of, free_part
-from forcetorque.recording import Interval, MovingSupport, SavitzkyGolay, Stream, Support, Use
+from forcetorque.experiment.validate import clock_of, free_part
+from forcetorque.recording import Interval, MovingSupport, Stream, Support, Use
 from forcetorque.recording.alignment import interpolate, require_overlap
-from forcetorque.recording.smoothing import smooth
 from forcetorque.robot import BodyTree, JointType
-from forcetorque.study import OFFSET_S, OffsetSource
+from forcetorque.study import OffsetSource
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -43,9 +44,13 @@ class JointTorqueVerdict:
     serial: str
     """Its serial number."""
     candidate: str
-    """Name of the calibration, or `prior`."""
+    """Name of the calibration, or of its prior: `prior`, and `prior of NAME` among several calibrations."""
     offset: OffsetSource
     """Offsets as fitted, or from the first second of every judged interval."""
+    offset_source: str
+    """Where the sensor's offset comes from, in words."""
+    prior: str | None
+    """Name of the prior that a calibration is to be compared with; None for a prior, and where it has none."""
     joint: str
     """Joint whose torque depends on the sensor."""
     unit: Literal["N m", "N"]
@@ -63,7 +68,7 @@ class JointTorques:
     verdicts: tuple[JointTorqueVerdict, ...]
     """One per candidate, offset and joint, joints from the support outwards."""
     left_out: tuple[str, ...]
-    """Torques that the log does not allow to estimate, in words."""
+    """Torques that the log does not allow to estimate, or to judge in an interval, in words."""
 
 
 def compare_joint_torques(
@@ -85,7 +90,8 @@ def compare_joint_torques(
     Args:
         experiment: The experiment; its validation intervals are judged.
         sensor: One of its sensors.
-        calibrations: Calibrations of that sensor by name; the prior is judged too.
+        calibrations: Calibrations of that sensor by name; their priors are judged too, or that of the experiment where
+            there is none.
         others: Calibrations of the other sensors by name, for the mode `measured`; where there is none, their prior.
         other_sensors: Whether the other sensors read what the model expects or what they measured.
         sub_model: The free sub-model, by the sensor at its base or the root link; None for that outboard of the sensor.
@@ -97,28 +103,33 @@ def compare_joint_torques(
     Raises:
         ExperimentError: If an interval has no support.
     """
-    candidates = candidates_of(experiment, sensor, calibrations)
+    candidates = judged_candidates(experiment, sensor, calibrations)
     needed = corrections_of(experiment, others or {}) if other_sensors is OtherSensors.MEASURED else {}
     found: dict[_Key, list[_Errors]] = {}
     left_out: dict[str, None] = {}
-    for interval in experiment.intervals(Use.VALIDATION):
+    for interval in sorted(experiment.intervals(Use.VALIDATION), key=lambda each: each.start_ns):
         with stated_in(f"interval {interval.label!r}"):
             part = free_part(experiment, sensor, interval, other_sensors, sub_model, contact)
             scheme = _scheme_of(experiment, interval, part, contact)
             left_out |= dict.fromkeys(scheme.left_out)
-            if scheme.joints:
-                for key, part_of in _over(experiment, sensor, interval, scheme, candidates, needed):
+            clock = clock_of(experiment, sensor, interval)
+            short = nothing_left(clock, interval)
+            if short is not None:
+                left_out[short] = None
+            elif scheme.joints:
+                over = dict(_over(experiment, sensor, clock, scheme, candidates, needed))
+                left_out |= dict.fromkeys(_gaps(interval, candidates, over))
+                for key, part_of in over.items():
                     found.setdefault(key, []).append(part_of)
     judged = {key: np.concatenate([part.from_model for part in parts]) for key, parts in found.items()}
-    for key, errors in judged.items():
-        if np.isnan(errors).all():
-            left_out[f"torque of {key.joint} by {key.candidate}: every judged sample has a gap"] = None
     verdicts = [
         JointTorqueVerdict(
             sensor=sensor.name,
             serial=sensor.serial,
-            candidate=key.candidate,
+            candidate=candidates[key.candidate].name,
             offset=key.offset,
+            offset_source=offset_words(candidates[key.candidate], key.offset),
+            prior=candidates[key.candidate].prior,
             joint=key.joint,
             unit="N" if experiment.model.joints[key.joint].type is JointType.PRISMATIC else "N m",
             errors=torque_errors(errors),
@@ -132,7 +143,8 @@ def compare_joint_torques(
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class _Key:
-    candidate: str
+    candidate: int
+    """Its place: a calibration may be called `prior` too."""
     offset: OffsetSource
     joint: str
 
@@ -213,20 +225,17 @@ def _missing(question: Question, available: set[str]) -> list[str]:
 def _over(
     experiment: Experiment,
     sensor: ExperimentSensor,
-    interval: Interval,
+    clock: OffsetClock,
     scheme: _Scheme,
-    candidates: Mapping[str, Correction],
+    candidates: Sequence[JudgedCandidate],
     needed: Mapping[str, Correction],
 ) -> Iterator[tuple[_Key, _Errors]]:
     """Errors of every candidate, offset and joint over one interval, after its first second."""
     source = experiment.recording.stream(sensor.stream)
-    at_ns = source.stamp_ns[pick_samples(experiment.recording, source, interval)[0]]
-    clock = _Clock(at_ns=at_ns, window=experiment.processing.smoothing)
+    at_ns = clock.at_ns
     model, maps = _model(experiment, source, scheme, at_ns)
-    own = {
-        name: wrench_at(experiment, sensor, each, at_ns) - model.expected_of(sensor.name)
-        for name, each in candidates.items()
-    }
+    expected = model.expected_of(sensor.name)
+    own = [wrench_at(experiment, sensor, each.correction, at_ns) - expected for each in candidates]
     rest = {}
     for name in scheme.sensors[1:]:
         other = experiment.sensor(name)
@@ -237,47 +246,28 @@ def _over(
         by_others = np.zeros((len(at_ns), len(scheme.joints)))
         for name, error in rest.items():
             by_others += _borne(scheme, maps[name], clock.with_offset(error, offset))
-        for candidate, error in own.items():
+        for candidate, error in enumerate(own):
             borne = by_others + _borne(scheme, maps[sensor.name], clock.with_offset(error, offset))
             for joint, torque in zip(scheme.joints, borne.T, strict=True):
                 off = torque + model.torque(joint) - logged[joint] if joint in logged else None
                 yield (
                     _Key(candidate=candidate, offset=offset, joint=joint),
-                    _Errors(from_model=clock.judged(torque), from_logged=None if off is None else clock.judged(off)),
+                    _Errors(
+                        from_model=clock.judged(torque[:, None])[:, 0],
+                        from_logged=None if off is None else clock.judged(off[:, None])[:, 0],
+                    ),
                 )
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class _Clock:
-    """Instants of one interval: filters, and tells its first second from what is judged."""
-
-    at_ns: IntArray
-    window: SavitzkyGolay | None
-
-    @property
-    def first(self) -> BoolArray:
-        """Samples of the first second, where offsets are re-estimated."""
-        first: BoolArray = self.at_ns < self.at_ns[0] + round(OFFSET_S * 1e9)
-        return first
-
-    def with_offset(self, error: FloatArray, offset: OffsetSource) -> FloatArray:
-        """Take off the mean error of the first second, (n, 6), where offsets are re-estimated."""
-        if offset is OffsetSource.FITTED:
-            return error
-        early = self._filtered(error)[self.first]
-        whole = early[~np.isnan(early).any(axis=1)]
-        if not len(whole):  # it cannot be known
-            return np.full_like(error, np.nan)
-        moved: FloatArray = error - whole.mean(axis=0)
-        return moved
-
-    def judged(self, torque: FloatArray) -> FloatArray:
-        """Filter torques (n,) as readings and references are elsewhere, and leave out the first second."""
-        filtered: FloatArray = self._filtered(torque[:, None])[~self.first, 0]
-        return filtered
-
-    def _filtered(self, values: FloatArray) -> FloatArray:
-        return values if self.window is None else smooth(self.at_ns, values, self.window)
+def _gaps(interval: Interval, candidates: Sequence[JudgedCandidate], over: Mapping[_Key, _Errors]) -> Iterator[str]:
+    """Torques that gaps leave out in one interval, in words."""
+    by_offset: dict[tuple[str, int], dict[OffsetSource, FloatArray]] = {}
+    for key, errors in over.items():
+        by_offset.setdefault((key.joint, key.candidate), {})[key.offset] = errors.from_model
+    for (joint, candidate), judged in by_offset.items():
+        words = gap_words(f"torque of {joint} by {candidates[candidate].name}", interval, judged)
+        if words is not None:
+            yield words
 
 
 def _model(

@@ -9,24 +9,17 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from forcetorque.arrays import FloatArray, require_shape
-from forcetorque.calibration import Calibration, Prior, WrenchModel
+from forcetorque.calibration import Calibration
+from forcetorque.experiment.candidates import JudgedCandidate, judged_candidates
 from forcetorque.experiment.content import Experiment, ExperimentSensor
-from forcetorque.experiment.fitness import require_fit
-from forcetorque.experiment.readings import corrections_of
 from forcetorque.experiment.samples import samples_of, samples_over
 from forcetorque.recording import Use
 from forcetorque.recording.alignment import seconds_since
 
-PRIOR = "prior"
-"""Name of the prior, or of the logged wrench, among the candidates."""
-
-_SAME_OFFSET = 1e-9
-"""Offsets of one prior on the same data differ by less than this; N, N m."""
-
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class JudgedWrenches:
-    """Wrenches of every candidate at the same n instants, interval after interval."""
+    """Wrenches of every candidate at the same n instants, intervals in the order of time."""
 
     time_s: FloatArray
     """Instants since the start of the recording; shape (n,); s."""
@@ -37,6 +30,13 @@ class JudgedWrenches:
 
     Pairs, because a calibration may be called `prior` too.
     """
+    candidates: tuple[JudgedCandidate, ...]
+    """The same candidates: how each reads the sensor, and which prior it is to be compared with."""
+
+    @property
+    def priors(self) -> dict[str, str]:
+        """Name of the prior that each calibration is to be compared with, also one that it shares with others."""
+        return {each.name: each.prior for each in self.candidates if each.prior is not None}
 
 
 def judged_wrenches(
@@ -61,48 +61,41 @@ def judged_wrenches(
         ExperimentError: If the robot now reads the sensor in another frame or sign.
         ShapeError: If a matrix does not have one column per channel of the sensor.
     """
-    start_ns = experiment.recording.start_ns
+    candidates = judged_candidates(experiment, sensor, calibrations)
     if not calibrations:
-        model = corrections_of(experiment, {})[sensor.name].model
-        samples = [
-            samples_over(experiment, sensor, interval, experiment.processing)
-            for interval in experiment.intervals(Use.VALIDATION)
-        ]
-        return JudgedWrenches(
-            time_s=np.concatenate([seconds_since(each.stamp_ns, start_ns) for each in samples]),
-            reference=np.concatenate([each.reference for each in samples]),
-            measured=((PRIOR, model.wrench(np.concatenate([each.reading.values for each in samples]))),),
-        )
-    for name, calibration in calibrations.items():
-        require_fit(name, calibration, experiment, sensor)
+        return _by_prior_alone(experiment, sensor, candidates[0])
     needed = {variable.name for calibration in calibrations.values() for variable in calibration.variables}
     used = replace(sensor, variables=tuple(v for v in sensor.variables if v.linear.name in needed))
     parts = samples_of(experiment, used, Use.VALIDATION, with_variables=True)
+    parts.sort(key=lambda part: part.interval.start_ns)
     raw = np.concatenate([part.raw for part in parts])
     variables = np.concatenate([part.samples.variables for part in parts])
     column = {variable.linear.name: k for k, variable in enumerate(used.variables)}
     measured = []
-    for candidate, model, names in _candidates(calibrations):
-        require_shape(model.matrix, name=f"{candidate}: matrix", shape=(6, raw.shape[1]))
-        measured.append((candidate, model.wrench(raw, variables[:, [column[name] for name in names]])))
+    for candidate in candidates:
+        model = candidate.correction.model
+        require_shape(model.matrix, name=f"{candidate.name}: matrix", shape=(6, raw.shape[1]))
+        columns = [column[name] for name in candidate.correction.variables]
+        measured.append((candidate.name, model.wrench(raw, variables[:, columns])))
+    stamps = np.concatenate([part.samples.stamp_ns for part in parts])
     return JudgedWrenches(
-        time_s=np.concatenate([seconds_since(part.samples.stamp_ns, start_ns) for part in parts]),
+        time_s=seconds_since(stamps, experiment.recording.start_ns),
         reference=np.concatenate([part.samples.reference for part in parts]),
         measured=tuple(measured),
+        candidates=candidates,
     )
 
 
-def _candidates(calibrations: Mapping[str, Calibration]) -> list[tuple[str, WrenchModel, tuple[str, ...]]]:
-    priors: list[tuple[str, WrenchModel, tuple[str, ...]]] = []
-    for name, calibration in calibrations.items():
-        prior = calibration.prior
-        if prior is not None and not any(_same(prior, model) for _, model, _ in priors):
-            label = PRIOR if len(calibrations) == 1 else f"{PRIOR} of {name}"
-            priors.append((label, WrenchModel(matrix=prior.matrix, offset=prior.offset), ()))
-    return [*priors, *((name, c.model, tuple(v.name for v in c.variables)) for name, c in calibrations.items())]
-
-
-def _same(prior: Prior, model: WrenchModel) -> bool:
-    # the last bits of a mean depend on where its numbers lie in memory
-    close = np.allclose(prior.offset, model.offset, rtol=0.0, atol=_SAME_OFFSET)
-    return close and np.array_equal(prior.matrix, model.matrix)
+def _by_prior_alone(experiment: Experiment, sensor: ExperimentSensor, prior: JudgedCandidate) -> JudgedWrenches:
+    samples = [
+        samples_over(experiment, sensor, interval, experiment.processing)
+        for interval in sorted(experiment.intervals(Use.VALIDATION), key=lambda interval: interval.start_ns)
+    ]
+    readings = np.concatenate([each.reading.values for each in samples])
+    stamps = np.concatenate([each.stamp_ns for each in samples])
+    return JudgedWrenches(
+        time_s=seconds_since(stamps, experiment.recording.start_ns),
+        reference=np.concatenate([each.reference for each in samples]),
+        measured=((prior.name, prior.correction.model.wrench(readings)),),
+        candidates=(prior,),
+    )

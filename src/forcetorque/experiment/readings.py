@@ -17,6 +17,9 @@ from forcetorque.experiment.samples import samples_of
 from forcetorque.recording import Use
 from forcetorque.recording.alignment import interpolate
 
+NO_OFFSET = "no offset removed"
+"""Said of a prior without an interval that could give its offset: its wrenches have whatever offset the sensor has."""
+
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Correction:
@@ -70,7 +73,7 @@ def corrections_of(experiment: Experiment, calibrations: Mapping[str, Calibratio
             require_fit(name, calibration, experiment, sensor)
             correction = Correction.of(name, calibration)
         else:
-            correction = _uncalibrated(experiment, sensor)
+            correction = uncalibrated(experiment, sensor)
         corrections[sensor.name] = correction
     return corrections
 
@@ -96,13 +99,25 @@ def wrench_at(experiment: Experiment, sensor: ExperimentSensor, correction: Corr
     return correction.model.wrench(values, np.stack(columns, axis=-1) if columns else None)
 
 
-def _uncalibrated(experiment: Experiment, sensor: ExperimentSensor) -> Correction:
+def uncalibrated(experiment: Experiment, sensor: ExperimentSensor) -> Correction:
+    """Read a sensor by the prior of the experiment, or take the logged wrench.
+
+    Args:
+        experiment: The experiment.
+        sensor: One of its sensors.
+
+    Returns:
+        The correction, with the offset that the calibration intervals give; without any no offset is removed.
+
+    Raises:
+        ExperimentError: If raw counts have no prior.
+    """
     matrix = sensor.prior if sensor.quantity == "raw" else None
     if sensor.quantity == "raw" and matrix is None:
         raise ExperimentError(f"sensor {sensor.name!r}: raw counts become wrenches by --calibration or a prior matrix")
     words = "the logged wrench" if matrix is None else f"the prior {sensor.prior_source}"
     if not any(interval.use is Use.CALIBRATION for interval in experiment.recording.intervals):
-        return _with_prior(matrix, np.zeros(6), f"{words}, no offset removed")
+        return _with_prior(matrix, np.zeros(6), f"{words}, {NO_OFFSET}")
     parts = samples_of(experiment, sensor, Use.CALIBRATION)
     read = np.concatenate([p.samples.reading.values for p in parts])
     wrench = read if matrix is None else read @ matrix.T

@@ -3,27 +3,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray, IntArray
+from forcetorque.arrays import FloatArray
 from forcetorque.calibration import Calibration
 from forcetorque.errors import ExperimentError
 from forcetorque.estimation import Contact
 from forcetorque.estimation.samples import pick_samples, robot_motion_at
 from forcetorque.evaluation import ContactForceValidation, OtherSensors, WrenchErrors, contact_forces, errors_from_zero
+from forcetorque.experiment.candidates import JudgedCandidate, judged_candidates
 from forcetorque.experiment.content import Experiment, ExperimentSensor
-from forcetorque.experiment.fitness import require_fit
+from forcetorque.experiment.first_second import OffsetClock, gap_words, nothing_left, offset_words
 from forcetorque.experiment.inputs import stated_in
-from forcetorque.experiment.judged import PRIOR
 from forcetorque.experiment.readings import Correction, corrections_of, wrench_at
 from forcetorque.recording import Interval, Use
 from forcetorque.recording.alignment import require_overlap
-from forcetorque.recording.smoothing import smooth
 from forcetorque.robot import Wrenches, build_tree
-from forcetorque.study import OFFSET_S, OffsetSource
+from forcetorque.study import OffsetSource
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -37,11 +36,25 @@ class ContactForceVerdict:
     sub_model: str
     """Sub-model that nothing touches, by the sensor at its base or the root link."""
     candidate: str
-    """Name of the calibration, or `prior`."""
+    """Name of the calibration, or of its prior: `prior`, and `prior of NAME` among several calibrations."""
     offset: OffsetSource
     """Offset of the candidate, or from the first second of every judged interval."""
+    offset_source: str
+    """Where that offset comes from, in words."""
+    prior: str | None
+    """Name of the prior that a calibration is to be compared with; None for a prior, and where it has none."""
     errors: WrenchErrors
     """Statistics of the wrench carried to the sensor (4.1)."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class ContactForceComparison:
+    """Contact wrenches of one sub-model that nothing touches, by all candidates of a sensor."""
+
+    verdicts: tuple[ContactForceVerdict, ...]
+    """One per candidate and offset."""
+    left_out: tuple[str, ...]
+    """What could not be judged of the intervals, in words."""
 
 
 def validate_sensor(
@@ -59,66 +72,113 @@ def validate_sensor(
     Args:
         experiment: The experiment; its validation intervals are judged.
         sensor: One of its sensors.
-        calibrations: Calibrations of that sensor by name; the prior is judged too.
+        calibrations: Calibrations of that sensor by name; their priors are judged too, or that of the experiment where
+            there is none.
         others: Calibrations of the other sensors by name, for the mode `measured`; where there is none, their prior.
         other_sensors: Whether the other sensors read what the model expects or what they measured.
         sub_model: The sub-model, by the sensor at its base or the root link; None for that outboard of the sensor.
         contact: Link at whose origin the contact is estimated; None for that mounted on the sensor.
 
     Returns:
-        For every candidate the errors with its own offset and with one from each interval's first second.
+        For every candidate the errors with its own offset and with one from each interval's first second; what
+        `compare_contact_forces` leaves out is not told.
     """
-    candidates = candidates_of(experiment, sensor, calibrations)
+    compared = compare_contact_forces(
+        experiment,
+        sensor,
+        calibrations,
+        others=others,
+        other_sensors=other_sensors,
+        sub_model=sub_model,
+        contact=contact,
+    )
+    return list(compared.verdicts)
+
+
+def compare_contact_forces(
+    experiment: Experiment,
+    sensor: ExperimentSensor,
+    calibrations: Mapping[str, Calibration],
+    *,
+    others: Mapping[str, Calibration] | None = None,
+    other_sensors: OtherSensors = OtherSensors.MODEL,
+    sub_model: str | None = None,
+    contact: str | None = None,
+) -> ContactForceComparison:
+    """Judge candidates of a sensor as `validate_sensor` does, and tell what could not be judged.
+
+    Args:
+        experiment: The experiment; its validation intervals are judged.
+        sensor: One of its sensors.
+        calibrations: Calibrations of that sensor by name; their priors are judged too, or that of the experiment where
+            there is none.
+        others: Calibrations of the other sensors by name, for the mode `measured`; where there is none, their prior.
+        other_sensors: Whether the other sensors read what the model expects or what they measured.
+        sub_model: The sub-model, by the sensor at its base or the root link; None for that outboard of the sensor.
+        contact: Link at whose origin the contact is estimated; None for that mounted on the sensor.
+
+    Returns:
+        For every candidate the errors with its own offset and with one from each interval's first second, and the
+        intervals that are not in them.
+
+    Raises:
+        ExperimentError: If there is nothing to judge, or an interval has no support.
+    """
+    candidates = judged_candidates(experiment, sensor, calibrations)
     needed = corrections_of(experiment, others or {}) if other_sensors is OtherSensors.MEASURED else {}
-    found: dict[tuple[str, OffsetSource], list[FloatArray]] = {}
+    found: dict[tuple[int, OffsetSource], list[FloatArray]] = {}
+    left_out: dict[str, None] = {}
     part = ""
-    for interval in experiment.intervals(Use.VALIDATION):
+    for interval in sorted(experiment.intervals(Use.VALIDATION), key=lambda each: each.start_ns):
         with stated_in(f"interval {interval.label!r}"):
             validation = free_part(experiment, sensor, interval, other_sensors, sub_model, contact)
-            stamps, wrenches = _over(experiment, sensor, interval, validation, candidates, needed)
-        part = validation.part.name
-        first = stamps < stamps[0] + round(OFFSET_S * 1e9)
-        for name, wrench in wrenches.items():
-            found.setdefault((name, OffsetSource.FITTED), []).append(wrench[~first])
-            moved = wrench[~first] - np.nanmean(wrench[first], axis=0)
-            found.setdefault((name, OffsetSource.RE_ESTIMATED), []).append(moved)
-    return [
+            part = validation.part.name
+            clock = clock_of(experiment, sensor, interval)
+            short = nothing_left(clock, interval)
+            if short is not None:
+                left_out[short] = None
+                continue
+            wrenches = _over(experiment, sensor, interval, clock, validation, candidates, needed)
+        for index, wrench in enumerate(wrenches):
+            judged = clock.judged_with_both(wrench)
+            words = gap_words(f"contact force by {candidates[index].name}", interval, judged)
+            left_out |= {} if words is None else {words: None}
+            for source, errors in judged.items():
+                found.setdefault((index, source), []).append(errors)
+    pooled = {key: np.concatenate(parts) for key, parts in found.items()}
+    verdicts = tuple(
         ContactForceVerdict(
             sensor=sensor.name,
             serial=sensor.serial,
             sub_model=part,
-            candidate=name,
+            candidate=candidates[index].name,
             offset=source,
-            errors=errors_from_zero(np.concatenate(parts)),
+            offset_source=offset_words(candidates[index], source),
+            prior=candidates[index].prior,
+            errors=errors_from_zero(errors),
         )
-        for (name, source), parts in found.items()
-    ]
+        for (index, source), errors in pooled.items()
+        if not np.isnan(errors).any(axis=1).all()
+    )
+    if not verdicts:
+        raise ExperimentError(f"nothing can be judged: {'; '.join(left_out)}")
+    return ContactForceComparison(verdicts=verdicts, left_out=tuple(left_out))
 
 
-def candidates_of(
-    experiment: Experiment, sensor: ExperimentSensor, calibrations: Mapping[str, Calibration]
-) -> dict[str, Correction]:
-    """Decide by what a judged sensor is read in turn.
+def clock_of(experiment: Experiment, sensor: ExperimentSensor, interval: Interval) -> OffsetClock:
+    """Give the instants at which a sensor is judged in an interval.
 
     Args:
         experiment: The experiment.
         sensor: One of its sensors.
-        calibrations: Calibrations of that sensor by name.
+        interval: One of the intervals.
 
     Returns:
-        Corrections by name, the prior first if there is one.
-
-    Raises:
-        ExperimentError: If a calibration may not be applied, or there is no candidate.
+        Instants of all its samples, and the filter of the experiment.
     """
-    has_prior = sensor.quantity == "wrench" or sensor.prior is not None
-    candidates = {PRIOR: corrections_of(experiment, {})[sensor.name]} if has_prior else {}
-    for name, calibration in calibrations.items():
-        require_fit(name, calibration, experiment, sensor)
-        candidates[name] = Correction.of(name, calibration)
-    if not candidates:
-        raise ExperimentError(f"sensor {sensor.name!r}: raw counts become wrenches by --calibration or a prior matrix")
-    return candidates
+    source = experiment.recording.stream(sensor.stream)
+    at_ns = source.stamp_ns[pick_samples(experiment.recording, source, interval)[0]]
+    return OffsetClock(at_ns=at_ns, window=experiment.processing.smoothing)
 
 
 def free_part(
@@ -162,32 +222,32 @@ def _over(
     experiment: Experiment,
     sensor: ExperimentSensor,
     interval: Interval,
+    clock: OffsetClock,
     validation: ContactForceValidation,
-    candidates: Mapping[str, Correction],
+    candidates: Sequence[JudgedCandidate],
     needed: Mapping[str, Correction],
-) -> tuple[IntArray, dict[str, FloatArray]]:
-    """Instants of one interval, and the contact wrench at the sensor by candidate."""
-    source = experiment.recording.stream(sensor.stream)
-    at_ns = source.stamp_ns[pick_samples(experiment.recording, source, interval)[0]]
+) -> list[FloatArray]:
+    """Contact wrench at the sensor, candidate by candidate, with its own offset and not filtered; shape (n, 6)."""
     if interval.support is None:
         raise ExperimentError("expected a support frame, got none")
+    source = experiment.recording.stream(sensor.stream)
     joints, root = robot_motion_at(
         experiment.recording,
         experiment.model,
         interval.support,
         validation.required_joints,
         source,
-        at_ns,
+        clock.at_ns,
         processing=experiment.processing,
     )
     measured = {}
     for name in validation.others if needed else ():
         other = experiment.sensor(name)
         require_overlap(source, experiment.recording.stream(other.stream))
-        measured[name] = wrench_at(experiment, other, needed[name], at_ns)
-    readings = {name: wrench_at(experiment, sensor, each, at_ns) for name, each in candidates.items()}
-    forces = contact_forces(validation, joints, root, readings, measured=Wrenches.of(measured) if measured else None)
-    window = experiment.processing.smoothing
-    return at_ns, {
-        name: forces.of(name) if window is None else smooth(at_ns, forces.of(name), window) for name in readings
+        measured[name] = wrench_at(experiment, other, needed[name], clock.at_ns)
+    # by their places, because a calibration may be called `prior` too
+    readings = {
+        str(k): wrench_at(experiment, sensor, each.correction, clock.at_ns) for k, each in enumerate(candidates)
     }
+    forces = contact_forces(validation, joints, root, readings, measured=Wrenches.of(measured) if measured else None)
+    return [forces.of(place) for place in readings]
