@@ -8,7 +8,13 @@ from forcetorque.experiment.candidates import JudgedCandidate, judged_candidates
 from forcetorque.experiment.compare import TrialFailure, TrialGroup, TrialSphere, group_trials, read_trials
 from forcetorque.experiment.content import Experiment, ExperimentSensor
 from forcetorque.experiment.estimate import IntervalEstimates, estimate_experiment
-from forcetorque.experiment.evaluate import Verdict, beyond_fitted_range, evaluate_sensor, judged_where_chosen
+from forcetorque.experiment.evaluate import (
+    Verdict,
+    beyond_fitted_range,
+    evaluate_sensor,
+    judged_where_chosen,
+    require_unseen,
+)
 from forcetorque.experiment.gains import JointPosition, SensorGains, StrongestSample, select_gains
 from forcetorque.experiment.inspect import doubtful_spans, inspect_experiment, inspect_recording
 from forcetorque.experiment.joint_torques import JointTorques, JointTorqueVerdict, compare_joint_torques
@@ -78,6 +84,7 @@ __all__ = [
     "read_acceptance",
     "read_population",
     "read_study_data",
+    "require_unseen",
     "read_trials",
     "samples_of",
     "select_gains",

@@ -61,8 +61,7 @@ def evaluate_sensor(
         ShapeError: If a matrix does not have one column per channel of the sensor.
     """
     for name, calibration in calibrations.items():
-        require_fit(name, calibration, experiment, sensor)
-        _refuse_fitted(name, calibration, experiment)
+        require_unseen(name, calibration, experiment, sensor)
     judged = judged_wrenches(experiment, sensor, calibrations)
     return [
         Verdict(
@@ -79,8 +78,20 @@ def evaluate_sensor(
     ]
 
 
-def _refuse_fitted(name: str, calibration: Calibration, experiment: Experiment) -> None:
-    """Refuse a verdict on samples that the calibration has seen."""
+def require_unseen(name: str, calibration: Calibration, experiment: Experiment, sensor: ExperimentSensor) -> None:
+    """Refuse a calibration that may not be applied, or that has seen the samples on which it would be judged.
+
+    Args:
+        name: Name of the calibration, for messages.
+        calibration: The calibration.
+        experiment: The experiment.
+        sensor: One of its sensors.
+
+    Raises:
+        SerialNumberError: If it is of another sensor.
+        ExperimentError: If it was fitted on a judged interval, or the robot now reads the sensor in another way.
+    """
+    require_fit(name, calibration, experiment, sensor)
     for judged, fitted in _overlaps(experiment, calibration.provenance.intervals):
         raise ExperimentError(
             f"calibration {name!r} was fitted on the interval {fitted!r}, which overlaps the judged "

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from types import SimpleNamespace
 from typing import Any, Literal
 
 import pytest
@@ -20,8 +21,8 @@ UNKNOWN: Gain = (None, None)
 
 def _row(candidate: str) -> VerdictRow:
     return VerdictRow(
-        sensor="leg_ft", serial="S1", candidate=candidate, offset="re-estimated", samples=100, rmse=[1.0] * 6,
-        bias=[0.0] * 6, largest=[1.0] * 6, force_error_mean_N=1.0, force_error_standard_error_N=0.1,
+        sensor="leg_ft", serial="S1", candidate=candidate, offset="re-estimated", offset_source="", samples=100,
+        rmse=[1.0] * 6, bias=[0.0] * 6, largest=[1.0] * 6, force_error_mean_N=1.0, force_error_standard_error_N=0.1,
         force_error_largest_N=2.0, moment_error_mean_Nm=0.1, moment_error_standard_error_Nm=0.01,
         moment_error_largest_Nm=0.2, prior=None if candidate.startswith("prior") else "prior",
     )  # fmt: skip
@@ -39,8 +40,9 @@ def _report(comparisons: list[ComparisonRow], **other: Any) -> SensorReport:
     empty: dict[str, Any] = dict.fromkeys(
         ("independence", "contact_forces", "best", "joint_torques", "spheres", "static", "criteria", "warnings"), []
     )
-    given = empty | {"calibrations": {}, "not_judged": {}} | other
-    # what a calibration holds beside its name matters to other sentences than these
+    # of a calibration only this matters to the verdict
+    fitted = SimpleNamespace(validity=SimpleNamespace(excited=(True,) * 6))
+    given = empty | {"calibrations": {"new.json": fitted}, "not_judged": {}} | other
     return SensorReport.model_construct(
         sensor="leg_ft", serial="S1", verdict=[], evaluation=[_row("prior"), _row("new.json")],
         comparisons=comparisons, **given,

@@ -28,7 +28,6 @@ from forcetorque.cli.sphere_result import sphere_row
 from forcetorque.cli.validate_result import best_rows, contact_force_row, joint_torque_row
 from forcetorque.errors import ForceTorqueError
 from forcetorque.experiment import (
-    PRIOR,
     AcceptanceFile,
     Experiment,
     ExperimentSensor,
@@ -38,6 +37,7 @@ from forcetorque.experiment import (
     analyse_sensor,
     beyond_fitted_range,
     check_sensor,
+    compare_contact_forces,
     compare_joint_torques,
     evaluate_sensor,
     inspect_experiment,
@@ -45,8 +45,8 @@ from forcetorque.experiment import (
     judged_wrenches,
     require_unseen,
     sphere_intervals,
-    validate_sensor,
 )
+from forcetorque.experiment.candidates import PRIOR
 from forcetorque.recording import Recording
 
 _Found = TypeVar("_Found")
@@ -164,12 +164,12 @@ def _gather_sensor(
     verdicts = judged = contacts = torques = None
     if judges:
         verdicts = tried.attempt("evaluation", partial(evaluate_sensor, experiment, sensor, unseen))
-        contacts = tried.attempt("contact forces", partial(validate_sensor, experiment, sensor, unseen))
+        contacts = tried.attempt("contact forces", partial(compare_contact_forces, experiment, sensor, unseen))
         torques = tried.attempt("joint torques", partial(compare_joint_torques, experiment, sensor, unseen))
     if verdicts:
         judged = tried.attempt("wrenches", partial(judged_wrenches, experiment, sensor, unseen))
-    for k, words in enumerate(() if torques is None else torques.left_out):
-        tried.reasons[f"joint torques ({k + 1})"] = words
+    left_out = [*(contacts.left_out if contacts else ()), *(torques.left_out if torques else ())]
+    tried.reasons |= {f"left out ({k})": words for k, words in enumerate(dict.fromkeys(left_out), 1)}
     spheres = tried.attempt("spheres", partial(_spheres, experiment, sensor, calibrations)) or []
     independence = tried.attempt("independence", partial(independence_rows, judged)) if judged else None
     comparisons = tried.attempt("comparison", partial(comparison_rows, judged)) if judged else None
@@ -192,8 +192,8 @@ def _gather_sensor(
         evaluation=[verdict_row(verdict) for verdict in verdicts or ()],
         comparisons=comparisons or [],
         independence=independence or [],
-        contact_forces=[contact_force_row(verdict) for verdict in contacts or ()],
-        best=best_rows(contacts or ()),
+        contact_forces=[contact_force_row(verdict) for verdict in contacts.verdicts] if contacts else [],
+        best=best_rows(contacts.verdicts) if contacts else [],
         joint_torques=[joint_torque_row(verdict) for verdict in torques.verdicts] if torques else [],
         spheres=[sphere_row(sphere) for sphere in spheres],
         static=checks,

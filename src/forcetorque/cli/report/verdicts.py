@@ -9,6 +9,7 @@ from typing import Literal
 from forcetorque.cli.evaluate_result import VerdictRow
 from forcetorque.cli.report.result import ComparisonRow, SensorReport, VerdictLine
 from forcetorque.cli.words import short_names, with_error
+from forcetorque.experiment.readings import NO_OFFSET
 
 _FEWEST = 20
 """Samples below which nothing is called good."""
@@ -58,7 +59,7 @@ def _acceptance(report: SensorReport) -> Iterator[tuple[Tone, str]]:
 def _errors(report: SensorReport) -> Iterator[tuple[Tone, str]]:
     names = short_names([row.candidate for row in report.evaluation])
     for row in report.evaluation:
-        condition = "its own offset" if row.offset == "fitted" else "the offset re-estimated"
+        condition = _offset_words(row)
         start = f"{names[row.candidate]} with {condition}, {row.samples} samples that were not fitted: "
         compared = [one for one in report.comparisons if (one.candidate, one.offset) == (row.candidate, row.offset)]
         if compared:
@@ -75,6 +76,12 @@ def _errors(report: SensorReport) -> Iterator[tuple[Tone, str]]:
             "its own offset is one draw: intervals say how the error scatters in these recordings, not how the offset "
             "changes from one switching on to the next",
         )
+
+
+def _offset_words(row: VerdictRow) -> str:
+    if row.offset == "re-estimated":
+        return "the offset re-estimated"
+    return NO_OFFSET if NO_OFFSET in row.offset_source else "its own offset"
 
 
 def _plain(row: VerdictRow) -> str:

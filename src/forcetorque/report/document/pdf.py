@@ -23,7 +23,13 @@ _CELL_POINTS = (8.0, 7.0, 6.0, 5.0, 4.0)
 """Sizes of the letters in tables: the largest with which the table is as wide as the page at most."""
 _PADDING_MM = 1.6
 _FAINT = (91, 101, 112)
-_COLOURS = {Tone.GOOD: (0, 101, 74), Tone.CAUTION: (138, 90, 0), Tone.BAD: (163, 60, 0), Tone.UNKNOWN: (75, 85, 96)}
+_COLOURS = {
+    Tone.GOOD: (0, 101, 74),
+    Tone.CAUTION: (138, 90, 0),
+    Tone.BAD: (163, 60, 0),
+    Tone.UNKNOWN: (75, 85, 96),
+    Tone.NOTE: _FAINT,
+}
 
 
 def pdf_bytes(document: Document) -> bytes:
