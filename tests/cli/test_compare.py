@@ -6,6 +6,7 @@ from __future__ import annotations
 import csv
 import io
 import json
+import shutil
 import sys
 from pathlib import Path
 from typing import Any
@@ -13,6 +14,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from forcetorque import report
 from forcetorque.evaluation.sphere import RULE, TOLERANCE
 from tests.axia import write_axia
 from tests.cli.json_schema import faults
@@ -116,6 +118,27 @@ def test_the_table_has_the_forms_of_the_thesis(trials: Path, run: Run) -> None:
     assert "in brackets: not identifiable, neither averaged nor ranked" in ended.out
 
 
+def test_a_condition_is_shown_as_it_was_written(trials: Path, run: Run) -> None:
+    """A stroke in it makes no path of it: halves and three halves of a turn stay apart."""
+    for name, condition in ((FIRST, "1/2 turn"), (LOOSE, "3/2 turn")):
+        path = trials / name
+        path.write_text(path.read_text(encoding="utf-8").split("[trial]")[0] + f'[trial]\ncondition = "{condition}"\n')
+    out = run("compare", FIRST, LOOSE).out
+    every = out.split("every trial")[1].split("index with the model")[0]
+    assert "1/2 turn" in every
+    assert "3/2 turn" in every
+
+
+def test_files_of_one_name_are_told_apart(trials: Path, run: Run) -> None:
+    """Calibrations of one name in two folders have the folders before them, in every table."""
+    for folder in ("old", "new"):
+        (trials / folder).mkdir()
+        shutil.copy(trials / "fitted.json", trials / folder / "leg.json")
+    out = run("compare", FIRST, SECOND, "-c", "old/leg.json", "-c", "new/leg.json").out
+    assert out.count("old/leg.json") == out.count("new/leg.json") > 4
+    assert out.count("leg.json") == 2 * out.count("old/leg.json")
+
+
 def test_the_order_of_files_is_that_of_the_trials(trials: Path, run: Run) -> None:
     """Turned round, only the drift changes, by its sign; numbers in the files rule over their order."""
     there, back = (run("compare", *names, "--format", "json").result() for names in ((FIRST, SECOND), (SECOND, FIRST)))
@@ -169,6 +192,7 @@ def test_all_bad_files_still_give_a_result(arm: Path, run: Run) -> None:
     edit(arm / PARQUET, 'path = "recording"', 'path = "nowhere"')
     result = _ended_with_failures(run("compare", PARQUET, "--figure", "none.png", "--format", "json"))
     assert (result["trials"], result["groups"], len(result["failures"])) == ([], [], 1)
+    assert result["figure"] is None
     assert not (arm / "none.png").exists()
     assert run("compare", PARQUET).code == 1
     assert run("compare", PARQUET, "--format", "csv").code == 1
@@ -195,6 +219,21 @@ def test_a_figure_is_written_where_it_is_asked(trials: Path, run: Run) -> None:
     assert ended.result()["figure"] == "compare.png"
     assert (trials / "compare.png").read_bytes()[:8] == b"\x89PNG\r\n\x1a\n"
     assert snapshot(trials).keys() - before.keys() == {"compare.png"}
+
+
+def test_a_figure_that_could_not_be_drawn_is_not_named(trials: Path, run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Nor is one that is there from before; what went wrong is a failure, and the numbers are there."""
+
+    def refuse(groups: object) -> bytes:
+        raise OSError("no room")
+
+    (trials / "compare.png").write_bytes(b"of another day")
+    monkeypatch.setattr(report, "index_figure", refuse)
+    words = ("compare", FIRST, SECOND, "--figure", "compare.png")
+    result = _ended_with_failures(run(*words, "--format", "json"))
+    assert (result["figure"], len(result["trials"])) == (None, 2)
+    assert [(failure["file"], failure["message"]) for failure in result["failures"]] == [("compare.png", "no room")]
+    assert "drawn to" not in run(*words).out
 
 
 def test_without_matplotlib_only_figures_are_refused(arm: Path, run: Run, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -162,6 +162,16 @@ def test_two_calibrations_of_one_sensor_are_compared(arm: Path, run: Run) -> Non
     assert first == second
 
 
+def test_files_of_one_name_are_told_apart(arm: Path, run: Run) -> None:
+    """Calibrations of one name in two folders have the folders before them, in every table and line."""
+    for folder in ("old", "new"):
+        (arm / folder).mkdir()
+        shutil.copy("fitted.json", arm / folder / "leg.json")
+    out = run("sphere", PARQUET, "-c", "old/leg.json", "-c", "new/leg.json", "--interval", "judge").out
+    assert out.count("old/leg.json") == out.count("new/leg.json") > 4
+    assert out.count("leg.json") == 2 * out.count("old/leg.json")
+
+
 def test_counts_are_refused_with_their_sensor(arm: Path, run: Run) -> None:
     """The message names file, sensor and candidate, what was expected and what to do."""
     edit(arm / PARQUET, 'prior = "matrix_SIM001.txt"', 'prior = "identity"')

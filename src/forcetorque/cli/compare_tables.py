@@ -3,13 +3,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from pathlib import Path
+from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from forcetorque.cli.compare_result import CompareResult, GroupFitRow, GroupRow, TrialRow
 from forcetorque.cli.output import console, table
 from forcetorque.cli.sphere_result import EllipsoidRow
+from forcetorque.experiment.candidate_names import short_names
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -27,12 +27,13 @@ def show(result: CompareResult) -> None:
     """
     screen = console()
     if result.trials:
-        screen.print(_trial_table(result.trials))
-        label, compared = _labels(result.groups), _compared(result.groups)
+        names = short_names([row.candidate for row in result.trials])
+        screen.print(_trial_table(result.trials, names))
+        label, compared = _labels(result.groups, names), _compared(result.groups)
         for rows in compared[:_MANY]:
             for name, words in _FITS:
                 if _says_something(rows, result.trials, name):
-                    title = f"{rows[0].sensor} ({rows[0].serial}), {Path(rows[0].candidate).name}: index {words}, kg"
+                    title = f"{rows[0].sensor} ({rows[0].serial}), {names[rows[0].candidate]}: index {words}, kg"
                     screen.print(title, soft_wrap=True)
                     screen.print(_condition_table(rows, result.trials, name))
         if len(compared) > _MANY:
@@ -54,19 +55,23 @@ def show(result: CompareResult) -> None:
         )
     for failure in result.failures:
         screen.print(f"FAILED: {failure.message}", soft_wrap=True)
-    if result.figure is not None and Path(result.figure).is_file():
+    if result.figure is not None:
         screen.print(f"drawn to {result.figure}", soft_wrap=True)
 
 
-def _trial_table(trials: Sequence[TrialRow]) -> Table:
-    shown = [name for name in ("condition", "candidate") if len({getattr(row, name) for row in trials}) > 1]
+def _trial_table(trials: Sequence[TrialRow], names: Mapping[str, str]) -> Table:
+    columns = {
+        "condition": [row.condition or "-" for row in trials],
+        "candidate": [names[row.candidate] for row in trials],
+    }
+    shown = {name: words for name, words in columns.items() if len(set(words)) > 1}
     numbered = any(row.trial > 1 for row in trials)
     made = table(
         "sensor", "serial", *shown, *(["trial"] if numbered else []), "error x, N", "y, N", "z, N", "index with, kg",
         "index without, kg", title="every trial; errors with the model, index with and without it",
     )  # fmt: skip
-    for row in trials:
-        words = [Path(getattr(row, name) or "-").name for name in shown]
+    for k, row in enumerate(trials):
+        words = [column[k] for column in shown.values()]
         fit = row.with_reference
         errors = ["-"] * 3
         if fit is not None and fit.error_N is not None:
@@ -149,14 +154,14 @@ def _rank_table(groups: Sequence[GroupRow], trials: Sequence[TrialRow], label: C
     return made
 
 
-def _labels(groups: Sequence[GroupRow]) -> Callable[[GroupRow], str]:
+def _labels(groups: Sequence[GroupRow], names: Mapping[str, str]) -> Callable[[GroupRow], str]:
     """What names a group in one line: the sensor, and what not all groups have in common."""
     conditions, candidates = len({row.condition for row in groups}) > 1, len({row.candidate for row in groups}) > 1
 
     def label(row: GroupRow) -> str:
         parts = [f"{row.sensor} ({row.serial})"]
         parts += [row.condition or "no condition"] if conditions else []
-        parts += [Path(row.candidate).name] if candidates else []
+        parts += [names[row.candidate]] if candidates else []
         return ", ".join(parts)
 
     return label

@@ -5,7 +5,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -13,6 +12,7 @@ import numpy as np
 from forcetorque.errors import ShapeError
 from forcetorque.evaluation.sphere import EllipsoidFit
 from forcetorque.experiment import TrialGroup
+from forcetorque.experiment.candidate_names import short_names
 from forcetorque.report.canvas import SMALL_POINTS, TITLE_POINTS, legend_below, look, new_figure, png_bytes, shown_name
 
 if TYPE_CHECKING:
@@ -154,7 +154,7 @@ def _draw(panel: Axes, lines: Sequence[_Line], top: float) -> None:
 def _names(groups: Sequence[TrialGroup]) -> list[str]:
     """Names of groups, by what tells them apart."""
     sensors = {group.first.sphere.sensor for group in groups}
-    candidates = {group.first.sphere.candidate for group in groups}
+    candidates = short_names([group.first.sphere.candidate for group in groups])
     names = []
     for group in groups:
         sphere = group.first.sphere
@@ -162,7 +162,7 @@ def _names(groups: Sequence[TrialGroup]) -> list[str]:
         if group.first.condition is not None:
             parts.append(group.first.condition)
         if len(candidates) > 1:
-            parts.append(Path(sphere.candidate).name)
+            parts.append(candidates[sphere.candidate])
         names.append(shown_name(", ".join(parts)))
     return names
 

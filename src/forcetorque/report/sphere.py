@@ -12,6 +12,7 @@ from forcetorque.arrays import FloatArray
 from forcetorque.errors import ShapeError
 from forcetorque.evaluation.sphere import Ellipsoid
 from forcetorque.experiment import SensorSphere
+from forcetorque.experiment.candidate_names import short_names
 from forcetorque.report.canvas import (
     REFERENCE_COLOUR,
     ROW_INCHES,
@@ -60,6 +61,7 @@ def sphere_figure(found: Sequence[SensorSphere]) -> bytes:
     """
     if not found:
         raise ShapeError("spheres: expected at least one to draw, got none")
+    names = short_names([each.candidate for each in found])
     figure = new_figure(ROW_INCHES[1] * len(found))
     rows = figure.subplots(len(found), 3, squeeze=False)
     for panels, each in zip(rows, found, strict=True):
@@ -67,7 +69,7 @@ def sphere_figure(found: Sequence[SensorSphere]) -> bytes:
         for panel, plane in zip(panels, _PLANES, strict=True):
             _draw_plane(panel, each, centre, plane)
         panels[0].set_title(
-            shown_name(f"{each.sensor} ({each.serial}), {each.candidate}"), loc="left", fontsize=TITLE_POINTS
+            shown_name(f"{each.sensor} ({each.serial}), {names[each.candidate]}"), loc="left", fontsize=TITLE_POINTS
         )
     legend_below(figure, _keys(found))
     return png_bytes(figure)

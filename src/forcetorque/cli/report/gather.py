@@ -41,6 +41,7 @@ from forcetorque.experiment import (
     sphere_intervals,
     validate_sensor,
 )
+from forcetorque.experiment.candidate_names import short_names
 from forcetorque.recording import Recording
 
 _Found = TypeVar("_Found")
@@ -180,7 +181,11 @@ def _gather_sensor(
         static=checks,
         criteria=criteria,
         calibrations=dict(calibrations),
-        warnings=[words for file, one in calibrations.items() for words in _warnings(experiment, sensor, file, one)],
+        warnings=[
+            words
+            for file, name in short_names(calibrations).items()
+            for words in _warnings(experiment, sensor, name, calibrations[file])
+        ],
         not_judged=tried.reasons,
     )
     report.verdict = sensor_verdict(report)
@@ -193,11 +198,10 @@ def _spheres(
     return analyse_sensor(experiment, sensor, sphere_intervals(experiment, None), calibrations)
 
 
-def _warnings(experiment: Experiment, sensor: ExperimentSensor, file: str, calibration: Calibration) -> list[str]:
+def _warnings(experiment: Experiment, sensor: ExperimentSensor, name: str, calibration: Calibration) -> list[str]:
     tried = _Reasons()
     beyond = tried.attempt("range", lambda: beyond_fitted_range(experiment, sensor, calibration)) or ()
     chosen = tried.attempt("choice", lambda: judged_where_chosen(experiment, calibration)) or ()
-    name = Path(file).name
     return [
         *(f"{name}: {sentence}" for sentence in beyond),
         *(f"{name} was chosen among others on {label!r} too, so the verdict on it flatters" for label in chosen),

@@ -9,7 +9,8 @@ from typing import Literal
 
 from forcetorque.cli.evaluate_result import VerdictRow
 from forcetorque.cli.report.result import SensorReport, VerdictLine
-from forcetorque.cli.words import short_names, with_error
+from forcetorque.cli.words import with_error
+from forcetorque.experiment.candidate_names import short_names
 
 _APART = 2.0
 """Standard errors by which two means must differ before one is called better."""
