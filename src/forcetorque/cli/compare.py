@@ -61,11 +61,12 @@ def run(
             log.warning(
                 "%s was fitted on %s of %s, so the verdict on it flatters", trial.sphere.candidate, labels, trial.file
             )
-    failures += _drawn(figure, groups)
+    drawn, not_drawn = _drawn(figure, groups)
+    failures += not_drawn
     result = CompareResult(
         tolerance=TOLERANCE,
         rule=RULE,
-        figure=None if figure is None else str(figure),
+        figure=drawn,
         trials=[trial_row(trial, k) for group in groups for k, trial in enumerate(group.trials, 1)],
         groups=group_rows(groups),
         failures=failures,
@@ -88,14 +89,14 @@ def _refuse_figure(figure: Path) -> None:
     new_figure(1.0)
 
 
-def _drawn(figure: Path | None, groups: Sequence[TrialGroup]) -> list[FailureRow]:
-    """Draw the figure; what fails then must not cost the result."""
+def _drawn(figure: Path | None, groups: Sequence[TrialGroup]) -> tuple[str | None, list[FailureRow]]:
+    """Draw the figure, and name it if it was drawn; what fails then must not cost the result."""
     if figure is None or not groups:
-        return []
+        return None, []
     from forcetorque.report import index_figure
 
     try:
         write_bytes_atomically(figure, index_figure(groups))
     except (ForceTorqueError, OSError) as error:
-        return [FailureRow(file=str(figure), sensor=None, message=" ".join(str(error).split()))]
-    return []
+        return None, [FailureRow(file=str(figure), sensor=None, message=" ".join(str(error).split()))]
+    return str(figure), []

@@ -141,7 +141,7 @@ class CompareResult(BaseModel):
     rule: str
     """How it is decided what is identifiable."""
     figure: str | None
-    """File of the figure."""
+    """File of the figure; none where none was drawn."""
     trials: list[TrialRow]
     """One per sensor, trial and way to read it, in the order of the groups."""
     groups: list[GroupRow]
