@@ -85,12 +85,25 @@ def test_every_trial_is_what_sphere_finds(trials: Path, run: Run) -> None:
     assert (loose["trials"], loose["with_reference"]["pooled"], loose["with_reference"]["drift"]) == (1, None, None)
 
 
-def test_ranks_are_those_of_the_index(trials: Path, run: Run) -> None:
-    """The calibrated sensor comes before its prior; without the model nothing is identifiable, so nothing is ranked."""
-    result = run("compare", FIRST, SECOND, LOOSE, "-c", "fitted.json", "--format", "json").result()
-    ranked = sorted((group["with_reference"]["rank"], group["candidate"]) for group in result["groups"])
-    assert [rank for rank, _ in ranked] == [1, 2, 3, 4]
-    assert [candidate for _, candidate in ranked] == ["fitted.json"] * 2 + ["prior"] * 2
+def test_ranks_are_of_intervals(trials: Path, run: Run) -> None:
+    """The calibrated sensor comes before its prior; what overlaps is in no order, and what is not known has no rank."""
+    ended = run("compare", FIRST, SECOND, LOOSE, "-c", "fitted.json", "--format", "json")
+    result = ended.result()
+    ends = []
+    for group in result["groups"]:
+        by = group["with_reference"]
+        (only, *_) = [row for row in result["trials"] if all(row[k] == group[k] for k in ("condition", "candidate"))]
+        fit = by["pooled"] or only["with_reference"]
+        ends.append((fit["index_low_kg"], fit["index_high_kg"], by["rank"], group["candidate"]))
+    assert len(ends) == 4
+    for low, high, rank, candidate in ends:
+        below = [other for other in ends if other[1] < low]
+        assert rank == 1 + len(below)
+        overlapping = [other for other in ends if other[0] <= high and low <= other[1]]
+        assert {other[3] for other in overlapping} == {candidate}
+    assert sorted(rank for _, _, rank, _ in ends) == [1, 1, 3, 3]
+    out = run("compare", FIRST, SECOND, LOOSE, "-c", "fitted.json").out
+    assert "what overlaps is in no order" in out
     for group in result["groups"]:
         free = group["without_reference"]
         if free["rank"] is not None:

@@ -48,6 +48,10 @@ def show(result: CompareResult) -> None:
                 screen.print(f"{label(row)}: not pooled: {row.not_pooled}", soft_wrap=True)
         if len(result.groups) > 1:
             screen.print(_rank_table(result.groups, result.trials, label))
+            screen.print(
+                "rank: one more than the sensors whose whole interval lies below; what overlaps is in no order",
+                soft_wrap=True,
+            )
         screen.print(
             "index: standard deviation of the masses of three axes; in brackets: not identifiable, neither averaged "
             "nor ranked; pooled: one shape for all trials, a centre for each",
@@ -137,20 +141,25 @@ def _drift_table(groups: Sequence[GroupRow], label: Callable[[GroupRow], str]) -
 
 
 def _rank_table(groups: Sequence[GroupRow], trials: Sequence[TrialRow], label: Callable[[GroupRow], str]) -> Table:
-    """Groups by index, those that are not identifiable below all others, in the order of the files."""
+    """Groups by index, unknown ones last in the order of the files; ranks are of intervals and may skip about."""
     made = table(
-        "sensor", "trials", "index with, kg", "rank", "index without, kg", "rank",
+        "sensor", "trials", "index with, kg", "interval", "rank", "index without, kg", "interval", "rank",
         title="by index of the pooled fit, or of the only trial",
     )  # fmt: skip
     first = {_key(trial): trial for trial in reversed(trials)}
-    for row in sorted(groups, key=_place):
-        cells = []
+    lines = []
+    for row in groups:
+        cells, place = [], []
         for name, _ in _FITS:
-            fit: GroupFitRow | None = getattr(row, name)
+            by: GroupFitRow | None = getattr(row, name)
             only: EllipsoidRow | None = getattr(first[_key(row)], name)
-            cells.append(_index(only if row.trials == 1 else None if fit is None else fit.pooled))
-            cells.append("-" if fit is None or fit.rank is None else str(fit.rank))
-        made.add_row(label(row), str(row.trials), *cells)
+            fit = only if row.trials == 1 else None if by is None else by.pooled
+            cells += [_index(fit), _ends(fit), "-" if by is None or by.rank is None else str(by.rank)]
+            index = fit.index_kg if fit is not None and fit.identifiable else None
+            place.append(float("inf") if index is None else index)
+        lines.append((place, [label(row), str(row.trials), *cells]))
+    for _, cells in sorted(lines, key=lambda line: line[0]):
+        made.add_row(*cells)
     return made
 
 
@@ -165,12 +174,6 @@ def _labels(groups: Sequence[GroupRow], names: Mapping[str, str]) -> Callable[[G
         return ", ".join(parts)
 
     return label
-
-
-def _place(row: GroupRow) -> tuple[float, float]:
-    ranks = [None if fit is None else fit.rank for fit in (row.with_reference, row.without_reference)]
-    with_reference, without = (float("inf") if rank is None else float(rank) for rank in ranks)
-    return with_reference, without
 
 
 def _key(row: GroupRow | TrialRow) -> tuple[str, str, str | None, str]:

@@ -132,7 +132,7 @@ class TrialGroup:
         return drift_between(ends[0], ends[1])
 
     def index(self, *, with_reference: bool) -> float | None:
-        """Give the index by which the group may be ranked.
+        """Give the index by which the group may be compared with others.
 
         Args:
             with_reference: Whether it is that with the model.
@@ -140,11 +140,27 @@ class TrialGroup:
         Returns:
             That of the pooled fit, or of the only trial; kg; None where it is not identifiable.
         """
+        fit = self._known_fit(with_reference=with_reference)
+        return None if fit is None else fit.index / self.first.sphere.analysis.gravity
+
+    def index_interval(self, *, with_reference: bool) -> tuple[float, float] | None:
+        """Give the 95 % interval of that index.
+
+        Args:
+            with_reference: Whether it is that with the model.
+
+        Returns:
+            Its ends; kg; None where the index is not identifiable.
+        """
+        fit, gravity = self._known_fit(with_reference=with_reference), self.first.sphere.analysis.gravity
+        return None if fit is None else (fit.index_low / gravity, fit.index_high / gravity)
+
+    def _known_fit(self, *, with_reference: bool) -> EllipsoidFit | None:
+        """The pooled fit, or that of the only trial, if it is identifiable."""
         fit = self.pooled_fit(with_reference=with_reference)
         if len(self.trials) == 1:
             fit = self.first.fit(with_reference=with_reference)
-        known = fit is not None and fit.identifiable
-        return fit.index / self.first.sphere.analysis.gravity if known and fit is not None else None
+        return fit if fit is not None and fit.identifiable else None
 
 
 @dataclass(slots=True, kw_only=True)

@@ -8,6 +8,7 @@ import pytest
 
 from forcetorque.evaluation.sphere import RULE, TOLERANCE, CloudForm, EllipsoidFit, RadiusFit, analyse_sphere
 from forcetorque.evaluation.sphere.affine import fit_mapped
+from forcetorque.evaluation.sphere.findings import lowest_index
 from forcetorque.evaluation.sphere.free import fit_ellipsoid, fit_radius, may_be_flat
 from tests.evaluation.sphere.clouds import DEFORMED, WEIGHT, grid, map_of, on, slow_noise, whole_sphere
 
@@ -276,3 +277,34 @@ def test_the_rms_with_the_model_is_from_where_the_map_has_each_sample() -> None:
     mapped = fit_mapped(reference + 0.3 * rng.normal(size=reference.shape), reference, radius=WEIGHT, tolerance=0.1)
     assert mapped is not None
     assert mapped.fit.rms == pytest.approx(np.sqrt(3.0) * 0.3, rel=0.05)
+
+
+def test_the_interval_of_a_perfect_sensors_index_holds_zero() -> None:
+    """Noise only adds to an index, and masses that may be equal have an index that may be 0."""
+    rng = np.random.default_rng(20)
+    count, missed, told = 200, 0, 0
+    reference = WEIGHT * grid(500, 110.0)
+    for _ in range(count):
+        noise = 0.3 * rng.normal(size=reference.shape)
+        perfect, off = (
+            fit_mapped(reference * [1.0, size, 1.0] + noise, reference, radius=WEIGHT, tolerance=TOLERANCE)
+            for size in (1.0, 1.01)
+        )
+        assert perfect is not None
+        assert off is not None
+        missed += perfect.fit.index_low > 0.0
+        told += off.fit.index_low > 0.0
+        assert perfect.fit.index_low <= perfect.fit.index <= perfect.fit.index_high
+    # intervals of 95 % miss ten of them; an interval about the estimate missed one in eleven
+    assert missed <= 10
+    # negative control: one per cent of one axis is told from none
+    assert told > 0.9 * count
+
+
+def test_masses_that_may_be_equal_have_an_index_that_may_be_zero() -> None:
+    """By hand: intervals that share a value, if only one, let the index be 0; two that are apart do not."""
+    low, high = np.array([1.0, 2.0, 3.0]), np.array([3.0, 4.0, 5.0])
+    assert lowest_index(0.2, low, high) == 0.0
+    assert lowest_index(0.2, low, high - [0.1, 0.0, 0.0]) == 0.2
+    assert lowest_index(-0.2, low, high - [0.1, 0.0, 0.0]) == 0.0
+    assert lowest_index(0.2, low, np.full(3, np.inf)) == 0.0

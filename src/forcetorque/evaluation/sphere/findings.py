@@ -107,7 +107,8 @@ class EllipsoidFit:
     half_width_high: FloatArray
     """Upper ends; infinite where the surface may be open; shape (3,)."""
     index_low: float
-    """Lower end of the sample standard deviation of the three axis intersections."""
+    """Lower end of the sample standard deviation of the three axis intersections; 0 where their intervals share a
+    value."""
     index_high: float
     """Its upper end; infinite where the surface may be open."""
     centre_margin: FloatArray
@@ -236,6 +237,22 @@ def index_ends(estimates: Sequence[Resampled], *, jackknifed: bool) -> tuple[flo
     parts = [np.vstack([each.whole, each.without_one, each.halves, each.windows]) for each in estimates]
     indices = indices_of(np.concatenate(parts))
     return float(indices.min()), float(indices.max())
+
+
+def lowest_index(index_low: float, low: FloatArray, high: FloatArray) -> float:
+    """Let the interval of the index hold 0 where the lengths may be equal.
+
+    An index is no less than 0, and noise only adds to it, so that near 0 an interval about the estimate lies too high.
+
+    Args:
+        index_low: Lower end of the interval about the estimate.
+        low: Lower ends of the axis intersections; shape (3,).
+        high: Their upper ends; shape (3,).
+
+    Returns:
+        0 where the three intervals share a value, else the end as it was, not below 0.
+    """
+    return 0.0 if low.max() <= high.min() else max(0.0, index_low)
 
 
 def relative_margin(low: FloatArray, high: FloatArray, mean: float) -> float:

@@ -31,6 +31,7 @@ from forcetorque.evaluation.sphere.findings import (
     EllipsoidFit,
     indices_of,
     lengths_of,
+    lowest_index,
     no_ellipsoid,
     percent,
     relative_margin,
@@ -158,13 +159,14 @@ def _with_unknown_centres(
     share = relative_margin(low[:3], high[:3], mean)
     if not why and not share <= tolerance:
         why = (f"with the centres of the trials not known, a radius is known to {percent(share)} only",)
+    shortest, longest = np.minimum(fit.low, lengths_of(high[:3])), np.maximum(fit.high, lengths_of(low[:3]))
     return replace(
         fit,
-        low=np.minimum(fit.low, lengths_of(high[:3])),
-        high=np.maximum(fit.high, lengths_of(low[:3])),
+        low=shortest,
+        high=longest,
         half_width_low=np.minimum(fit.half_width_low, lengths_of(high[3:])),
         half_width_high=np.maximum(fit.half_width_high, lengths_of(low[3:])),
-        index_low=max(0.0, min(fit.index_low, index - spread)),
+        index_low=lowest_index(min(fit.index_low, index - spread), shortest, longest),
         index_high=max(fit.index_high, index + spread),
         identifiable=not why,
         tilt_identifiable=fit.tilt_identifiable and not why and relative_margin(low[3:], high[3:], mean) <= tolerance,
