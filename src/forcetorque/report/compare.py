@@ -98,14 +98,13 @@ def _height(group: TrialGroup) -> float:
 
 
 def _lines(group: TrialGroup, *, with_reference: bool) -> list[_Line]:
-    gravity = group.first.sphere.analysis.gravity
-    fits = [trial.fit(with_reference=with_reference) for trial in group.trials]
-    lines = [_line("trial", fit, gravity) for fit in fits if fit is not None]
+    fits = [(trial.gravity, trial.fit(with_reference=with_reference)) for trial in group.trials]
+    lines = [_line("trial", fit, gravity) for gravity, fit in fits if fit is not None]
     mean, pooled = group.mean(with_reference=with_reference), group.pooled_fit(with_reference=with_reference)
     if len(group.trials) > 1 and mean is not None:
         lines.append(_Line(kind="mean", index=mean.mean, low=mean.low, high=mean.high, known=True))
     if pooled is not None:
-        lines.append(_line("pooled", pooled, gravity))
+        lines.append(_line("pooled", pooled, group.first.gravity))
     return lines
 
 
