@@ -130,7 +130,9 @@ def test_without_matplotlib_only_figures_are_refused(arm: Path, run: Run, monkey
     for name in ("matplotlib", "matplotlib.figure", "matplotlib.backends.backend_agg"):
         monkeypatch.setitem(sys.modules, name, None)
     before = snapshot(arm)
-    assert "pip install forcetorque[report]" in run("sphere", PARQUET, "--figure", "spheres.png").error()
+    refused = run("sphere", PARQUET, "--figure", "spheres.png")
+    assert "pip install forcetorque[report]" in refused.error()
+    assert refused.log == []
     assert snapshot(arm) == before
     assert run("sphere", PARQUET).code == 0
 
@@ -150,6 +152,14 @@ def test_wrong_words_are_refused_in_one_line(arm: Path, run: Run, words: tuple[s
     before = snapshot(arm)
     assert message in run("sphere", PARQUET, *words).error()
     assert snapshot(arm) == before
+
+
+@pytest.mark.parametrize("figure", ["spheres.pdf", "nowhere/spheres.png"])
+def test_a_figure_is_refused_before_anything_is_read(arm: Path, run: Run, figure: str) -> None:
+    """No minutes are lost to a folder that is not there."""
+    refused = run("sphere", PARQUET, "--figure", figure)
+    assert f"--figure {figure}: expected" in refused.error()
+    assert refused.log == []
 
 
 def test_two_calibrations_of_one_sensor_are_compared(arm: Path, run: Run) -> None:

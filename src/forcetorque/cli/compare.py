@@ -9,10 +9,11 @@ from pathlib import Path
 import typer
 
 from forcetorque.atomic import write_bytes_atomically
-from forcetorque.calibration import read_calibration
 from forcetorque.cli.compare_result import CompareResult, FailureRow, flat_rows, group_rows, trial_row
 from forcetorque.cli.compare_tables import show
+from forcetorque.cli.figure_file import refuse_figure
 from forcetorque.cli.output import Format, print_result, start_logging
+from forcetorque.cli.reading import read_calibrations
 from forcetorque.errors import ForceTorqueError
 from forcetorque.evaluation.sphere import RULE, TOLERANCE
 from forcetorque.experiment import TrialGroup, group_trials, read_trials
@@ -43,9 +44,8 @@ def run(
         Exit: With code 1 if a file, a sensor or the figure failed; the result has the others.
     """
     log = start_logging()
-    if figure is not None:
-        _refuse_figure(figure)
-    loaded = {str(file): read_calibration(file) for file in calibrations or ()}
+    refuse_figure(figure)
+    loaded = read_calibrations(calibrations)
     trials, failed = read_trials(
         paths, sensors=sensors, calibrations=loaded, intervals=intervals, by_interval=by_interval, progress=log.info
     )
@@ -76,17 +76,6 @@ def run(
     )
     if failures:
         raise typer.Exit(1)
-
-
-def _refuse_figure(figure: Path) -> None:
-    """What is wrong with the figure is said before hours are spent on the files."""
-    from forcetorque.report.canvas import new_figure
-
-    if figure.suffix.lower() != ".png":
-        raise ForceTorqueError(f"--figure {figure}: expected a name that ends in .png")
-    if not figure.parent.is_dir():
-        raise ForceTorqueError(f"--figure {figure}: expected an existing folder to write to, there is none")
-    new_figure(1.0)
 
 
 def _drawn(figure: Path | None, groups: Sequence[TrialGroup]) -> tuple[str | None, list[FailureRow]]:

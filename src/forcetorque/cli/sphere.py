@@ -8,10 +8,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from forcetorque.atomic import write_bytes_atomically
+from forcetorque.cli.figure_file import refuse_figure
 from forcetorque.cli.output import Format, console, print_result, start_logging, table
 from forcetorque.cli.reading import read_calibrations, read_experiment, refuse_left_out, sensors_named
 from forcetorque.cli.sphere_result import EllipsoidRow, SphereResult, SphereRow, flat_row, sphere_row
-from forcetorque.errors import ForceTorqueError
 from forcetorque.evaluation.sphere import RULE, TOLERANCE
 from forcetorque.experiment import SensorSphere, analyse_sensor, sphere_intervals
 from forcetorque.experiment.candidate_names import short_names
@@ -45,8 +45,7 @@ def run(
         ForceTorqueError: If a name or a file is not what it should be.
     """
     log = start_logging()
-    if figure is not None and figure.suffix.lower() != ".png":
-        raise ForceTorqueError(f"--figure {figure}: expected a name that ends in .png")
+    refuse_figure(figure)
     loaded = read_calibrations(calibrations)
     experiment = read_experiment(path, log)
     chosen = sensors_named(experiment, sensors)
