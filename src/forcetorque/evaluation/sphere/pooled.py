@@ -19,7 +19,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.special import stdtrit
 
 from forcetorque.arrays import FloatArray, read_only
 from forcetorque.errors import ForceTorqueError
@@ -38,10 +37,7 @@ from forcetorque.evaluation.sphere.findings import (
 )
 from forcetorque.evaluation.sphere.free import fit_ellipsoid, fit_radius, is_flat
 from forcetorque.evaluation.sphere.own_centres import OwnCentres, fit_with_own_centres
-from forcetorque.evaluation.sphere.resampling import BLOCKS, resampled, whole
-
-_QUANTILE = float(stdtrit(BLOCKS - 1, 0.975))
-"""Student's t at the upper end of a 95 % interval, with the blocks' degrees of freedom."""
+from forcetorque.evaluation.sphere.resampling import BLOCKS, jackknife_margin, resampled, whole
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -150,10 +146,10 @@ def _with_unknown_centres(
             return replace(no_ellipsoid(reason), ellipsoid=fit.ellipsoid)
         parts.append(_inverse(part))
     inverse, middle = np.array(parts), _inverse(own)
-    margin = _QUANTILE * np.sqrt((BLOCKS - 1) / BLOCKS * ((inverse - inverse.mean(axis=0)) ** 2).sum(axis=0))
+    margin = jackknife_margin(inverse)
     low, high = middle - margin, middle + margin
     indices, index = indices_of(inverse), float(indices_of(middle[None])[0])
-    spread = _QUANTILE * np.sqrt((BLOCKS - 1) / BLOCKS * ((indices - indices.mean()) ** 2).sum())
+    spread = float(jackknife_margin(indices[:, None])[0])
     mean = float((1.0 / middle[:3]).mean())
     why = fit.why
     share = relative_margin(low[:3], high[:3], mean)
