@@ -181,13 +181,16 @@ def no_ellipsoid(reason: str) -> EllipsoidFit:
 
 
 def spread_index(lengths: FloatArray) -> float:
-    """Give the sample standard deviation of three lengths.
+    """Sum up in one number how far a sensor is from reading the same force alike along all axes.
+
+    The thesis prints it as a "standard deviation of the radii". The numbers of its Table 4.1 are the sample standard
+    deviation of the three axis intersections over gravity, that is of three apparent masses.
 
     Args:
-        lengths: Axis intersections; shape (3,).
+        lengths: Axis intersections, or apparent masses; shape (3,).
 
     Returns:
-        With n - 1.
+        Their sample standard deviation, with n - 1; 0 for a perfect sensor.
     """
     return float(np.std(lengths, ddof=1))
 
