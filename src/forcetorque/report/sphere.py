@@ -41,10 +41,11 @@ _FAR = 2.5
 def sphere_figure(found: Sequence[SensorSphere]) -> bytes:
     """Draw the clouds, ellipsoids and spheres of sensors as seen along the axes [1].
 
-    Everything is moved so that the offset of the sensor is zero: the centre of the ellipsoid with the model, else of
-    the one without it, else of the sphere of one radius. Ellipsoids are outlined as they are seen, so the outline
-    reaches to their half-widths, not to the axis intersections. An outline that is not identifiable is dotted, and
-    left out where it is far larger than the cloud.
+    Everything is moved so that the offset of the sensor is zero, as well as it is known: the centre of the ellipsoid
+    with the model if it is identifiable, else of the one without if that is; else the mean of measured minus reference
+    forces; without a reference the centre of the sphere of one radius, or the middle of the cloud. Ellipsoids are
+    outlined as they are seen, so the outline reaches to their half-widths, not to the axis intersections. An outline
+    that is not identifiable is dotted, and left out where it is far larger than the cloud.
 
     Args:
         found: Analyses, a row each.
