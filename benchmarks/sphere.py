@@ -9,10 +9,15 @@ from scipy.spatial.transform import Rotation
 
 from benchmarks.harness import arguments, interleaved, median_ratio, write_result
 from forcetorque.arrays import FloatArray
-from forcetorque.evaluation.sphere import Ellipsoid, SphereAnalysis, analyse_sphere, ellipsoid_of_map
+from forcetorque.evaluation.sphere import (
+    Ellipsoid,
+    SphereAnalysis,
+    analyse_sphere,
+    ellipsoid_distances,
+    ellipsoid_of_map,
+)
 from forcetorque.evaluation.sphere.algebraic import direct_fit, gradient_weighted_fit
 from forcetorque.evaluation.sphere.moments import QuadricMoments, extent
-from forcetorque.evaluation.sphere.orthogonal import ellipsoid_distances
 from forcetorque.evaluation.sphere.refinement import refine_ellipsoid
 from forcetorque.evaluation.sphere.resampling import Resampled, resampled
 

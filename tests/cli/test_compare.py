@@ -6,6 +6,7 @@ from __future__ import annotations
 import csv
 import io
 import json
+import shutil
 import sys
 from pathlib import Path
 from typing import Any
@@ -13,6 +14,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from forcetorque import report
 from forcetorque.evaluation.sphere import RULE, TOLERANCE
 from tests.axia import write_axia
 from tests.cli.json_schema import faults
@@ -83,12 +85,25 @@ def test_every_trial_is_what_sphere_finds(trials: Path, run: Run) -> None:
     assert (loose["trials"], loose["with_reference"]["pooled"], loose["with_reference"]["drift"]) == (1, None, None)
 
 
-def test_ranks_are_those_of_the_index(trials: Path, run: Run) -> None:
-    """The calibrated sensor comes before its prior; without the model nothing is identifiable, so nothing is ranked."""
-    result = run("compare", FIRST, SECOND, LOOSE, "-c", "fitted.json", "--format", "json").result()
-    ranked = sorted((group["with_reference"]["rank"], group["candidate"]) for group in result["groups"])
-    assert [rank for rank, _ in ranked] == [1, 2, 3, 4]
-    assert [candidate for _, candidate in ranked] == ["fitted.json"] * 2 + ["prior"] * 2
+def test_ranks_are_of_intervals(trials: Path, run: Run) -> None:
+    """The calibrated sensor comes before its prior; what overlaps is in no order, and what is not known has no rank."""
+    ended = run("compare", FIRST, SECOND, LOOSE, "-c", "fitted.json", "--format", "json")
+    result = ended.result()
+    ends = []
+    for group in result["groups"]:
+        by = group["with_reference"]
+        (only, *_) = [row for row in result["trials"] if all(row[k] == group[k] for k in ("condition", "candidate"))]
+        fit = by["pooled"] or only["with_reference"]
+        ends.append((fit["index_low_kg"], fit["index_high_kg"], by["rank"], group["candidate"]))
+    assert len(ends) == 4
+    for low, high, rank, candidate in ends:
+        below = [other for other in ends if other[1] < low]
+        assert rank == 1 + len(below)
+        overlapping = [other for other in ends if other[0] <= high and low <= other[1]]
+        assert {other[3] for other in overlapping} == {candidate}
+    assert sorted(rank for _, _, rank, _ in ends) == [1, 1, 3, 3]
+    out = run("compare", FIRST, SECOND, LOOSE, "-c", "fitted.json").out
+    assert "what overlaps is in no order" in out
     for group in result["groups"]:
         free = group["without_reference"]
         if free["rank"] is not None:
@@ -114,6 +129,27 @@ def test_the_table_has_the_forms_of_the_thesis(trials: Path, run: Run) -> None:
     assert "drift: last trial minus first" in ended.out
     assert "not identifiable" in ended.out
     assert "in brackets: not identifiable, neither averaged nor ranked" in ended.out
+
+
+def test_a_condition_is_shown_as_it_was_written(trials: Path, run: Run) -> None:
+    """A stroke in it makes no path of it: halves and three halves of a turn stay apart."""
+    for name, condition in ((FIRST, "1/2 turn"), (LOOSE, "3/2 turn")):
+        path = trials / name
+        path.write_text(path.read_text(encoding="utf-8").split("[trial]")[0] + f'[trial]\ncondition = "{condition}"\n')
+    out = run("compare", FIRST, LOOSE).out
+    every = out.split("every trial")[1].split("index with the model")[0]
+    assert "1/2 turn" in every
+    assert "3/2 turn" in every
+
+
+def test_files_of_one_name_are_told_apart(trials: Path, run: Run) -> None:
+    """Calibrations of one name in two folders have the folders before them, in every table."""
+    for folder in ("old", "new"):
+        (trials / folder).mkdir()
+        shutil.copy(trials / "fitted.json", trials / folder / "leg.json")
+    out = run("compare", FIRST, SECOND, "-c", "old/leg.json", "-c", "new/leg.json").out
+    assert out.count("old/leg.json") == out.count("new/leg.json") > 4
+    assert out.count("leg.json") == 2 * out.count("old/leg.json")
 
 
 def test_the_order_of_files_is_that_of_the_trials(trials: Path, run: Run) -> None:
@@ -169,6 +205,7 @@ def test_all_bad_files_still_give_a_result(arm: Path, run: Run) -> None:
     edit(arm / PARQUET, 'path = "recording"', 'path = "nowhere"')
     result = _ended_with_failures(run("compare", PARQUET, "--figure", "none.png", "--format", "json"))
     assert (result["trials"], result["groups"], len(result["failures"])) == ([], [], 1)
+    assert result["figure"] is None
     assert not (arm / "none.png").exists()
     assert run("compare", PARQUET).code == 1
     assert run("compare", PARQUET, "--format", "csv").code == 1
@@ -195,6 +232,21 @@ def test_a_figure_is_written_where_it_is_asked(trials: Path, run: Run) -> None:
     assert ended.result()["figure"] == "compare.png"
     assert (trials / "compare.png").read_bytes()[:8] == b"\x89PNG\r\n\x1a\n"
     assert snapshot(trials).keys() - before.keys() == {"compare.png"}
+
+
+def test_a_figure_that_could_not_be_drawn_is_not_named(trials: Path, run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Nor is one that is there from before; what went wrong is a failure, and the numbers are there."""
+
+    def refuse(groups: object) -> bytes:
+        raise OSError("no room")
+
+    (trials / "compare.png").write_bytes(b"of another day")
+    monkeypatch.setattr(report, "index_figure", refuse)
+    words = ("compare", FIRST, SECOND, "--figure", "compare.png")
+    result = _ended_with_failures(run(*words, "--format", "json"))
+    assert (result["figure"], len(result["trials"])) == (None, 2)
+    assert [(failure["file"], failure["message"]) for failure in result["failures"]] == [("compare.png", "no room")]
+    assert "drawn to" not in run(*words).out
 
 
 def test_without_matplotlib_only_figures_are_refused(arm: Path, run: Run, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -130,7 +130,9 @@ def test_without_matplotlib_only_figures_are_refused(arm: Path, run: Run, monkey
     for name in ("matplotlib", "matplotlib.figure", "matplotlib.backends.backend_agg"):
         monkeypatch.setitem(sys.modules, name, None)
     before = snapshot(arm)
-    assert "pip install forcetorque[report]" in run("sphere", PARQUET, "--figure", "spheres.png").error()
+    refused = run("sphere", PARQUET, "--figure", "spheres.png")
+    assert "pip install forcetorque[report]" in refused.error()
+    assert refused.log == []
     assert snapshot(arm) == before
     assert run("sphere", PARQUET).code == 0
 
@@ -152,6 +154,14 @@ def test_wrong_words_are_refused_in_one_line(arm: Path, run: Run, words: tuple[s
     assert snapshot(arm) == before
 
 
+@pytest.mark.parametrize("figure", ["spheres.pdf", "nowhere/spheres.png"])
+def test_a_figure_is_refused_before_anything_is_read(arm: Path, run: Run, figure: str) -> None:
+    """No minutes are lost to a folder that is not there."""
+    refused = run("sphere", PARQUET, "--figure", figure)
+    assert f"--figure {figure}: expected" in refused.error()
+    assert refused.log == []
+
+
 def test_two_calibrations_of_one_sensor_are_compared(arm: Path, run: Run) -> None:
     """Unlike where one is to be used, here several are welcome."""
     shutil.copy("fitted.json", "copy.json")
@@ -160,6 +170,16 @@ def test_two_calibrations_of_one_sensor_are_compared(arm: Path, run: Run) -> Non
     assert [row["candidate"] for row in result["rows"]] == ["prior", "fitted.json", "copy.json"]
     first, second = (_row(result, name)["with_reference"] for name in ("fitted.json", "copy.json"))
     assert first == second
+
+
+def test_files_of_one_name_are_told_apart(arm: Path, run: Run) -> None:
+    """Calibrations of one name in two folders have the folders before them, in every table and line."""
+    for folder in ("old", "new"):
+        (arm / folder).mkdir()
+        shutil.copy("fitted.json", arm / folder / "leg.json")
+    out = run("sphere", PARQUET, "-c", "old/leg.json", "-c", "new/leg.json", "--interval", "judge").out
+    assert out.count("old/leg.json") == out.count("new/leg.json") > 4
+    assert out.count("leg.json") == 2 * out.count("old/leg.json")
 
 
 def test_counts_are_refused_with_their_sensor(arm: Path, run: Run) -> None:

@@ -164,6 +164,25 @@ def test_what_does_not_belong_together_is_not_pooled(changes: dict[str, float], 
     assert group.mean(with_reference=True) is not None
 
 
+def test_every_trial_has_its_own_gravity() -> None:
+    """Masses are by the gravity of their file; trials of different gravity are neither pooled nor said to drift."""
+    rng = np.random.default_rng(7)
+    here, there = _trial(rng, 1.0), _trial(rng, 2.0)
+    strong = replace(
+        there, sphere=replace(there.sphere, analysis=replace(there.sphere.analysis, gravity=2.0 * GRAVITY))
+    )
+    group = _group([here, strong])
+    for mode in (True, False):
+        fits = [trial.fit(with_reference=mode) for trial in (here, strong)]
+        mean = group.mean(with_reference=mode)
+        assert mean is not None
+        indices = [fit.index / (k * GRAVITY) for k, fit in enumerate(fits, 1) if fit is not None]
+        assert mean.mean == pytest.approx(np.mean(indices), rel=1e-14)
+        assert group.drift(with_reference=mode) is None
+        assert group.index(with_reference=mode) is None
+    assert (group.pooled, group.not_pooled) == (None, "the files state different gravity (9.81, 19.62 m/s2)")
+
+
 def test_the_file_says_condition_and_number(arm: Path) -> None:
     """Both are optional; a number is a whole one from 1."""
     path = arm / PARQUET

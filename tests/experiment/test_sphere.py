@@ -114,6 +114,23 @@ def test_ignored_intervals_are_not_used(arm: Path) -> None:
         sphere_intervals(experiment, None)
 
 
+def test_supports_on_both_sides_of_the_sensor_are_refused(arm: Path) -> None:
+    """Held by its hand the arm hangs its base on the sensor, another mass; each side by itself is analysed."""
+    path = arm / PARQUET
+    head, _, judge = path.read_text(encoding="utf-8").rpartition("[[interval]]")
+    swapped = judge.replace('support = "base"', 'support = "hand"')
+    assert swapped != judge
+    held = '[[support]]\nframe = "hand"\ngravity_direction = [0.0, 0.0, -1.0]\n\n[[interval]]'
+    path.write_text(f"{head}{held}{swapped}", encoding="utf-8")
+    experiment = load_experiment(path)
+    (base,), (hand,) = (_analysed(experiment, [name]) for name in ("fit", "judge"))
+    assert base.analysis.mass == pytest.approx(ARM_MASS)
+    assert hand.analysis.mass is not None
+    assert hand.analysis.mass != pytest.approx(ARM_MASS, rel=0.01)
+    with pytest.raises(ExperimentError, match="expected the same mass on it in all intervals, got 4 kg in 'fit' and"):
+        _analysed(experiment, None)
+
+
 def test_without_joints_there_is_no_reference_and_still_a_mass(arm: Path) -> None:
     """The log of the arm's joints is missing one: the readings are the same, and the model's mass is known."""
     whole = load_experiment(arm / YARP)

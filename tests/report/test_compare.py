@@ -3,12 +3,14 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from matplotlib.figure import Figure
 
 from forcetorque.errors import ShapeError
-from forcetorque.report import index_figure
+from forcetorque.report import index_figure, sphere_figure
 from forcetorque.report.canvas import look
 from tests.report.drawing import legend_of, panels, recorded_figures, size_of, trial_groups, words
 
@@ -68,6 +70,23 @@ def test_a_panel_that_has_nothing_is_left_out() -> None:
         index_figure(trial_groups(np.random.default_rng(3), sensors=1, with_reference=False))
     (panel,) = panels(figures[0])
     assert "without the model" in panel.get_title(loc="left")
+
+
+def test_files_of_one_name_have_their_folders_in_the_figures() -> None:
+    """Deep below a folder that both have in common, which would push the difference out of a name of 60 letters."""
+    (group,) = trial_groups(np.random.default_rng(5), sensors=1, trials=1)
+    files = [f"/{'somewhere/' * 5}{folder}/leg.json" for folder in ("old", "new")]
+    groups = [
+        replace(group, trials=(replace(group.first, sphere=replace(group.first.sphere, candidate=file)),))
+        for file in files
+    ]
+    with recorded_figures() as figures:
+        index_figure(groups)
+        sphere_figure([each.first.sphere for each in groups])
+    labels = [text.get_text() for text in panels(figures[0])[0].get_yticklabels()]
+    titles = [panel.get_title(loc="left") for panel in panels(figures[1])[::3]]
+    for names in (labels, titles):
+        assert len(set(names)) == 2
 
 
 def test_two_hundred_sensors_have_a_line_each() -> None:

@@ -9,10 +9,11 @@ from pathlib import Path
 import typer
 
 from forcetorque.atomic import write_bytes_atomically
-from forcetorque.calibration import read_calibration
 from forcetorque.cli.compare_result import CompareResult, FailureRow, flat_rows, group_rows, trial_row
 from forcetorque.cli.compare_tables import show
+from forcetorque.cli.figure_file import refuse_figure
 from forcetorque.cli.output import Format, print_result, start_logging
+from forcetorque.cli.reading import read_calibrations
 from forcetorque.errors import ForceTorqueError
 from forcetorque.evaluation.sphere import RULE, TOLERANCE
 from forcetorque.experiment import TrialGroup, group_trials, read_trials
@@ -43,9 +44,8 @@ def run(
         Exit: With code 1 if a file, a sensor or the figure failed; the result has the others.
     """
     log = start_logging()
-    if figure is not None:
-        _refuse_figure(figure)
-    loaded = {str(file): read_calibration(file) for file in calibrations or ()}
+    refuse_figure(figure)
+    loaded = read_calibrations(calibrations)
     trials, failed = read_trials(
         paths, sensors=sensors, calibrations=loaded, intervals=intervals, by_interval=by_interval, progress=log.info
     )
@@ -61,11 +61,12 @@ def run(
             log.warning(
                 "%s was fitted on %s of %s, so the verdict on it flatters", trial.sphere.candidate, labels, trial.file
             )
-    failures += _drawn(figure, groups)
+    drawn, not_drawn = _drawn(figure, groups)
+    failures += not_drawn
     result = CompareResult(
         tolerance=TOLERANCE,
         rule=RULE,
-        figure=None if figure is None else str(figure),
+        figure=drawn,
         trials=[trial_row(trial, k) for group in groups for k, trial in enumerate(group.trials, 1)],
         groups=group_rows(groups),
         failures=failures,
@@ -77,25 +78,14 @@ def run(
         raise typer.Exit(1)
 
 
-def _refuse_figure(figure: Path) -> None:
-    """What is wrong with the figure is said before hours are spent on the files."""
-    from forcetorque.report.canvas import new_figure
-
-    if figure.suffix.lower() != ".png":
-        raise ForceTorqueError(f"--figure {figure}: expected a name that ends in .png")
-    if not figure.parent.is_dir():
-        raise ForceTorqueError(f"--figure {figure}: expected an existing folder to write to, there is none")
-    new_figure(1.0)
-
-
-def _drawn(figure: Path | None, groups: Sequence[TrialGroup]) -> list[FailureRow]:
-    """Draw the figure; what fails then must not cost the result."""
+def _drawn(figure: Path | None, groups: Sequence[TrialGroup]) -> tuple[str | None, list[FailureRow]]:
+    """Draw the figure, and name it if it was drawn; what fails then must not cost the result."""
     if figure is None or not groups:
-        return []
+        return None, []
     from forcetorque.report import index_figure
 
     try:
         write_bytes_atomically(figure, index_figure(groups))
     except (ForceTorqueError, OSError) as error:
-        return [FailureRow(file=str(figure), sensor=None, message=" ".join(str(error).split()))]
-    return []
+        return None, [FailureRow(file=str(figure), sensor=None, message=" ".join(str(error).split()))]
+    return str(figure), []

@@ -55,7 +55,7 @@ class TrialRow(BaseModel):
 
 
 class DriftRow(BaseModel):
-    """What changed from the first trial to the last, with margins from the 95 % intervals of both."""
+    """What changed from the first trial to the last; margins are for all seven numbers at once, from both intervals."""
 
     identifiable: bool
     """Whether both trials are; else nothing is said to have changed."""
@@ -91,8 +91,8 @@ class GroupFitRow(BaseModel):
     pooled_centre_N: list[list[float]] | None
     """Centre of each trial by it."""
     rank: int | None
-    """Place among the groups by the index of the pooled fit or the only trial, 1 for the smallest; none where that is
-    not identifiable."""
+    """One more than the number of groups whose index, of the pooled fit or the only trial, has its whole interval below
+    that of this one; groups whose intervals overlap are in no order; none where the index is not identifiable."""
     drift: DriftRow | None
     """What changed from the first trial to the last; none with one trial."""
 
@@ -141,7 +141,7 @@ class CompareResult(BaseModel):
     rule: str
     """How it is decided what is identifiable."""
     figure: str | None
-    """File of the figure."""
+    """File of the figure; none where none was drawn."""
     trials: list[TrialRow]
     """One per sensor, trial and way to read it, in the order of the groups."""
     groups: list[GroupRow]
@@ -183,7 +183,7 @@ def trial_row(trial: TrialSphere, number: int) -> TrialRow:
 
 
 def group_rows(groups: Sequence[TrialGroup]) -> list[GroupRow]:
-    """Put groups into the form of the result, and rank those that are identifiable.
+    """Put groups into the form of the result, and rank those that are identifiable by what their intervals tell apart.
 
     Args:
         groups: The groups.
@@ -212,9 +212,9 @@ def group_rows(groups: Sequence[TrialGroup]) -> list[GroupRow]:
 
 
 def _ranks(groups: Sequence[TrialGroup], *, with_reference: bool) -> list[int | None]:
-    indices = [group.index(with_reference=with_reference) for group in groups]
-    known = sorted(index for index in indices if index is not None)
-    return [None if index is None else known.index(index) + 1 for index in indices]
+    ends = [group.index_interval(with_reference=with_reference) for group in groups]
+    tops = [end[1] for end in ends if end is not None]
+    return [None if end is None else 1 + sum(top < end[0] for top in tops) for end in ends]
 
 
 def _group_fit(group: TrialGroup, rank: int | None, *, with_reference: bool) -> GroupFitRow:

@@ -3,13 +3,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from pathlib import Path
+from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from forcetorque.cli.compare_result import CompareResult, GroupFitRow, GroupRow, TrialRow
 from forcetorque.cli.output import console, table
 from forcetorque.cli.sphere_result import EllipsoidRow
+from forcetorque.experiment.candidate_names import short_names
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -27,12 +27,13 @@ def show(result: CompareResult) -> None:
     """
     screen = console()
     if result.trials:
-        screen.print(_trial_table(result.trials))
-        label, compared = _labels(result.groups), _compared(result.groups)
+        names = short_names([row.candidate for row in result.trials])
+        screen.print(_trial_table(result.trials, names))
+        label, compared = _labels(result.groups, names), _compared(result.groups)
         for rows in compared[:_MANY]:
             for name, words in _FITS:
                 if _says_something(rows, result.trials, name):
-                    title = f"{rows[0].sensor} ({rows[0].serial}), {Path(rows[0].candidate).name}: index {words}, kg"
+                    title = f"{rows[0].sensor} ({rows[0].serial}), {names[rows[0].candidate]}: index {words}, kg"
                     screen.print(title, soft_wrap=True)
                     screen.print(_condition_table(rows, result.trials, name))
         if len(compared) > _MANY:
@@ -47,6 +48,10 @@ def show(result: CompareResult) -> None:
                 screen.print(f"{label(row)}: not pooled: {row.not_pooled}", soft_wrap=True)
         if len(result.groups) > 1:
             screen.print(_rank_table(result.groups, result.trials, label))
+            screen.print(
+                "rank: one more than the sensors whose whole interval lies below; what overlaps is in no order",
+                soft_wrap=True,
+            )
         screen.print(
             "index: standard deviation of the masses of three axes; in brackets: not identifiable, neither averaged "
             "nor ranked; pooled: one shape for all trials, a centre for each",
@@ -54,19 +59,23 @@ def show(result: CompareResult) -> None:
         )
     for failure in result.failures:
         screen.print(f"FAILED: {failure.message}", soft_wrap=True)
-    if result.figure is not None and Path(result.figure).is_file():
+    if result.figure is not None:
         screen.print(f"drawn to {result.figure}", soft_wrap=True)
 
 
-def _trial_table(trials: Sequence[TrialRow]) -> Table:
-    shown = [name for name in ("condition", "candidate") if len({getattr(row, name) for row in trials}) > 1]
+def _trial_table(trials: Sequence[TrialRow], names: Mapping[str, str]) -> Table:
+    columns = {
+        "condition": [row.condition or "-" for row in trials],
+        "candidate": [names[row.candidate] for row in trials],
+    }
+    shown = {name: words for name, words in columns.items() if len(set(words)) > 1}
     numbered = any(row.trial > 1 for row in trials)
     made = table(
         "sensor", "serial", *shown, *(["trial"] if numbered else []), "error x, N", "y, N", "z, N", "index with, kg",
         "index without, kg", title="every trial; errors with the model, index with and without it",
     )  # fmt: skip
-    for row in trials:
-        words = [Path(getattr(row, name) or "-").name for name in shown]
+    for k, row in enumerate(trials):
+        words = [column[k] for column in shown.values()]
         fit = row.with_reference
         errors = ["-"] * 3
         if fit is not None and fit.error_N is not None:
@@ -132,40 +141,39 @@ def _drift_table(groups: Sequence[GroupRow], label: Callable[[GroupRow], str]) -
 
 
 def _rank_table(groups: Sequence[GroupRow], trials: Sequence[TrialRow], label: Callable[[GroupRow], str]) -> Table:
-    """Groups by index, those that are not identifiable below all others, in the order of the files."""
+    """Groups by index, unknown ones last in the order of the files; ranks are of intervals and may skip about."""
     made = table(
-        "sensor", "trials", "index with, kg", "rank", "index without, kg", "rank",
+        "sensor", "trials", "index with, kg", "interval", "rank", "index without, kg", "interval", "rank",
         title="by index of the pooled fit, or of the only trial",
     )  # fmt: skip
     first = {_key(trial): trial for trial in reversed(trials)}
-    for row in sorted(groups, key=_place):
-        cells = []
+    lines = []
+    for row in groups:
+        cells, place = [], []
         for name, _ in _FITS:
-            fit: GroupFitRow | None = getattr(row, name)
+            by: GroupFitRow | None = getattr(row, name)
             only: EllipsoidRow | None = getattr(first[_key(row)], name)
-            cells.append(_index(only if row.trials == 1 else None if fit is None else fit.pooled))
-            cells.append("-" if fit is None or fit.rank is None else str(fit.rank))
-        made.add_row(label(row), str(row.trials), *cells)
+            fit = only if row.trials == 1 else None if by is None else by.pooled
+            cells += [_index(fit), _ends(fit), "-" if by is None or by.rank is None else str(by.rank)]
+            index = fit.index_kg if fit is not None and fit.identifiable else None
+            place.append(float("inf") if index is None else index)
+        lines.append((place, [label(row), str(row.trials), *cells]))
+    for _, cells in sorted(lines, key=lambda line: line[0]):
+        made.add_row(*cells)
     return made
 
 
-def _labels(groups: Sequence[GroupRow]) -> Callable[[GroupRow], str]:
+def _labels(groups: Sequence[GroupRow], names: Mapping[str, str]) -> Callable[[GroupRow], str]:
     """What names a group in one line: the sensor, and what not all groups have in common."""
     conditions, candidates = len({row.condition for row in groups}) > 1, len({row.candidate for row in groups}) > 1
 
     def label(row: GroupRow) -> str:
         parts = [f"{row.sensor} ({row.serial})"]
         parts += [row.condition or "no condition"] if conditions else []
-        parts += [Path(row.candidate).name] if candidates else []
+        parts += [names[row.candidate]] if candidates else []
         return ", ".join(parts)
 
     return label
-
-
-def _place(row: GroupRow) -> tuple[float, float]:
-    ranks = [None if fit is None else fit.rank for fit in (row.with_reference, row.without_reference)]
-    with_reference, without = (float("inf") if rank is None else float(rank) for rank in ranks)
-    return with_reference, without
 
 
 def _key(row: GroupRow | TrialRow) -> tuple[str, str, str | None, str]:

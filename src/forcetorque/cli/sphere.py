@@ -3,17 +3,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from forcetorque.atomic import write_bytes_atomically
+from forcetorque.cli.figure_file import refuse_figure
 from forcetorque.cli.output import Format, console, print_result, start_logging, table
 from forcetorque.cli.reading import read_calibrations, read_experiment, refuse_left_out, sensors_named
 from forcetorque.cli.sphere_result import EllipsoidRow, SphereResult, SphereRow, flat_row, sphere_row
-from forcetorque.errors import ForceTorqueError
 from forcetorque.evaluation.sphere import RULE, TOLERANCE
 from forcetorque.experiment import SensorSphere, analyse_sensor, sphere_intervals
+from forcetorque.experiment.candidate_names import short_names
 from forcetorque.experiment.fitness import by_sensor
 from forcetorque.experiment.inputs import stated_in
 
@@ -44,8 +45,7 @@ def run(
         ForceTorqueError: If a name or a file is not what it should be.
     """
     log = start_logging()
-    if figure is not None and figure.suffix.lower() != ".png":
-        raise ForceTorqueError(f"--figure {figure}: expected a name that ends in .png")
+    refuse_figure(figure)
     loaded = read_calibrations(calibrations)
     experiment = read_experiment(path, log)
     chosen = sensors_named(experiment, sensors)
@@ -79,6 +79,7 @@ def run(
 
 def _show(result: SphereResult) -> None:
     screen = console()
+    names = short_names([row.candidate for row in result.rows])
     for sensor in dict.fromkeys(row.sensor for row in result.rows):
         rows = [row for row in result.rows if row.sensor == sensor]
         first = rows[0]
@@ -86,13 +87,13 @@ def _show(result: SphereResult) -> None:
             f"{result.experiment}: {sensor} ({first.serial}), {first.samples} samples of {', '.join(first.intervals)}",
             soft_wrap=True,
         )
-        screen.print(_mass_table(rows))
-        screen.print(_interval_table(rows))
-        for line in _remarks(rows, result.gravity_m_s2):
+        screen.print(_mass_table(rows, names))
+        screen.print(_interval_table(rows, names))
+        for line in _remarks(rows, names, result.gravity_m_s2):
             screen.print(line, soft_wrap=True)
         moments = [row for row in rows if row.moment_with_reference is not None]
         if moments:
-            screen.print(_moment_table(moments))
+            screen.print(_moment_table(moments, names))
     screen.print(
         "mass: where an axis leaves the ellipsoid, over gravity; error: that force minus the weight by the model; "
         "index: standard deviation of the three masses; known: whether they are worth comparing",
@@ -102,9 +103,9 @@ def _show(result: SphereResult) -> None:
         screen.print(f"drawn to {result.figure}", soft_wrap=True)
 
 
-def _mass_table(rows: Iterable[SphereRow]) -> Table:
+def _mass_table(rows: Iterable[SphereRow], names: Mapping[str, str]) -> Table:
     made = table("candidate", "fit", "x, kg", "y, kg", "z, kg", "error x, N", "y, N", "z, N", "index, kg", "known")
-    for candidate, label, fit in _fits(rows):
+    for candidate, label, fit in _fits(rows, names):
         masses = ["-"] * 3 if fit.mass_kg is None else [f"{mass:.3f}" for mass in fit.mass_kg]
         errors = ["-"] * 3 if fit.error_N is None else [f"{error:.2f}" for error in fit.error_N]
         index = "-" if fit.index_kg is None else f"{fit.index_kg:.3f}"
@@ -112,30 +113,30 @@ def _mass_table(rows: Iterable[SphereRow]) -> Table:
     return made
 
 
-def _interval_table(rows: Iterable[SphereRow]) -> Table:
+def _interval_table(rows: Iterable[SphereRow], names: Mapping[str, str]) -> Table:
     made = table("candidate", "fit", "x, kg", "y, kg", "z, kg", "index, kg", title="what the recording allows")
-    for candidate, label, fit in _fits(rows):
+    for candidate, label, fit in _fits(rows, names):
         ends = zip(fit.mass_low_kg, fit.mass_high_kg, strict=True)
         index = _interval(fit.index_low_kg, fit.index_high_kg)
         made.add_row(candidate, label, *(_interval(low, high) for low, high in ends), index)
     return made
 
 
-def _fits(rows: Iterable[SphereRow]) -> Iterator[tuple[str, str, EllipsoidRow]]:
+def _fits(rows: Iterable[SphereRow], names: Mapping[str, str]) -> Iterator[tuple[str, str, EllipsoidRow]]:
     for row in rows:
         for label, fit in (("with model", row.with_reference), ("without", row.without_reference)):
             if fit is not None:
-                yield Path(row.candidate).name, label, fit
+                yield names[row.candidate], label, fit
 
 
-def _remarks(rows: list[SphereRow], gravity: float) -> Iterator[str]:
+def _remarks(rows: list[SphereRow], names: Mapping[str, str], gravity: float) -> Iterator[str]:
     first = rows[0]
     if first.model_mass_kg is not None:
         yield f"the model has {first.model_mass_kg:.3f} kg on the sensor; gravity {gravity:g} m/s2"
     if first.no_reference is not None:
         yield f"no fit with the model: {first.no_reference}"
     for row in rows:
-        name, one = Path(row.candidate).name, row.one_radius
+        name, one = names[row.candidate], row.one_radius
         mass = "none" if one.geometric_mass_kg is None else f"{one.geometric_mass_kg:.3f} kg"
         verdict = "" if one.identifiable else f", not identifiable: {'; '.join(one.why)}"
         yield f"{name}, one radius: {mass}, {_interval(one.mass_low_kg, one.mass_high_kg)} kg{verdict}"
@@ -147,17 +148,16 @@ def _remarks(rows: list[SphereRow], gravity: float) -> Iterator[str]:
             yield f"{name}, without: a {row.form}{covered}; not identifiable: {'; '.join(row.without_reference.why)}"
         if row.moment_with_reference is not None and row.moment_with_reference.why:
             yield f"{name}, moments: not identifiable: {'; '.join(row.moment_with_reference.why)}"
-        yield from _tilt_remark(row)
+        yield from _tilt_remark(row, name)
 
 
-def _tilt_remark(row: SphereRow) -> Iterator[str]:
+def _tilt_remark(row: SphereRow, name: str) -> Iterator[str]:
     for label, fit in (("with the model", row.with_reference), ("without", row.without_reference)):
         if fit is not None and fit.identifiable and not fit.tilt_identifiable:
-            name = Path(row.candidate).name
             yield f"{name}, {label}: half-widths and principal radii, which lie between the axes, are not known"
 
 
-def _moment_table(rows: Iterable[SphereRow]) -> Table:
+def _moment_table(rows: Iterable[SphereRow], names: Mapping[str, str]) -> Table:
     made = table(
         "candidate", "x, N m", "y, N m", "z, N m", "model x, N m", "y, N m", "z, N m", "known",
         title="largest moment while the force goes over its sphere",
@@ -166,7 +166,7 @@ def _moment_table(rows: Iterable[SphereRow]) -> Table:
         fit = row.moment_with_reference
         if fit is not None:
             made.add_row(
-                Path(row.candidate).name,
+                names[row.candidate],
                 *(f"{value:.3f}" for value in fit.half_width_Nm),
                 *(f"{value:.3f}" for value in fit.expected_half_width_Nm),
                 _known(fit.identifiable),

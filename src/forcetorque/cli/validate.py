@@ -18,7 +18,7 @@ from forcetorque.cli.validate_result import (
     contact_force_row,
     joint_torque_row,
 )
-from forcetorque.cli.words import short_names, with_error
+from forcetorque.cli.words import with_error
 from forcetorque.evaluation import OtherSensors
 from forcetorque.experiment import (
     ContactForceVerdict,
@@ -26,6 +26,7 @@ from forcetorque.experiment import (
     compare_contact_forces,
     compare_joint_torques,
 )
+from forcetorque.experiment.candidate_names import short_names
 from forcetorque.experiment.fitness import by_sensor, one_per_sensor
 from forcetorque.experiment.inputs import stated_in
 from forcetorque.experiment.readings import NO_OFFSET

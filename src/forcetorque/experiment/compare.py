@@ -47,6 +47,11 @@ class TrialSphere:
     sphere: SensorSphere
     """The analysis."""
 
+    @property
+    def gravity(self) -> float:
+        """Magnitude of gravity that the file states; m/s2."""
+        return self.sphere.analysis.gravity
+
     def fit(self, *, with_reference: bool) -> EllipsoidFit | None:
         """Give one of the two ellipsoids of forces.
 
@@ -112,9 +117,8 @@ class TrialGroup:
         Returns:
             Plain mean; kg; None where no trial is identifiable.
         """
-        fits = [trial.fit(with_reference=with_reference) for trial in self.trials]
-        gravity = self.first.sphere.analysis.gravity
-        known = [fit.index / gravity for fit in fits if fit is not None and fit.identifiable]
+        fits = [(trial.gravity, trial.fit(with_reference=with_reference)) for trial in self.trials]
+        known = [fit.index / gravity for gravity, fit in fits if fit is not None and fit.identifiable]
         return mean_of_trials(known) if known else None
 
     def drift(self, *, with_reference: bool) -> Drift | None:
@@ -124,15 +128,18 @@ class TrialGroup:
             with_reference: Whether by the fits with the model.
 
         Returns:
-            Last minus first; None with one trial, or where one has no ellipsoid.
+            Last minus first; None with one trial, where one has no ellipsoid, or where the files state different
+            gravity, which no sensor is to blame for.
         """
+        if self.trials[0].gravity != self.trials[-1].gravity:
+            return None
         ends = [trial.fit(with_reference=with_reference) for trial in (self.trials[0], self.trials[-1])]
         if len(self.trials) < 2 or ends[0] is None or ends[1] is None:
             return None
         return drift_between(ends[0], ends[1])
 
     def index(self, *, with_reference: bool) -> float | None:
-        """Give the index by which the group may be ranked.
+        """Give the index by which the group may be compared with others.
 
         Args:
             with_reference: Whether it is that with the model.
@@ -140,11 +147,27 @@ class TrialGroup:
         Returns:
             That of the pooled fit, or of the only trial; kg; None where it is not identifiable.
         """
+        fit = self._known_fit(with_reference=with_reference)
+        return None if fit is None else fit.index / self.first.gravity
+
+    def index_interval(self, *, with_reference: bool) -> tuple[float, float] | None:
+        """Give the 95 % interval of that index.
+
+        Args:
+            with_reference: Whether it is that with the model.
+
+        Returns:
+            Its ends; kg; None where the index is not identifiable.
+        """
+        fit, gravity = self._known_fit(with_reference=with_reference), self.first.gravity
+        return None if fit is None else (fit.index_low / gravity, fit.index_high / gravity)
+
+    def _known_fit(self, *, with_reference: bool) -> EllipsoidFit | None:
+        """The pooled fit, all of whose trials have one gravity, or that of the only trial, if it is identifiable."""
         fit = self.pooled_fit(with_reference=with_reference)
         if len(self.trials) == 1:
             fit = self.first.fit(with_reference=with_reference)
-        known = fit is not None and fit.identifiable
-        return fit.index / self.first.sphere.analysis.gravity if known and fit is not None else None
+        return fit if fit is not None and fit.identifiable else None
 
 
 @dataclass(slots=True, kw_only=True)
@@ -325,6 +348,9 @@ def _pooled(trials: Sequence[TrialSphere]) -> tuple[PooledSphere | None, str | N
     priors = [trial.prior for trial in trials]
     if spheres[0].candidate == "prior" and not all(_same(priors[0], prior) for prior in priors[1:]):
         return None, "the trials are read with different prior matrices"
+    gravities = list(dict.fromkeys(trial.gravity for trial in trials))
+    if len(gravities) > 1:
+        return None, f"the files state different gravity ({', '.join(f'{each:g}' for each in gravities)} m/s2)"
     weights = np.array([_weight(sphere) for sphere in spheres])
     known = weights[np.isfinite(weights)]
     if len(known) and float(np.ptp(known)) > _SAME_WEIGHT * float(known.mean()):

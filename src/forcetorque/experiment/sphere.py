@@ -21,6 +21,9 @@ from forcetorque.experiment.samples import readings_over, samples_over
 from forcetorque.recording import Interval, Use
 from forcetorque.robot import JointMotion, RootMotion, build_tree
 
+_ROUNDING = 1e-9
+"""Relative difference of masses that are sums of the same ones in another order."""
+
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class SensorSphere:
@@ -99,7 +102,8 @@ def analyse_sensor(
         An analysis for each way to read the sensor.
 
     Raises:
-        ExperimentError: If there is no way to read it, or a calibration may not be applied.
+        ExperimentError: If there is no way to read it, a calibration may not be applied, or the supports of the
+            intervals are on both sides of the sensor, so that not the same mass hangs on it.
     """
     for name, calibration in calibrations.items():
         require_fit(name, calibration, experiment, sensor)
@@ -110,7 +114,7 @@ def analyse_sensor(
     reason = _no_reference(experiment, sensor, intervals)
     read, variables, reference = _collected(experiment, used, intervals, with_reference=reason is None)
     raw = read if sensor.quantity == "raw" or sensor.prior is None else recover_raw(read, sensor.prior)
-    mass = _mass(experiment, sensor, intervals[0])
+    mass = _one_mass(experiment, sensor, intervals)
     column = {variable.linear.name: k for k, variable in enumerate(used.variables)}
     found = []
     for name, model, names in _candidates(sensor, calibrations):
@@ -194,6 +198,20 @@ def _collected(
         np.concatenate([part.variables for part in parts]),
         np.concatenate([part.reference for part in parts]),
     )
+
+
+def _one_mass(experiment: Experiment, sensor: ExperimentSensor, intervals: Sequence[Interval]) -> float | None:
+    """Mass that hangs on the sensor in all intervals; kg."""
+    masses = [_mass(experiment, sensor, interval) for interval in intervals]
+    first = masses[0] or 0.0
+    for interval, mass in zip(intervals, masses, strict=True):
+        if abs((mass or 0.0) - first) > _ROUNDING * first:
+            raise ExperimentError(
+                f"sensor {sensor.name!r}: expected the same mass on it in all intervals, got {first:.4g} kg in "
+                f"{intervals[0].label!r} and {mass or 0.0:.4g} kg in {interval.label!r}, whose supports are on the two "
+                "sides of the sensor; choose intervals of one side (--interval)"
+            )
+    return masses[0]
 
 
 def _mass(experiment: Experiment, sensor: ExperimentSensor, interval: Interval) -> float | None:

@@ -5,7 +5,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -13,6 +12,7 @@ import numpy as np
 from forcetorque.errors import ShapeError
 from forcetorque.evaluation.sphere import EllipsoidFit
 from forcetorque.experiment import TrialGroup
+from forcetorque.experiment.candidate_names import short_names
 from forcetorque.report.canvas import SMALL_POINTS, TITLE_POINTS, legend_below, look, new_figure, png_bytes, shown_name
 
 if TYPE_CHECKING:
@@ -98,14 +98,13 @@ def _height(group: TrialGroup) -> float:
 
 
 def _lines(group: TrialGroup, *, with_reference: bool) -> list[_Line]:
-    gravity = group.first.sphere.analysis.gravity
-    fits = [trial.fit(with_reference=with_reference) for trial in group.trials]
-    lines = [_line("trial", fit, gravity) for fit in fits if fit is not None]
+    fits = [(trial.gravity, trial.fit(with_reference=with_reference)) for trial in group.trials]
+    lines = [_line("trial", fit, gravity) for gravity, fit in fits if fit is not None]
     mean, pooled = group.mean(with_reference=with_reference), group.pooled_fit(with_reference=with_reference)
     if len(group.trials) > 1 and mean is not None:
         lines.append(_Line(kind="mean", index=mean.mean, low=mean.low, high=mean.high, known=True))
     if pooled is not None:
-        lines.append(_line("pooled", pooled, gravity))
+        lines.append(_line("pooled", pooled, group.first.gravity))
     return lines
 
 
@@ -154,7 +153,7 @@ def _draw(panel: Axes, lines: Sequence[_Line], top: float) -> None:
 def _names(groups: Sequence[TrialGroup]) -> list[str]:
     """Names of groups, by what tells them apart."""
     sensors = {group.first.sphere.sensor for group in groups}
-    candidates = {group.first.sphere.candidate for group in groups}
+    candidates = short_names([group.first.sphere.candidate for group in groups])
     names = []
     for group in groups:
         sphere = group.first.sphere
@@ -162,7 +161,7 @@ def _names(groups: Sequence[TrialGroup]) -> list[str]:
         if group.first.condition is not None:
             parts.append(group.first.condition)
         if len(candidates) > 1:
-            parts.append(Path(sphere.candidate).name)
+            parts.append(candidates[sphere.candidate])
         names.append(shown_name(", ".join(parts)))
     return names
 

@@ -12,6 +12,7 @@ from forcetorque.arrays import FloatArray
 from forcetorque.errors import ShapeError
 from forcetorque.evaluation.sphere import Ellipsoid
 from forcetorque.experiment import SensorSphere
+from forcetorque.experiment.candidate_names import short_names
 from forcetorque.report.canvas import (
     REFERENCE_COLOUR,
     ROW_INCHES,
@@ -40,10 +41,11 @@ _FAR = 2.5
 def sphere_figure(found: Sequence[SensorSphere]) -> bytes:
     """Draw the clouds, ellipsoids and spheres of sensors as seen along the axes [1].
 
-    Everything is moved so that the offset of the sensor is zero: the centre of the ellipsoid with the model, else of
-    the one without it, else of the sphere of one radius. Ellipsoids are outlined as they are seen, so the outline
-    reaches to their half-widths, not to the axis intersections. An outline that is not identifiable is dotted, and
-    left out where it is far larger than the cloud.
+    Everything is moved so that the offset of the sensor is zero, as well as it is known: the centre of the ellipsoid
+    with the model if it is identifiable, else of the one without if that is; else the mean of measured minus reference
+    forces; without a reference the centre of the sphere of one radius, or the middle of the cloud. Ellipsoids are
+    outlined as they are seen, so the outline reaches to their half-widths, not to the axis intersections. An outline
+    that is not identifiable is dotted, and left out where it is far larger than the cloud.
 
     Args:
         found: Analyses, a row each.
@@ -60,6 +62,7 @@ def sphere_figure(found: Sequence[SensorSphere]) -> bytes:
     """
     if not found:
         raise ShapeError("spheres: expected at least one to draw, got none")
+    names = short_names([each.candidate for each in found])
     figure = new_figure(ROW_INCHES[1] * len(found))
     rows = figure.subplots(len(found), 3, squeeze=False)
     for panels, each in zip(rows, found, strict=True):
@@ -67,7 +70,7 @@ def sphere_figure(found: Sequence[SensorSphere]) -> bytes:
         for panel, plane in zip(panels, _PLANES, strict=True):
             _draw_plane(panel, each, centre, plane)
         panels[0].set_title(
-            shown_name(f"{each.sensor} ({each.serial}), {each.candidate}"), loc="left", fontsize=TITLE_POINTS
+            shown_name(f"{each.sensor} ({each.serial}), {names[each.candidate]}"), loc="left", fontsize=TITLE_POINTS
         )
     legend_below(figure, _keys(found))
     return png_bytes(figure)

@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 from forcetorque.errors import ForceTorqueError
-from forcetorque.evaluation.sphere import apparent_masses, axis_errors, performance_index
+from forcetorque.evaluation.sphere import apparent_masses, axis_errors
+from forcetorque.evaluation.sphere.findings import spread_index
 
 GRAVITY = 9.81
 """What the thesis used; m/s2."""
@@ -41,7 +42,7 @@ def test_the_index_of_every_row(sensor: str) -> None:
     errors, index = TABLE_4_1[sensor]
     for mass in (MASS, 1.0):
         masses = mass + np.array(errors) / GRAVITY
-        assert performance_index(masses) == pytest.approx(index, abs=PRINTED)
+        assert spread_index(masses) == pytest.approx(index, abs=PRINTED)
         np.testing.assert_allclose(axis_errors(masses, reference_mass=mass, gravity=GRAVITY), errors, atol=1e-12)
 
 
@@ -50,7 +51,7 @@ def test_another_standard_deviation_does_not_give_the_table() -> None:
     missed = 0
     for errors, index in TABLE_4_1.values():
         missed += abs(np.std(np.array(errors) / GRAVITY) - index) > PRINTED
-        missed += abs(performance_index(errors) - index) > PRINTED
+        missed += abs(spread_index(np.array(errors)) - index) > PRINTED
     assert missed == 2 * len(TABLE_4_1)
 
 

@@ -140,3 +140,15 @@ def test_nothing_drifts_that_is_not_known() -> None:
         assert not drift.centre_exceeds.any()
         assert not drift.intersections_exceed.any()
     assert not last.free.identifiable
+
+
+def test_equal_trials_seldom_name_anything() -> None:
+    """Seven numbers are judged at once: of sixty pairs that differ by noise alone, three are expected to name any."""
+    rng = np.random.default_rng(4)
+    named = 0
+    for _ in range(60):
+        drift = drift_between(_mapped(rng).fit, _mapped(rng).fit)
+        assert drift is not None
+        named += drift.index_exceeds or drift.intersections_exceed.any() or drift.centre_exceeds.any()
+    # three and two standard deviations; each number by itself would be named in one pair of six
+    assert named <= 6

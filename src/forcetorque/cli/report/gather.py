@@ -46,6 +46,7 @@ from forcetorque.experiment import (
     require_unseen,
     sphere_intervals,
 )
+from forcetorque.experiment.candidate_names import short_names
 from forcetorque.experiment.candidates import PRIOR
 from forcetorque.recording import Recording
 
@@ -158,6 +159,7 @@ def _gather_sensor(
     demands: Demands,
 ) -> SensorMaterial:
     tried = _Reasons()
+    names = short_names(calibrations)
     unseen = _unseen(experiment, sensor, calibrations, tried)
     # where every calibration has seen the judged data there is nothing to judge it on; without any, the prior is judged
     judges = bool(unseen) or not calibrations
@@ -176,7 +178,7 @@ def _gather_sensor(
     checks, criteria = [], []
     candidates: list[tuple[str, Calibration] | None] = [*calibrations.items()] or [None]
     for candidate in candidates:
-        name = PRIOR if candidate is None else Path(candidate[0]).name
+        name = PRIOR if candidate is None else names[candidate[0]]
         checked = partial(check_sensor, experiment, sensor, candidate, population=demands.population)
         found = tried.attempt(f"static checks of {name}", checked)
         checks += [] if found is None else [measured_row(found)]
@@ -199,7 +201,9 @@ def _gather_sensor(
         static=checks,
         criteria=criteria,
         calibrations=dict(calibrations),
-        warnings=[words for file, one in unseen.items() for words in _warnings(experiment, sensor, file, one, tried)],
+        warnings=[
+            words for file, one in unseen.items() for words in _warnings(experiment, sensor, names[file], one, tried)
+        ],
         not_judged=tried.reasons,
     )
     report.verdict = sensor_verdict(report)
@@ -211,9 +215,10 @@ def _unseen(
 ) -> dict[str, Calibration]:
     """Calibrations that may be applied and have not been fitted on what is judged."""
     unseen = {}
+    names = short_names(calibrations)
     for file, calibration in calibrations.items():
         fits = partial(require_unseen, file, calibration, experiment, sensor)
-        if tried.attempt(f"errors of {Path(file).name}", lambda check=fits: check() or True):  # type: ignore[misc]
+        if tried.attempt(f"errors of {names[file]}", lambda check=fits: check() or True):  # type: ignore[misc]
             unseen[file] = calibration
     return unseen
 
@@ -225,9 +230,8 @@ def _spheres(
 
 
 def _warnings(
-    experiment: Experiment, sensor: ExperimentSensor, file: str, calibration: Calibration, tried: _Reasons
+    experiment: Experiment, sensor: ExperimentSensor, name: str, calibration: Calibration, tried: _Reasons
 ) -> list[str]:
-    name = Path(file).name
     beyond = tried.attempt(f"range of {name}", partial(beyond_fitted_range, experiment, sensor, calibration))
     chosen = tried.attempt(f"choice of {name}", partial(judged_where_chosen, experiment, calibration))
     return [

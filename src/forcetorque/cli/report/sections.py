@@ -14,9 +14,9 @@ from forcetorque.cli.report import sphere_tables, tables
 from forcetorque.cli.report.gather import ExperimentMaterial, SensorMaterial
 from forcetorque.cli.report.result import ReportResult
 from forcetorque.cli.scene import scene_of
-from forcetorque.cli.words import short_names
 from forcetorque.errors import ForceTorqueError
 from forcetorque.experiment import Experiment
+from forcetorque.experiment.candidate_names import short_names
 from forcetorque.report.document import Block, Document, Figure, List, Page, Section, Text, Tone, Verdict
 from forcetorque.spatial import WRENCH_COMPONENTS
 from forcetorque.viewer import MOST_SAMPLES, page_of
@@ -167,8 +167,9 @@ def _space(sensor: SensorMaterial) -> Iterator[Block]:
         yield sphere_tables.mass_table(report.spheres)
         if any(row.moment_with_reference is not None for row in report.spheres):
             yield sphere_tables.moment_table(report.spheres)
+        names = short_names([row.candidate for row in report.spheres])
         reasons = {
-            f"{Path(row.candidate).name}, {label}: not identifiable: {'; '.join(fit.why)}"
+            f"{names[row.candidate]}, {label}: not identifiable: {'; '.join(fit.why)}"
             for row in report.spheres
             for label, fit in (("with the model", row.with_reference), ("without", row.without_reference))
             if fit is not None and fit.why

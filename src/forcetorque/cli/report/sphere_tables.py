@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from forcetorque.cli.sphere_result import SphereRow
-from forcetorque.cli.words import short_names
+from forcetorque.experiment.candidate_names import short_names
 from forcetorque.report.document import Table
 
 

@@ -9,7 +9,8 @@ from typing import Any
 from forcetorque.calibration import Calibration
 from forcetorque.cli.accept_result import CriterionRow, MeasuredRow
 from forcetorque.cli.report.result import ExperimentReport, SensorReport
-from forcetorque.cli.words import short_names, with_error
+from forcetorque.cli.words import with_error
+from forcetorque.experiment.candidate_names import short_names
 from forcetorque.report.document import Table
 from forcetorque.spatial import WRENCH_COMPONENTS, WRENCH_UNITS
 

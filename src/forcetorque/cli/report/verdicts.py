@@ -8,7 +8,8 @@ from typing import Literal
 
 from forcetorque.cli.evaluate_result import VerdictRow
 from forcetorque.cli.report.result import ComparisonRow, SensorReport, VerdictLine
-from forcetorque.cli.words import short_names, with_error
+from forcetorque.cli.words import with_error
+from forcetorque.experiment.candidate_names import short_names
 from forcetorque.experiment.readings import NO_OFFSET
 
 _FEWEST = 20

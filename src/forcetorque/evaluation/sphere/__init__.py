@@ -3,9 +3,10 @@
 
 from forcetorque.evaluation.sphere.affine import MappedFit, MomentFit
 from forcetorque.evaluation.sphere.analysis import SphereAnalysis, analyse_sphere
-from forcetorque.evaluation.sphere.apparent_mass import apparent_masses, axis_errors, performance_index
+from forcetorque.evaluation.sphere.apparent_mass import apparent_masses, axis_errors
 from forcetorque.evaluation.sphere.ellipsoid import Ellipsoid, ellipsoid_of_map
 from forcetorque.evaluation.sphere.findings import RULE, TOLERANCE, CloudForm, EllipsoidFit, RadiusFit
+from forcetorque.evaluation.sphere.orthogonal import ellipsoid_distances
 from forcetorque.evaluation.sphere.pooled import PooledSphere, pool_trials
 from forcetorque.evaluation.sphere.trials import Drift, TrialMean, drift_between, mean_of_trials
 
@@ -26,8 +27,8 @@ __all__ = [
     "apparent_masses",
     "axis_errors",
     "drift_between",
+    "ellipsoid_distances",
     "ellipsoid_of_map",
     "mean_of_trials",
-    "performance_index",
     "pool_trials",
 ]

@@ -20,6 +20,7 @@ from forcetorque.evaluation.sphere.findings import (
     EllipsoidFit,
     index_ends,
     lengths_of,
+    lowest_index,
     no_ellipsoid,
     percent,
     relative_margin,
@@ -146,13 +147,14 @@ def image_of_sphere(
     if why:
         low, high = estimates.ranged
     index_low, index_high = index_ends([estimates], jackknifed=not why)
+    shortest, longest = lengths_of(high[:3]), lengths_of(low[:3])
     return EllipsoidFit(
         ellipsoid=ellipsoid,
-        low=lengths_of(high[:3]),
-        high=lengths_of(low[:3]),
+        low=shortest,
+        high=longest,
         half_width_low=lengths_of(high[3:]),
         half_width_high=lengths_of(low[3:]),
-        index_low=index_low,
+        index_low=lowest_index(index_low, shortest, longest),
         index_high=index_high,
         centre_margin=centre_margin,
         rms=float(np.sqrt((error**2).sum(axis=1).mean())),

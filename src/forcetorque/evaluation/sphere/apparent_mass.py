@@ -1,9 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""From radii to apparent masses, the performance index and the error of each axis (thesis 4.1.2 and Table 4.1).
-
-The index is printed as a "standard deviation of the radii". The numbers of Table 4.1 are the sample
-standard deviation of the three axis intersections over gravity, that is of three apparent masses.
-"""
+"""From radii to apparent masses and the error of each axis (thesis 4.1.2 and Table 4.1)."""
 
 from __future__ import annotations
 
@@ -27,18 +23,6 @@ def apparent_masses(lengths: Any, *, gravity: float) -> FloatArray:
     """
     masses: FloatArray = read_only(lengths, name="lengths", shape=(3,)) / _positive(gravity, "gravity")
     return masses
-
-
-def performance_index(masses: Any) -> float:
-    """Sum up in one number how far a sensor is from reading the same force alike along all axes.
-
-    Args:
-        masses: Apparent masses by the axis intersections; shape (3,); kg.
-
-    Returns:
-        Their sample standard deviation, with n - 1; kg; 0 for a perfect sensor.
-    """
-    return float(np.std(read_only(masses, name="masses", shape=(3,)), ddof=1))
 
 
 def axis_errors(masses: Any, *, reference_mass: float, gravity: float) -> FloatArray:

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What is found about a cloud: fits with their intervals, and whether they are to be believed.
 
-THE RULE. A number is identifiable if the recording itself says so, in four ways:
+THE RULE WITHOUT THE MODEL. A number is identifiable if the recording itself says so, in four ways:
 
 1. Its 95 % interval, from leaving out one of ten blocks of time after the other, is narrower than the tolerance.
 2. Methods that differ only in how they treat noise agree within the tolerance. Where a small part of a sphere meets
@@ -17,7 +17,13 @@ error. That of the ellipsoid then holds the interval of one radius too, because 
 ellipsoid does not exclude a sphere. Intervals are made in one over length, where a plane is zero and
 not infinitely far away. One radius stands for the weight only if the sensor is not deformed.
 
-The rule is about axis intersections, of which the index is made. Half-widths and principal radii need what lies
+THE RULE WITH THE MODEL is 1 alone. There is one method, linear least squares, so nothing has to agree; what it gives is
+the image of a sphere, closed unless the measured forces lie in a plane; and it is no noise that makes it flat, since
+the reference says where the force went: a sensor that reads a tenth along one axis has an ellipsoid ten times as long
+as thick, and that is known. The interval is what the measured forces leave open. The model and the joint angles
+are taken as exact: what is wrong with them moves every block alike and is not in it.
+
+The rules are about axis intersections, of which the index is made. Half-widths and principal radii need what lies
 between the axes as well, and are judged by the same ways for themselves.
 
 The tolerance is part of the mean length. It is no property of the data: it says what the numbers are for. Thesis Table
@@ -41,11 +47,12 @@ TOLERANCE = 0.1
 
 RULE = (
     "a number is identifiable if its 95 % interval, from leaving out one of ten blocks of time after the other, is "
-    "within the tolerance of the mean radius, if methods that treat noise differently agree within it, and if every "
-    "one of them finds a closed surface less than five times as long as thick; else its interval is the range over "
-    "methods, halves and windows"
+    "within the tolerance of the mean radius; with the model that is all, and the interval takes the model and the "
+    "joint angles as exact; without the model, methods that treat noise differently must also agree within the "
+    "tolerance, and each must find a closed surface, and the ellipsoid must be less than five times as long as thick; "
+    "what is not identifiable has the range over methods, halves and windows as its interval"
 )
-"""The rule in one sentence, for results."""
+"""Both rules in one sentence, for results."""
 
 
 class CloudForm(StrEnum):
@@ -100,13 +107,15 @@ class EllipsoidFit:
     half_width_high: FloatArray
     """Upper ends; infinite where the surface may be open; shape (3,)."""
     index_low: float
-    """Lower end of the sample standard deviation of the three axis intersections."""
+    """Lower end of the sample standard deviation of the three axis intersections; 0 where their intervals share a
+    value."""
     index_high: float
     """Its upper end; infinite where the surface may be open."""
     centre_margin: FloatArray
     """Half of the 95 % interval of the centre; infinite without an ellipsoid; shape (3,)."""
     rms: float
-    """Root mean square distance from the ellipsoid; NaN without one."""
+    """Root mean square distance from the ellipsoid; with the model from where the map has each sample on it, which is
+    no less; NaN without an ellipsoid."""
     identifiable: bool
     """Whether the intersections are worth comparing."""
     tilt_identifiable: bool
@@ -172,13 +181,16 @@ def no_ellipsoid(reason: str) -> EllipsoidFit:
 
 
 def spread_index(lengths: FloatArray) -> float:
-    """Give the sample standard deviation of three lengths.
+    """Sum up in one number how far a sensor is from reading the same force alike along all axes.
+
+    The thesis prints it as a "standard deviation of the radii". The numbers of its Table 4.1 are the sample standard
+    deviation of the three axis intersections over gravity, that is of three apparent masses.
 
     Args:
-        lengths: Axis intersections; shape (3,).
+        lengths: Axis intersections, or apparent masses; shape (3,).
 
     Returns:
-        With n - 1.
+        Their sample standard deviation, with n - 1; 0 for a perfect sensor.
     """
     return float(np.std(lengths, ddof=1))
 
@@ -228,6 +240,22 @@ def index_ends(estimates: Sequence[Resampled], *, jackknifed: bool) -> tuple[flo
     parts = [np.vstack([each.whole, each.without_one, each.halves, each.windows]) for each in estimates]
     indices = indices_of(np.concatenate(parts))
     return float(indices.min()), float(indices.max())
+
+
+def lowest_index(index_low: float, low: FloatArray, high: FloatArray) -> float:
+    """Let the interval of the index hold 0 where the lengths may be equal.
+
+    An index is no less than 0, and noise only adds to it, so that near 0 an interval about the estimate lies too high.
+
+    Args:
+        index_low: Lower end of the interval about the estimate.
+        low: Lower ends of the axis intersections; shape (3,).
+        high: Their upper ends; shape (3,).
+
+    Returns:
+        0 where the three intervals share a value, else the end as it was, not below 0.
+    """
+    return 0.0 if low.max() <= high.min() else max(0.0, index_low)
 
 
 def relative_margin(low: FloatArray, high: FloatArray, mean: float) -> float:

@@ -16,6 +16,7 @@ from forcetorque.evaluation.sphere.findings import (
     index_ends,
     indices_of,
     lengths_of,
+    lowest_index,
     no_ellipsoid,
     no_radius,
     percent,
@@ -235,7 +236,7 @@ def _intervals(
     if radius is None:
         point = float(indices_of(geometric[None])[0])
         low, high = _hull([fit.jackknifed for fit in fits], geometric)
-        return low, high, min(index_low, point), max(index_high, point)
+        return low, high, lowest_index(min(index_low, point), low[:3], high[:3]), max(index_high, point)
     one = (np.full(6, 1.0 / radius.high), np.full(6, 1.0 / radius.low))
     low, high = _hull([*(fit.ranged for fit in fits), one], geometric)
     return low, high, 0.0, index_high  # a sphere, whose index is 0, is not excluded

@@ -66,7 +66,7 @@ def ellipsoid_of_parameters(parameters: FloatArray) -> Ellipsoid:
 
 
 def ellipsoid_distances(cloud: FloatArray, ellipsoid: Ellipsoid) -> FloatArray:
-    """Measure how far points lie outside an ellipsoid.
+    """Measure how far points lie outside an ellipsoid: which samples make the `rms` of a fit without the model.
 
     Args:
         cloud: Points; shape (n, 3).

@@ -19,7 +19,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.special import stdtrit
 
 from forcetorque.arrays import FloatArray, read_only
 from forcetorque.errors import ForceTorqueError
@@ -31,16 +30,14 @@ from forcetorque.evaluation.sphere.findings import (
     EllipsoidFit,
     indices_of,
     lengths_of,
+    lowest_index,
     no_ellipsoid,
     percent,
     relative_margin,
 )
 from forcetorque.evaluation.sphere.free import fit_ellipsoid, fit_radius, is_flat
 from forcetorque.evaluation.sphere.own_centres import OwnCentres, fit_with_own_centres
-from forcetorque.evaluation.sphere.resampling import BLOCKS, resampled, whole
-
-_QUANTILE = float(stdtrit(BLOCKS - 1, 0.975))
-"""Student's t at the upper end of a 95 % interval, with the blocks' degrees of freedom."""
+from forcetorque.evaluation.sphere.resampling import BLOCKS, jackknife_margin, resampled, whole
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -149,22 +146,23 @@ def _with_unknown_centres(
             return replace(no_ellipsoid(reason), ellipsoid=fit.ellipsoid)
         parts.append(_inverse(part))
     inverse, middle = np.array(parts), _inverse(own)
-    margin = _QUANTILE * np.sqrt((BLOCKS - 1) / BLOCKS * ((inverse - inverse.mean(axis=0)) ** 2).sum(axis=0))
+    margin = jackknife_margin(inverse)
     low, high = middle - margin, middle + margin
     indices, index = indices_of(inverse), float(indices_of(middle[None])[0])
-    spread = _QUANTILE * np.sqrt((BLOCKS - 1) / BLOCKS * ((indices - indices.mean()) ** 2).sum())
+    spread = float(jackknife_margin(indices[:, None])[0])
     mean = float((1.0 / middle[:3]).mean())
     why = fit.why
     share = relative_margin(low[:3], high[:3], mean)
     if not why and not share <= tolerance:
         why = (f"with the centres of the trials not known, a radius is known to {percent(share)} only",)
+    shortest, longest = np.minimum(fit.low, lengths_of(high[:3])), np.maximum(fit.high, lengths_of(low[:3]))
     return replace(
         fit,
-        low=np.minimum(fit.low, lengths_of(high[:3])),
-        high=np.maximum(fit.high, lengths_of(low[:3])),
+        low=shortest,
+        high=longest,
         half_width_low=np.minimum(fit.half_width_low, lengths_of(high[3:])),
         half_width_high=np.maximum(fit.half_width_high, lengths_of(low[3:])),
-        index_low=max(0.0, min(fit.index_low, index - spread)),
+        index_low=lowest_index(min(fit.index_low, index - spread), shortest, longest),
         index_high=max(fit.index_high, index + spread),
         identifiable=not why,
         tilt_identifiable=fit.tilt_identifiable and not why and relative_margin(low[3:], high[3:], mean) <= tolerance,

@@ -57,11 +57,7 @@ class Resampled:
     @property
     def margin(self) -> FloatArray:
         """Half of the 95 % interval by the jackknife and Student's t; shape (k,)."""
-        b = len(self.without_one)
-        scatter = ((self.without_one - self.without_one.mean(axis=0)) ** 2).sum(axis=0)
-        quantile = stdtrit(b - 1, _UPPER)
-        margin: FloatArray = quantile * np.sqrt((b - 1) / b * scatter)
-        return margin
+        return jackknife_margin(self.without_one)
 
     @property
     def jackknifed(self) -> tuple[FloatArray, FloatArray]:
@@ -93,6 +89,21 @@ class Resampled:
             halves=change(self.halves),
             windows=change(self.windows),
         )
+
+
+def jackknife_margin(without_one: FloatArray) -> FloatArray:
+    """Give half of the 95 % interval of numbers that were estimated without one block after the other.
+
+    Args:
+        without_one: Estimates; shape (b, k).
+
+    Returns:
+        Standard error by the jackknife, times Student's t with b - 1 degrees of freedom; shape (k,).
+    """
+    b = len(without_one)
+    scatter = ((without_one - without_one.mean(axis=0)) ** 2).sum(axis=0)
+    margin: FloatArray = stdtrit(b - 1, _UPPER) * np.sqrt((b - 1) / b * scatter)
+    return margin
 
 
 def resampled(

@@ -12,9 +12,14 @@ from scipy.special import stdtrit
 from forcetorque.arrays import BoolArray, FloatArray, read_only
 from forcetorque.errors import ForceTorqueError
 from forcetorque.evaluation.sphere.findings import EllipsoidFit
+from forcetorque.evaluation.sphere.resampling import BLOCKS
 
 _UPPER = 0.975
 """Quantile at the upper end of a 95 % interval."""
+_JUDGED = 7
+"""Numbers that a drift is told by: index, three intersections, three coordinates of the centre."""
+_TOGETHER = float(stdtrit(BLOCKS - 1, 1.0 - (1.0 - _UPPER) / _JUDGED) / stdtrit(BLOCKS - 1, _UPPER))
+"""How much wider margins are that hold for all of these at once with 95 %, by Bonferroni: 1.5."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -55,7 +60,10 @@ def mean_of_trials(indices: Sequence[float]) -> TrialMean:
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Drift:
-    """What changed from one fit to another, last minus first, with 95 % margins."""
+    """What changed from one fit to another, last minus first.
+
+    Margins are for all seven numbers at once: where nothing changed, one trial in twenty has any number beyond its own.
+    """
 
     index: float
     """Change of the index; N."""
@@ -97,7 +105,8 @@ class Drift:
 def drift_between(first: EllipsoidFit, last: EllipsoidFit) -> Drift | None:
     """Compare two trials.
 
-    The margin of a difference has the halves of the two intervals that face each other as its sides.
+    The margin of a difference has the halves of the two intervals that face each other as its sides, and is wider by
+    what it takes for all seven numbers to be within theirs with 95 % where nothing changed.
 
     Args:
         first: Fit to the first trial.
@@ -115,11 +124,11 @@ def drift_between(first: EllipsoidFit, last: EllipsoidFit) -> Drift | None:
     change, margin = _change(before, after, first.low, first.high, last.low, last.high)
     return Drift(
         index=float(index[0]),
-        index_margin=float(index_margin[0]),
+        index_margin=_TOGETHER * float(index_margin[0]),
         intersections=change,
-        intersection_margin=margin,
+        intersection_margin=_TOGETHER * margin,
         centre=last.ellipsoid.centre - first.ellipsoid.centre,
-        centre_margin=np.hypot(first.centre_margin, last.centre_margin),
+        centre_margin=_TOGETHER * np.hypot(first.centre_margin, last.centre_margin),
         identifiable=first.identifiable and last.identifiable,
     )
 
