@@ -5,15 +5,18 @@ from __future__ import annotations
 
 import io
 import re
-from datetime import UTC, datetime
+from datetime import UTC, datetime, timedelta
 from html.parser import HTMLParser
 
 import numpy as np
 import pytest
-from PIL import Image
+from fontTools import ttLib
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from PIL import Image, UnidentifiedImageError
 from pypdf import PdfReader
 
-from forcetorque.errors import ShapeError
+from forcetorque.errors import FormatError, ShapeError
 from forcetorque.report.canvas import new_figure, png_bytes
 from forcetorque.report.document import (
     Document,
@@ -27,6 +30,10 @@ from forcetorque.report.document import (
     html_bytes,
     pdf_bytes,
 )
+from forcetorque.report.document.content import NO_ROWS
+from forcetorque.report.document.letters import spelled
+from forcetorque.report.document.lines import lines_of
+from forcetorque.report.document.pdf import MISSING_LETTERS
 from forcetorque.report.document.small_png import small_png
 
 NASTY = '<script>alert("1")</script> & {{ 7 * 7 }} ±λ²'
@@ -161,3 +168,209 @@ def test_a_palette_keeps_the_picture() -> None:
     before, after = (np.asarray(Image.open(io.BytesIO(data)).convert("RGB"), dtype=float) for data in (png, small))
     assert np.abs(before - after).max() < 24.0
     assert np.abs(before - after).mean() < 0.2
+
+
+def _of(*sections: Section, title: str = "a title", created: str = "2020-01-01T00:00:00+00:00") -> Document:
+    return Document(title=title, subtitle="", created=created, sections=sections)
+
+
+def _of_table(*tables: Table) -> Document:
+    return _of(Section(title="tables", blocks=tables))
+
+
+def _squeezed(text: str) -> str:
+    return "".join(text.split())
+
+
+_WORDS = st.text("abcdefgh ijk/_-.±", max_size=90)
+_NUMBERS = st.floats(-1e6, 1e6).map(lambda number: f"{number:.4e} ±{abs(number):.0e}")
+
+
+@st.composite
+def _tables(draw: st.DrawFn) -> Table:
+    kinds = draw(st.lists(st.sampled_from([_WORDS, _NUMBERS]), min_size=1, max_size=32))
+    headings = tuple(draw(_WORDS) for _ in kinds)
+    rows = draw(st.lists(st.tuples(*kinds), max_size=4))
+    return Table(caption="c", headings=headings, rows=tuple(rows))
+
+
+@settings(max_examples=15, deadline=None, derandomize=True)
+@given(_tables())
+def test_any_table_is_written_with_every_cell_inside_the_page(table: Table) -> None:
+    """Words and numbers, few columns or many, narrow or wide; no letter stands right of the margin."""
+    pdf = pdf_bytes(_of_table(table))
+    text = _squeezed(_pdf_text(pdf))
+    for cells in (table.headings, *table.rows):
+        assert all(_squeezed(cell) in text for cell in cells)
+    assert _right_end_mm(pdf) <= A4_MM - MARGIN_MM + 0.01
+
+
+A4_MM, MARGIN_MM = 210.0, 15.0
+"""Width of a page, and of what stays empty at its sides."""
+
+
+def _right_end_mm(pdf: bytes) -> float:
+    """Right end of the rules below rows, which are as wide as their table, in mm."""
+    ends = [0.0]
+    for page in PdfReader(io.BytesIO(pdf)).pages:
+        ends += [float(found) for found in re.findall(rb" m ([0-9.]+) [0-9.]+ l", page.get_contents().get_data())]
+    return max(ends) * 25.4 / 72.0
+
+
+def test_one_long_column_or_many_wide_ones_are_written() -> None:
+    """Widths whose sum is beside the width of the page by rounding; each of these tables was refused once."""
+    texts = [("stream", "x" * count, "words that wrap " * 9) for count in range(1, 30)]
+    tables = [Table(caption="", headings=("a", "b", "c"), rows=(row,)) for row in texts]
+    tables += [
+        Table(caption="", headings=tuple("h" * (k % 7 + 8) for k in range(columns)), rows=(("wide word",) * columns,))
+        for columns in range(14, 31)
+    ]
+    pdf = pdf_bytes(_of_table(*tables))
+    assert _squeezed(_pdf_text(pdf)).count("wideword") >= sum(range(14, 31))
+    assert A4_MM - MARGIN_MM - 20.0 < _right_end_mm(pdf) <= A4_MM - MARGIN_MM + 0.01
+
+
+def test_rows_may_be_taller_than_a_page() -> None:
+    """A cell of three pages goes on, and headings stand on each page of a long table."""
+    words = [f"w{k}" for k in range(3000)]
+    tall = Table(caption="", headings=("name", "text"), rows=(("one", " ".join(words)), ("two", "end")))
+    text = _squeezed(_pdf_text(pdf_bytes(_of_table(tall))))
+    assert "".join(words[:100]) in text
+    assert all(word in text for word in words)
+    pages = PdfReader(io.BytesIO(pdf_bytes(_document(rows=150)))).pages
+    on = [page.extract_text() for page in pages if "±0.01" in page.extract_text()]
+    assert len(on) > 2
+    assert all("interval" in text for text in on)
+
+
+def test_tables_may_lack_rows_or_headings() -> None:
+    """Headings stay without rows, rows stay without headings, and what has neither says so."""
+    tables = (
+        Table(caption="no row", headings=("first", "second"), rows=()),
+        Table(caption="no heading", headings=("", ""), rows=(("left", "right"),)),
+        Table(caption="nothing", headings=(), rows=()),
+        Table(caption="long heading", headings=("supercalifragilistic" * 9, "of many words " * 20), rows=(("1", "2"),)),
+    )
+    document = _of_table(*tables)
+    for shown in (_squeezed(_pdf_text(pdf_bytes(document))), _squeezed("".join(_read(html_bytes(document)).text))):
+        assert all(words in shown for words in ("first", "second", "left", "right", "supercalifragilistic" * 9))
+        assert shown.count(_squeezed(NO_ROWS)) == 2
+    assert len([tag for tag, _ in _read(html_bytes(document)).tags if tag == "th"]) == 4
+
+
+def test_documents_may_be_empty_and_sections_deep() -> None:
+    """A document without sections is one page; parts of parts are in both forms; titles are never markup."""
+    empty = _of(title=NASTY)
+    assert len(PdfReader(io.BytesIO(pdf_bytes(empty))).pages) == 1
+    assert "nav" not in [tag for tag, _ in _read(html_bytes(empty)).tags]
+    deep = Section(title="one", sections=(Section(title="two", sections=(Section(title=f"<b>{NASTY}"),)),))
+    document = _of(deep, title=NASTY)
+    for shown in (_pdf_text(pdf_bytes(document)), " ".join(_read(html_bytes(document)).text)):
+        assert f"<b>{NASTY}" in " ".join(shown.split())
+    assert not {"b", "script"} & {tag for tag, _ in _read(html_bytes(document)).tags}
+
+
+def test_links_lead_to_their_own_section() -> None:
+    """Titles that are equal, or differ in letters beyond ASCII only, have identifiers of their own."""
+    titles = ("左腕 (A)", "右腕 (A)", "Result of evaluate", "Result of evaluate", "")
+    document = _of(*(Section(title=title, sections=(Section(title="part"),)) for title in titles))
+    page = html_bytes(document).decode()
+    tags = _read(page.encode()).tags
+    identifiers = [found["id"] for _, found in tags if "id" in found]
+    assert len(set(identifiers)) == len(identifiers) == 2 * len(titles)
+    links = re.findall(r'<a href="#([^"]*)">([^<]*)</a>', page)
+    assert [name for _, name in links] == list(titles)
+    assert [re.findall(rf'<h2 id="{identifier}"[^>]*>([^<]*)<', page) for identifier, _ in links] == [
+        [title] for title in titles
+    ]
+    assert {found["aria-labelledby"] for _, found in tags if "aria-labelledby" in found} == set(identifiers)
+
+
+def test_letters_that_the_font_lacks_are_seen() -> None:
+    """By their number, wherever they stand, with one sentence that says so; letters that it has stay."""
+    name = "左腕"
+    table = Table(caption=f"{name}1", headings=(f"{name}2", "λ"), rows=((f"{name}3", "ü"),))
+    blocks = (Text(text=f"{name}4"), List(points=(f"{name}5",)), Verdict(tone=Tone.GOOD, text=f"{name}6"), table)
+    text = _pdf_text(pdf_bytes(_of(Section(title=f"{name}7", blocks=blocks), title=f"{name}8")))
+    assert all(f"\\u5de6\\u8155{k}" in text for k in range(1, 9))
+    assert _squeezed(text).count(_squeezed(MISSING_LETTERS)) == 1
+    assert "λ" in text
+    assert _squeezed(MISSING_LETTERS) not in _squeezed(_pdf_text(pdf_bytes(_document())))
+    assert spelled("a\tb\n\x00\udc80", range(0x20, 0x7F)) == "a b\n\\x00\\udc80"
+    assert b"\\udc80" in html_bytes(_of(title="a file \udc80"))
+
+
+@pytest.mark.filterwarnings("error::ResourceWarning")
+def test_no_file_of_a_font_stays_open(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Neither after a document nor after one that cannot be written."""
+    opened: list[io.BufferedReader] = []
+    reader = ttLib.TTFont.__init__
+
+    def noting(font: ttLib.TTFont, *given: object, **named: object) -> None:
+        reader(font, *given, **named)
+        opened.append(font.reader.file)
+
+    monkeypatch.setattr(ttLib.TTFont, "__init__", noting)
+    pdf_bytes(_document())
+    broken = Figure(png=b"no picture", caption="", description="")
+    with pytest.raises(UnidentifiedImageError):
+        pdf_bytes(_of(Section(title="t", blocks=(Text(text="x"), broken))))
+    assert len(opened) == 4
+    assert all(file.closed for file in opened)
+
+
+def test_lines_hold_every_letter_and_none_is_too_wide() -> None:
+    """Words stay whole where they fit, paths break behind their signs, and hashes anywhere."""
+    path, digest = "../data/icub_genova02_yoga/dumperLeftLeg/data.log", "0123456789abcdef" * 4
+    assert lines_of("two words\n", 5.0, len) == ["two", "words", ""]
+    assert lines_of(path, 30.0, len) == ["../data/icub_genova02_yoga/", "dumperLeftLeg/data.log"]
+    assert lines_of(digest, 40.0, len) == [digest[:40], digest[40:]]
+    assert lines_of("wide", 0.5, len) == list("wide")
+    text = f"a {path} b  {digest} c"
+    for width in range(1, 90):
+        lines = lines_of(text, float(width), len)
+        assert _squeezed("".join(lines)) == _squeezed(text)
+        assert max(map(len, lines)) <= width
+
+
+def test_long_words_wrap_in_paragraphs() -> None:
+    """A hash of a thousand letters is all there, and the style of the page lets it wrap."""
+    document = _of(
+        Section(title="S" * 300, blocks=(Text(text="f" * 1000), List(points=("e" * 1000,)))), title="T" * 200
+    )
+    text = _squeezed(_pdf_text(pdf_bytes(document)))
+    assert all(words in text for words in ("S" * 300, "f" * 1000, "e" * 1000, "T" * 200))
+    assert b"overflow-wrap: anywhere" in html_bytes(document)
+
+
+@pytest.mark.parametrize(("height", "caption"), [(4000, "short"), (4000, "many words " * 200), (10, "short")])
+def test_figures_fit_on_a_page(height: int, caption: str) -> None:
+    """However tall, a picture stays below its heading, on the same page."""
+    png = io.BytesIO()
+    Image.new("RGB", (100, height), "white").save(png, format="png")
+    figure = Figure(png=png.getvalue(), caption=caption, description="d")
+    filler = Text(text="a line\n" * 30)
+    sections = (Section(title="before", blocks=(filler,)), Section(title="heading", blocks=(figure,)))
+    pages = PdfReader(io.BytesIO(pdf_bytes(_of(Section(title="all", sections=sections))))).pages
+    with_picture = [page for page in pages if len(page.images)]
+    assert len(with_picture) == 1
+    assert "heading" in with_picture[0].extract_text()
+
+
+@pytest.mark.parametrize("created", ["2020-01-02T03:04:05+05:30", "2020-01-02T03:04:05-03:00", "2020-01-02T03:04:05Z"])
+def test_the_time_zone_is_kept(created: str) -> None:
+    """The document says the time as it was given; the file holds the same instant."""
+    document = _of(created=created)
+    reader = PdfReader(io.BytesIO(pdf_bytes(document)))
+    assert reader.metadata is not None
+    assert reader.metadata.creation_date == datetime.fromisoformat(created)
+    assert f"made {created}" in _pdf_text(pdf_bytes(document))
+    assert f"made {created}".encode() in html_bytes(document).replace(b"&#43;", b"+")
+    assert document.instant.utcoffset() in {timedelta(hours=5.5), timedelta(hours=-3), timedelta(0)}
+
+
+@pytest.mark.parametrize("created", ["2020-01-02T03:04:05", "yesterday"])
+def test_a_time_without_its_zone_is_refused(created: str) -> None:
+    """The file would depend on where it is written."""
+    with pytest.raises(FormatError, match=r"expected `created` as ISO 8601 with a time zone, got"):
+        _of(created=created)

@@ -4,9 +4,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from datetime import datetime
 from enum import StrEnum
 
-from forcetorque.errors import ShapeError
+from forcetorque.errors import FormatError, ShapeError
+
+NO_ROWS = "no rows"
+"""What stands below the headings of a table without rows."""
 
 
 class Tone(StrEnum):
@@ -126,6 +130,19 @@ class Document:
     """When it was made, ISO 8601 with time zone."""
     sections: tuple[Section, ...]
     """Its sections."""
+
+    def __post_init__(self) -> None:
+        try:
+            instant = datetime.fromisoformat(self.created)
+        except ValueError:
+            instant = None
+        if instant is None or instant.tzinfo is None:
+            raise FormatError(f"document: expected `created` as ISO 8601 with a time zone, got {self.created!r}")
+
+    @property
+    def instant(self) -> datetime:
+        """When it was made."""
+        return datetime.fromisoformat(self.created)
 
 
 def _is_number(cell: str) -> bool:

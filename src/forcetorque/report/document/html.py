@@ -4,12 +4,10 @@
 from __future__ import annotations
 
 import base64
-import re
 from importlib import resources
-from typing import Any
 
 from forcetorque.errors import MissingExtraError
-from forcetorque.report.document.content import Block, Document, Figure, List, Page, Table, Text, Verdict
+from forcetorque.report.document.content import NO_ROWS, Block, Document, Figure, List, Page, Table, Text, Verdict
 from forcetorque.report.document.small_png import small_png
 
 _KINDS = {Verdict: "verdict", Text: "text", List: "list", Table: "table", Figure: "figure", Page: "page"}
@@ -33,19 +31,14 @@ def html_bytes(document: Document) -> bytes:
         raise MissingExtraError("reports are written by jinja2: pip install forcetorque[report]") from error
     folder = resources.files("forcetorque.report.document")
     environment = Environment(autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True)
-    environment.filters |= {"kind": _kind, "anchor": _anchor, "data_url": _data_url}
+    environment.filters |= {"kind": _kind, "data_url": _data_url}
     template = environment.from_string((folder / "document.html.j2").read_text(encoding="utf-8"))
     style = (folder / "document.css").read_text(encoding="utf-8")
-    return template.render(document=document, style=style).encode()
+    return template.render(document=document, style=style, no_rows=NO_ROWS).encode(errors="backslashreplace")
 
 
 def _kind(block: Block) -> str:
     return _KINDS[type(block)]
-
-
-def _anchor(*titles: Any) -> str:
-    """An identifier from the headings that lead to a section."""
-    return "-".join(re.sub(r"[^a-z0-9]+", "-", str(title).lower()).strip("-") for title in titles if title)
 
 
 def _data_url(png: bytes) -> str:
