@@ -34,6 +34,8 @@ DECODE = """async ([film, frames, fps]) => {
     for (let k = 0; k < frames; k++) {
         video.currentTime = (k + 0.5) / fps;
         await new Promise(done => { video.onseeked = done; });
+        // a browser says that it is there before it gives the picture to canvases
+        await new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)));
         pen.drawImage(video, 0, 0);
         const data = pen.getImageData(0, 0, canvas.width, canvas.height).data;
         sums.push(data.reduce((sum, value, k) => (sum * 31 + value + k) % 1000003, 7));
