@@ -25,6 +25,7 @@ bench: $(VENV)/test.stamp
 	$(BIN)/python -m benchmarks.dynamics --json build/benchmarks/dynamics.json
 	$(BIN)/python -m benchmarks.simulation --json build/benchmarks/simulation.json
 	$(BIN)/python -m benchmarks.sphere --json build/benchmarks/sphere.json
+	$(BIN)/python -m benchmarks.viewer --json build/benchmarks/viewer.json
 
 # the viewer's page, built from web/ and committed: who installs the library needs no npm
 web:

@@ -1,36 +1,58 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Scenes of a humanoid's log of 20 000, 200 000 and 1 000 000 samples: seconds to build and to write, and sizes."""
+"""The viewer on 20 000, 200 000 and 1 000 000 samples: seconds to build, to be ready, to jump; and sizes."""
 
 from __future__ import annotations
 
+import statistics
 import tempfile
 import time
+from contextlib import ExitStack
 from pathlib import Path
 
 import numpy as np
 
 from benchmarks.harness import arguments, write_result
+from forcetorque.errors import ForceTorqueError, MissingFileError
 from forcetorque.exchange.icub import encode_matrix, write_matrix_file
 from forcetorque.experiment import Experiment, load_experiment
 from forcetorque.recording import write_recording
 from forcetorque.robot import read_urdf
 from forcetorque.simulation import FAMILIES, SimulatedSensor, Stand, random_movement, record
 from forcetorque.simulation.robots import named_robot
-from forcetorque.viewer import MOST_SAMPLES, BuiltScene, build_scene, page_of
+from forcetorque.viewer import MOST_SAMPLES, BuiltScene, ViewerServer, build_scene, page_of, write_page
 from forcetorque.viewer.page import ASSETS, BUNDLE
 from forcetorque.viewer.scene import scene_json
+from forcetorque.viewer.serve import DATA_URL
+from forcetorque.viewer.video import find_browser, require_playwright
 
 SIZES, QUICK_SIZES = (20_000, 200_000, 1_000_000), (2_000, 20_000)
 SHARE = {"calibration": (0.02, 0.5), "validation": (0.5, 0.98)}
 """Parts of the log in the two intervals."""
 SENSORS = 2
 """Sensors that are shown."""
+JUMPS = 20
+"""Samples that are jumped to in each window."""
+PATIENCE_MS = 300_000
+"""A browser reads a file of 90 MB before it answers."""
+FLAGS = ("--no-sandbox", "--disable-gpu", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader")
+"""The processor draws, as in the tests."""
+JUMP = """samples => samples.map(sample => {
+    const start = performance.now();
+    window.ft.show(sample);
+    for (const canvas of document.querySelectorAll(".robot canvas, .space canvas")) {
+        const drawn = canvas.getContext("webgl2"); // a pixel can be read when all is drawn
+        drawn?.readPixels(0, 0, 1, 1, drawn.RGBA, drawn.UNSIGNED_BYTE, new Uint8Array(4));
+    }
+    return (performance.now() - start) / 1000;
+})"""
+"""Seconds of each jump."""
 
 
 def main() -> None:
     """Build the scenes and write seconds and sizes."""
     options = arguments(__doc__ or "")
     rounds = 2  # minutes each
+    browser = _browser()
     urdf = named_robot(["iCubGazeboV2_7", "biped"])
     seconds: dict[str, list[float]] = {}
     figures: dict[str, float] = {}
@@ -52,6 +74,14 @@ def main() -> None:
                 f"header {samples}, MB": len(scene_json(built.scene)) / 1e6,
                 f"page {samples}, MB": size / 1e6,
             }
+            if browser is not None:
+                ready, jumps = in_browser(built, Path(name), browser, rounds=rounds)
+                seconds |= {f"ready {samples}": ready, f"jump {samples}": jumps}
+                figures |= {
+                    f"ready {samples}, s": statistics.median(ready),
+                    f"jump {samples}, ms": 1e3 * statistics.median(jumps),
+                    f"slowest jump {samples}, ms": 1e3 * max(jumps),
+                }
             print(f"{samples}: {seconds[f'build {samples}']} s, {figures}")
     write_result(
         options.json,
@@ -62,6 +92,57 @@ def main() -> None:
         packages=("numpy", "scipy", "trimesh"),
         figures=figures,
     )
+
+
+def _browser() -> Path | None:
+    """What is driven; None, and the reason is said, where nothing can be."""
+    try:
+        require_playwright()
+        if any(not (ASSETS / name).is_file() for name in BUNDLE):
+            raise MissingFileError("the viewer's bundle is not built")
+        return find_browser()
+    except ForceTorqueError as error:
+        print(f"no times in a browser: {error}")
+        return None
+
+
+def in_browser(built: BuiltScene, folder: Path, browser: Path, *, rounds: int) -> tuple[list[float], list[float]]:
+    """Open a page from disk, or from the server where it has too many samples for a file, and jump about in it.
+
+    Args:
+        built: The scene.
+        folder: Takes the file.
+        browser: The browser; a processor draws in place of a graphics card.
+        rounds: Times it is opened, each in a new window.
+
+    Returns:
+        Seconds until the page says that all is drawn; and of each jump, until every view is drawn.
+    """
+    from playwright.sync_api import sync_playwright
+
+    ready: list[float] = []
+    jumps: list[float] = []
+    samples = np.random.default_rng(3).integers(0, built.scene.samples, JUMPS).tolist()
+    with ExitStack() as stack:
+        if built.scene.samples <= MOST_SAMPLES:
+            write_page(folder / "view.html", built)
+            url = (folder / "view.html").as_uri()
+        else:
+            server = ViewerServer(page_of(built, data_url=DATA_URL), built.block, None)
+            url = stack.enter_context(server).url
+        driver = stack.enter_context(sync_playwright())
+        program = stack.enter_context(driver.chromium.launch(executable_path=str(browser), args=list(FLAGS)))
+        for _ in range(rounds):
+            window = program.new_context(viewport={"width": 1280, "height": 720})
+            page = window.new_page()
+            page.set_default_timeout(PATIENCE_MS)
+            start = time.perf_counter()
+            page.goto(url)
+            page.evaluate("window.ft.ready")
+            ready.append(time.perf_counter() - start)
+            jumps += page.evaluate(JUMP, samples)
+            window.close()
+    return ready, jumps
 
 
 def _page_size(built: BuiltScene, folder: Path) -> int:

@@ -6,6 +6,7 @@ from __future__ import annotations
 import importlib.util
 import shutil
 from collections.abc import Iterator
+from contextlib import ExitStack
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -14,7 +15,7 @@ import pytest
 from forcetorque.viewer import BuiltScene, page_of
 
 if TYPE_CHECKING:
-    from playwright.sync_api import Browser, Page, Playwright
+    from playwright.sync_api import Browser, Page
 
 BROWSERS = ("chromium", "chromium-browser", "google-chrome")
 SIZE = {"width": 1000, "height": 650}
@@ -34,26 +35,58 @@ FLAGS = (
 )
 
 
-@pytest.fixture(scope="module")  # while it lives, nothing else in this process may drive a browser or run a loop
-def playwright() -> Iterator[Playwright]:
-    """What drives the browser."""
-    if importlib.util.find_spec("playwright") is None:
-        pytest.skip("playwright is not installed")
-    from playwright.sync_api import sync_playwright
+class OneBrowser:
+    """The browser of the system, started when it is first wanted.
 
-    with sync_playwright() as driver:
-        yield driver
+    While it lives, nothing else in this process may drive a browser or run a loop.
+    """
+
+    def __init__(self) -> None:
+        self._open: ExitStack | None = None
+        self._browser: Browser | None = None
+
+    def get(self) -> Browser:
+        """Give the browser, or skip the test where there is none."""
+        if self._browser is None:
+            if importlib.util.find_spec("playwright") is None:
+                pytest.skip("playwright is not installed")
+            program = next(filter(None, map(shutil.which, BROWSERS)), None)
+            if program is None:
+                pytest.skip(f"no browser: none of {', '.join(BROWSERS)} is installed")
+            from playwright.sync_api import sync_playwright
+
+            self._open = ExitStack()
+            driver = self._open.enter_context(sync_playwright())
+            self._browser = driver.chromium.launch(executable_path=program, args=list(FLAGS))
+            self._open.callback(self._browser.close)
+        return self._browser
+
+    def close(self) -> None:
+        """Close it if it is open."""
+        if self._open is not None:
+            self._open.close()
+        self._open = self._browser = None
+
+
+ONE = OneBrowser()
+
+
+@pytest.fixture(scope="session")
+def _closed_at_the_end() -> Iterator[None]:
+    yield
+    ONE.close()
 
 
 @pytest.fixture(scope="module")
-def chromium(playwright: Playwright) -> Iterator[Browser]:
-    """The browser of the system."""
-    program = next(filter(None, map(shutil.which, BROWSERS)), None)
-    if program is None:
-        pytest.skip(f"no browser: none of {', '.join(BROWSERS)} is installed")
-    browser = playwright.chromium.launch(executable_path=program, args=list(FLAGS))
-    yield browser
-    browser.close()
+def chromium(_closed_at_the_end: None) -> Browser:
+    """The browser of the system; modules of one folder share it, as it takes seconds to start."""
+    return ONE.get()
+
+
+def close_after_folder(nextitem: pytest.Item | None, folder: Path) -> None:
+    """Close the browser if the next test is not in a folder: for the hook of its conftest."""
+    if nextitem is None or not nextitem.path.is_relative_to(folder):
+        ONE.close()
 
 
 class Visit:

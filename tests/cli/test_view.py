@@ -80,7 +80,7 @@ def test_the_table_says_what_was_written(run: Run, arm: Path) -> None:
     lines = ended.out.splitlines()
     assert re.fullmatch(r"small arm: \d+ samples of arm_ft", lines[0])
     assert re.fullmatch(r"page of \d\.\d MB written to view\.html", lines[1])
-    assert "INFO: the robot has no shapes to draw: sticks join its joints" in ended.log
+    assert "INFO: outside intervals the robot stands on the support of the nearest one" in ended.log
     (row,) = run("view", PARQUET, "-o", "view.html", "--format", "csv").rows()
     assert row["file"] == "view.html"
 
@@ -173,6 +173,14 @@ def test_a_span_without_samples_is_refused(run: Run, arm: Path) -> None:
     pytest.importorskip("playwright")
     words = ("view", PARQUET, "--video", "a.mp4", "--browser", sys.executable, "--start", "30")
     assert "--start 30 --end 23.9" in run(*words).error()
+
+
+def test_a_video_that_is_too_long_is_refused(run: Run, arm: Path) -> None:
+    """Before the browser starts, with the ways to a shorter one."""
+    pytest.importorskip("playwright")
+    words = ("view", PARQUET, "--video", "a.mp4", "--browser", sys.executable, "--speed", "0.03")
+    assert re.search(r"at most 600 s, got 7\d\d s; raise --speed, or .* --start and --end", run(*words).error())
+    assert not (arm / "a.mp4").exists()
 
 
 def test_a_video_is_written(run: Run, arm: Path, monkeypatch: pytest.MonkeyPatch) -> None:

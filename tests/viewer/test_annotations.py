@@ -17,9 +17,10 @@ from pydantic import ValidationError
 
 from forcetorque.errors import ForceTorqueError
 from forcetorque.experiment import load_experiment
-from forcetorque.viewer import BuiltScene
+from forcetorque.viewer import BuiltScene, build_scene
 from forcetorque.viewer.annotations import Annotations, intervals_toml, samples_csv, save_annotations
 from forcetorque.viewer.scene import read_array
+from tests.experiment.test_wrist_load import _write as write_wrist
 from tests.experiments import JOINTS, PARQUET, add, edit
 
 
@@ -62,6 +63,8 @@ def test_a_sample_that_is_not_there_is_refused(built: BuiltScene) -> None:
         (_interval(1.0, 2.0, use="ignore"), "base"),
         (_interval(13.0, 15.0), None),
         (_interval(14.1, 14.2), None),
+        (_interval(23.0, 23.49), "base"),
+        (_interval(23.0, 23.8), None),
     ],
 )
 def test_the_support_is_that_of_the_interval_around(
@@ -71,6 +74,7 @@ def test_the_support_is_that_of_the_interval_around(
     text = intervals_toml(_saved([], [interval]), built)
     (table,) = tomllib.loads(text)["interval"]
     assert table == interval | ({} if support is None else {"support": support})
+    assert 23.8 < built.scene.end_s < 24.0, "the last one goes beyond the intervals, not beyond the log"
     assert ("state the link that stands still" in text) == (support is None)
 
 
@@ -86,7 +90,45 @@ def test_an_experiment_accepts_the_intervals(arm: Path, built: BuiltScene) -> No
     assert found['"b"\\ \n\x7f é'] == pytest.approx((3.0, 4.25), abs=1e-8)
 
 
-@given(st.text(max_size=200), st.floats(-1e6, 1e6))
+def test_an_interval_to_the_last_sample_ends_with_the_log(arm: Path, built: BuiltScene) -> None:
+    """A period after the last sample is later than the log; the experiment file takes what is written, not that."""
+    late = built.scene.end_s + 0.02
+    text = intervals_toml(_saved([], [_interval(20.0, late, use="ignore")]), built)
+    (interval,) = tomllib.loads(text)["interval"]
+    assert interval["end_s"] == pytest.approx(built.scene.end_s, abs=1e-9)
+    original = (arm / PARQUET).read_text(encoding="utf-8")
+    experiment = load_experiment(add(arm / PARQUET, text))
+    assert experiment.recording.intervals[-1].end_ns == experiment.recording.span_ns[1] + 1, "the last sample is inside"
+    (arm / PARQUET).write_text(original, encoding="utf-8")
+    with pytest.raises(ForceTorqueError, match="expected a span inside the log"):  # the check can fail
+        load_experiment(add(arm / PARQUET, text.replace(str(interval["end_s"]), str(late))))
+    with pytest.raises(ForceTorqueError, match="a start inside the log"):
+        intervals_toml(_saved([], [_interval(late, late + 1.0)]), built)
+
+
+def test_a_wrist_sensor_states_no_support(tmp_path: Path) -> None:
+    """Its own frame carries it in every interval, and the experiment file knows no other."""
+    file = write_wrist(tmp_path)
+    built = build_scene(load_experiment(file), {})
+    assert [interval.support for interval in built.scene.intervals] == ["tool", "tool"]
+    text = intervals_toml(_saved([], [_interval(3.0, 5.0, use="ignore")]), built)
+    assert "support" not in text
+    experiment = load_experiment(add(file, text))
+    assert experiment.recording.intervals[-1].label == "new"
+    assert "support" not in intervals_toml(_saved([], [_interval(39.5, 40.5)]), built)
+
+
+def test_what_would_be_used_twice_is_named(arm: Path, built: BuiltScene) -> None:
+    """A comment says which interval of the experiment must give way; one that is ignored may lie anywhere."""
+    text = intervals_toml(_saved([], [_interval(13.0, 14.0), _interval(13.0, 15.0, label="b", use="ignore")]), built)
+    assert text.count("# overlaps") == 1
+    assert '# overlaps "fit": shorten those' in text
+    assert "# overlaps" not in intervals_toml(_saved([], [_interval(14.0, 14.5)]), built)
+    with pytest.raises(ForceTorqueError, match="'fit' .* and 'new' .* overlap"):
+        load_experiment(add(arm / PARQUET, text))
+
+
+@given(st.text(max_size=200), st.floats(-1e6, 20.0))
 @settings(max_examples=50)
 def test_any_label_survives_toml(built: BuiltScene, label: str, start: float) -> None:
     """Quotes, control characters, emoji: what is read is what was written; times to the nanosecond."""

@@ -18,6 +18,7 @@ from forcetorque.experiment import Experiment, calibrate_sensor, load_experiment
 from forcetorque.experiment.samples import samples_over
 from forcetorque.recording import Stream, Use
 from forcetorque.recording.alignment import interpolate
+from forcetorque.spatial import MeasureDirection
 from forcetorque.viewer import BuiltScene, build_scene
 from forcetorque.viewer.scene import ArrayRef, Sensor, WrenchSeries, read_array, scene_json
 from tests.experiments import DURATION_S, JOINTS, PARQUET, RATE_HZ, TWO, YARP, add, edit
@@ -239,6 +240,32 @@ def test_contacts_are_those_at_the_sensors_unless_stated(arm: Path) -> None:
     expected = _values(stated, "expected")
     np.testing.assert_array_equal(np.isfinite(values).all(axis=1), np.isfinite(expected).all(axis=1))
     assert not np.nan_to_num(values)[:, 3:].any()
+
+
+def test_contacts_have_the_gaps_of_the_log(intact: Path) -> None:
+    """Where the sensor that times the estimates was silent, no old wrench stays at the contacts."""
+    cut = _cut(load_experiment(intact / TWO), "arm_ft", lambda seconds: (seconds < 5.0) | (seconds > 6.0))
+    built = build_scene(cut, {}, sensors=["tool_ft"])
+    seconds = read_array(built.block, built.scene.time_s)
+    silent = (seconds > 5.0 + 5 / RATE_HZ) & (seconds < 6.0)
+    assert silent.sum() > 40, "the shown sensor goes on"
+    for contact in built.scene.contacts:
+        values = read_array(built.block, contact.values)
+        assert np.isnan(values[silent]).all(), contact.name
+        assert np.isfinite(values[(seconds > 2.0) & (seconds < 5.0 - 1 / RATE_HZ)]).all(), contact.name
+    assert len(built.scene.contacts) == 3
+
+
+@pytest.mark.parametrize("direction", list(MeasureDirection))
+def test_it_is_said_who_acts_on_whom(intact: Path, direction: MeasureDirection) -> None:
+    """The links change places with the sign of the reading."""
+    experiment = load_experiment(intact / PARQUET)
+    tag = experiment.model.sensor("arm_ft")
+    joint = experiment.model.joints[tag.joint]
+    model = replace(experiment.model, sensors={**experiment.model.sensors, "arm_ft": replace(tag, direction=direction)})
+    (sensor,) = build_scene(replace(experiment, model=model), {}).scene.sensors
+    ends = (joint.child, joint.parent) if direction == "child_to_parent" else (joint.parent, joint.child)
+    assert (sensor.acting, sensor.acted_on) == ends
 
 
 def test_intervals_and_findings_have_seconds(arm: Path) -> None:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Saved samples as a table and as lines of an experiment file.
 
-import { inOrder, markedIntervals, type Mark } from "./marks";
+import { inOrder, markedIntervals, tomlText, type Mark } from "./marks";
 import type { SceneData } from "./scene_data";
 
 const DEGREES = 180 / Math.PI;
@@ -21,7 +21,7 @@ export function toCsv(data: SceneData, marks: readonly Mark[]): string {
     .join("");
 }
 
-/** Write intervals as tables of an experiment file; a comment says what such a file still needs. */
+/** Write intervals as tables of an experiment file; comments say what such a file would refuse. */
 export function toToml(data: SceneData, marks: readonly Mark[]): string {
   const tables = markedIntervals(data, marks).map((interval) => {
     const lines = [
@@ -30,12 +30,13 @@ export function toToml(data: SceneData, marks: readonly Mark[]): string {
       `start_s = ${number(interval.start_s)}`,
       `end_s = ${number(interval.end_s)}`,
       `use = ${tomlText(interval.use)}`,
+      ...interval.supportLines,
     ];
-    if (interval.support !== null) lines.push(`support = ${tomlText(interval.support)}`);
-    else if (interval.use !== "ignore") lines.push('# support = "..."  # state the link that stands still');
+    const others = interval.overlaps.map(tomlText).join(", ");
+    if (others) lines.push(`# overlaps ${others}: shorten those, as a sample is fitted or judged once`);
     return `${lines.join("\n")}\n`;
   });
-  return tables.length > 0 ? tables.join("\n") : "# no interval: save a sample as begin and a later one as end\n";
+  return ["# intervals marked in the viewer; copy them into the experiment file\n", ...tables].join("\n");
 }
 
 /** Make what is sent to the server to be written beside the experiment. */
@@ -64,9 +65,4 @@ function number(value: number): string {
 
 function quoted(cell: string): string {
   return /[",\r\n]/.test(cell) ? `"${cell.replaceAll('"', '""')}"` : cell;
-}
-
-// a JSON text is a basic string of TOML, apart from the delete character
-function tomlText(text: string): string {
-  return JSON.stringify(text).replaceAll("\u007f", "\\u007f");
 }

@@ -3,7 +3,7 @@
 
 import { button, choice, download, el, fileName } from "./dom";
 import { toAnnotations, toCsv, toToml } from "./exports";
-import { inOrder, markedIntervals, type Mark, type Use } from "./marks";
+import { inOrder, markedIntervals, unpaired, type Mark, type Use } from "./marks";
 import type { SceneData } from "./scene_data";
 import type { Store } from "./store";
 
@@ -12,6 +12,8 @@ const USES: readonly (readonly [Use, string])[] = [
   ["calibration", "calibration"],
   ["validation", "validation"],
 ];
+
+const LONGEST_LABEL = 180; // the server takes 200, and a number may be added
 
 /** Saved samples, intervals, and their exports. */
 export function marksPanel(data: SceneData, store: Store, say: (text: string) => void): HTMLElement {
@@ -31,16 +33,16 @@ export function marksPanel(data: SceneData, store: Store, say: (text: string) =>
     const { marks } = store.state;
     if (marks.length > 0 && !kept.has(marks)) event.preventDefault(); // the browser asks before they are lost
   });
-  const keep = (): void => void kept.add(store.state.marks);
+  const keep = (marks: readonly Mark[]): void => void kept.add(marks);
   return el("div", {}, list, intervals, exportButtons(data, store, say, keep));
 }
 
 function markRow(mark: Mark, store: Store): HTMLLIElement {
   let current = mark;
   const name = `sample ${mark.sample}`;
-  const text = el("input", { type: "text", value: mark.label, placeholder: "label", "aria-label": `Label of ${name}` });
+  const text = el("input", { type: "text", maxlength: LONGEST_LABEL, value: mark.label, placeholder: "label", "aria-label": `Label of ${name}` });
   text.addEventListener("change", () => {
-    const next = { ...current, label: text.value };
+    const next = { ...current, label: text.value.trim() };
     const marks = store.state.marks.map((other) => (other === current ? next : other));
     current = next;
     store.set({ marks });
@@ -60,21 +62,27 @@ function markRow(mark: Mark, store: Store): HTMLLIElement {
 }
 
 function intervalRows(data: SceneData, store: Store): HTMLLIElement[] {
-  return markedIntervals(data, store.state.marks).map((interval) => {
+  const rows = markedIntervals(data, store.state.marks).map((interval) => {
     const use = choice(`Use of ${interval.label}`, USES, interval.use, (value) => {
       const marks = store.state.marks.map((mark) => (mark === interval.begin ? { ...mark, use: value as Use } : mark));
       store.set({ marks });
     });
     const span = `${interval.label}: ${interval.start_s.toFixed(2)}–${interval.end_s.toFixed(2)} s`;
-    return el("li", {}, el("span", { class: "grow" }, span), use);
+    const others = interval.overlaps.join(", ");
+    const clash = others ? [el("span", { class: "muted clash" }, `overlaps ${others}: shorten it there`)] : [];
+    return el("li", {}, el("span", { class: "grow" }, span), use, ...clash);
   });
+  const lone = unpaired(store.state.marks).map(({ mark, sample }) =>
+    el("li", { class: "absent" }, mark === "begin" ? `begin at ${sample} has no end` : `end at ${sample} has no begin`),
+  );
+  return [...rows, ...lone];
 }
 
-function exportButtons(data: SceneData, store: Store, say: (text: string) => void, keep: () => void): HTMLElement {
+function exportButtons(data: SceneData, store: Store, say: (text: string) => void, keep: (marks: readonly Mark[]) => void): HTMLElement {
   const { title, annotations_url } = data.scene;
   const offer = (ending: string, text: string, type: string): void => {
     download(fileName(title, ending), text, type);
-    keep();
+    keep(store.state.marks);
   };
   const row = el(
     "div",
@@ -86,10 +94,12 @@ function exportButtons(data: SceneData, store: Store, say: (text: string) => voi
     row.append(
       button(
         "Write beside the experiment",
-        () =>
-          void send(annotations_url, data, store, say).then((sent) => {
-            if (sent) keep();
-          }),
+        () => {
+          const { marks } = store.state; // others may be saved before the answer comes
+          void send(annotations_url, data, marks, say).then((sent) => {
+            if (sent) keep(marks);
+          });
+        },
         { class: "primary" },
       ),
     );
@@ -97,9 +107,14 @@ function exportButtons(data: SceneData, store: Store, say: (text: string) => voi
   return row;
 }
 
-async function send(url: string, data: SceneData, store: Store, say: (text: string) => void): Promise<boolean> {
+async function send(
+  url: string,
+  data: SceneData,
+  marks: readonly Mark[],
+  say: (text: string) => void,
+): Promise<boolean> {
   try {
-    const body = JSON.stringify(toAnnotations(data, store.state.marks));
+    const body = JSON.stringify(toAnnotations(data, marks));
     const answer = await fetch(url, { method: "POST", headers: { "Content-Type": "application/json" }, body });
     const text = await answer.text();
     if (!answer.ok) throw new Error(`${answer.status} ${answer.statusText}: ${text.slice(0, 300)}`);

@@ -121,7 +121,7 @@ export class AxisPlot implements Drawable {
           grid: { stroke: "#eceff3" },
           ticks: { size: 4 },
           gap: 2,
-          space: 22,
+          space: 15, // so that a low plot has more than one number
           label: `${letter}${"xyz"[this.axis] ?? ""} [${UNIT[state.quantity]}]`,
           labelSize: 14,
           labelGap: 0,

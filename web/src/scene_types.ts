@@ -121,6 +121,10 @@ export interface Sensor {
   readonly link: string;
   /** Pose of its frame; 16 numbers. */
   readonly link_H_sensor: readonly number[];
+  /** Link that acts, in the sign of the reading. */
+  readonly acting: string;
+  /** Link that is acted on. */
+  readonly acted_on: string;
   /** The expected wrench, what was logged or the prior gives, then one series per calibration. */
   readonly wrenches: readonly WrenchSeries[];
 }
@@ -149,6 +153,8 @@ export interface SceneInterval {
   readonly end_s: number;
   /** Support frame. */
   readonly support: string | null;
+  /** Whether the experiment file names supports; that of a wrist sensor is always its own frame. */
+  readonly states_support: boolean;
 }
 
 /** Something that is wrong with the recording. */
@@ -177,6 +183,8 @@ export interface Scene {
   readonly samples: number;
   /** Stamp of second 0 as a decimal number; ns. */
   readonly start_ns: string;
+  /** End of the log over all streams, itself excluded: the latest end that an interval may have; s. */
+  readonly end_s: number;
   /** Seconds since the start of the recording, as intervals count them; shape (n,) float64. */
   readonly time_s: ArrayRef;
   /** Joint coordinates; shape (n, d) float32; rad or m. */

@@ -12,7 +12,7 @@ const SWITCHES: readonly (readonly [key: Switch, text: string])[] = [
   ["forceArrows", "Force arrows"],
   ["momentArrows", "Moment arrows (two heads)"],
   ["allSensors", "Arrows of all sensors"],
-  ["contacts", "Contact wrenches"],
+  ["contacts", "Contact wrenches (world on robot)"],
   ["wireframes", "Ellipsoids and reference sphere"],
   ["hideIgnored", "Hide ignored intervals in the clouds"],
 ];

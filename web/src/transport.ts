@@ -23,8 +23,8 @@ export function transport(data: SceneData, store: Store, say: (text: string) => 
   slider.addEventListener("input", () => store.set({ sample: Number(slider.value), playing: false }));
   const number = el("input", { type: "number", min: 0, max: last, step: 1, "aria-label": "Sample number" });
   number.addEventListener("change", () => {
-    const wanted = Math.round(Number(number.value));
-    store.set({ sample: Math.min(last, Math.max(0, Number.isFinite(wanted) ? wanted : 0)), playing: false });
+    const wanted = Math.round(number.valueAsNumber); // no number is no wish
+    if (Number.isFinite(wanted)) store.set({ sample: Math.min(last, Math.max(0, wanted)), playing: false });
     number.value = String(store.state.sample);
   });
   const time = el("time", { "aria-label": "Time" }); // an output would be read aloud at every step

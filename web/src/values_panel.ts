@@ -5,6 +5,7 @@ import { seriesColour } from "./colours";
 import { el } from "./dom";
 import type { Drawable, Frames } from "./frames";
 import { UNIT, type Quantity, type SceneData } from "./scene_data";
+import type { Sensor } from "./scene_types";
 import type { Store } from "./store";
 
 const DEGREES = 180 / Math.PI;
@@ -39,7 +40,7 @@ export class ValuesPanel implements Drawable {
       el(
         "table",
         {},
-        el("caption", {}, `${quantity === "force" ? "Force" : "Torque"} [${UNIT[quantity]}]`),
+        el("caption", {}, `${quantity === "force" ? "Force" : "Torque"} [${UNIT[quantity]}]${acts(sensor)}`),
         el("thead", {}, el("tr", {}, ...head.map((text) => el("th", { scope: "col" }, text)))),
         el("tbody", {}, ...rows),
       ),
@@ -79,6 +80,11 @@ export class JointsPanel implements Drawable {
       }),
     );
   }
+}
+
+/** Who acts on whom: arrows and numbers of sensors are of either sign. */
+function acts(sensor: Sensor | undefined): string {
+  return sensor ? ` of ${sensor.acting} on ${sensor.acted_on}` : "";
 }
 
 function shown(value: number, quantity: Quantity): string {

@@ -18,6 +18,7 @@ const CODECS = {
   h264: ["avc1.640028", "avc1.42002a"],
   vp9: ["vp09.00.40.08"],
 } as const;
+const ROUNDING_S = 1e-9; // a frame for the very instant of a sample shows it, not the one before
 const QUANTIZER = 24; // of 0 to 63: no difference to be seen
 
 /** How frames are packed: H.264 plays everywhere, VP9 gives the same bytes every time. */
@@ -67,8 +68,8 @@ export function frameTimes(data: SceneData, options: VideoOptions): number[] {
     const got = `fps ${fps}, speed ${speed}, samples ${start} to ${end} of ${data.samples}`;
     throw new Error(`video: expected fps and speed above 0, and a last sample after the first one, got ${got}`);
   }
-  const count = Math.floor(((to - from) * fps) / speed) + 1;
-  return Array.from({ length: count }, (_, k) => from + (k * speed) / fps);
+  const count = Math.floor(((to - from) * fps) / speed + ROUNDING_S) + 1;
+  return Array.from({ length: count }, (_, k) => from + (k * speed) / fps + ROUNDING_S);
 }
 
 /** Make the film; the bytes of an MP4 file. */

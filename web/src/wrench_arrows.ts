@@ -57,7 +57,7 @@ export class WrenchArrows extends Group {
       place.frame.matrix.copy(toMatrix(pose));
       place.frame.visible = shown;
       for (const { series, arrows } of place.drawn) {
-        const visible = shown && !state.hidden.has(series.name);
+        const visible = shown && !("role" in series && state.hidden.has(series.name));
         for (const quantity of QUANTITIES) {
           const wanted = visible && (quantity === "force" ? state.forceArrows : state.momentArrows);
           this.turn(arrows[quantity], series, quantity, wanted ? pose : null, state.sample);

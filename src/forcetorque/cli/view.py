@@ -24,6 +24,9 @@ from forcetorque.viewer.scene import read_array
 from forcetorque.viewer.serve import ANNOTATIONS_URL, DATA_URL
 from forcetorque.viewer.video import Film, film_page, find_browser, require_playwright
 
+MOST_VIDEO_S = 600.0
+"""Longest video; s. At 4 Mbit/s it has 300 MB, and a browser hands over texts below 512 MB."""
+
 
 class ViewResult(BaseModel):
     """What `forcetorque view` shows."""
@@ -115,6 +118,7 @@ def run(
         start, end = _span(built, start_s, end_s)
         film = Film(start=start, end=end, fps=fps, speed=speed, width=size[0], height=size[1])
         frames = _frames(built, film)
+        _refuse_long(frames / fps)
         log.info("filming %d frames with %s", frames, program)
         page = page_of(built, data_url=DATA_URL)
         with ViewerServer(page, built.block, None) as server:
@@ -156,6 +160,15 @@ def _span(built: BuiltScene, start_s: float | None, end_s: float | None) -> tupl
 def _frames(built: BuiltScene, film: Film) -> int:
     times = read_array(built.block, built.scene.time_s)
     return int(np.floor((times[film.end] - times[film.start]) * film.fps / film.speed + 1e-9)) + 1
+
+
+def _refuse_long(seconds: float) -> None:
+    """Refuse a film that the browser could not hand over, hours later."""
+    if seconds > MOST_VIDEO_S:
+        raise ForceTorqueError(
+            f"video: expected at most {MOST_VIDEO_S:g} s, got {seconds:.0f} s; raise --speed, or choose a part by "
+            "--start and --end"
+        )
 
 
 def _serve(

@@ -55,6 +55,18 @@ def load_model(load: schema.Load, sensor: str, inertia: Inertia) -> RobotModel:
     )
 
 
+def is_wrist_load(model: RobotModel) -> bool:
+    """Tell the robot of a wrist sensor from that of a URDF file.
+
+    Args:
+        model: A robot.
+
+    Returns:
+        Whether `load_model` made it.
+    """
+    return tuple(model.joints) == (_JOINT,) and tuple(model.links)[1:] == (LOAD_LINK,)
+
+
 def given_inertia(load: schema.Load) -> Inertia | None:
     """Give the inertia that the file states.
 

@@ -18,6 +18,9 @@ from forcetorque.recording import Use
 from forcetorque.viewer.build import BuiltScene
 from forcetorque.viewer.scene import SceneInterval, read_array
 
+_NANOSECOND = 1e-9
+"""Instants are whole nanoseconds; s."""
+
 Label = Annotated[str, Field(max_length=200)]
 
 
@@ -100,27 +103,28 @@ def intervals_toml(annotations: Annotations, built: BuiltScene) -> str:
         built: The scene in which it was saved.
 
     Returns:
-        `[[interval]]` tables; the support is that of the experiment's interval which holds them.
+        `[[interval]]` tables, cut off at the end of the log; the support is that of the experiment's interval which
+        holds them. Comments say what the experiment file would refuse.
 
     Raises:
-        ForceTorqueError: If an interval ends before it begins.
+        ForceTorqueError: If an interval ends before it begins, or begins after the log.
     """
     tables = ["# intervals marked in the viewer; copy them into the experiment file\n"]
     for interval in annotations.intervals:
-        if not interval.start_s < interval.end_s:
-            raise ForceTorqueError(f"interval {interval.label!r}: expected an end after its start")
-        support = _support(interval, built.scene.intervals)
+        start_s, end_s = interval.start_s, min(interval.end_s, built.scene.end_s)
+        if not start_s < end_s:
+            raise ForceTorqueError(
+                f"interval {interval.label!r}: expected an end after its start and a start inside the log"
+            )
         lines = [
             "[[interval]]",
             f"label = {_quoted(interval.label)}",
-            f"start_s = {_seconds(interval.start_s)}",
-            f"end_s = {_seconds(interval.end_s)}",
+            f"start_s = {_seconds(start_s)}",
+            f"end_s = {_seconds(end_s)}",
             f'use = "{interval.use.value}"',
+            *_support_lines(start_s, end_s, interval.use, built.scene.intervals),
+            *_overlap_lines(start_s, end_s, interval.use, built.scene.intervals),
         ]
-        if support is not None:
-            lines.append(f"support = {_quoted(support)}")
-        elif interval.use is not Use.IGNORE:
-            lines.append('# support = "..."  # state the link that stands still: no interval of the experiment says it')
         tables.append("\n".join(lines) + "\n")
     return "\n".join(tables)
 
@@ -159,13 +163,26 @@ def _configuration(row: FloatArray, is_slide: list[bool]) -> list[str]:
     return [f"{value:.6f}" if slide else f"{np.rad2deg(value):.4f}" for value, slide in zip(row, is_slide, strict=True)]
 
 
-def _support(interval: SavedInterval, intervals: tuple[SceneInterval, ...]) -> str | None:
-    # the end of the last sample may lie a period beyond that of the log
-    last = max((each.end_s for each in intervals), default=interval.end_s)
+def _support_lines(start_s: float, end_s: float, use: Use, intervals: tuple[SceneInterval, ...]) -> list[str]:
+    """The support of an interval of the experiment that holds a span; a comment that asks for it if none does."""
+    if not all(each.states_support for each in intervals):
+        return []
     for each in intervals:
-        if each.support is not None and each.start_s <= interval.start_s < each.end_s:
-            return each.support if min(interval.end_s, last) <= each.end_s else None
-    return None
+        if each.support is not None and each.start_s <= start_s and end_s <= each.end_s + _NANOSECOND:
+            return [f"support = {_quoted(each.support)}"]
+    return [] if use is Use.IGNORE else ['# support = "..."  # state the link that stands still']
+
+
+def _overlap_lines(start_s: float, end_s: float, use: Use, intervals: tuple[SceneInterval, ...]) -> list[str]:
+    """A comment that names the intervals of the experiment in which samples would be used twice."""
+    if use is Use.IGNORE:
+        return []
+    found = [
+        _quoted(each.label)
+        for each in intervals
+        if each.use != Use.IGNORE.value and each.start_s < end_s - _NANOSECOND and start_s < each.end_s - _NANOSECOND
+    ]
+    return [f"# overlaps {', '.join(found)}: shorten those, as a sample is fitted or judged once"] if found else []
 
 
 def _seconds(value: float) -> str:

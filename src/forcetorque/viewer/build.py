@@ -15,6 +15,7 @@ from forcetorque.experiment import (
     inspect_experiment,
 )
 from forcetorque.experiment.inputs import stated_in
+from forcetorque.experiment.wrist_load import is_wrist_load
 from forcetorque.recording import Finding, Interval
 from forcetorque.recording.alignment import seconds_since
 from forcetorque.viewer.contacts import scene_contacts
@@ -94,6 +95,7 @@ def build_scene(
         title=experiment.name,
         samples=len(posture.stamp_ns),
         start_ns=str(recording.start_ns),
+        end_s=(recording.span_ns[1] + 1 - recording.start_ns) * 1e-9,
         time_s=block.add(seconds_since(posture.stamp_ns, recording.start_ns), "float64"),
         positions=block.add(posture.position, "float32"),
         coordinates=posture.names,
@@ -101,7 +103,10 @@ def build_scene(
         robot=robot,
         sensors=tuple(series),
         contacts=contacts,
-        intervals=tuple(_interval(interval, recording.start_ns) for interval in recording.intervals),
+        intervals=tuple(
+            _interval(interval, recording.start_ns, states_support=not is_wrist_load(model))
+            for interval in recording.intervals
+        ),
         findings=tuple(_finding(finding, recording.start_ns) for finding in inspect_experiment(usable)),
         notes=(*notes, *missing),
         provenance=tuple(sources),
@@ -155,13 +160,14 @@ def _inputs(experiment: Experiment) -> list[str]:
     return [f"{name} sha256 {digest}" for name, digest in sorted(experiment.inputs_sha256.items())]
 
 
-def _interval(interval: Interval, start_ns: int) -> SceneInterval:
+def _interval(interval: Interval, start_ns: int, *, states_support: bool) -> SceneInterval:
     return SceneInterval(
         label=interval.label,
         use=interval.use.value,
         start_s=(interval.start_ns - start_ns) * 1e-9,
         end_s=(interval.end_ns - start_ns) * 1e-9,
         support=None if interval.support is None else interval.support.frame,
+        states_support=states_support,
     )
 
 

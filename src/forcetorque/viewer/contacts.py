@@ -14,6 +14,7 @@ from forcetorque.errors import ForceTorqueError
 from forcetorque.estimation import Contact
 from forcetorque.experiment import Correction, Experiment, IntervalEstimates, corrections_of, estimate_experiment
 from forcetorque.experiment.contacts import contacts_at_sensors
+from forcetorque.recording.alignment import gap_limit_ns
 from forcetorque.robot import build_tree
 from forcetorque.viewer.geometry import flat
 from forcetorque.viewer.instants import Posture
@@ -64,6 +65,7 @@ def scene_contacts(
         # its instants are those of the experiment's first sensor, which need not be shown
         at = np.searchsorted(span.stamp_ns, posture.stamp_ns, side="right") - 1
         inside = (posture.stamp_ns >= span.interval.start_ns) & (posture.stamp_ns < span.interval.end_ns) & (at >= 0)
+        inside &= posture.stamp_ns - span.stamp_ns[at] <= gap_limit_ns(span.stamp_ns)  # a gap stays a gap
         for name in span.estimates.layout.contacts:
             values = found.setdefault(name, np.full((len(posture.stamp_ns), 6), np.nan))
             values[inside] = span.estimates.contact(name)[at[inside]]

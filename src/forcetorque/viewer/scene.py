@@ -155,6 +155,10 @@ class Sensor:
     """Link that its frame is given in."""
     link_H_sensor: tuple[float, ...]
     """Pose of its frame; 16 numbers."""
+    acting: str
+    """Link that acts, in the sign of the reading."""
+    acted_on: str
+    """Link that is acted on."""
     wrenches: tuple[WrenchSeries, ...]
     """The expected wrench, what was logged or the prior gives, then one series per calibration."""
 
@@ -187,6 +191,8 @@ class SceneInterval:
     """End, itself excluded; s."""
     support: str | None
     """Support frame."""
+    states_support: bool
+    """Whether the experiment file names supports; that of a wrist sensor is always its own frame."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -219,6 +225,8 @@ class Scene:
     """Number of samples n."""
     start_ns: str
     """Stamp of second 0 as a decimal number; ns."""
+    end_s: float
+    """End of the log over all streams, itself excluded: the latest end that an interval may have; s."""
     time_s: ArrayRef
     """Seconds since the start of the recording, as intervals count them; shape (n,) float64."""
     positions: ArrayRef

@@ -24,6 +24,7 @@ from forcetorque.experiment.fitness import require_fit
 from forcetorque.experiment.readings import wrench_at
 from forcetorque.recording.alignment import require_overlap
 from forcetorque.robot import SensorFrame
+from forcetorque.spatial import MeasureDirection
 from forcetorque.viewer.geometry import flat
 from forcetorque.viewer.instants import Posture
 from forcetorque.viewer.once import Priors
@@ -85,11 +86,15 @@ def scene_sensor(
         series.append(_series(reading.name, "measured", block, values, force=fits[0], moment=fits[1]))
     tag = experiment.model.sensor(sensor.name)
     joint = experiment.model.joints[tag.joint]
+    ends = (joint.child, joint.parent)
+    acting, acted_on = ends if tag.direction is MeasureDirection.CHILD_TO_PARENT else ends[::-1]
     return Sensor(
         name=sensor.name,
         serial=sensor.serial,
         link=joint.parent if tag.frame is SensorFrame.PARENT else joint.child,
         link_H_sensor=flat(tag.child_H_sensor if tag.frame is SensorFrame.SENSOR else np.eye(4)),
+        acting=acting,
+        acted_on=acted_on,
         wrenches=tuple(series),
     )
 

@@ -122,7 +122,6 @@ def film_page(url: str, film: Film, *, browser: Path) -> bytes:
             page.route(lambda address: not address.startswith((url, "blob:", "data:")), lambda route: route.abort())
             page.set_default_timeout(_READY_S * 1000)
             page.goto(url)
-            page.wait_for_function("window.ft !== undefined")
             page.evaluate("window.ft.ready")
             text = page.evaluate("wanted => window.ft.video(wanted)", wanted)  # waits as long as it takes
     except Error as error:

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import subprocess
 import sys
+from collections.abc import Generator
 from datetime import UTC, datetime
 from pathlib import Path
 
@@ -12,10 +13,19 @@ import pytest
 
 from forcetorque.calibration import write_calibration
 from forcetorque.experiment import calibrate_sensor, load_experiment
-from tests.browser import chromium, playwright, visit
+from tests.browser import _closed_at_the_end, chromium, close_after_folder, visit
 from tests.experiments import PARQUET, write_experiments
 
-__all__ = ["chromium", "playwright", "visit"]
+__all__ = ["_closed_at_the_end", "chromium", "visit"]
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_teardown(nextitem: pytest.Item | None) -> Generator[None]:
+    """Leave no browser open to the tests of other folders."""
+    try:
+        yield
+    finally:
+        close_after_folder(nextitem, Path(__file__).parent)
 
 
 @pytest.fixture(scope="module")

@@ -55,6 +55,10 @@ URDF = """<robot name="arm">
     <limit lower="0" upper="0.2" effort="1" velocity="1"/></joint>
   <joint name="wrist_mount" type="fixed"><parent link="fore"/><child link="hand"/>
     <origin xyz="0.2 0 0" rpy="0 0.4 0"/></joint>
+  <link name="finger"/>
+  <joint name="curl" type="revolute"><parent link="hand"/><child link="finger"/><origin xyz="0.1 0 0" rpy="0.2 0 0"/>
+    <axis xyz="0 0.6 0.8"/><mimic joint="lift" multiplier="-0.5" offset="0.1"/>
+    <limit lower="-2" upper="2" effort="1" velocity="1"/></joint>
 </robot>"""
 
 HAND = """solid hand
@@ -149,6 +153,7 @@ def arm_scene(
         provenance=("arm.toml sha256 00", "forcetorque test"),
         samples=samples,
         start_ns="1700000000000000000",
+        end_s=float(time_s[-1]) + 1e-9 if samples else 0.0,
         time_s=block.add(time_s, "float64"),
         positions=block.add(positions, "float32"),
         coordinates=COORDINATES,
@@ -216,6 +221,8 @@ def _sensor(
         serial="SN001" if name == "shoulder_ft" else "SN002",
         link=link,
         link_H_sensor=flat(np.eye(4)),
+        acting=link,
+        acted_on="upper" if name == "shoulder_ft" else "fore",
         wrenches=tuple(
             WrenchSeries(
                 name=series,
@@ -244,11 +251,23 @@ def _intervals(time_s: FloatArray) -> tuple[SceneInterval, ...]:
     spans = (("moving", "calibration", 30, 290, "base"), ("held out", "validation", 300, 560, "base"))
     return (
         *(
-            SceneInterval(label=label, use=use, start_s=float(time_s[a]), end_s=float(time_s[b]), support=support)  # type: ignore[arg-type]
+            SceneInterval(
+                label=label,
+                use=use,  # type: ignore[arg-type]
+                start_s=float(time_s[a]),
+                end_s=float(time_s[b]),
+                support=support,
+                states_support=True,
+            )
             for label, use, a, b, support in spans
         ),
         SceneInterval(
-            label="wall", use="ignore", start_s=float(time_s[WALL.start]), end_s=float(time_s[WALL.stop]), support=None
+            label="wall",
+            use="ignore",
+            start_s=float(time_s[WALL.start]),
+            end_s=float(time_s[WALL.stop]),
+            support=None,
+            states_support=True,
         ),
     )
 

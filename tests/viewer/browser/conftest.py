@@ -3,18 +3,29 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Generator, Iterator
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import pytest
 
-from tests.browser import Visit, chromium, playwright, visit
+from tests.browser import Visit, _closed_at_the_end, chromium, close_after_folder, visit
 from tests.viewer.browser.arm_scene import Arm, arm_scene
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser, Page
 
-__all__ = ["chromium", "playwright", "visit"]
+__all__ = ["_closed_at_the_end", "chromium", "visit"]
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_teardown(nextitem: pytest.Item | None) -> Generator[None]:
+    """Leave no browser open to the tests of other folders."""
+    try:
+        yield
+    finally:
+        close_after_folder(nextitem, Path(__file__).parent)
+
 
 FIRST = """() => {
     document.activeElement.blur();

@@ -3,12 +3,14 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
 
 from forcetorque.viewer.scene import read_array
+from tests.browser import Visit
 from tests.viewer.browser.arm_scene import Arm
 from tests.viewer.browser.press import picture
 
@@ -43,6 +45,8 @@ def test_numbers_are_those_of_the_sensor_and_the_sample(page: Page, arm: Arm) ->
             value = read_array(arm.built.block, series.values)[123, first : first + 3].astype(float)
             wanted = [*value, np.linalg.norm(value)]
             np.testing.assert_allclose(found[series.name], wanted, atol=0.51 * 10.0**-digits)
+        acts = f"of {('fore_base', 'hand')[sensor]} on {('upper', 'fore')[sensor]}"
+        assert acts in str(page.get_by_role("caption").first.text_content()), "the sign of the reading"
 
 
 def test_torque_names_every_view(page: Page) -> None:
@@ -92,3 +96,16 @@ def test_arrows_and_wireframes_are_switched(page: Page) -> None:
         page.get_by_label(label).check()
         page.evaluate("window.ft.show(425)")
         assert picture(page, view) == before, label
+
+
+def test_a_contact_is_not_hidden_with_a_series_of_its_name(visit: Visit, arm: Arm) -> None:
+    """Contacts have a box of their own."""
+    (wall,) = arm.built.scene.contacts
+    scene = replace(arm.built.scene, contacts=(replace(wall, name="logged"),))
+    page = visit.open(replace(arm.built, scene=scene))
+    page.get_by_role("checkbox", name="logged", exact=True).uncheck()
+    page.evaluate("window.ft.show(425)")
+    with_contact = picture(page, "Robot")
+    page.get_by_label("Contact wrenches").uncheck()
+    page.evaluate("window.ft.show(425)")
+    assert picture(page, "Robot") != with_contact

@@ -36,6 +36,10 @@ def test_slider_and_number_jump(page: Page, sample: Callable[[], int], arm: Arm)
     number.fill("99999")
     number.press("Enter")
     assert sample() == SAMPLES - 1, "a number beyond the last sample is the last sample"
+    number.fill("")
+    number.press("Enter")
+    assert sample() == SAMPLES - 1, "nothing is no number"
+    assert number.input_value() == str(SAMPLES - 1)
 
 
 def test_click_on_a_plot_jumps_to_that_time(page: Page, sample: Callable[[], int], arm: Arm) -> None:
@@ -126,7 +130,7 @@ def test_everything_without_a_mouse(page: Page, sample: Callable[[], int]) -> No
     assert page.get_by_label("Torque", exact=True).is_checked()
     page.keyboard.press("b")
     page.keyboard.press("s")
-    assert page.get_by_label("Saved samples").get_by_role("listitem").count() == 1
+    assert page.get_by_role("list", name="Saved samples").get_by_role("listitem").count() == 1
     page.keyboard.press(" ")
     wait_until(page, lambda: sample() > 0)
     page.keyboard.press(" ")
@@ -160,7 +164,7 @@ def test_everything_without_a_mouse(page: Page, sample: Callable[[], int]) -> No
     page.keyboard.press("Enter")
     assert sample() == 77
     number.press("s")
-    assert page.get_by_label("Saved samples").get_by_role("listitem").count() == 1, "a box keeps its keys"
+    assert page.get_by_role("list", name="Saved samples").get_by_role("listitem").count() == 1, "a box keeps its keys"
 
 
 def test_arrows_step_after_a_choice_by_mouse(page: Page, sample: Callable[[], int]) -> None:

@@ -3,13 +3,14 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 import pytest
 
 from tests.browser import Visit
-from tests.viewer.browser.arm_scene import SAMPLES, Arm
+from tests.viewer.browser.arm_scene import COORDINATES, SAMPLES, Arm
 from tests.viewer.browser.press import picture
 
 if TYPE_CHECKING:
@@ -41,14 +42,24 @@ def test_same_sample_same_pixels(page: Page, visit: Visit, arm: Arm) -> None:
 
 
 def test_links_are_where_the_library_puts_them(page: Page, arm: Arm) -> None:
-    """All links, across turning, sliding and fixed joints, beneath a root that moves."""
-    compared = 0
+    """All links, across turning, sliding, following and fixed joints, beneath a root that moves."""
+    assert any(joint.multiplier == -0.5 and joint.offset == 0.1 for joint in arm.built.scene.robot.joints)
     for sample in (0, 137, SAMPLES - 1):
-        poses = page.evaluate(f"window.ft.linkPoses({sample})")
-        assert set(poses) == set(arm.model.links)
-        for link, pose in poses.items():
-            np.testing.assert_allclose(np.reshape(pose, (4, 4)), arm.link_pose(link, sample), atol=FLOAT32)
-            compared += 1
-    assert compared == 3 * len(arm.model.links)
-    # the comparison can fail: neighbouring samples differ by far more
-    assert not np.allclose(np.reshape(poses["hand"], (4, 4)), arm.link_pose("hand", SAMPLES - 2), atol=1e3 * FLOAT32)
+        _agree(page, arm, sample)
+
+
+@pytest.mark.parametrize("joint", COORDINATES)
+def test_a_link_elsewhere_is_noticed(page: Page, arm: Arm, joint: str) -> None:
+    """Negative control: with one joint of the library 0.01 mrad or 0.01 mm away, the same comparison fails."""
+    moved = arm.positions + 10 * FLOAT32 * (np.array(COORDINATES) == joint)
+    with pytest.raises(AssertionError, match="finger"):
+        _agree(page, replace(arm, positions=moved), 137)
+
+
+def _agree(page: Page, arm: Arm, sample: int) -> None:
+    """The page's poses of all links are the library's."""
+    poses = page.evaluate(f"window.ft.linkPoses({sample})")
+    assert set(poses) == set(arm.model.links)
+    for link in reversed(arm.model.links):
+        wanted = arm.link_pose(link, sample)
+        np.testing.assert_allclose(np.reshape(poses[link], (4, 4)), wanted, rtol=0, atol=FLOAT32, err_msg=link)

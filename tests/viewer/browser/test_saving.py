@@ -12,7 +12,8 @@ import numpy as np
 import pytest
 
 from forcetorque.experiment.schema import Interval
-from tests.viewer.browser.arm_scene import COORDINATES, WALL, Arm
+from forcetorque.viewer.annotations import Annotations, intervals_toml
+from tests.viewer.browser.arm_scene import COORDINATES, SAMPLES, WALL, Arm
 from tests.viewer.browser.press import download
 
 if TYPE_CHECKING:
@@ -88,6 +89,39 @@ def test_begin_and_end_make_an_interval_of_the_experiment_file(page: Page, arm: 
     assert first.start_s == pytest.approx(arm.time_s[50], abs=1e-9)
     assert first.end_s == pytest.approx(arm.time_s[61], abs=1e-9), "the saved end is the last sample inside"
     assert (second.label, second.use, second.support) == ("marked", "validation", "base")
+
+
+def test_the_library_writes_the_same_text(page: Page, arm: Arm) -> None:
+    """Inside, across and outside the experiment's intervals, up to the last sample, for every use."""
+    marked = ((5, 20, "validation"), (40, 50, "calibration"), (60, 70, "ignore"), (280, 310, "validation"))
+    for begin, end, _ in marked:
+        save(page, begin, "begin")
+        save(page, end, "end")
+    save(page, 570, "begin")
+    save(page, SAMPLES - 1, "end")
+    for k, (*_, use) in enumerate(marked):
+        page.get_by_label("Use of marked", exact=False).nth(k).select_option(use)
+    _, content = download(page, "Intervals as TOML")
+    tables = tomllib.loads(content.decode())["interval"]
+    assert [table["use"] for table in tables] == [*(use for *_, use in marked), "ignore"]
+    assert tables[-1]["end_s"] == pytest.approx(arm.built.scene.end_s, abs=1e-9), "cut off where the log ends"
+    sent = [{name: table[name] for name in ("label", "start_s", "end_s", "use")} for table in tables]
+    wanted = intervals_toml(Annotations.model_validate({"samples": [], "intervals": sent}), arm.built)
+    assert content.decode() == wanted
+    assert wanted.count("# support") == 2
+    assert '# overlaps "moving", "held out": shorten' in wanted
+    assert page.get_by_text("overlaps moving, held out: shorten it there").is_visible()
+
+
+def test_what_makes_no_interval_is_said(page: Page) -> None:
+    """A begin before another begin, an end without a begin, and a begin at the very end."""
+    for at, kind in ((10, "end"), (20, "begin"), (30, "begin"), (40, "end"), (50, "begin")):
+        save(page, at, kind)
+    rows = page.get_by_role("list", name="Marked intervals").get_by_role("listitem")
+    said = ["end at 10 has no begin", "begin at 20 has no end", "begin at 50 has no end"]
+    assert rows.all_text_contents()[1:] == said
+    page.get_by_role("button", name="Delete sample 20").click()
+    assert rows.count() == 3
 
 
 def test_labels_of_intervals_are_unique(page: Page) -> None:

@@ -7,8 +7,11 @@ import base64
 import struct
 from typing import TYPE_CHECKING
 
+import numpy as np
 import pytest
 
+from forcetorque.cli.view import _frames
+from forcetorque.viewer.video import Film
 from tests.viewer.browser.arm_scene import Arm
 
 if TYPE_CHECKING:
@@ -31,6 +34,8 @@ DECODE = """async ([film, frames, fps]) => {
     for (let k = 0; k < frames; k++) {
         video.currentTime = (k + 0.5) / fps;
         await new Promise(done => { video.onseeked = done; });
+        // a browser says that it is there before it gives the picture to canvases
+        await new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)));
         pen.drawImage(video, 0, 0);
         const data = pen.getImageData(0, 0, canvas.width, canvas.height).data;
         sums.push(data.reduce((sum, value, k) => (sum * 31 + value + k) % 1000003, 7));
@@ -61,6 +66,19 @@ def test_film_decodes_to_the_frames_that_were_asked_for(page: Page, arm: Arm) ->
     assert (seen["width"], seen["height"]) == (320, 200)
     assert seen["duration"] == pytest.approx(FRAMES / FPS, abs=0.01)
     assert len(set(seen["sums"])) == FRAMES
+
+
+def test_the_command_counts_the_frames_of_the_page(page: Page, arm: Arm) -> None:
+    """Also where the last frame falls on the last sample but for rounding, as with times in decimal fractions."""
+    times, fps = arm.time_s, 10
+    spans = [(a, a + 20 + b) for a in range(300) for b in range(6) if a + b < 179 or a > 199]  # not across the gap
+    shares = np.array([(times[b] - times[a]) * fps for a, b in spans])
+    (short,) = np.nonzero((np.floor(shares) < np.round(shares)) & (np.abs(shares - np.round(shares)) < 1e-9))
+    assert len(short), "no span is short of a frame by rounding"
+    (start, end), frames = spans[short[0]], round(shares[short[0]]) + 1
+    wanted = {**WANTED, "start": start, "end": end, "speed": 1, "fps": fps}
+    film = base64.b64decode(page.evaluate("wanted => window.ft.video(wanted)", wanted))
+    assert len(sizes_of_frames(film)) == frames == _frames(arm.built, Film(**wanted))  # type: ignore[arg-type]
 
 
 def test_same_film_again_is_the_same_file(page: Page) -> None:
