@@ -284,13 +284,19 @@ def test_no_file_to_read_is_written_over(arm: Path, run: Run, outputs: list[str]
 
 @pytest.mark.real_data
 def test_a_real_leg(data_dir: Path, run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """The verdict on the yoga log: better with its own offset, and what makes that doubtful."""
+    """The verdict on the yoga log: errors fall, but the recording is too short to call that better."""
     monkeypatch.chdir(tmp_path)
     assert run("calibrate", YOGA, "-o", "leg.json").code == 0
     sensor = _sensor(run("report", YOGA, "leg.json", "-o", "leg.html", "-o", "leg.pdf", "--format", "json").result())
-    texts = {line["tone"]: line["text"] for line in reversed(sensor["verdict"])}
-    assert "with its own offset" in texts["good"]
-    assert any("moved 5 of 6 raw directions" in line["text"] for line in sensor["verdict"])
-    assert any("independent samples" in line["text"] for line in sensor["verdict"])
+    own, re_estimated, *rest = sensor["verdict"]
+    for line in (own, re_estimated):
+        assert line["tone"] == "caution"
+        assert line["text"].count("no difference that the recording shows") == 2
+    # three times smaller in the mean, and yet: sixteen seconds of slow errors are worth a handful of samples
+    force = next(row for row in sensor["comparisons"] if (row["offset"], row["quantity"]) == ("fitted", "force"))
+    assert force["mean"] < 0.4 * force["prior_mean"]
+    assert force["independent"] < 10.0
+    assert any("moved 5 of 6 raw directions" in line["text"] for line in rest)
+    assert any("independent samples" in line["text"] for line in rest)
     assert Path("leg.html").stat().st_size < NORMAL_BYTES
     assert min(count for row in sensor["independence"] for count in row["independent"]) < 200
