@@ -17,6 +17,7 @@ import pytest
 
 from forcetorque.viewer import ViewerServer
 from forcetorque.viewer.page import ASSETS, BUNDLE
+from tests.cli.json_schema import faults
 from tests.cli.outcome import Run
 from tests.experiments import PARQUET, edit, snapshot
 
@@ -148,7 +149,10 @@ def test_samples_of_an_earlier_session_are_kept(run: Run, arm: Path, monkeypatch
     ("words", "message"),
     [
         (["nowhere.toml"], "nowhere.toml: expected an experiment file, there is none"),
-        (["estimates.parquet"], "estimates.parquet: expected an experiment file, got a table of results"),
+        (
+            ["estimates.parquet"],
+            "estimates.parquet: expected an experiment file or the numbers of a report, got a table",
+        ),
         ([PARQUET, "-o", "nowhere/view.html"], "nowhere/view.html: expected an existing folder to write to"),
         ([PARQUET, "-o", "view.html", "--port", "8000"], "--port belongs to a page that is served"),
         ([PARQUET, "--port", "99999"], "port 99999 of 127.0.0.1"),
@@ -226,3 +230,46 @@ def test_a_real_process_stops_at_the_first_interrupt(arm: Path) -> None:
     out, err = process.communicate(timeout=20)
     assert (process.returncode, out) == (0, "")
     assert all(line.startswith("INFO: ") for line in err.splitlines())
+
+
+def _report(run: Run, **changes: object) -> Path:
+    """Numbers of a report as the command leaves them, without drawing one."""
+    content = json.loads(Path("fitted.json").read_text(encoding="utf-8"))
+    sensor = {
+        key: []
+        for key in ("verdict", "evaluation", "comparisons", "independence", "contact_forces", "best", "joint_torques")
+    } | {"spheres": [], "static": [], "criteria": [], "warnings": [], "not_judged": {}}
+    sensor |= {"sensor": "arm_ft", "serial": "SIM001", "calibrations": {"fitted.json": content}}
+    experiment = {
+        "experiment": "small arm", "file": PARQUET, "robot": "arm", "duration_s": 24.0, "streams": [], "intervals": [],
+        "findings": [], "sensors": [sensor], "inputs_sha256": {},
+    } | changes  # fmt: skip
+    report = {
+        "schema": "forcetorque/report/1", "title": "t", "created": "2020-01-01T00:00:00+00:00", "code_version": "1",
+        "experiments": [experiment], "results": {},
+    }  # fmt: skip
+    path = Path("report.numbers.json")
+    path.write_text(json.dumps(report), encoding="utf-8")
+    assert faults(report, run("schema", "report").result()) == []
+    return path
+
+
+def test_a_report_shows_its_experiment_with_its_calibrations(arm: Path, run: Run) -> None:
+    """The same page as with both named."""
+    named = run("view", PARQUET, "-c", "fitted.json", "-o", "named.html", "--format", "json").result()
+    shown = run("view", _report(run), "-o", "shown.html", "--format", "json").result()
+    assert shown | {"file": ""} == named | {"file": ""}
+    assert Path("shown.html").read_bytes() == Path("named.html").read_bytes()
+    plain = run("view", PARQUET, "-o", "plain.html", "--format", "json").result()
+    assert plain["file_bytes"] < shown["file_bytes"], "control: without the calibration the page holds less"
+
+
+def test_a_report_that_cannot_be_shown_is_one_line(arm: Path, run: Run) -> None:
+    """Files that are gone, and JSON that is no report."""
+    gone = run("view", _report(run, file="gone.toml"), "-o", "page.html")
+    assert (
+        "report.numbers.json: gone.toml: expected the file that the report was made from, there is none" in gone.error()
+    )
+    other = run("view", "fitted.json", "-o", "page.html")
+    assert "fitted.json: expected the numbers of a report: " in other.error()
+    assert not Path("page.html").exists()

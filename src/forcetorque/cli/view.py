@@ -17,6 +17,7 @@ from forcetorque.atomic import write_bytes_atomically
 from forcetorque.cli.output import Format, console, print_result, start_logging
 from forcetorque.cli.reading import read_calibrations, read_experiment
 from forcetorque.cli.scene import scene_of
+from forcetorque.cli.view_source import view_source
 from forcetorque.errors import ForceTorqueError, MissingFileError
 from forcetorque.viewer import BuiltScene, ViewerServer, page_of, write_page
 from forcetorque.viewer.annotations import Annotations, save_annotations, saved_files
@@ -76,7 +77,7 @@ def run(
     """Write the page of an experiment, film it, or serve it until somebody interrupts.
 
     Args:
-        path: Experiment file.
+        path: Experiment file, or the numbers of a report.
         calibrations: Calibration files; of a sensor any number.
         sensors: Sensors to show; all if None.
         mesh_folders: Folders with packages of meshes.
@@ -93,13 +94,14 @@ def run(
         output_format: Form of the result.
     """
     log = start_logging()
-    _refuse_contradictions(path, output, port, video)
+    _refuse_contradictions(output, port, video)
+    path, files = view_source(path, calibrations)
     program = None
     if video is not None:
         Film(start=0, end=0, fps=fps, speed=speed, width=size[0], height=size[1])
         require_playwright()
         program = find_browser(browser)
-    loaded = read_calibrations(calibrations)
+    loaded = read_calibrations(files)
     built = scene_of(path, read_experiment(path, log), loaded, sensors=sensors, mesh_folders=mesh_folders)
     for note in built.scene.notes:
         log.info("%s", note)
@@ -130,12 +132,7 @@ def run(
         _print(result, output_format)
 
 
-def _refuse_contradictions(path: Path, output: Path | None, port: int | None, video: Path | None) -> None:
-    if path.suffix in (".parquet", ".csv"):
-        raise ForceTorqueError(
-            f"{path}: expected an experiment file, got a table of results, which holds no robot and no motion; "
-            "view the experiment that it was made from"
-        )
+def _refuse_contradictions(output: Path | None, port: int | None, video: Path | None) -> None:
     if port is not None and (output is not None or video is not None):
         raise ForceTorqueError("--port belongs to a page that is served; leave out --output and --video, or --port")
     for file in (output, video):

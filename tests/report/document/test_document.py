@@ -326,6 +326,7 @@ def test_lines_hold_every_letter_and_none_is_too_wide() -> None:
     assert lines_of(path, 30.0, len) == ["../data/icub_genova02_yoga/", "dumperLeftLeg/data.log"]
     assert lines_of(digest, 40.0, len) == [digest[:40], digest[40:]]
     assert lines_of("wide", 0.5, len) == list("wide")
+    assert lines_of("moment, N m", 9.0, len) == ["moment,", "N m"]
     text = f"a {path} b  {digest} c"
     for width in range(1, 90):
         lines = lines_of(text, float(width), len)

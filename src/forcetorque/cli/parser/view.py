@@ -9,11 +9,13 @@ from typing import Annotated
 import typer
 
 from forcetorque.cli.output import Format
-from forcetorque.cli.parser.options import CalibrationsOption, ExperimentArgument, FormatOption, SensorOption
+from forcetorque.cli.parser.options import CalibrationsOption, FormatOption, SensorOption
 
 
 def view(
-    experiment: ExperimentArgument,
+    experiment: Annotated[
+        Path, typer.Argument(help="Experiment file (TOML), or the .numbers.json of a report; see docs/viewer.md.")
+    ],
     calibration: CalibrationsOption = None,
     sensor: SensorOption = None,
     output: Annotated[

@@ -11,6 +11,9 @@ _LONG_WORD = 20
 """Letters of the longest word that is not a path or an address, and is broken only where no line could hold it."""
 _SIGNS = re.compile(r"(?<=[/\\_.,;:=&?+-])(?=[^/\\_.,;:=&?+ -])")
 
+_WORDS = re.compile(r"(?:\bN m\b|[^ \n])+[ \n]*|[ \n]+")
+"""Words with the spaces behind them; the unit of moments is one word."""
+
 Measure = Callable[[str], float]
 """Width of a text in one line."""
 
@@ -39,7 +42,7 @@ def pieces_of(text: str) -> list[str]:
     Returns:
         Words, and parts of long words, each with the spaces behind it.
     """
-    words: list[str] = re.findall(r"[^ \n]+[ \n]*|[ \n]+", text)
+    words: list[str] = _WORDS.findall(text)
     return [piece for word in words for piece in (_SIGNS.split(word) if len(word) > _LONG_WORD else [word])]
 
 
