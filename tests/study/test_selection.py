@@ -163,7 +163,7 @@ def _judgement(k: int, *, seed: int) -> Judgement:
         force_mean=rng.uniform(1, 2, size=(k, b)),
         moment_mean=rng.uniform(1, 2, size=(k, b)),
     )
-    return Judgement(errors=errors, sets=SESSIONS, sessions=SESSIONS)
+    return Judgement(errors=errors, sessions=SESSIONS)
 
 
 def _poisoned(judgement: Judgement, candidate: int, session: str, factor: float) -> Judgement:
@@ -257,8 +257,8 @@ def test_what_is_not_determined_is_not_chosen_for_any_session() -> None:
 
 
 def test_one_session_gives_no_score() -> None:
-    """There is no other session to choose on; two sets of one session are still one."""
-    judgement = _judgement(3, seed=4)
+    """There is no other session to choose on, however many blocks there are; the same blocks of three give three."""
+    judgement, determined = _judgement(3, seed=4), np.ones(3, dtype=bool)
     alone = replace(judgement, sessions=("day",) * len(SESSIONS))
-    assert scored_across_sessions(alone, np.ones(3, dtype=bool)) == []
-    assert len(set(alone.sets)) == 3
+    assert scored_across_sessions(alone, determined) == []
+    assert len(scored_across_sessions(judgement, determined)) == 3
