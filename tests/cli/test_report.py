@@ -222,6 +222,7 @@ REFUSED = {
         r"recording: expected an experiment file, .* got a folder; name the files in it",
     ),
     "not JSON": ([PARQUET, "broken.json"], r"broken.json: expected an experiment file, .*: Expecting "),
+    "no suffix": ([PARQUET, "prior"], r"prior: expected .*, whose names end in .toml or .json"),
     "no schema": ([PARQUET, "other.json"], r"other.json: expected .*, got the schema None"),
     "a list": ([PARQUET, "list.json"], r"list.json: expected .*, got a list"),
     "two limits": ([PARQUET, "a.toml", "b.toml"], r"expected one acceptance file, got 2"),
@@ -239,6 +240,7 @@ def test_bad_input_is_one_line_and_nothing_is_written(arm: Path, run: Run, name:
     """Each says which file, what was expected and what came."""
     Path("broken.json").write_text("{", encoding="utf-8")
     Path("other.json").write_text("{}", encoding="utf-8")
+    shutil.copy("fitted.json", "prior")
     Path("list.json").write_text("[]", encoding="utf-8")
     for limits in ("a.toml", "b.toml"):
         Path(limits).write_text(LIMITS, encoding="utf-8")

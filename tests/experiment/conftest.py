@@ -8,23 +8,11 @@ from pathlib import Path
 
 import pytest
 
-from tests.experiments import write_experiments
+from tests.arm_folder import arm, intact
 from tests.studies import write_days
 from tests.warm_experiments import warm_up
 
-
-@pytest.fixture(scope="session")
-def intact(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Folder of the experiment; nobody changes it."""
-    folder = tmp_path_factory.mktemp("intact")
-    write_experiments(folder)
-    return folder
-
-
-@pytest.fixture
-def arm(intact: Path, tmp_path: Path) -> Path:
-    """Folder with a copy of the experiment, to damage."""
-    return Path(shutil.copytree(intact, tmp_path / "arm"))
+__all__ = ["arm", "intact"]
 
 
 @pytest.fixture(scope="session")

@@ -19,10 +19,10 @@ from forcetorque.experiment import (
     accept_sensor,
     calibrate_sensor,
     check_sensor,
+    compare_contact_forces,
     evaluate_sensor,
     load_experiment,
     read_acceptance,
-    validate_sensor,
 )
 from forcetorque.experiment.criterion import Bound, Criterion
 from forcetorque.spatial import WRENCH_COMPONENTS
@@ -156,7 +156,7 @@ def test_the_numbers_are_those_of_the_other_commands(drifting: Experiment) -> No
     assert counts["evaluate.rmse.tz"] == new.count
     (contact,) = [
         v.errors
-        for v in validate_sensor(drifting, sensor, {name: calibration})
+        for v in compare_contact_forces(drifting, sensor, {name: calibration}).verdicts
         if (v.candidate, v.offset.value) == ("new", "re-estimated")
     ]
     assert found["validate.mean_absolute.fz"] == contact.mean_absolute[2]

@@ -21,7 +21,6 @@ from forcetorque.experiment import (
     evaluate_sensor,
     load_experiment,
     samples_of,
-    validate_sensor,
 )
 from forcetorque.recording import Use
 from forcetorque.study import OffsetSource
@@ -43,7 +42,7 @@ def test_by_the_model_it_is_reading_less_expected(arm: Path) -> None:
     """In the mode `model` the wrench at the sensor is what `evaluate` calls the error, but for the first second."""
     experiment = load_experiment(arm / PARQUET)
     calibration = _fitted(experiment)
-    found = _by_candidate(validate_sensor(experiment, experiment.sensors[0], {"new": calibration}))
+    found = _by_candidate(compare_contact_forces(experiment, experiment.sensors[0], {"new": calibration}).verdicts)
     (part,) = samples_of(experiment, experiment.sensors[0], Use.VALIDATION)
     stamps = part.samples.stamp_ns
     first = stamps < stamps[0] + 1_000_000_000
@@ -62,7 +61,9 @@ def test_by_the_model_it_is_reading_less_expected(arm: Path) -> None:
 def test_the_new_calibration_is_best_and_the_prior_is_not(arm: Path) -> None:
     """Known truth: the fit reports a tenth of the force that the prior reports, with either offset."""
     experiment = load_experiment(arm / PARQUET)
-    found = _by_candidate(validate_sensor(experiment, experiment.sensors[0], {"new": _fitted(experiment)}))
+    found = _by_candidate(
+        compare_contact_forces(experiment, experiment.sensors[0], {"new": _fitted(experiment)}).verdicts
+    )
     assert len(found) == 4
     for source in OffsetSource:
         new, prior = found["new", source].errors, found["prior", source].errors
@@ -76,7 +77,7 @@ def test_errors_of_other_sensors_count_only_as_measured(arm: Path) -> None:
     right = {"tool": _fitted(experiment, 1)}
 
     def force(**how: object) -> float:
-        verdicts = _by_candidate(validate_sensor(experiment, sensor, calibrations, **how))  # type: ignore[arg-type]
+        verdicts = _by_candidate(compare_contact_forces(experiment, sensor, calibrations, **how).verdicts)  # type: ignore[arg-type]
         return verdicts["new", OffsetSource.RE_ESTIMATED].errors.force_mean
 
     model = force()
@@ -91,8 +92,8 @@ def test_the_outer_sensor_is_judged_by_either_side(arm: Path) -> None:
     """The parts beyond it and before it see the same error by the model; only the sign of the wrench differs."""
     experiment = load_experiment(arm / TWO)
     tool = experiment.sensors[1]
-    beyond = _by_candidate(validate_sensor(experiment, tool, {}))
-    before = _by_candidate(validate_sensor(experiment, tool, {}, sub_model="arm_ft"))
+    beyond = _by_candidate(compare_contact_forces(experiment, tool, {}).verdicts)
+    before = _by_candidate(compare_contact_forces(experiment, tool, {}, sub_model="arm_ft").verdicts)
     key = ("prior", OffsetSource.FITTED)
     assert beyond[key].sub_model == "tool_ft"
     assert before[key].sub_model == "arm_ft"
@@ -105,18 +106,18 @@ def test_what_cannot_be_judged_is_refused(arm: Path) -> None:
     experiment = load_experiment(arm / TWO)
     sensor = experiment.sensors[0]
     with pytest.raises(EstimationError, match=r"interval 'judge': sub_model: expected one of the two"):
-        validate_sensor(experiment, sensor, {}, sub_model="tool_ft")
+        compare_contact_forces(experiment, sensor, {}, sub_model="tool_ft")
     with pytest.raises(EstimationError, match="bears the support 'base'"):
-        validate_sensor(experiment, sensor, {}, sub_model="base")
+        compare_contact_forces(experiment, sensor, {}, sub_model="base")
     foreign = _fitted(experiment, 1)
     with pytest.raises(SerialNumberError, match="SIM/002"):
-        validate_sensor(experiment, sensor, {"new": foreign})
+        compare_contact_forces(experiment, sensor, {"new": foreign})
     bare = load_experiment(edit(arm / PARQUET, 'prior = "matrix_SIM001.txt"\n', ""))
     with pytest.raises(ExperimentError, match="raw counts become wrenches"):
-        validate_sensor(bare, bare.sensors[0], {})
+        compare_contact_forces(bare, bare.sensors[0], {})
     idle = replace(experiment, recording=replace(experiment.recording, intervals=()))
     with pytest.raises(ExperimentError, match='expected an interval with use = "validation"'):
-        validate_sensor(idle, idle.sensors[0], {})
+        compare_contact_forces(idle, idle.sensors[0], {})
 
 
 def _only_judged(experiment: Experiment) -> Experiment:
@@ -134,7 +135,7 @@ def test_the_prior_has_the_offset_that_the_calibration_carries_for_it(arm: Path)
     calibration, experiment = _fitted(whole), _only_judged(whole)
     prior, sensor = calibration.prior, experiment.sensors[0]
     assert prior is not None
-    found = _by_candidate(validate_sensor(experiment, sensor, {"new": calibration}))
+    found = _by_candidate(compare_contact_forces(experiment, sensor, {"new": calibration}).verdicts)
     (part,) = samples_of(experiment, sensor, Use.VALIDATION)
     stamps = part.samples.stamp_ns
     later = stamps >= stamps[0] + 1_000_000_000
@@ -143,7 +144,7 @@ def test_the_prior_has_the_offset_that_the_calibration_carries_for_it(arm: Path)
     assert verdict.errors.force_mean == pytest.approx(by_hand.force_mean, abs=EXACT)
     assert verdict.offset_source.endswith("offset of the data that new was fitted on")
     assert (verdict.prior, found["new", OffsetSource.FITTED].prior) == (None, "prior")
-    alone = _by_candidate(validate_sensor(experiment, sensor, {}))["prior", OffsetSource.FITTED]
+    alone = _by_candidate(compare_contact_forces(experiment, sensor, {}).verdicts)["prior", OffsetSource.FITTED]
     assert alone.offset_source == "the prior matrix_SIM001.txt, no offset removed"
     assert alone.errors.force_mean > 2.0 * verdict.errors.force_mean
     torques = {
@@ -164,7 +165,7 @@ def test_priors_are_called_as_evaluate_calls_them(arm: Path) -> None:
     other = first.model_copy(update={"prior": first.prior.model_copy(update={"offset": first.prior.offset + 1.0})})
     for given in ({"a": first, "b": first, "c": other}, {"prior": first}):
         names = [(v.candidate, v.prior) for v in evaluate_sensor(experiment, sensor, given)]
-        assert [(v.candidate, v.prior) for v in validate_sensor(experiment, sensor, given)] == names
+        assert [(v.candidate, v.prior) for v in compare_contact_forces(experiment, sensor, given).verdicts] == names
         torques = compare_joint_torques(experiment, sensor, given).verdicts
         assert list(dict.fromkeys((v.candidate, v.prior) for v in torques)) == list(dict.fromkeys(names))
 
@@ -185,7 +186,7 @@ def test_an_interval_that_ends_within_its_first_second_is_named(arm: Path) -> No
         np.testing.assert_array_equal(one.errors.rmse, other.errors.rmse)
     only = replace(both, recording=both.recording.with_intervals(both.recording.intervals[::2]))
     with pytest.raises(ExperimentError, match="nothing can be judged: interval 'blink': it ends within its first 1 s"):
-        validate_sensor(only, only.sensors[0], {})
+        compare_contact_forces(only, only.sensors[0], {})
 
 
 def test_an_interval_whose_first_second_is_a_gap_is_named(arm: Path) -> None:

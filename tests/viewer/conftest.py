@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import shutil
 from pathlib import Path
 
 import pytest
@@ -11,21 +10,10 @@ import pytest
 from forcetorque.experiment import load_experiment
 from forcetorque.viewer import BuiltScene, build_scene
 from forcetorque.viewer.page import ASSETS
-from tests.experiments import PARQUET, write_experiments
+from tests.arm_folder import arm, intact
+from tests.experiments import PARQUET
 
-
-@pytest.fixture(scope="session")
-def intact(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Folder of the experiment; nobody changes it."""
-    folder = tmp_path_factory.mktemp("intact")
-    write_experiments(folder)
-    return folder
-
-
-@pytest.fixture
-def arm(intact: Path, tmp_path: Path) -> Path:
-    """Folder with a copy of the experiment, to damage."""
-    return Path(shutil.copytree(intact, tmp_path / "arm"))
+__all__ = ["arm", "intact"]
 
 
 @pytest.fixture(scope="session")

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from forcetorque.atomic import write_bytes_atomically
+from forcetorque.cli.figure_file import refuse_figure
 from forcetorque.cli.gains_result import ChannelRow, GainsResult, SensorRow, sensor_row
 from forcetorque.cli.output import Format, console, print_result, start_logging, table
 from forcetorque.cli.reading import read_calibrations, read_experiment, refuse_left_out, sensors_named
@@ -48,8 +49,7 @@ def run(
         ForceTorqueError: If a name, a number or a file is not what it should be.
     """
     log = start_logging()
-    if figure is not None and figure.suffix.lower() != ".png":
-        raise ForceTorqueError(f"--figure {figure}: expected a name that ends in .png")
+    refuse_figure(figure)
     loaded = read_calibrations(calibrations)
     experiment = read_experiment(path, log)
     chosen = sensors_named(experiment, sensors)

@@ -228,7 +228,7 @@ def pick_samples(recording: Recording, source: Stream, interval: Interval) -> tu
             f"got {first:.3f} to {last:.3f} s"
         )
     stamps = source.stamp_ns
-    inside = (stamps >= interval.start_ns) & (stamps < interval.end_ns)
+    inside = interval.holds(stamps)
     for other in recording.intervals:
         if other.use is Use.IGNORE:
             inside &= (stamps < other.start_ns) | (stamps >= other.end_ns)

@@ -14,6 +14,7 @@ from forcetorque.experiment.evaluate import (
     evaluate_sensor,
     judged_where_chosen,
     require_unseen,
+    verdicts_on,
 )
 from forcetorque.experiment.gains import JointPosition, SensorGains, StrongestSample, select_gains
 from forcetorque.experiment.inspect import doubtful_spans, inspect_experiment, inspect_recording
@@ -33,7 +34,6 @@ from forcetorque.experiment.validate import (
     ContactForceComparison,
     ContactForceVerdict,
     compare_contact_forces,
-    validate_sensor,
 )
 
 __all__ = [
@@ -90,5 +90,5 @@ __all__ = [
     "select_gains",
     "sphere_intervals",
     "study_sensor",
-    "validate_sensor",
+    "verdicts_on",
 ]

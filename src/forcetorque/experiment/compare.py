@@ -22,6 +22,7 @@ from forcetorque.evaluation.sphere import (
     pool_trials,
 )
 from forcetorque.experiment.content import Experiment, ExperimentSensor
+from forcetorque.experiment.fitness import calibrations_of
 from forcetorque.experiment.load import load_experiment
 from forcetorque.experiment.sphere import SensorSphere, analyse_sensor, sphere_intervals
 from forcetorque.recording import Interval
@@ -277,12 +278,7 @@ def _refuse_wrong_names(paths: Sequence[Path]) -> None:
 def _read_sensors(reading: _Reading, path: Path, experiment: Experiment, spans: Sequence[Interval]) -> None:
     reading.known.update(dict.fromkeys(sensor.name for sensor in experiment.sensors))
     for sensor in _chosen(reading, experiment):
-        own = {
-            name: calibration
-            for name, calibration in reading.calibrations.items()
-            if calibration.sensor.serial == sensor.serial
-            and calibration.sensor.name in (sensor.name, *experiment.model.sensor(sensor.name).aliases)
-        }
+        own = calibrations_of(experiment, sensor, reading.calibrations)
         reading.used.update(own)
         for together in ([span] for span in spans) if reading.by_interval else [list(spans)]:
             try:

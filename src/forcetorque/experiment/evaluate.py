@@ -13,7 +13,7 @@ from forcetorque.errors import ExperimentError
 from forcetorque.evaluation import WrenchErrors, offset_removed, wrench_errors
 from forcetorque.experiment.content import Experiment, ExperimentSensor
 from forcetorque.experiment.fitness import require_fit
-from forcetorque.experiment.judged import judged_wrenches
+from forcetorque.experiment.judged import JudgedWrenches, judged_wrenches
 from forcetorque.recording import Use
 
 _BEYOND = 0.1
@@ -62,7 +62,19 @@ def evaluate_sensor(
     """
     for name, calibration in calibrations.items():
         require_unseen(name, calibration, experiment, sensor)
-    judged = judged_wrenches(experiment, sensor, calibrations)
+    return verdicts_on(sensor, judged_wrenches(experiment, sensor, calibrations))
+
+
+def verdicts_on(sensor: ExperimentSensor, judged: JudgedWrenches) -> list[Verdict]:
+    """Judge candidates by wrenches that they measure.
+
+    Args:
+        sensor: The sensor.
+        judged: What candidates measure, on data that none of them was fitted on.
+
+    Returns:
+        For every candidate the errors with the offset of the fitted data and with the offset re-estimated.
+    """
     return [
         Verdict(
             sensor=sensor.name,
@@ -127,7 +139,7 @@ def beyond_fitted_range(experiment: Experiment, sensor: ExperimentSensor, calibr
     stamps = experiment.recording.stream(sensor.stream).stamp_ns
     judged = np.zeros(len(stamps), dtype=bool)
     for interval in experiment.intervals(Use.VALIDATION):
-        judged |= (stamps >= interval.start_ns) & (stamps < interval.end_ns)
+        judged |= interval.holds(stamps)
     for variable in calibration.variables:
         values = sensor.variable(variable.name).source.at(experiment.recording, stamps[judged])
         margin = _BEYOND * (variable.maximum - variable.minimum)

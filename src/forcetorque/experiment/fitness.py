@@ -60,6 +60,27 @@ def by_sensor(experiment: Experiment, calibrations: Mapping[str, Calibration]) -
     return groups
 
 
+def calibrations_of(
+    experiment: Experiment, sensor: ExperimentSensor, calibrations: Mapping[str, Calibration]
+) -> dict[str, Calibration]:
+    """Pick the calibrations of one sensor by name and serial number, since robots share names.
+
+    Args:
+        experiment: The experiment.
+        sensor: One of its sensors.
+        calibrations: Calibrations by name of their file, of any sensors.
+
+    Returns:
+        Those of this one.
+    """
+    names = (sensor.name, *experiment.model.sensor(sensor.name).aliases)
+    return {
+        name: calibration
+        for name, calibration in calibrations.items()
+        if calibration.sensor.serial == sensor.serial and calibration.sensor.name in names
+    }
+
+
 def one_per_sensor(
     experiment: Experiment, calibrations: Mapping[str, Calibration]
 ) -> dict[str, tuple[str, Calibration]]:

@@ -120,5 +120,5 @@ def _in_use(experiment: Experiment, stamp_ns: IntArray) -> BoolArray:
     used = np.zeros(len(stamp_ns), dtype=bool)
     for interval in experiment.recording.intervals:
         if interval.use is not Use.IGNORE:
-            used |= (stamp_ns >= interval.start_ns) & (stamp_ns < interval.end_ns)
+            used |= interval.holds(stamp_ns)
     return used

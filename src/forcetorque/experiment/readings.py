@@ -112,12 +112,9 @@ def uncalibrated(experiment: Experiment, sensor: ExperimentSensor) -> Correction
     Raises:
         ExperimentError: If raw counts have no prior.
     """
-    matrix = sensor.prior if sensor.quantity == "raw" else None
-    if sensor.quantity == "raw" and matrix is None:
-        raise ExperimentError(f"sensor {sensor.name!r}: raw counts become wrenches by --calibration or a prior matrix")
-    words = "the logged wrench" if matrix is None else f"the prior {sensor.prior_source}"
     if not any(interval.use is Use.CALIBRATION for interval in experiment.recording.intervals):
-        return _with_prior(matrix, np.zeros(6), f"{words}, {NO_OFFSET}")
+        return without_offset(sensor)
+    matrix, words = _prior(sensor)
     parts = samples_of(experiment, sensor, Use.CALIBRATION)
     read = np.concatenate([p.samples.reading.values for p in parts])
     wrench = read if matrix is None else read @ matrix.T
@@ -125,6 +122,31 @@ def uncalibrated(experiment: Experiment, sensor: ExperimentSensor) -> Correction
     labels = ", ".join(repr(part.interval.label) for part in parts)
     offset = (reference - wrench).mean(axis=0)
     return _with_prior(matrix, offset, f"{words}, offset over {labels} ({len(read)} samples)")
+
+
+def without_offset(sensor: ExperimentSensor) -> Correction:
+    """Read a sensor by the prior of the experiment, or take the logged wrench, with whatever offset it has.
+
+    Args:
+        sensor: The sensor.
+
+    Returns:
+        The correction.
+
+    Raises:
+        ExperimentError: If raw counts have no prior.
+    """
+    matrix, words = _prior(sensor)
+    return _with_prior(matrix, np.zeros(6), f"{words}, {NO_OFFSET}")
+
+
+def _prior(sensor: ExperimentSensor) -> tuple[FloatArray | None, str]:
+    """The matrix that raw counts go through, none for a logged wrench, and its origin in words."""
+    if sensor.quantity != "raw":
+        return None, "the logged wrench"
+    if sensor.prior is None:
+        raise ExperimentError(f"sensor {sensor.name!r}: raw counts become wrenches by --calibration or a prior matrix")
+    return sensor.prior, f"the prior {sensor.prior_source}"
 
 
 def _with_prior(matrix: FloatArray | None, offset: FloatArray, source: str) -> Correction:

@@ -57,44 +57,6 @@ class ContactForceComparison:
     """What could not be judged of the intervals, in words."""
 
 
-def validate_sensor(
-    experiment: Experiment,
-    sensor: ExperimentSensor,
-    calibrations: Mapping[str, Calibration],
-    *,
-    others: Mapping[str, Calibration] | None = None,
-    other_sensors: OtherSensors = OtherSensors.MODEL,
-    sub_model: str | None = None,
-    contact: str | None = None,
-) -> list[ContactForceVerdict]:
-    """Judge candidates of a sensor by the contact wrench of a sub-model that nothing touches.
-
-    Args:
-        experiment: The experiment; its validation intervals are judged.
-        sensor: One of its sensors.
-        calibrations: Calibrations of that sensor by name; their priors are judged too, or that of the experiment where
-            there is none.
-        others: Calibrations of the other sensors by name, for the mode `measured`; where there is none, their prior.
-        other_sensors: Whether the other sensors read what the model expects or what they measured.
-        sub_model: The sub-model, by the sensor at its base or the root link; None for that outboard of the sensor.
-        contact: Link at whose origin the contact is estimated; None for that mounted on the sensor.
-
-    Returns:
-        For every candidate the errors with its own offset and with one from each interval's first second; what
-        `compare_contact_forces` leaves out is not told.
-    """
-    compared = compare_contact_forces(
-        experiment,
-        sensor,
-        calibrations,
-        others=others,
-        other_sensors=other_sensors,
-        sub_model=sub_model,
-        contact=contact,
-    )
-    return list(compared.verdicts)
-
-
 def compare_contact_forces(
     experiment: Experiment,
     sensor: ExperimentSensor,
@@ -105,7 +67,7 @@ def compare_contact_forces(
     sub_model: str | None = None,
     contact: str | None = None,
 ) -> ContactForceComparison:
-    """Judge candidates of a sensor as `validate_sensor` does, and tell what could not be judged.
+    """Judge candidates of a sensor by the contact wrench of a sub-model that nothing touches.
 
     Args:
         experiment: The experiment; its validation intervals are judged.

@@ -116,7 +116,7 @@ def estimate_load(
     for use, value in ((Use.CALIBRATION, True), (Use.IGNORE, False)):
         for interval in intervals:
             if interval.use is use:
-                chosen[(stream.stamp_ns >= interval.start_ns) & (stream.stamp_ns < interval.end_ns)] = value
+                chosen[interval.holds(stream.stamp_ns)] = value
     if not chosen.any():
         raise ExperimentError(f'sensor {sensor.name!r}: expected samples in an interval with use = "calibration"')
     motion = support_motion_at(

@@ -9,7 +9,7 @@ from operator import index
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray, read_only
+from forcetorque.arrays import BoolArray, FloatArray, IntArray, read_only
 from forcetorque.errors import RecordingError, known_names
 
 _UNIT = 4.0 * float(np.finfo(np.float64).eps)
@@ -99,3 +99,15 @@ class Interval:
             )
         if self.support is None and self.use is not Use.IGNORE:
             raise RecordingError(f"interval {self.label!r}: its use is {self.use}, which needs a support frame")
+
+    def holds(self, stamp_ns: IntArray) -> BoolArray:
+        """Tell which instants lie in the interval.
+
+        Args:
+            stamp_ns: Instants; shape (n,); ns on the recording's clock.
+
+        Returns:
+            Whether each does; shape (n,).
+        """
+        inside: BoolArray = (stamp_ns >= self.start_ns) & (stamp_ns < self.end_ns)
+        return inside

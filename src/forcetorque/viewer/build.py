@@ -14,7 +14,7 @@ from forcetorque.experiment import (
     ExperimentSensor,
     inspect_experiment,
 )
-from forcetorque.experiment.inputs import stated_in
+from forcetorque.experiment.fitness import by_sensor
 from forcetorque.experiment.wrist_load import is_wrist_load
 from forcetorque.recording import Finding, Interval
 from forcetorque.recording.alignment import seconds_since
@@ -68,7 +68,7 @@ def build_scene(
         ExperimentError: If the experiment has no sensor of a name, or a calibration may not be applied.
         RecordingError: If there is no sample to show.
     """
-    groups = _by_sensor(experiment, calibrations)
+    groups = by_sensor(experiment, calibrations)
     names = dict.fromkeys(experiment.sensor(name).name for name in sensors or (s.name for s in experiment.sensors))
     shown = [experiment.sensor(name) for name in names]
     recording, model = experiment.recording, experiment.model
@@ -115,14 +115,6 @@ def build_scene(
     return BuiltScene(scene=scene, block=block.bytes())
 
 
-def _by_sensor(experiment: Experiment, calibrations: Mapping[str, Calibration]) -> dict[str, dict[str, Calibration]]:
-    groups: dict[str, dict[str, Calibration]] = {}
-    for name, calibration in calibrations.items():
-        with stated_in(name):
-            groups.setdefault(experiment.sensor(calibration.sensor.name).name, {})[name] = calibration
-    return groups
-
-
 def _robot(
     experiment: Experiment, posture: Posture, urdf: Path | None, block: Block, mesh_folders: Sequence[Path]
 ) -> tuple[Robot, tuple[str, ...]]:
@@ -146,7 +138,7 @@ def _without_empty(experiment: Experiment, sensor: ExperimentSensor) -> tuple[Ex
     start, end = recording.span_ns
     kept, notes = [], []
     for interval in recording.intervals:
-        inside = (stamps >= interval.start_ns) & (stamps < interval.end_ns)
+        inside = interval.holds(stamps)
         if inside.any() and start <= interval.start_ns and interval.end_ns <= end + 1:
             kept.append(interval)
         else:

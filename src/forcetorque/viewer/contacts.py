@@ -64,7 +64,7 @@ def scene_contacts(
     for span in spans:
         # its instants are those of the experiment's first sensor, which need not be shown
         at = np.searchsorted(span.stamp_ns, posture.stamp_ns, side="right") - 1
-        inside = (posture.stamp_ns >= span.interval.start_ns) & (posture.stamp_ns < span.interval.end_ns) & (at >= 0)
+        inside = span.interval.holds(posture.stamp_ns) & (at >= 0)
         inside &= posture.stamp_ns - span.stamp_ns[at] <= gap_limit_ns(span.stamp_ns)  # a gap stays a gap
         for name in span.estimates.layout.contacts:
             values = found.setdefault(name, np.full((len(posture.stamp_ns), 6), np.nan))

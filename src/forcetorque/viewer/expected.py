@@ -40,7 +40,7 @@ def expected_readings(
     spans: dict[int, tuple[Support | MovingSupport, np.ndarray]] = {}
     for interval in experiment.recording.intervals:
         if interval.support is not None:
-            inside = left & (posture.stamp_ns >= interval.start_ns) & (posture.stamp_ns < interval.end_ns)
+            inside = left & interval.holds(posture.stamp_ns)
             left &= ~inside
             _, before = spans.get(id(interval.support), (None, np.zeros(n, dtype=bool)))
             spans[id(interval.support)] = (interval.support, before | inside)

@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from forcetorque.arrays import FloatArray, IntArray
-from forcetorque.calibration import Calibration, WrenchModel
+from forcetorque.calibration import Calibration
 from forcetorque.errors import ForceTorqueError
 from forcetorque.evaluation.sphere import EllipsoidFit
 from forcetorque.experiment import (
@@ -20,8 +20,9 @@ from forcetorque.experiment import (
     analyse_sensor,
     sphere_intervals,
 )
+from forcetorque.experiment.candidates import PRIOR
 from forcetorque.experiment.fitness import require_fit
-from forcetorque.experiment.readings import wrench_at
+from forcetorque.experiment.readings import without_offset, wrench_at
 from forcetorque.recording.alignment import require_overlap
 from forcetorque.robot import SensorFrame
 from forcetorque.spatial import MeasureDirection
@@ -30,8 +31,6 @@ from forcetorque.viewer.instants import Posture
 from forcetorque.viewer.once import Priors
 from forcetorque.viewer.scene import Block, Ellipsoid, Sensor, Sphere, WrenchSeries
 
-PRIOR = "prior"
-"""Name of the series that is read through the prior matrix."""
 _SPHERE_SAMPLES = 50_000
 """Samples of a log from which on ellipsoids are fitted to a part of them."""
 LOGGED = "logged"
@@ -117,9 +116,7 @@ def _readings(
         notes.append(f"sensor {sensor.name!r}: raw counts become wrenches by --calibration or a prior matrix")
     for name, calibration in calibrations.items():
         require_fit(name, calibration, experiment, sensor)
-        variables = tuple(variable.name for variable in calibration.variables)
-        correction = Correction(model=calibration.model, source=name, variables=variables)
-        readings.append(_Reading(name=name, candidate=name, correction=correction))
+        readings.append(_Reading(name=name, candidate=name, correction=Correction.of(name, calibration)))
     return readings
 
 
@@ -129,11 +126,7 @@ def _prior_correction(sensor: ExperimentSensor, priors: Priors, notes: list[str]
         return priors.of(sensor)
     except ForceTorqueError as error:
         notes.append(f"sensor {sensor.name!r}: no offset is removed from the prior reading: {error}")
-    of_wrench = sensor.quantity == "wrench" or sensor.prior is None
-    matrix = np.eye(6) if of_wrench or sensor.prior is None else sensor.prior
-    words = "the logged wrench" if of_wrench else f"the prior {sensor.prior_source}"
-    model = WrenchModel(matrix=matrix, offset=np.zeros(6))
-    return Correction(model=model, source=f"{words}, no offset removed", of_wrench=of_wrench)
+    return without_offset(sensor)
 
 
 def _values(

@@ -3,15 +3,17 @@
 
 from __future__ import annotations
 
-from typing import TypedDict
+from typing import Literal
 
 import numpy as np
 
 from forcetorque.cli.output import finite_or_none
 from forcetorque.cli.report.result import ComparisonRow, IndependenceRow
-from forcetorque.evaluation import PairedMean, autocorrelation, offset_removed, paired_difference, wrench_errors
+from forcetorque.evaluation import PairedMean, autocorrelation, offset_removed, paired_difference
 from forcetorque.experiment import JudgedWrenches
 from forcetorque.study import OffsetSource
+
+_Quantity = tuple[Literal["force", "moment"], Literal["N", "N m"], slice, PairedMean]
 
 
 def independence_rows(judged: JudgedWrenches) -> list[IndependenceRow]:
@@ -52,52 +54,28 @@ def comparison_rows(judged: JudgedWrenches) -> list[ComparisonRow]:
         moved = tuple(offset_removed(wrench, judged.reference) for wrench in pair)
         for offset, (new, old) in ((OffsetSource.FITTED, pair), (OffsetSource.RE_ESTIMATED, moved)):
             found = paired_difference(new, old, judged.reference, judged.time_s)
-            errors = (wrench_errors(new, judged.reference), wrench_errors(old, judged.reference))
-            bias = errors[0].bias
-            rows.append(
-                ComparisonRow(
-                    candidate=name,
-                    prior=prior,
-                    offset=offset.value,
-                    quantity="force",
-                    unit="N",
-                    samples=found.count,
-                    mean=errors[0].force_mean,
-                    prior_mean=errors[1].force_mean,
-                    constant=float(np.linalg.norm(bias[:3])),
-                    **_gain(found.force),
-                )
+            errors = (new - judged.reference, old - judged.reference)
+            quantities: tuple[_Quantity, ...] = (
+                ("force", "N", slice(0, 3), found.force),
+                ("moment", "N m", slice(3, 6), found.moment),
             )
-            rows.append(
-                ComparisonRow(
-                    candidate=name,
-                    prior=prior,
-                    offset=offset.value,
-                    quantity="moment",
-                    unit="N m",
-                    samples=found.count,
-                    mean=errors[0].moment_mean,
-                    prior_mean=errors[1].moment_mean,
-                    constant=float(np.linalg.norm(bias[3:])),
-                    **_gain(found.moment),
+            for quantity, unit, part, gain in quantities:
+                norms = [float(np.linalg.norm(error[:, part], axis=1).mean()) for error in errors]
+                rows.append(
+                    ComparisonRow(
+                        candidate=name,
+                        prior=prior,
+                        offset=offset.value,
+                        quantity=quantity,
+                        unit=unit,
+                        samples=found.count,
+                        independent=finite_or_none(gain.effective_count),
+                        mean=norms[0],
+                        prior_mean=norms[1],
+                        gain=-gain.mean,
+                        gain_low=finite_or_none(-gain.high),
+                        gain_high=finite_or_none(-gain.low),
+                        constant=float(np.linalg.norm(errors[0][:, part].mean(axis=0))),
+                    )
                 )
-            )
     return rows
-
-
-class _Gain(TypedDict):
-    """What is known of the gain over the prior."""
-
-    independent: float | None
-    gain: float
-    gain_low: float | None
-    gain_high: float | None
-
-
-def _gain(found: PairedMean) -> _Gain:
-    return {
-        "independent": finite_or_none(found.effective_count),
-        "gain": -found.mean,
-        "gain_low": finite_or_none(-found.high),
-        "gain_high": finite_or_none(-found.low),
-    }

@@ -39,12 +39,12 @@ from forcetorque.experiment import (
     check_sensor,
     compare_contact_forces,
     compare_joint_torques,
-    evaluate_sensor,
     inspect_experiment,
     judged_where_chosen,
     judged_wrenches,
     require_unseen,
     sphere_intervals,
+    verdicts_on,
 )
 from forcetorque.experiment.candidate_names import short_names
 from forcetorque.experiment.candidates import PRIOR
@@ -87,6 +87,10 @@ class _Reasons:
         except ForceTorqueError as error:
             self.reasons[what] = str(error)
             return None
+
+    def passes(self, what: str, check: Callable[[], None]) -> bool:
+        self.attempt(what, check)
+        return what not in self.reasons
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -160,16 +164,18 @@ def _gather_sensor(
 ) -> SensorMaterial:
     tried = _Reasons()
     names = short_names(calibrations)
-    unseen = _unseen(experiment, sensor, calibrations, tried)
+    unseen = {
+        file: one
+        for file, one in calibrations.items()
+        if tried.passes(f"errors of {names[file]}", partial(require_unseen, file, one, experiment, sensor))
+    }
     # where every calibration has seen the judged data there is nothing to judge it on; without any, the prior is judged
     judges = bool(unseen) or not calibrations
-    verdicts = judged = contacts = torques = None
+    judged = contacts = torques = None
     if judges:
-        verdicts = tried.attempt("evaluation", partial(evaluate_sensor, experiment, sensor, unseen))
+        judged = tried.attempt("evaluation", partial(judged_wrenches, experiment, sensor, unseen))
         contacts = tried.attempt("contact forces", partial(compare_contact_forces, experiment, sensor, unseen))
         torques = tried.attempt("joint torques", partial(compare_joint_torques, experiment, sensor, unseen))
-    if verdicts:
-        judged = tried.attempt("wrenches", partial(judged_wrenches, experiment, sensor, unseen))
     left_out = [*(contacts.left_out if contacts else ()), *(torques.left_out if torques else ())]
     tried.reasons |= {f"left out ({k})": words for k, words in enumerate(dict.fromkeys(left_out), 1)}
     spheres = tried.attempt("spheres", partial(_spheres, experiment, sensor, calibrations)) or []
@@ -179,19 +185,23 @@ def _gather_sensor(
     candidates: list[tuple[str, Calibration] | None] = [*calibrations.items()] or [None]
     for candidate in candidates:
         name = PRIOR if candidate is None else names[candidate[0]]
-        checked = partial(check_sensor, experiment, sensor, candidate, population=demands.population)
-        found = tried.attempt(f"static checks of {name}", checked)
-        checks += [] if found is None else [measured_row(found)]
+        accepted = None
         if demands.acceptance is not None:
             judge = partial(accept_sensor, experiment, sensor, demands.acceptance, candidate)
             by_limits = partial(judge, others=others, population=demands.population)
             accepted = tried.attempt(f"acceptance of {name}", by_limits)
-            criteria += [] if accepted is None else criterion_rows(accepted)
+        if accepted is not None:
+            criteria += criterion_rows(accepted)
+            checks.append(measured_row(accepted.checks))
+            continue
+        checked = partial(check_sensor, experiment, sensor, candidate, population=demands.population)
+        found = tried.attempt(f"static checks of {name}", checked)
+        checks += [] if found is None else [measured_row(found)]
     report = SensorReport(
         sensor=sensor.name,
         serial=sensor.serial,
         verdict=[],
-        evaluation=[verdict_row(verdict) for verdict in verdicts or ()],
+        evaluation=[verdict_row(verdict) for verdict in verdicts_on(sensor, judged)] if judged else [],
         comparisons=comparisons or [],
         independence=independence or [],
         contact_forces=[contact_force_row(verdict) for verdict in contacts.verdicts] if contacts else [],
@@ -208,19 +218,6 @@ def _gather_sensor(
     )
     report.verdict = sensor_verdict(report)
     return SensorMaterial(report=report, judged=judged, spheres=tuple(spheres))
-
-
-def _unseen(
-    experiment: Experiment, sensor: ExperimentSensor, calibrations: Mapping[str, Calibration], tried: _Reasons
-) -> dict[str, Calibration]:
-    """Calibrations that may be applied and have not been fitted on what is judged."""
-    unseen = {}
-    names = short_names(calibrations)
-    for file, calibration in calibrations.items():
-        fits = partial(require_unseen, file, calibration, experiment, sensor)
-        if tried.attempt(f"errors of {names[file]}", lambda check=fits: check() or True):  # type: ignore[misc]
-            unseen[file] = calibration
-    return unseen
 
 
 def _spheres(

@@ -13,6 +13,7 @@ from typing import Any
 from forcetorque.calibration import Calibration, read_calibration
 from forcetorque.errors import ExperimentError, FormatError, MissingFileError
 from forcetorque.experiment import AcceptanceFile, Experiment, read_acceptance
+from forcetorque.experiment.fitness import calibrations_of
 
 RESULTS = {
     "accept", "calibrate", "compare", "estimate", "evaluate", "export", "gains", "inspect", "payload", "simulate",
@@ -82,7 +83,7 @@ def sort_inputs(paths: Sequence[Path]) -> ReportInputs:
 
 def assign_calibrations(
     experiments: Sequence[Experiment], calibrations: Mapping[str, Calibration]
-) -> list[dict[str, Calibration]]:
+) -> list[dict[str, dict[str, Calibration]]]:
     """Find the sensors that calibrations are of, by name and serial number: robots share names.
 
     Args:
@@ -90,33 +91,25 @@ def assign_calibrations(
         calibrations: Calibrations by name of their file.
 
     Returns:
-        For every experiment the calibrations of its sensors.
+        For every experiment the calibrations of its sensors, by sensor and name.
 
     Raises:
         ExperimentError: If a calibration is of no sensor of any experiment.
     """
-    assigned: list[dict[str, Calibration]] = [{} for _ in experiments]
+    assigned = [
+        {sensor.name: calibrations_of(experiment, sensor, calibrations) for sensor in experiment.sensors}
+        for experiment in experiments
+    ]
+    used = {file for own in assigned for group in own.values() for file in group}
     for file, calibration in calibrations.items():
-        wanted = (calibration.sensor.name, calibration.sensor.serial)
-        for experiment, own in zip(experiments, assigned, strict=True):
-            if wanted in _identities(experiment):
-                own[file] = calibration
-        if not any(file in own for own in assigned):
-            known = sorted({f"{name} ({serial})" for each in experiments for name, serial in _identities(each)})
+        if file not in used:
+            sensors = (sensor for experiment in experiments for sensor in experiment.sensors)
+            known = sorted({f"{sensor.name} ({sensor.serial})" for sensor in sensors})
             raise ExperimentError(
-                f"{file}: calibrates {wanted[0]} ({wanted[1]}), which none of the experiments has; they have "
-                + ", ".join(known)
+                f"{file}: calibrates {calibration.sensor.name} ({calibration.sensor.serial}), which none of the "
+                f"experiments has; they have {', '.join(known)}"
             )
-    return assigned
-
-
-def _identities(experiment: Experiment) -> set[tuple[str, str]]:
-    """Names, also those that the robot has beside them, and serial numbers."""
-    return {
-        (name, sensor.serial)
-        for sensor in experiment.sensors
-        for name in (sensor.name, *experiment.model.sensor(sensor.name).aliases)
-    }
+    return [{name: group for name, group in own.items() if group} for own in assigned]
 
 
 def _content(path: Path) -> dict[str, Any]:
@@ -124,6 +117,8 @@ def _content(path: Path) -> dict[str, Any]:
         raise FormatError(f"{path}: expected {_KINDS}, got a folder; name the files in it")
     if not path.is_file():
         raise MissingFileError(f"{path}: expected a file to report on, there is none")
+    if path.suffix not in (".toml", ".json"):  # so that no calibration is called as priors are in the tables
+        raise FormatError(f"{path}: expected {_KINDS}, whose names end in .toml or .json")
     try:
         text = path.read_text(encoding="utf-8")
         content = tomllib.loads(text) if path.suffix == ".toml" else json.loads(text)

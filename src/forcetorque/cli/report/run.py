@@ -17,7 +17,6 @@ from forcetorque.cli.report.result import ReportResult
 from forcetorque.cli.report.sections import report_document, viewer_section
 from forcetorque.errors import ForceTorqueError, MissingFileError
 from forcetorque.experiment import read_population
-from forcetorque.experiment.fitness import by_sensor
 from forcetorque.experiment.inputs import stated_in
 from forcetorque.report.canvas import new_figure
 from forcetorque.report.document import Document, Section, html_bytes, pdf_bytes
@@ -56,13 +55,14 @@ def run(
     own = assign_calibrations([experiment for _, experiment in experiments], given.calibrations)
     material: list[ExperimentMaterial] = []
     viewers: list[Section] = []
-    for (path, experiment), calibrations in zip(experiments, own, strict=True):
+    for (path, experiment), groups in zip(experiments, own, strict=True):
         with stated_in(str(path)):
-            groups = by_sensor(experiment, calibrations)
             material.append(gather_experiment(path, experiment, groups, demands, log.info))
             if with_viewer:
                 log.info("building the viewer")
-                viewers.append(viewer_section(path, experiment, calibrations))
+                viewers.append(
+                    viewer_section(path, experiment, dict(one for group in groups.values() for one in group.items()))
+                )
     names = ", ".join(dict.fromkeys(each.report.experiment for each in material))
     result = ReportResult(
         title=title or f"Force-torque sensors: {names}",

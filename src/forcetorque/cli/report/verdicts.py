@@ -91,20 +91,23 @@ def _plain(row: VerdictRow) -> str:
     return f"force error {force} N, moment error {moment} N m"
 
 
-def _verdict_of(row: ComparisonRow) -> Literal["better", "worse", "unclear"]:
-    if row.gain_low is None or row.gain_high is None or row.samples < _FEWEST or row.gain_low <= 0.0 <= row.gain_high:
-        return "unclear"
+def _verdict_of(row: ComparisonRow) -> Literal["better", "worse", "no difference that the recording shows"] | None:
+    """What the interval of the difference says; None where the samples are too few to say anything."""
+    if row.gain_low is None or row.gain_high is None or row.samples < _FEWEST:
+        return None
+    if row.gain_low <= 0.0 <= row.gain_high:
+        return "no difference that the recording shows"
     return "better" if row.gain_low > 0.0 else "worse"
 
 
 def _compared(row: ComparisonRow) -> str:
     digits = 2 if row.quantity == "force" else 3
     means = f"{row.mean:.{digits}f} {row.unit} against {row.prior_mean:.{digits}f} {row.unit} with the prior"
-    if row.gain_low is None or row.gain_high is None or row.samples < _FEWEST:
+    verdict = _verdict_of(row)
+    if verdict is None:
         return f"{means} (too few samples to tell them apart)"
     interval = f"less by {row.gain:.{digits}f}, {row.gain_low:.{digits}f} to {row.gain_high:.{digits}f}"
-    words = {"better": "better", "worse": "worse", "unclear": "no difference that the recording shows"}
-    return f"{means} ({words[_verdict_of(row)]}: {interval})"
+    return f"{means} ({verdict}: {interval})"
 
 
 def _tone(rows: list[ComparisonRow]) -> Tone:
