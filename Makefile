@@ -10,7 +10,7 @@ demo: $(VENV)/run.stamp
 	$(BIN)/python examples/01_known_truth.py build/demo
 
 test: lint types web-check
-	$(BIN)/pytest tests --data=$(DATA)
+	$(BIN)/pytest tests -n auto --dist loadfile --data=$(DATA)
 
 lint: $(VENV)/test.stamp
 	$(BIN)/ruff check .
