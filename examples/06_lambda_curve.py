@@ -13,9 +13,10 @@ from pathlib import Path
 
 import numpy as np
 
+from forcetorque.analysis import samples_of
 from forcetorque.calibration import calibrate
 from forcetorque.evaluation import offset_removed, wrench_errors
-from forcetorque.experiment import Experiment, ExperimentSensor, load_experiment, samples_of
+from forcetorque.experiment import Experiment, ExperimentSensor, load_experiment
 from forcetorque.recording import Use
 
 

@@ -15,7 +15,7 @@ from pathlib import Path
 import numpy as np
 
 from forcetorque import load_experiment
-from forcetorque.experiment import corrections_of, estimate_experiment
+from forcetorque.analysis import corrections_of, estimate_experiment
 from forcetorque.report import force_space_figure
 
 

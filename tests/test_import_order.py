@@ -16,6 +16,7 @@ import pytest
 import forcetorque
 
 ORDER = (
+    "result",
     "spatial",
     "robot",
     "recording",
@@ -29,6 +30,7 @@ ORDER = (
     "exsitu",
     "exchange",
     "experiment",
+    "analysis",
     "viewer",
     "report",
     "live",

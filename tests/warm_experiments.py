@@ -13,9 +13,9 @@ from pathlib import Path
 
 import numpy as np
 
+from forcetorque.analysis.samples import samples_over
 from forcetorque.arrays import FloatArray, IntArray
 from forcetorque.experiment import load_experiment
-from forcetorque.experiment.samples import samples_over
 from forcetorque.recording import QUANTITIES, Recording, Signal, Stream, read_recording, write_recording
 from tests.experiments import MOUNTED, OFFSET, PARQUET, edit
 

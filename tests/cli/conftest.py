@@ -11,9 +11,10 @@ from pathlib import Path
 
 import pytest
 
+from forcetorque.analysis import calibrate_sensor
 from forcetorque.calibration import write_calibration
 from forcetorque.cli.main import main
-from forcetorque.experiment import calibrate_sensor, load_experiment
+from forcetorque.experiment import load_experiment
 from tests.cli.outcome import Outcome, Run
 from tests.experiments import PARQUET, write_experiments
 from tests.studies import write_days

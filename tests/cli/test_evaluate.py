@@ -13,7 +13,8 @@ import numpy as np
 import numpy.typing as npt
 import pytest
 
-from forcetorque.experiment import load_experiment, samples_of
+from forcetorque.analysis import samples_of
+from forcetorque.experiment import load_experiment
 from forcetorque.recording import Use
 from tests.cli.json_schema import faults
 from tests.cli.outcome import Run

@@ -11,8 +11,9 @@ from typing import Any
 import numpy as np
 import pytest
 
+from forcetorque.analysis import analyse_sensor, sphere_intervals
 from forcetorque.evaluation.sphere import RULE, TOLERANCE
-from forcetorque.experiment import analyse_sensor, load_experiment, sphere_intervals
+from forcetorque.experiment import load_experiment
 from tests.cli.json_schema import faults
 from tests.cli.outcome import Run
 from tests.experiments import PARQUET, TWO, edit, snapshot

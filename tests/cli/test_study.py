@@ -10,10 +10,10 @@ from typing import Any
 
 import pytest
 
+from forcetorque.analysis import SensorStudy
 from forcetorque.calibration import ESTIMATION_TYPES, read_calibration
 from forcetorque.cli import study_files
 from forcetorque.errors import MissingExtraError
-from forcetorque.experiment import SensorStudy
 from forcetorque.spatial import WRENCH_COMPONENTS
 from tests.cli.json_schema import faults
 from tests.cli.outcome import Run

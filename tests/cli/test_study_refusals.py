@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
+from forcetorque.analysis import SensorStudy
 from forcetorque.errors import ForceTorqueError
-from forcetorque.experiment import SensorStudy
 from tests.cli.outcome import Run
 from tests.experiments import PARQUET, edit, snapshot
 from tests.studies import CALIBRATION, FILES, SERIAL, VALIDATION

@@ -11,15 +11,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from forcetorque.experiment import (
-    Experiment,
+from forcetorque.analysis import (
     Verdict,
     calibrate_sensor,
     corrections_of,
     estimate_experiment,
     evaluate_sensor,
-    load_experiment,
 )
+from forcetorque.experiment import Experiment, load_experiment
 
 ROOT = Path(__file__).resolve().parents[2]
 YOGA = sorted((ROOT / "examples").glob("0[2-5]_icub_yoga_*.toml"))

@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
+from forcetorque.analysis import read_study_data, study_sensor
 from forcetorque.calibration import ESTIMATION_TYPES
-from forcetorque.experiment import read_study_data, study_sensor
 from forcetorque.study import TABLE_LAMBDAS, OffsetSource
 
 EXAMPLE = Path(__file__).resolve().parents[2] / "examples" / "10_icub_yoga_study.toml"

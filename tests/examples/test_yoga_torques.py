@@ -7,7 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from forcetorque.experiment import JointTorqueVerdict, calibrate_sensor, compare_joint_torques, load_experiment
+from forcetorque.analysis import JointTorqueVerdict, calibrate_sensor, compare_joint_torques
+from forcetorque.experiment import load_experiment
 from forcetorque.study import OffsetSource
 
 EXAMPLE = Path(__file__).resolve().parents[2] / "examples" / "02_icub_yoga_forward.toml"

@@ -9,10 +9,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from forcetorque.analysis import calibrate_sensor, samples_of
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration import Calibration
 from forcetorque.errors import ExperimentError, FitError, ForceTorqueError, FormatError, RecordingError
-from forcetorque.experiment import Experiment, calibrate_sensor, load_experiment, samples_of
+from forcetorque.experiment import Experiment, load_experiment
 from forcetorque.recording import SavitzkyGolay, Use, read_recording
 from forcetorque.recording.smoothing import smooth
 from tests.experiments import MOUNTED, OFFSET, PARQUET, TWO, add, edit

@@ -8,8 +8,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from forcetorque.analysis import calibrate_sensor, evaluate_sensor, samples_of
 from forcetorque.errors import ForceTorqueError
-from forcetorque.experiment import calibrate_sensor, evaluate_sensor, load_experiment, samples_of
+from forcetorque.experiment import load_experiment
 from forcetorque.recording import Use
 
 MASS, CENTRE = 1.1, np.array([0.01, -0.005, 0.07])

@@ -10,9 +10,10 @@ from typing import Any
 import numpy as np
 import pytest
 
+from forcetorque.analysis import calibrate_sensor, inspect_experiment
 from forcetorque.exchange.icub import read_matrix_file
 from forcetorque.exchange.yarp import PortKind, StreamPort, write_ports
-from forcetorque.experiment import calibrate_sensor, inspect_experiment, load_experiment
+from forcetorque.experiment import load_experiment
 from forcetorque.recording import Recording, read_recording
 from forcetorque.simulation import calibrated_by_board, fail_groups, lose_messages
 from tests.experiments import PARQUET, YARP, edit

@@ -17,8 +17,13 @@ from matplotlib.figure import Figure
 from matplotlib.image import imread
 from matplotlib.text import Text
 
+from forcetorque.analysis import (
+    SensorSphere,
+    TrialGroup,
+    TrialSphere,
+    group_trials,
+)
 from forcetorque.evaluation.sphere import analyse_sphere
-from forcetorque.experiment import SensorSphere, TrialGroup, TrialSphere, group_trials
 from forcetorque.report import (
     comparison_figure,
     contact_figure,

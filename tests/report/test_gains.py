@@ -11,8 +11,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from forcetorque.analysis import SensorGains, select_gains
 from forcetorque.errors import MissingExtraError
-from forcetorque.experiment import SensorGains, load_experiment, select_gains
+from forcetorque.experiment import load_experiment
 from forcetorque.report import gain_figure
 from forcetorque.report.canvas import COLOURS
 from tests.experiments import PARQUET, write_experiments
@@ -79,7 +80,8 @@ def test_drawing_leaves_the_program_as_it_is(experiment: Path) -> None:
     """Matplotlib comes with the first figure and not before; pyplot, its windows and settings stay out of it."""
     code = f"""
 import sys
-from forcetorque.experiment import load_experiment, select_gains
+from forcetorque.analysis import select_gains
+from forcetorque.experiment import load_experiment
 from forcetorque.report import gain_figure
 experiment = load_experiment({str(experiment)!r})
 found = select_gains(experiment, experiment.sensors[0])

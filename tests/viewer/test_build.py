@@ -11,11 +11,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from forcetorque.analysis import calibrate_sensor
+from forcetorque.analysis.samples import samples_over
 from forcetorque.arrays import BoolArray, FloatArray
 from forcetorque.calibration import Calibration
 from forcetorque.errors import ExperimentError, RecordingError, SerialNumberError
-from forcetorque.experiment import Experiment, calibrate_sensor, load_experiment
-from forcetorque.experiment.samples import samples_over
+from forcetorque.experiment import Experiment, load_experiment
 from forcetorque.recording import Stream, Use
 from forcetorque.recording.alignment import interpolate
 from forcetorque.spatial import MeasureDirection

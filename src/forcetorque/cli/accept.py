@@ -9,16 +9,16 @@ from typing import TYPE_CHECKING
 
 import typer
 
-from forcetorque.cli.accept_result import AcceptResult, CriterionRow, criterion_rows, measured_row
-from forcetorque.cli.output import Format, console, print_result, start_logging, table
-from forcetorque.cli.reading import read_calibrations, read_experiment
-from forcetorque.experiment import (
+from forcetorque.analysis import (
     accept_sensor,
     judged_where_chosen,
     read_acceptance,
     read_population,
 )
-from forcetorque.experiment.fitness import one_per_sensor
+from forcetorque.analysis.applicability import one_per_sensor
+from forcetorque.cli.accept_result import AcceptResult, CriterionRow, criterion_rows, measured_row
+from forcetorque.cli.output import Format, console, print_result, start_logging, table
+from forcetorque.cli.reading import read_calibrations, read_experiment
 from forcetorque.experiment.inputs import stated_in
 
 if TYPE_CHECKING:

@@ -14,12 +14,13 @@ from urllib.parse import quote
 from pydantic import BaseModel, ConfigDict, Field
 from rich.table import Table
 
+from forcetorque.analysis import calibrate_sensor, doubtful_spans
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration import Calibration, estimation_type, write_calibration
 from forcetorque.cli.output import Format, console, print_result, start_logging, table
 from forcetorque.cli.reading import read_experiment, sensors_named
 from forcetorque.errors import ExperimentError, FitError
-from forcetorque.experiment import Experiment, ExperimentSensor, calibrate_sensor, doubtful_spans
+from forcetorque.experiment import Experiment, ExperimentSensor
 from forcetorque.experiment.inputs import stated_in
 from forcetorque.recording import Use
 from forcetorque.spatial import WRENCH_COMPONENTS, WRENCH_UNITS

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import typer
 
+from forcetorque.analysis import TrialGroup, group_trials, read_trials
 from forcetorque.atomic import write_bytes_atomically
 from forcetorque.cli.compare_result import CompareResult, FailureRow, flat_rows, group_rows, trial_row
 from forcetorque.cli.compare_tables import show
@@ -16,7 +17,6 @@ from forcetorque.cli.output import Format, print_result, start_logging
 from forcetorque.cli.reading import read_calibrations
 from forcetorque.errors import ForceTorqueError
 from forcetorque.evaluation.sphere import RULE, TOLERANCE
-from forcetorque.experiment import TrialGroup, group_trials, read_trials
 
 
 def run(

@@ -8,11 +8,11 @@ from typing import Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 
+from forcetorque.analysis import TrialGroup, TrialSphere
 from forcetorque.arrays import BoolArray, FloatArray
 from forcetorque.cli.output import finite_or_none
 from forcetorque.cli.sphere_result import EllipsoidRow, ellipsoid_row
 from forcetorque.evaluation.sphere import CloudForm, Drift, EllipsoidFit
-from forcetorque.experiment import TrialGroup, TrialSphere
 
 _AXES = "xyz"
 

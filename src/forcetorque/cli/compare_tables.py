@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from forcetorque.cli.compare_result import CompareResult, GroupFitRow, GroupRow, TrialRow
 from forcetorque.cli.output import console, table
 from forcetorque.cli.sphere_result import EllipsoidRow
-from forcetorque.experiment.candidate_names import short_names
+from forcetorque.result.names import short_names
 
 if TYPE_CHECKING:
     from rich.table import Table

@@ -10,13 +10,14 @@ from typing import Literal
 import numpy as np
 from pydantic import BaseModel, ConfigDict, Field
 
+from forcetorque.analysis import IntervalEstimates, corrections_of, estimate_experiment
 from forcetorque.arrays import FloatArray
 from forcetorque.cli.output import Format, console, finite_or_none, print_result, start_logging, table
 from forcetorque.cli.reading import read_calibrations, read_experiment
 from forcetorque.errors import ForceTorqueError
 from forcetorque.evaluation import WrenchErrors, wrench_errors
 from forcetorque.exchange.estimates_table import SUFFIXES, EstimatedSpan, write_estimates
-from forcetorque.experiment import Experiment, IntervalEstimates, corrections_of, estimate_experiment
+from forcetorque.experiment import Experiment
 from forcetorque.experiment.contacts import contact_in_words
 from forcetorque.experiment.inputs import stated_in
 from forcetorque.recording.alignment import seconds_since

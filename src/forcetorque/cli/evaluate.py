@@ -5,19 +5,19 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from forcetorque.cli.evaluate_result import EvaluateResult, VerdictRow, verdict_row
-from forcetorque.cli.output import Format, console, print_result, start_logging, table
-from forcetorque.cli.reading import read_calibrations, read_experiment
-from forcetorque.cli.words import with_error
-from forcetorque.experiment import (
+from forcetorque.analysis import (
     Verdict,
     beyond_fitted_range,
     evaluate_sensor,
     judged_where_chosen,
 )
-from forcetorque.experiment.candidate_names import short_names
-from forcetorque.experiment.fitness import by_sensor
+from forcetorque.analysis.applicability import by_sensor
+from forcetorque.cli.evaluate_result import EvaluateResult, VerdictRow, verdict_row
+from forcetorque.cli.output import Format, console, print_result, start_logging, table
+from forcetorque.cli.reading import read_calibrations, read_experiment
+from forcetorque.cli.words import with_error
 from forcetorque.experiment.inputs import stated_in
+from forcetorque.result.names import short_names
 from forcetorque.spatial import WRENCH_COMPONENTS, WRENCH_UNITS
 
 _SUFFIX = {"N": "N", "N m": "Nm"}

@@ -7,8 +7,8 @@ from typing import Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 
+from forcetorque.analysis import Verdict
 from forcetorque.cli.output import finite_or_none
-from forcetorque.experiment import Verdict
 
 
 class VerdictRow(BaseModel):

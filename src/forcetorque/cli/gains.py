@@ -8,6 +8,8 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from forcetorque.analysis import SensorGains, select_gains
+from forcetorque.analysis.applicability import one_per_sensor
 from forcetorque.atomic import write_bytes_atomically
 from forcetorque.cli.figure_file import refuse_figure
 from forcetorque.cli.gains_result import ChannelRow, GainsResult, SensorRow, sensor_row
@@ -15,8 +17,7 @@ from forcetorque.cli.output import Format, console, print_result, start_logging,
 from forcetorque.cli.reading import read_calibrations, read_experiment, refuse_left_out, sensors_named
 from forcetorque.errors import ForceTorqueError
 from forcetorque.evaluation import GainChange
-from forcetorque.experiment import Experiment, ExperimentSensor, SensorGains, select_gains
-from forcetorque.experiment.fitness import one_per_sensor
+from forcetorque.experiment import Experiment, ExperimentSensor
 
 if TYPE_CHECKING:
     from rich.console import Console

@@ -8,8 +8,8 @@ from typing import Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 
+from forcetorque.analysis import SensorGains
 from forcetorque.evaluation import AxisResolution, GainChange
-from forcetorque.experiment import SensorGains
 from forcetorque.spatial import WRENCH_COMPONENTS, WRENCH_UNITS
 
 

@@ -5,11 +5,12 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from forcetorque.analysis import inspect_experiment, inspect_recording
 from forcetorque.cli.inspect_result import FindingRow, InspectResult, finding_row
 from forcetorque.cli.output import Format, console, print_result, start_logging, table
 from forcetorque.errors import ExperimentError, MissingFileError
 from forcetorque.exchange.yarp import PortKind, discover_ports, read_port
-from forcetorque.experiment import inspect_experiment, inspect_recording, load_experiment
+from forcetorque.experiment import load_experiment
 from forcetorque.recording import Finding, Recording, read_recording
 
 _MOST_ALIKE = 8

@@ -54,7 +54,7 @@ def _experiment() -> dict[str, Any]:
 
 
 def _acceptance() -> dict[str, Any]:
-    from forcetorque.experiment import AcceptanceFile
+    from forcetorque.analysis import AcceptanceFile
 
     return AcceptanceFile.model_json_schema()
 

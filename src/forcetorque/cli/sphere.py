@@ -7,16 +7,16 @@ from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from forcetorque.analysis import SensorSphere, analyse_sensor, sphere_intervals
+from forcetorque.analysis.applicability import by_sensor
 from forcetorque.atomic import write_bytes_atomically
 from forcetorque.cli.figure_file import refuse_figure
 from forcetorque.cli.output import Format, console, print_result, start_logging, table
 from forcetorque.cli.reading import read_calibrations, read_experiment, refuse_left_out, sensors_named
 from forcetorque.cli.sphere_result import EllipsoidRow, SphereResult, SphereRow, flat_row, sphere_row
 from forcetorque.evaluation.sphere import RULE, TOLERANCE
-from forcetorque.experiment import SensorSphere, analyse_sensor, sphere_intervals
-from forcetorque.experiment.candidate_names import short_names
-from forcetorque.experiment.fitness import by_sensor
 from forcetorque.experiment.inputs import stated_in
+from forcetorque.result.names import short_names
 
 if TYPE_CHECKING:
     from rich.table import Table

@@ -9,10 +9,10 @@ from typing import Any, Literal
 import numpy as np
 from pydantic import BaseModel, ConfigDict, Field
 
+from forcetorque.analysis import SensorSphere
 from forcetorque.arrays import FloatArray
 from forcetorque.cli.output import finite_or_none
 from forcetorque.evaluation.sphere import CloudForm, EllipsoidFit, MomentFit, RadiusFit, SphereAnalysis
-from forcetorque.experiment import SensorSphere
 
 _AXES = "xyz"
 

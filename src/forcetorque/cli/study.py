@@ -11,13 +11,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 from urllib.parse import quote
 
+from forcetorque.analysis import SensorStudy, read_study_data, study_sensor
 from forcetorque.calibration import ESTIMATION_TYPES, estimation_type
 from forcetorque.cli.new_folder import new_folder, refuse_existing
 from forcetorque.cli.output import Format, console, print_result, start_logging, table
 from forcetorque.cli.study_files import write_calibrations, write_figures, write_tables
 from forcetorque.cli.study_result import ModeResult, SensorStudyResult, StudyResult, sensor_result
 from forcetorque.errors import FitError, ForceTorqueError, MissingExtraError
-from forcetorque.experiment import SensorStudy, read_study_data, study_sensor
 from forcetorque.experiment.inputs import stated_in
 from forcetorque.spatial import WRENCH_COMPONENTS, WRENCH_UNITS
 from forcetorque.study import TABLE_LAMBDAS, tables

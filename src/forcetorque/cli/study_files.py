@@ -10,10 +10,10 @@ from pathlib import Path
 
 import numpy as np
 
+from forcetorque.analysis import SensorStudy
 from forcetorque.arrays import FloatArray
 from forcetorque.atomic import write_bytes_atomically
 from forcetorque.calibration import WrenchModel, write_calibration
-from forcetorque.experiment import SensorStudy
 from forcetorque.study import WORKBENCH, OffsetSource, ValidationSet, tables, with_offset
 
 _PAUSE_S = 2.0

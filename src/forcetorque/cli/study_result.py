@@ -7,7 +7,7 @@ from typing import Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 
-from forcetorque.experiment import SensorStudy
+from forcetorque.analysis import SensorStudy
 from forcetorque.spatial import WRENCH_COMPONENTS
 from forcetorque.study import OffsetSource, Study
 

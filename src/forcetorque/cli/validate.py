@@ -7,6 +7,14 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, TypedDict
 
+from forcetorque.analysis import (
+    ContactForceVerdict,
+    JointTorqueVerdict,
+    compare_contact_forces,
+    compare_joint_torques,
+)
+from forcetorque.analysis.applicability import by_sensor, one_per_sensor
+from forcetorque.analysis.reading import NO_OFFSET
 from forcetorque.calibration import Calibration
 from forcetorque.cli.output import Format, console, print_result, start_logging, table
 from forcetorque.cli.reading import read_calibrations, read_experiment
@@ -20,16 +28,8 @@ from forcetorque.cli.validate_result import (
 )
 from forcetorque.cli.words import with_error
 from forcetorque.evaluation import OtherSensors
-from forcetorque.experiment import (
-    ContactForceVerdict,
-    JointTorqueVerdict,
-    compare_contact_forces,
-    compare_joint_torques,
-)
-from forcetorque.experiment.candidate_names import short_names
-from forcetorque.experiment.fitness import by_sensor, one_per_sensor
 from forcetorque.experiment.inputs import stated_in
-from forcetorque.experiment.readings import NO_OFFSET
+from forcetorque.result.names import short_names
 from forcetorque.spatial import WRENCH_COMPONENTS, WRENCH_UNITS
 
 if TYPE_CHECKING:

@@ -8,8 +8,8 @@ from typing import Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 
+from forcetorque.analysis import ContactForceVerdict, JointTorqueVerdict
 from forcetorque.cli.output import finite_or_none
-from forcetorque.experiment import ContactForceVerdict, JointTorqueVerdict
 
 
 class ContactForceRow(BaseModel):

@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from forcetorque.analysis import TrialGroup
 from forcetorque.errors import ShapeError
 from forcetorque.evaluation.sphere import EllipsoidFit
-from forcetorque.experiment import TrialGroup
-from forcetorque.experiment.candidate_names import short_names
 from forcetorque.report.canvas import SMALL_POINTS, TITLE_POINTS, legend_below, look, new_figure, png_bytes, shown_name
+from forcetorque.result.names import short_names
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from forcetorque.analysis import SensorGains
 from forcetorque.arrays import FloatArray
-from forcetorque.experiment import SensorGains
 from forcetorque.report.canvas import COLOURS, ROW_INCHES, new_figure, png_bytes
 from forcetorque.report.thinning import thinned_line
 

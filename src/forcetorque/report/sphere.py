@@ -8,11 +8,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from forcetorque.analysis import SensorSphere
 from forcetorque.arrays import FloatArray
 from forcetorque.errors import ShapeError
 from forcetorque.evaluation.sphere import Ellipsoid
-from forcetorque.experiment import SensorSphere
-from forcetorque.experiment.candidate_names import short_names
 from forcetorque.report.canvas import (
     REFERENCE_COLOUR,
     ROW_INCHES,
@@ -24,6 +23,7 @@ from forcetorque.report.canvas import (
     shown_name,
 )
 from forcetorque.report.thinning import thinned_cloud
+from forcetorque.result.names import short_names
 from forcetorque.spatial.wrench import WRENCH_COMPONENTS
 
 if TYPE_CHECKING:

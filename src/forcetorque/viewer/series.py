@@ -8,21 +8,20 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray, IntArray
-from forcetorque.calibration import Calibration
-from forcetorque.errors import ForceTorqueError
-from forcetorque.evaluation.sphere import EllipsoidFit
-from forcetorque.experiment import (
+from forcetorque.analysis import (
     Correction,
-    Experiment,
-    ExperimentSensor,
     SensorSphere,
     analyse_sensor,
     sphere_intervals,
 )
-from forcetorque.experiment.candidates import PRIOR
-from forcetorque.experiment.fitness import require_fit
-from forcetorque.experiment.readings import without_offset, wrench_at
+from forcetorque.analysis.applicability import require_fit
+from forcetorque.analysis.candidate import PRIOR
+from forcetorque.analysis.reading import without_offset, wrench_at
+from forcetorque.arrays import FloatArray, IntArray
+from forcetorque.calibration import Calibration
+from forcetorque.errors import ForceTorqueError
+from forcetorque.evaluation.sphere import EllipsoidFit
+from forcetorque.experiment import Experiment, ExperimentSensor
 from forcetorque.recording.alignment import require_overlap
 from forcetorque.robot import SensorFrame
 from forcetorque.spatial import MeasureDirection

@@ -11,8 +11,9 @@ from pathlib import Path
 
 import pytest
 
+from forcetorque.analysis import calibrate_sensor
 from forcetorque.calibration import write_calibration
-from forcetorque.experiment import calibrate_sensor, load_experiment
+from forcetorque.experiment import load_experiment
 from tests.browser import _closed_at_the_end, chromium, close_after_folder, visit
 from tests.experiments import PARQUET, write_experiments
 

@@ -7,10 +7,10 @@ from typing import Literal
 
 import numpy as np
 
+from forcetorque.analysis import JudgedWrenches
 from forcetorque.cli.output import finite_or_none
 from forcetorque.cli.report.result import ComparisonRow, IndependenceRow
 from forcetorque.evaluation import PairedMean, autocorrelation, offset_removed, paired_difference
-from forcetorque.experiment import JudgedWrenches
 from forcetorque.study import OffsetSource
 
 _Quantity = tuple[Literal["force", "moment"], Literal["N", "N m"], slice, PairedMean]

@@ -11,6 +11,24 @@ from typing import TypeVar
 
 import numpy as np
 
+from forcetorque.analysis import (
+    AcceptanceFile,
+    JudgedWrenches,
+    SensorSphere,
+    accept_sensor,
+    analyse_sensor,
+    beyond_fitted_range,
+    check_sensor,
+    compare_contact_forces,
+    compare_joint_torques,
+    inspect_experiment,
+    judged_where_chosen,
+    judged_wrenches,
+    require_unseen,
+    sphere_intervals,
+    verdicts_on,
+)
+from forcetorque.analysis.candidate import PRIOR
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration import Calibration
 from forcetorque.cli.accept_result import criterion_rows, measured_row
@@ -27,28 +45,9 @@ from forcetorque.cli.report.verdicts import sensor_verdict
 from forcetorque.cli.sphere_result import sphere_row
 from forcetorque.cli.validate_result import best_rows, contact_force_row, joint_torque_row
 from forcetorque.errors import ForceTorqueError
-from forcetorque.experiment import (
-    AcceptanceFile,
-    Experiment,
-    ExperimentSensor,
-    JudgedWrenches,
-    SensorSphere,
-    accept_sensor,
-    analyse_sensor,
-    beyond_fitted_range,
-    check_sensor,
-    compare_contact_forces,
-    compare_joint_torques,
-    inspect_experiment,
-    judged_where_chosen,
-    judged_wrenches,
-    require_unseen,
-    sphere_intervals,
-    verdicts_on,
-)
-from forcetorque.experiment.candidate_names import short_names
-from forcetorque.experiment.candidates import PRIOR
+from forcetorque.experiment import Experiment, ExperimentSensor
 from forcetorque.recording import Recording
+from forcetorque.result.names import short_names
 
 _Found = TypeVar("_Found")
 

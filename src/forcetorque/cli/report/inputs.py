@@ -10,10 +10,11 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from forcetorque.analysis import AcceptanceFile, read_acceptance
+from forcetorque.analysis.applicability import calibrations_of
 from forcetorque.calibration import Calibration, read_calibration
 from forcetorque.errors import ExperimentError, FormatError, MissingFileError
-from forcetorque.experiment import AcceptanceFile, Experiment, read_acceptance
-from forcetorque.experiment.fitness import calibrations_of
+from forcetorque.experiment import Experiment
 
 RESULTS = {
     "accept", "calibrate", "compare", "estimate", "evaluate", "export", "gains", "inspect", "payload", "simulate",

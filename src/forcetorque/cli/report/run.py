@@ -8,6 +8,7 @@ from datetime import UTC, datetime
 from importlib.metadata import version
 from pathlib import Path
 
+from forcetorque.analysis import read_population
 from forcetorque.atomic import write_bytes_atomically
 from forcetorque.cli.output import Format, console, print_result, start_logging
 from forcetorque.cli.reading import read_experiment
@@ -16,7 +17,6 @@ from forcetorque.cli.report.inputs import assign_calibrations, sort_inputs
 from forcetorque.cli.report.result import ReportResult
 from forcetorque.cli.report.sections import report_document, viewer_section
 from forcetorque.errors import ForceTorqueError, MissingFileError
-from forcetorque.experiment import read_population
 from forcetorque.experiment.inputs import stated_in
 from forcetorque.report.canvas import new_figure
 from forcetorque.report.document import Document, Section, html_bytes, pdf_bytes

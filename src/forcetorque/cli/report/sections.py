@@ -16,8 +16,8 @@ from forcetorque.cli.report.result import ReportResult
 from forcetorque.cli.scene import scene_of
 from forcetorque.errors import ForceTorqueError
 from forcetorque.experiment import Experiment
-from forcetorque.experiment.candidate_names import short_names
 from forcetorque.report.document import Block, Document, Figure, List, Page, Section, Text, Tone, Verdict
+from forcetorque.result.names import short_names
 from forcetorque.spatial import WRENCH_COMPONENTS
 from forcetorque.viewer import MOST_SAMPLES, page_of
 

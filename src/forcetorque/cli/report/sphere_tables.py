@@ -6,8 +6,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from forcetorque.cli.sphere_result import SphereRow
-from forcetorque.experiment.candidate_names import short_names
 from forcetorque.report.document import Table
+from forcetorque.result.names import short_names
 
 
 def sphere_table(rows: Sequence[SphereRow]) -> Table:

@@ -10,8 +10,8 @@ from forcetorque.calibration import Calibration
 from forcetorque.cli.accept_result import CriterionRow, MeasuredRow
 from forcetorque.cli.report.result import ExperimentReport, SensorReport
 from forcetorque.cli.words import with_error
-from forcetorque.experiment.candidate_names import short_names
 from forcetorque.report.document import Table
+from forcetorque.result.names import short_names
 from forcetorque.spatial import WRENCH_COMPONENTS, WRENCH_UNITS
 
 COMPONENTS = tuple(f"{component}, {unit}" for component, unit in zip(WRENCH_COMPONENTS, WRENCH_UNITS, strict=True))

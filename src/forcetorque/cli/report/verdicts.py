@@ -6,11 +6,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Literal
 
+from forcetorque.analysis.reading import NO_OFFSET
 from forcetorque.cli.evaluate_result import VerdictRow
 from forcetorque.cli.report.result import ComparisonRow, SensorReport, VerdictLine
 from forcetorque.cli.words import with_error
-from forcetorque.experiment.candidate_names import short_names
-from forcetorque.experiment.readings import NO_OFFSET
+from forcetorque.result.names import short_names
 
 _FEWEST = 20
 """Samples below which nothing is called good."""

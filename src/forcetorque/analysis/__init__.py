@@ -1,0 +1,81 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Questions to the sensors of experiments: one file per question, each a function and its result."""
+
+from forcetorque.analysis.acceptance import Acceptance, accept_sensor
+from forcetorque.analysis.acceptance_file import AcceptanceFile, read_acceptance
+from forcetorque.analysis.calibrate import calibrate_sensor
+from forcetorque.analysis.candidate import JudgedCandidate, judged_candidates
+from forcetorque.analysis.compare import TrialFailure, TrialGroup, TrialSphere, group_trials, read_trials
+from forcetorque.analysis.estimate import IntervalEstimates, estimate_experiment
+from forcetorque.analysis.evaluate import (
+    Verdict,
+    beyond_fitted_range,
+    evaluate_sensor,
+    judged_where_chosen,
+    require_unseen,
+    verdicts_on,
+)
+from forcetorque.analysis.gains import JointPosition, SensorGains, StrongestSample, select_gains
+from forcetorque.analysis.inspect import doubtful_spans, inspect_experiment, inspect_recording
+from forcetorque.analysis.joint_torques import JointTorques, JointTorqueVerdict, compare_joint_torques
+from forcetorque.analysis.judged import JudgedWrenches, judged_wrenches
+from forcetorque.analysis.population import read_population
+from forcetorque.analysis.reading import Correction, corrections_of
+from forcetorque.analysis.samples import IntervalSamples, samples_of
+from forcetorque.analysis.sphere import SensorSphere, analyse_sensor, sphere_intervals
+from forcetorque.analysis.static_checks import StaticChecks, check_sensor
+from forcetorque.analysis.study import SensorStudy, study_sensor
+from forcetorque.analysis.study_data import StudyData, read_study_data
+from forcetorque.analysis.validate import ContactForceComparison, ContactForceVerdict, compare_contact_forces
+
+__all__ = [
+    "Acceptance",
+    "AcceptanceFile",
+    "ContactForceComparison",
+    "ContactForceVerdict",
+    "Correction",
+    "IntervalEstimates",
+    "IntervalSamples",
+    "JointPosition",
+    "JointTorqueVerdict",
+    "JointTorques",
+    "JudgedCandidate",
+    "JudgedWrenches",
+    "SensorGains",
+    "SensorSphere",
+    "SensorStudy",
+    "StaticChecks",
+    "StrongestSample",
+    "StudyData",
+    "TrialFailure",
+    "TrialGroup",
+    "TrialSphere",
+    "Verdict",
+    "accept_sensor",
+    "analyse_sensor",
+    "beyond_fitted_range",
+    "calibrate_sensor",
+    "check_sensor",
+    "compare_contact_forces",
+    "compare_joint_torques",
+    "corrections_of",
+    "doubtful_spans",
+    "estimate_experiment",
+    "evaluate_sensor",
+    "group_trials",
+    "inspect_experiment",
+    "inspect_recording",
+    "judged_candidates",
+    "judged_where_chosen",
+    "judged_wrenches",
+    "read_acceptance",
+    "read_population",
+    "read_study_data",
+    "read_trials",
+    "require_unseen",
+    "samples_of",
+    "select_gains",
+    "sphere_intervals",
+    "study_sensor",
+    "verdicts_on",
+]

@@ -1,0 +1,127 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The first second of a judged interval, which gives an offset and is judged by none, and what it leaves out."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from forcetorque.analysis.candidate import JudgedCandidate
+from forcetorque.arrays import BoolArray, FloatArray, IntArray
+from forcetorque.recording import Interval, SavitzkyGolay
+from forcetorque.recording.smoothing import smooth
+from forcetorque.study import OFFSET_S, OffsetSource
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class OffsetClock:
+    """Instants of one interval: filters, and tells its first second from what is judged."""
+
+    at_ns: IntArray
+    """Instants; shape (n,); ns."""
+    window: SavitzkyGolay | None
+    """Filter of all that is judged; None for none."""
+
+    @property
+    def first(self) -> BoolArray:
+        """Samples of the first second, where offsets are re-estimated; shape (n,)."""
+        first: BoolArray = self.at_ns < self.at_ns[0] + round(OFFSET_S * 1e9)
+        return first
+
+    def with_offset(self, error: FloatArray, source: OffsetSource) -> FloatArray:
+        """Take off the mean error of the first second where offsets are re-estimated.
+
+        Args:
+            error: Errors, not filtered; shape (n, k); NaN in gaps.
+            source: Which offset is wanted.
+
+        Returns:
+            Errors, not filtered; all NaN where every sample of the first second has a gap: the offset is not known.
+        """
+        if source is OffsetSource.FITTED:
+            return error
+        moved: FloatArray = error - self._mean(self._filtered(error))
+        return moved
+
+    def judged(self, error: FloatArray) -> FloatArray:
+        """Filter errors as readings and references are elsewhere, and leave out the first second.
+
+        Args:
+            error: Errors, not filtered; shape (n, k).
+
+        Returns:
+            Filtered errors of the later samples; shape (m, k).
+        """
+        later: FloatArray = self._filtered(error)[~self.first]
+        return later
+
+    def judged_with_both(self, error: FloatArray) -> dict[OffsetSource, FloatArray]:
+        """Give what is judged with either offset.
+
+        Args:
+            error: Errors with the fitted offset, not filtered; shape (n, k).
+
+        Returns:
+            Filtered errors of the later samples by offset; shape (m, k).
+        """
+        filtered = self._filtered(error)
+        later = filtered[~self.first]
+        return {OffsetSource.FITTED: later, OffsetSource.RE_ESTIMATED: later - self._mean(filtered)}
+
+    def _mean(self, filtered: FloatArray) -> FloatArray:
+        early = filtered[self.first]
+        whole = early[~np.isnan(early).any(axis=1)]
+        mean: FloatArray = whole.mean(axis=0) if len(whole) else np.full(filtered.shape[1], np.nan)
+        return mean
+
+    def _filtered(self, values: FloatArray) -> FloatArray:
+        return values if self.window is None else smooth(self.at_ns, values, self.window)
+
+
+def offset_words(candidate: JudgedCandidate, source: OffsetSource) -> str:
+    """Tell where an offset comes from.
+
+    Args:
+        candidate: The candidate.
+        source: Which offset it is judged with.
+
+    Returns:
+        The origin, in words.
+    """
+    return candidate.correction.source if source is OffsetSource.FITTED else "the first second of every judged interval"
+
+
+def nothing_left(clock: OffsetClock, interval: Interval) -> str | None:
+    """Tell whether an interval is too short to be judged.
+
+    Args:
+        clock: Its instants.
+        interval: The interval.
+
+    Returns:
+        What is left out, in words; None where there are samples to judge.
+    """
+    if not clock.first.all():
+        return None
+    return f"interval {interval.label!r}: it ends within its first {OFFSET_S:g} s, after which it would be judged"
+
+
+def gap_words(what: str, interval: Interval, judged: Mapping[OffsetSource, FloatArray]) -> str | None:
+    """Tell whether gaps leave nothing to judge in an interval, with either offset or with the re-estimated one.
+
+    Args:
+        what: What is judged, in words.
+        interval: The interval.
+        judged: Errors with either offset; shape (m,) or (m, k); a sample with a NaN is not judged.
+
+    Returns:
+        What is left out, in words; None where both can be judged.
+    """
+    gone = [source for source, errors in judged.items() if np.isnan(errors.reshape(len(errors), -1)).any(axis=1).all()]
+    if OffsetSource.FITTED in gone:
+        return f"{what} over {interval.label!r}: every judged sample has a gap"
+    if gone:
+        return f"{what} over {interval.label!r}, offset re-estimated: every sample of its first second has a gap"
+    return None
