@@ -16,8 +16,8 @@ import pytest
 import forcetorque
 
 ORDER = (
-    "result",
     "spatial",
+    "result",
     "robot",
     "recording",
     "sensor",

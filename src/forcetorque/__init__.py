@@ -10,7 +10,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from forcetorque.analysis import calibrate_sensor, evaluate_sensor, samples_of
+    from forcetorque.analysis import SensorRun, calibrate_sensor, evaluate
     from forcetorque.calibration import Calibration, DataSet, calibrate, read_calibration, write_calibration
     from forcetorque.errors import ForceTorqueError
     from forcetorque.evaluation.wrench_errors import wrench_errors  # of the package, mypy may take it for the module
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from forcetorque.robot import RobotModel, expected_wrenches, read_urdf
 
 _HOMES = {
-    "analysis": ("calibrate_sensor", "evaluate_sensor", "samples_of"),
+    "analysis": ("SensorRun", "calibrate_sensor", "evaluate"),
     "calibration": ("Calibration", "DataSet", "calibrate", "read_calibration", "write_calibration"),
     "errors": ("ForceTorqueError",),
     "evaluation": ("wrench_errors",),
@@ -35,15 +35,15 @@ __all__ = [
     "ForceTorqueError",
     "Recording",
     "RobotModel",
+    "SensorRun",
     "calibrate",
     "calibrate_sensor",
-    "evaluate_sensor",
+    "evaluate",
     "expected_wrenches",
     "load_experiment",
     "read_calibration",
     "read_recording",
     "read_urdf",
-    "samples_of",
     "wrench_errors",
     "write_calibration",
     "write_recording",

@@ -25,10 +25,10 @@ from forcetorque.errors import ExperimentError
 from forcetorque.estimation import Question, estimate
 from forcetorque.estimation.samples import robot_motion_at
 from forcetorque.evaluation import OtherSensors
+from forcetorque.evaluation.offset import KNOWN_BEFORE, Offset
 from forcetorque.experiment import Experiment, load_experiment
 from forcetorque.recording import Signal, Stream, Use
 from forcetorque.robot import build_tree
-from forcetorque.study import OffsetSource
 from tests.experiments import JOINTS, PARQUET, TWO, edit
 from tests.robots import joint_xml, link_xml
 
@@ -41,7 +41,7 @@ VISIBLE = 0.01
 INBOARD, BEYOND = ("shoulder_yaw", "shoulder_pitch", "shoulder_roll"), ("elbow", "wrist")
 """Joints between the support and the arm's sensor, and between that and the tool's."""
 
-Key = tuple[str, OffsetSource, str]
+Key = tuple[str, Offset, str]
 
 
 def _with_branch(arm: Path, flap: str) -> Experiment:
@@ -107,12 +107,12 @@ def test_with_measured_others_it_is_what_the_estimator_gives(arm: Path, branch: 
     for candidate, calibrations in (("prior", {}), ("new", {"new": calibration})):
         wanted = _errors_of_the_estimator(experiment, corrections_of(experiment, calibrations))
         for joint in INBOARD:
-            errors = found[candidate, OffsetSource.FITTED, joint].errors
+            errors = found[candidate, Offset.FITTED, joint].errors
             assert errors.count == len(wanted[joint])
             assert errors.rmse == pytest.approx(np.sqrt((wanted[joint] ** 2).mean()), abs=EXACT)
             assert errors.mean == pytest.approx(wanted[joint].mean(), abs=EXACT)
             assert errors.largest == pytest.approx(np.abs(wanted[joint]).max(), abs=EXACT)
-            other = found["new" if candidate == "prior" else "prior", OffsetSource.FITTED, joint].errors
+            other = found["new" if candidate == "prior" else "prior", Offset.FITTED, joint].errors
             assert abs(other.rmse - errors.rmse) > VISIBLE
         for joint in BEYOND:  # a contact at the arm's sensor takes its error up
             alone = corrections_of(experiment, {})
@@ -133,7 +133,7 @@ def test_the_offset_is_that_of_the_first_second(arm: Path) -> None:
     wanted = _errors_of_the_estimator(experiment, {"arm_ft": Correction(model=model, source="test")})
     for joint in INBOARD:
         rmse = np.sqrt((wanted[joint] ** 2).mean())
-        assert found["new", OffsetSource.RE_ESTIMATED, joint].errors.rmse == pytest.approx(rmse, abs=EXACT)
+        assert found["new", Offset.FIRST_SECOND, joint].errors.rmse == pytest.approx(rmse, abs=EXACT)
 
 
 def test_the_new_calibration_makes_every_torque_better(arm: Path) -> None:
@@ -143,7 +143,7 @@ def test_the_new_calibration_makes_every_torque_better(arm: Path) -> None:
     verdicts = _by_key(found)
     assert len(verdicts) == 2 * 2 * len(INBOARD)
     assert found.left_out == ()
-    for source in OffsetSource:
+    for source in KNOWN_BEFORE:
         for joint in INBOARD:
             new, prior = verdicts["new", source, joint], verdicts["prior", source, joint]
             assert new.errors.rmse < 0.2 * prior.errors.rmse

@@ -28,9 +28,10 @@ from forcetorque.calibration import (
     write_calibration,
 )
 from forcetorque.errors import ExperimentError, FitError
+from forcetorque.evaluation.offset import KNOWN_BEFORE, Offset
 from forcetorque.experiment import load_experiment
 from forcetorque.spatial import WRENCH_COMPONENTS
-from forcetorque.study import Candidate, OffsetSource
+from forcetorque.study import Candidate
 from tests.experiments import PARQUET, edit
 from tests.studies import CALIBRATION, FILES, SERIAL, VALIDATION, scenario
 
@@ -40,10 +41,10 @@ SAME = 1e-8
 LAMBDAS = (0.0, 100.0, 1e5)
 NAMES = {
     (source, by): f"{by}_offset_{source.replace('-', '_')}"
-    for source in OffsetSource
+    for source in KNOWN_BEFORE
     for by in ("best", "best_by_axis")
 }
-BOTH = pytest.mark.parametrize("source", list(OffsetSource))
+BOTH = pytest.mark.parametrize("source", list(KNOWN_BEFORE))
 
 
 def _study(data: StudyData, **changes: Any) -> SensorStudy:
@@ -128,13 +129,13 @@ def test_the_study_finds_the_mounted_sensor(made: SensorStudy) -> None:
     assert made.study.fits.left_out == tuple(
         f"random {kind}: sphere offset: none of grid_cold is in it" for kind in ("SnTdTO", "SwTdTO", "SwTrTO")
     )
-    best = made.calibrations["best_offset_re_estimated"]
+    best = made.calibrations["best_offset_first_second"]
     off, workbench_off = (
         np.linalg.norm(matrix - truth.sensor.matrix, axis=1) for matrix in (best.matrix, truth.workbench)
     )
     assert (off[:3] < 0.1 * workbench_off[:3]).all()
-    errors = made.study.judgements[OffsetSource.RE_ESTIMATED].over().force_mean
-    assert errors[made.study.choices[OffsetSource.RE_ESTIMATED].by_magnitude] < 0.05 * errors[-1]
+    errors = made.study.judgements[Offset.FIRST_SECOND].over().force_mean
+    assert errors[made.study.choices[Offset.FIRST_SECOND].by_magnitude] < 0.05 * errors[-1]
 
 
 def _again(data: StudyData, candidate: Candidate) -> CalibrationFit:
@@ -165,7 +166,7 @@ def test_there_are_four_calibrations(made: SensorStudy) -> None:
 
 @BOTH
 def test_the_best_is_written_as_the_candidate_that_was_judged(
-    data: StudyData, made: SensorStudy, source: OffsetSource
+    data: StudyData, made: SensorStudy, source: Offset
 ) -> None:
     """The same model, with the standard errors and the residual that the fit by itself has."""
     calibration = made.calibrations[NAMES[source, "best"]]
@@ -188,9 +189,7 @@ def test_the_best_is_written_as_the_candidate_that_was_judged(
 
 
 @BOTH
-def test_the_best_says_what_it_was_made_from_and_chosen_on(
-    data: StudyData, made: SensorStudy, source: OffsetSource
-) -> None:
+def test_the_best_says_what_it_was_made_from_and_chosen_on(data: StudyData, made: SensorStudy, source: Offset) -> None:
     """Intervals, samples and inputs; the rule names the candidate; the judged intervals are kept apart."""
     calibration = made.calibrations[NAMES[source, "best"]]
     best = made.study.choices[source].by_magnitude
@@ -215,7 +214,7 @@ def test_the_best_says_what_it_was_made_from_and_chosen_on(
 
 @BOTH
 def test_every_row_of_the_best_by_axis_is_that_of_its_candidate(
-    data: StudyData, made: SensorStudy, source: OffsetSource
+    data: StudyData, made: SensorStudy, source: Offset
 ) -> None:
     """Matrix, standard errors and residual; and on any samples the component reads as the candidate's does."""
     calibration = made.calibrations[NAMES[source, "best_by_axis"]]
@@ -247,7 +246,7 @@ def test_every_row_of_the_best_by_axis_is_that_of_its_candidate(
 
 @BOTH
 def test_the_best_by_axis_counts_the_samples_of_all_its_rows(
-    data: StudyData, made: SensorStudy, source: OffsetSource
+    data: StudyData, made: SensorStudy, source: Offset
 ) -> None:
     """Intervals and samples are those that any row was fitted to, each once."""
     provenance = made.calibrations[NAMES[source, "best_by_axis"]].provenance
@@ -276,7 +275,7 @@ def test_every_calibration_can_be_evaluated(days: Path, made: SensorStudy) -> No
     assert all((name, offset) in force for name in made.calibrations for offset in ("fitted", "re-estimated"))
     prior = min(value for (name, offset), value in force.items() if "prior" in name and offset == "re-estimated")
     for by in ("best", "best_by_axis"):
-        assert force[NAMES[OffsetSource.RE_ESTIMATED, by], "re-estimated"] < 0.1 * prior
+        assert force[NAMES[Offset.FIRST_SECOND, by], "re-estimated"] < 0.1 * prior
     fitted = load_experiment(edit(days / "grid_cold.toml", '"calibration"', '"validation"'))
     with pytest.raises(ExperimentError, match="was fitted on the interval 'grid_cold', which overlaps"):
         evaluate_sensor(fitted, fitted.sensors[0], {"best": made.calibrations["best_by_axis_offset_fitted"]})

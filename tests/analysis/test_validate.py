@@ -20,9 +20,9 @@ from forcetorque.analysis import (
 from forcetorque.calibration import Calibration
 from forcetorque.errors import EstimationError, ExperimentError, SerialNumberError
 from forcetorque.evaluation import OtherSensors, wrench_errors
+from forcetorque.evaluation.offset import KNOWN_BEFORE, Offset
 from forcetorque.experiment import Experiment, load_experiment
 from forcetorque.recording import Use
-from forcetorque.study import OffsetSource
 from tests.experiments import PARQUET, TWO, add, edit, holed
 
 EXACT = 1e-9
@@ -33,7 +33,7 @@ def _fitted(experiment: Experiment, index: int = 0) -> Calibration:
     return calibrate_sensor(experiment, experiment.sensors[index], code_version="test", created="test")
 
 
-def _by_candidate(verdicts: list[ContactForceVerdict]) -> dict[tuple[str, OffsetSource], ContactForceVerdict]:
+def _by_candidate(verdicts: list[ContactForceVerdict]) -> dict[tuple[str, Offset], ContactForceVerdict]:
     return {(verdict.candidate, verdict.offset): verdict for verdict in verdicts}
 
 
@@ -47,13 +47,13 @@ def test_by_the_model_it_is_reading_less_expected(arm: Path) -> None:
     first = stamps < stamps[0] + 1_000_000_000
     reading = calibration.model.wrench(part.raw)
     by_hand = wrench_errors(reading[~first], part.samples.reference[~first])
-    errors = found["new", OffsetSource.FITTED].errors
+    errors = found["new", Offset.FITTED].errors
     assert errors.count == by_hand.count
     assert errors.force_mean == pytest.approx(by_hand.force_mean, abs=EXACT)
     np.testing.assert_allclose(errors.bias, by_hand.bias, atol=EXACT)
     moved = reading - (reading - part.samples.reference)[first].mean(axis=0)
     by_hand = wrench_errors(moved[~first], part.samples.reference[~first])
-    errors = found["new", OffsetSource.RE_ESTIMATED].errors
+    errors = found["new", Offset.FIRST_SECOND].errors
     np.testing.assert_allclose(errors.mean_absolute, by_hand.mean_absolute, atol=EXACT)
 
 
@@ -64,7 +64,7 @@ def test_the_new_calibration_is_best_and_the_prior_is_not(arm: Path) -> None:
         compare_contact_forces(experiment, experiment.sensors[0], {"new": _fitted(experiment)}).verdicts
     )
     assert len(found) == 4
-    for source in OffsetSource:
+    for source in KNOWN_BEFORE:
         new, prior = found["new", source].errors, found["prior", source].errors
         assert new.force_mean < 0.1 * prior.force_mean
 
@@ -77,7 +77,7 @@ def test_errors_of_other_sensors_count_only_as_measured(arm: Path) -> None:
 
     def force(**how: object) -> float:
         verdicts = _by_candidate(compare_contact_forces(experiment, sensor, calibrations, **how).verdicts)  # type: ignore[arg-type]
-        return verdicts["new", OffsetSource.RE_ESTIMATED].errors.force_mean
+        return verdicts["new", Offset.FIRST_SECOND].errors.force_mean
 
     model = force()
     with_right = force(others=right, other_sensors=OtherSensors.MEASURED)
@@ -93,7 +93,7 @@ def test_the_outer_sensor_is_judged_by_either_side(arm: Path) -> None:
     tool = experiment.sensors[1]
     beyond = _by_candidate(compare_contact_forces(experiment, tool, {}).verdicts)
     before = _by_candidate(compare_contact_forces(experiment, tool, {}, sub_model="arm_ft").verdicts)
-    key = ("prior", OffsetSource.FITTED)
+    key = ("prior", Offset.FITTED)
     assert beyond[key].sub_model == "tool_ft"
     assert before[key].sub_model == "arm_ft"
     np.testing.assert_allclose(beyond[key].errors.bias, -before[key].errors.bias, atol=EXACT)
@@ -139,11 +139,11 @@ def test_the_prior_has_the_offset_that_the_calibration_carries_for_it(arm: Path)
     stamps = part.samples.stamp_ns
     later = stamps >= stamps[0] + 1_000_000_000
     by_hand = wrench_errors(part.raw[later] @ prior.matrix.T + prior.offset, part.samples.reference[later])
-    verdict = found["prior", OffsetSource.FITTED]
+    verdict = found["prior", Offset.FITTED]
     assert verdict.errors.force_mean == pytest.approx(by_hand.force_mean, abs=EXACT)
     assert verdict.offset_source.endswith("offset of the data that new was fitted on")
-    assert (verdict.prior, found["new", OffsetSource.FITTED].prior) == (None, "prior")
-    alone = _by_candidate(compare_contact_forces(experiment, sensor, {}).verdicts)["prior", OffsetSource.FITTED]
+    assert (verdict.prior, found["new", Offset.FITTED].prior) == (None, "prior")
+    alone = _by_candidate(compare_contact_forces(experiment, sensor, {}).verdicts)["prior", Offset.FITTED]
     assert alone.offset_source == "the prior matrix_SIM001.txt, no offset removed"
     assert alone.errors.force_mean > 2.0 * verdict.errors.force_mean
     torques = {
@@ -198,11 +198,11 @@ def test_an_interval_whose_first_second_is_a_gap_is_named(arm: Path) -> None:
     words = "{} by prior over 'rest', offset re-estimated: every sample of its first second has a gap"
     assert found.left_out == (words.format("contact force"),)
     count = {verdict.offset: verdict.errors.count for verdict in found.verdicts}
-    assert count[OffsetSource.FITTED] > count[OffsetSource.RE_ESTIMATED] + 200
+    assert count[Offset.FITTED] > count[Offset.FIRST_SECOND] + 200
     torques = compare_joint_torques(gap, gap.sensors[0], {})
     joints = ("shoulder_yaw", "shoulder_pitch", "shoulder_roll")
     assert set(torques.left_out) == {words.format(f"torque of {joint}") for joint in joints}
-    assert {v.errors.count for v in torques.verdicts if v.offset is OffsetSource.FITTED} == {count[OffsetSource.FITTED]}
+    assert {v.errors.count for v in torques.verdicts if v.offset is Offset.FITTED} == {count[Offset.FITTED]}
     blind = replace(experiment, recording=holed(experiment.recording, "arm_ft", 17.1, 23.6))
     assert compare_contact_forces(blind, blind.sensors[0], {}).left_out == (
         "contact force by prior over 'rest': every judged sample has a gap",

@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 
 from forcetorque.analysis import JointTorqueVerdict, calibrate_sensor, compare_joint_torques
+from forcetorque.evaluation.offset import Offset
 from forcetorque.experiment import load_experiment
-from forcetorque.study import OffsetSource
 
 EXAMPLE = Path(__file__).resolve().parents[2] / "examples" / "02_icub_yoga_forward.toml"
 
@@ -20,7 +20,7 @@ SHOWN = 0.005
 
 pytestmark = pytest.mark.real_data
 
-Key = tuple[str, OffsetSource, str]
+Key = tuple[str, Offset, str]
 
 
 @pytest.fixture(scope="module")
@@ -55,11 +55,11 @@ def test_the_largest_error_is_halved(verdicts: dict[Key, JointTorqueVerdict]) ->
 def test_it_is_as_the_page_says(verdicts: dict[Key, JointTorqueVerdict]) -> None:
     """Better and worse joints alike."""
     for source, joint, prior, new in (
-        (OffsetSource.FITTED, "l_ankle_roll", 0.45, 0.23),
-        (OffsetSource.RE_ESTIMATED, "l_ankle_roll", 0.23, 0.06),
-        (OffsetSource.FITTED, "l_hip_roll", 0.44, 0.12),
-        (OffsetSource.FITTED, "l_ankle_pitch", 0.09, 0.16),
-        (OffsetSource.RE_ESTIMATED, "l_hip_roll", 0.11, 0.16),
+        (Offset.FITTED, "l_ankle_roll", 0.45, 0.23),
+        (Offset.FIRST_SECOND, "l_ankle_roll", 0.23, 0.06),
+        (Offset.FITTED, "l_hip_roll", 0.44, 0.12),
+        (Offset.FITTED, "l_ankle_pitch", 0.09, 0.16),
+        (Offset.FIRST_SECOND, "l_hip_roll", 0.11, 0.16),
     ):
         assert verdicts["prior", source, joint].errors.rmse == pytest.approx(prior, abs=SHOWN)
         assert verdicts["new", source, joint].errors.rmse == pytest.approx(new, abs=SHOWN)

@@ -3,25 +3,21 @@
 
 from forcetorque.analysis.acceptance import Acceptance, accept_sensor
 from forcetorque.analysis.acceptance_file import AcceptanceFile, read_acceptance
+from forcetorque.analysis.applicability import by_sensor, one_per_sensor
 from forcetorque.analysis.calibrate import calibrate_sensor
-from forcetorque.analysis.candidate import JudgedCandidate, judged_candidates
+from forcetorque.analysis.candidate import JudgedCandidate
 from forcetorque.analysis.compare import TrialFailure, TrialGroup, TrialSphere, group_trials, read_trials
+from forcetorque.analysis.corrections import corrections_of
 from forcetorque.analysis.estimate import IntervalEstimates, estimate_experiment
-from forcetorque.analysis.evaluate import (
-    Verdict,
-    beyond_fitted_range,
-    evaluate_sensor,
-    judged_where_chosen,
-    require_unseen,
-    verdicts_on,
-)
+from forcetorque.analysis.evaluate import CandidateErrors, Evaluation, evaluate
 from forcetorque.analysis.gains import JointPosition, SensorGains, StrongestSample, select_gains
 from forcetorque.analysis.inspect import doubtful_spans, inspect_experiment, inspect_recording
 from forcetorque.analysis.joint_torques import JointTorques, JointTorqueVerdict, compare_joint_torques
-from forcetorque.analysis.judged import JudgedWrenches, judged_wrenches
+from forcetorque.analysis.judged import JudgedWrenches
 from forcetorque.analysis.population import read_population
-from forcetorque.analysis.reading import Correction, corrections_of
-from forcetorque.analysis.samples import IntervalSamples, samples_of
+from forcetorque.analysis.reading import Correction
+from forcetorque.analysis.samples import IntervalSamples
+from forcetorque.analysis.sensor_run import SensorRun
 from forcetorque.analysis.sphere import SensorSphere, analyse_sensor, sphere_intervals
 from forcetorque.analysis.static_checks import StaticChecks, check_sensor
 from forcetorque.analysis.study import SensorStudy, study_sensor
@@ -29,6 +25,9 @@ from forcetorque.analysis.study_data import StudyData, read_study_data
 from forcetorque.analysis.validate import ContactForceComparison, ContactForceVerdict, compare_contact_forces
 
 __all__ = [
+    "CandidateErrors",
+    "Evaluation",
+    "evaluate",
     "Acceptance",
     "AcceptanceFile",
     "ContactForceComparison",
@@ -50,10 +49,10 @@ __all__ = [
     "TrialFailure",
     "TrialGroup",
     "TrialSphere",
-    "Verdict",
     "accept_sensor",
     "analyse_sensor",
-    "beyond_fitted_range",
+    "by_sensor",
+    "one_per_sensor",
     "calibrate_sensor",
     "check_sensor",
     "compare_contact_forces",
@@ -61,21 +60,15 @@ __all__ = [
     "corrections_of",
     "doubtful_spans",
     "estimate_experiment",
-    "evaluate_sensor",
     "group_trials",
     "inspect_experiment",
     "inspect_recording",
-    "judged_candidates",
-    "judged_where_chosen",
-    "judged_wrenches",
     "read_acceptance",
     "read_population",
     "read_study_data",
     "read_trials",
-    "require_unseen",
-    "samples_of",
+    "SensorRun",
     "select_gains",
     "sphere_intervals",
     "study_sensor",
-    "verdicts_on",
 ]

@@ -12,14 +12,14 @@ import numpy as np
 from forcetorque.analysis import acceptance_file as limits
 from forcetorque.analysis.candidate import PRIOR
 from forcetorque.analysis.criterion import Bound, Criterion, at_limit, at_limits
-from forcetorque.analysis.evaluate import evaluate_sensor
+from forcetorque.analysis.evaluate import CandidateErrors, evaluate
+from forcetorque.analysis.sensor_run import SensorRun
 from forcetorque.analysis.static_checks import IntervalQuality, StaticChecks, check_sensor
 from forcetorque.analysis.validate import compare_contact_forces
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration import Calibration
 from forcetorque.errors import ExperimentError, ForceTorqueError
-from forcetorque.evaluation import OtherSensors, WrenchErrors
-from forcetorque.experiment.content import Experiment, ExperimentSensor
+from forcetorque.evaluation import OtherSensors
 from forcetorque.spatial import WRENCH_COMPONENTS
 
 _Checked = TypeVar("_Checked")
@@ -39,15 +39,16 @@ class Acceptance:
 class _Subject:
     """What is judged."""
 
-    experiment: Experiment
-    sensor: ExperimentSensor
+    run: SensorRun
     calibration: tuple[str, Calibration] | None
     others: Mapping[str, Calibration]
     checks: StaticChecks
 
     def fitted(self) -> tuple[str, Calibration]:
         if self.calibration is None:
-            raise ExperimentError(f"it judges a calibration, none was given of {self.sensor.name!r}; see --calibration")
+            raise ExperimentError(
+                f"it judges a calibration, none was given of {self.run.sensor.name!r}; see --calibration"
+            )
         return self.calibration
 
     def measured(self, check: str, value: _Checked | None) -> _Checked:
@@ -57,8 +58,7 @@ class _Subject:
 
 
 def accept_sensor(
-    experiment: Experiment,
-    sensor: ExperimentSensor,
+    run: SensorRun,
     spec: limits.AcceptanceFile,
     calibration: tuple[str, Calibration] | None = None,
     *,
@@ -68,8 +68,7 @@ def accept_sensor(
     """Judge a sensor and its calibration, or its prior, by every limit of an acceptance file.
 
     Args:
-        experiment: The experiment.
-        sensor: One of its sensors.
+        run: The sensor.
         spec: Content of the acceptance file.
         calibration: Name and calibration; the prior is judged if left out.
         others: Calibrations of the other sensors by name, for `[validate]` with other sensors as measured.
@@ -81,10 +80,8 @@ def accept_sensor(
     Raises:
         ForceTorqueError: If a limit is stated for what cannot be measured; the message names its table.
     """
-    checks = check_sensor(experiment, sensor, calibration, population=population)
-    subject = _Subject(
-        experiment=experiment, sensor=sensor, calibration=calibration, others=others or {}, checks=checks
-    )
+    checks = check_sensor(run, calibration, population=population)
+    subject = _Subject(run=run, calibration=calibration, others=others or {}, checks=checks)
     criteria: list[Criterion] = []
     for table, judge in _TABLES.items():
         stated = getattr(spec, "validate_" if table == "validate" else table)
@@ -93,25 +90,25 @@ def accept_sensor(
         try:
             criteria += judge(subject, stated)
         except ForceTorqueError as error:
-            raise type(error)(f"sensor {sensor.name!r}: [{table}] cannot be judged: {error}") from error
+            raise type(error)(f"sensor {run.sensor.name!r}: [{table}] cannot be judged: {error}") from error
     return Acceptance(checks=checks, criteria=tuple(criteria))
 
 
-def _evaluated(subject: _Subject, offset: str) -> tuple[WrenchErrors, WrenchErrors]:
+def _evaluated(subject: _Subject, offset: str) -> tuple[CandidateErrors, CandidateErrors]:
     """Errors of the prior, or again of the calibration where there is none, and of the calibration."""
-    verdicts = evaluate_sensor(subject.experiment, subject.sensor, dict([subject.fitted()]))
-    errors = [verdict.errors for verdict in verdicts if verdict.offset == offset]
-    return errors[0], errors[-1]
+    verdicts = evaluate(subject.run, dict([subject.fitted()])).verdicts
+    rows = [row for row in verdicts if row.offset == offset]
+    return rows[0], rows[-1]
 
 
 def _evaluate(subject: _Subject, stated: limits.Evaluate) -> Iterator[Criterion]:
     _, errors = _evaluated(subject, stated.offset)
-    n = errors.count
+    n = errors.samples
     for key, measured, limit, unit in (
-        ("force_error_mean_N", errors.force_mean, stated.force_error_mean_N, "N"),
-        ("force_error_largest_N", errors.force_largest, stated.force_error_largest_N, "N"),
-        ("moment_error_mean_Nm", errors.moment_mean, stated.moment_error_mean_Nm, "N m"),
-        ("moment_error_largest_Nm", errors.moment_largest, stated.moment_error_largest_Nm, "N m"),
+        ("force_error_mean_N", errors.force_error_mean_N, stated.force_error_mean_N, "N"),
+        ("force_error_largest_N", errors.force_error_largest_N, stated.force_error_largest_N, "N"),
+        ("moment_error_mean_Nm", errors.moment_error_mean_Nm, stated.moment_error_mean_Nm, "N m"),
+        ("moment_error_largest_Nm", errors.moment_error_largest_Nm, stated.moment_error_largest_Nm, "N m"),
     ):
         yield from at_limit(f"evaluate.{key}", measured, limit, unit, count=n)
     yield from at_limits("evaluate.rmse", errors.rmse, stated.rmse, count=n)
@@ -125,10 +122,10 @@ def _improvement(subject: _Subject, stated: limits.Improvement) -> Iterator[Crit
         raise ExperimentError(f"calibration {name!r} has no prior to improve on")
     prior, new = _evaluated(subject, stated.offset)
     for key, ratio, limit in (
-        ("force_error_ratio", _ratio(new.force_mean, prior.force_mean), stated.force_error_ratio),
-        ("moment_error_ratio", _ratio(new.moment_mean, prior.moment_mean), stated.moment_error_ratio),
+        ("force_error_ratio", _ratio(new.force_error_mean_N, prior.force_error_mean_N), stated.force_error_ratio),
+        ("moment_error_ratio", _ratio(new.moment_error_mean_Nm, prior.moment_error_mean_Nm), stated.moment_error_ratio),
     ):
-        yield from at_limit(f"improvement.{key}", ratio, limit, count=new.count)
+        yield from at_limit(f"improvement.{key}", ratio, limit, count=new.samples)
 
 
 def _ratio(new: float, prior: float) -> float:
@@ -139,8 +136,7 @@ def _validate(subject: _Subject, stated: limits.Validate) -> Iterator[Criterion]
     candidates = {} if subject.calibration is None else dict([subject.calibration])
     name = next(iter(candidates), PRIOR)
     compared = compare_contact_forces(
-        subject.experiment,
-        subject.sensor,
+        subject.run,
         candidates,
         others=subject.others,
         other_sensors=OtherSensors(stated.other_sensors),
@@ -186,7 +182,7 @@ def _recording(subject: _Subject, stated: limits.RecordingLimits) -> Iterator[Cr
     def worst(name: str, share: Callable[[IntervalQuality], float | None], limit: float | None) -> Iterator[Criterion]:
         found = max(subject.checks.intervals, key=lambda each: share(each) or 0.0)
         if limit is not None and share(found) is None:
-            raise ExperimentError(f"{name}: stream {subject.sensor.stream!r} has no sequence numbers")
+            raise ExperimentError(f"{name}: stream {subject.run.sensor.stream!r} has no sequence numbers")
         yield from at_limit(f"recording.{name}", share(found), limit, count=found.samples, note=found.label)
 
     yield from worst("saturated_share", lambda each: each.saturated_share, stated.saturated_share)

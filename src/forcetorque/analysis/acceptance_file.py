@@ -52,8 +52,6 @@ PerAxis = Annotated[
 ]
 """One limit per component, N and N m: six numbers fx fy fz tx ty tz, or a table with some of them by name."""
 
-Offset = Literal["fitted", "re-estimated"]
-
 
 class _Limits(Table):
     """A table of limits; one without any would look like a criterion that holds."""
@@ -75,8 +73,8 @@ class Evaluate(_Limits):
     """Errors on the validation intervals, as `forcetorque evaluate` has them; at most."""
 
     settings: ClassVar[frozenset[str]] = frozenset({"offset"})
-    offset: Offset = "fitted"
-    """Offset of the fitted data, or re-estimated on the judged samples."""
+    offset: Literal["fitted", "judged-mean"] = "fitted"
+    """Offset of the fitted data, or the mean of the judged samples."""
     force_error_mean_N: _NotNegative | None = None
     """Mean norm of the force error."""
     force_error_largest_N: _NotNegative | None = None
@@ -97,8 +95,8 @@ class Improvement(_Limits):
     """Errors of the calibration over those of its prior, on the validation intervals; at most."""
 
     settings: ClassVar[frozenset[str]] = frozenset({"offset"})
-    offset: Offset = "fitted"
-    """Offset of the fitted data, or re-estimated on the judged samples."""
+    offset: Literal["fitted", "judged-mean"] = "fitted"
+    """Offset of the fitted data, or the mean of the judged samples."""
     force_error_ratio: _NotNegative | None = None
     """Ratio of the mean norms of the force error."""
     moment_error_ratio: _NotNegative | None = None
@@ -109,7 +107,7 @@ class Validate(_Limits):
     """Contact wrench where nothing touches, as `forcetorque validate` has it; at most."""
 
     settings: ClassVar[frozenset[str]] = frozenset({"offset", "other_sensors"})
-    offset: Offset = "re-estimated"
+    offset: Literal["first-second", "fitted"] = "first-second"
     """Offset from the first second of every judged interval, or that of the candidate."""
     other_sensors: Literal["model", "measured"] = OtherSensors.MODEL.value
     """What the other sensors of the part read: what the model expects, or what they measured."""

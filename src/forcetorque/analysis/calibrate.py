@@ -8,7 +8,8 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from forcetorque.analysis.samples import IntervalSamples, samples_of
+from forcetorque.analysis.samples import IntervalSamples
+from forcetorque.analysis.sensor_run import SensorRun
 from forcetorque.calibration import (
     RULE,
     CalibratedVariable,
@@ -28,8 +29,7 @@ from forcetorque.recording import Use
 
 
 def calibrate_sensor(
-    experiment: Experiment,
-    sensor: ExperimentSensor,
+    run: SensorRun,
     *,
     code_version: str,
     created: str,
@@ -39,8 +39,7 @@ def calibrate_sensor(
     """Fit a sensor on the calibration intervals of an experiment.
 
     Args:
-        experiment: The experiment.
-        sensor: One of its sensors.
+        run: The sensor.
         code_version: Version of this library, for the record.
         created: Date and time, ISO 8601, for the record.
         regularisation: Lambda; counts2; None to choose it on held-out blocks.
@@ -49,9 +48,10 @@ def calibrate_sensor(
     Returns:
         The calibration, with everything that tells how far to trust it.
     """
+    experiment, sensor = run.experiment, run.sensor
     if kind is None:
         kind = experiment.fit_options.kind(has_variables=bool(sensor.variables))
-    parts = samples_of(experiment, sensor, Use.CALIBRATION, with_variables=kind.with_variables)
+    parts = run.samples(Use.CALIBRATION, variables=_variable_names(sensor) if kind.with_variables else ())
     result = calibrate(
         [part.data_set for part in parts],
         sensor.prior,
@@ -148,6 +148,10 @@ def identity_of(experiment: Experiment, sensor: ExperimentSensor) -> SensorIdent
         frame=tag.frame.value,
         measure_direction=tag.direction,
     )
+
+
+def _variable_names(sensor: ExperimentSensor) -> list[str]:
+    return [variable.linear.name for variable in sensor.variables]
 
 
 def _variables(parts: Sequence[IntervalSamples], result: CalibrationFit) -> tuple[CalibratedVariable, ...]:

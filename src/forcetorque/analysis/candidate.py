@@ -4,14 +4,18 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from forcetorque.analysis.applicability import require_fit
-from forcetorque.analysis.reading import Correction, uncalibrated
+from forcetorque.analysis.reading import Correction
 from forcetorque.calibration import Calibration, Prior, WrenchModel
-from forcetorque.experiment.content import Experiment, ExperimentSensor
+from forcetorque.evaluation import Offset
+from forcetorque.recording import Use
+
+if TYPE_CHECKING:
+    from forcetorque.analysis.sensor_run import SensorRun
 
 PRIOR = "prior"
 """Name of the prior, or of the logged wrench, among the candidates."""
@@ -31,19 +35,41 @@ class JudgedCandidate:
     prior: str | None
     """Name of the prior that a calibration is to be compared with; None for a prior, and where it has none."""
 
+    def offset(self, offset: Offset) -> Offset:
+        """Name the offset that it is really judged with.
 
-def judged_candidates(
-    experiment: Experiment, sensor: ExperimentSensor, calibrations: Mapping[str, Calibration]
-) -> tuple[JudgedCandidate, ...]:
+        Args:
+            offset: The offset that is asked for.
+
+        Returns:
+            The same, or none for the fitted one of a candidate that no data gave an offset.
+        """
+        return Offset.NONE if offset is Offset.FITTED and not self.correction.removes_offset else offset
+
+    def offset_source(self, offset: Offset) -> str:
+        """Tell where an offset comes from.
+
+        Args:
+            offset: Which offset it is judged with.
+
+        Returns:
+            The origin, in words.
+        """
+        return {
+            Offset.FIRST_SECOND: "the first second of every judged interval",
+            Offset.JUDGED_MEAN: "the judged samples themselves",
+        }.get(offset, self.correction.source)
+
+
+def judged_candidates(run: SensorRun, calibrations: Mapping[str, Calibration]) -> tuple[JudgedCandidate, ...]:
     """Decide by what a judged sensor is read in turn.
 
     The prior of a calibration has the offset that the calibration carries for it, that of the fitted data.
 
     Args:
-        experiment: The experiment.
-        sensor: One of its sensors.
-        calibrations: Calibrations of that sensor by name; without any it is read by the prior of the experiment, or
-            the logged wrench, with the offset that the calibration intervals give.
+        run: The sensor.
+        calibrations: Its calibrations by name; without any it is read by the prior of the experiment, or the logged
+            wrench, with the offset that the calibration intervals give.
 
     Returns:
         The candidates, priors first; a prior that several calibrations share comes once.
@@ -53,9 +79,9 @@ def judged_candidates(
         ExperimentError: If a calibration may not be applied, or raw counts have neither calibration nor prior.
     """
     if not calibrations:
-        return (JudgedCandidate(name=PRIOR, correction=uncalibrated(experiment, sensor), prior=None),)
+        return (JudgedCandidate(name=PRIOR, correction=run.uncalibrated(), prior=None),)
     for name, calibration in calibrations.items():
-        require_fit(name, calibration, experiment, sensor)
+        run.require_fit(name, calibration)
     priors: list[JudgedCandidate] = []
     fitted: list[JudgedCandidate] = []
     for name, calibration in calibrations.items():
@@ -63,16 +89,41 @@ def judged_candidates(
         shared = None if prior is None else next((one for one in priors if _same(prior, one.correction.model)), None)
         if prior is not None and shared is None:
             label = PRIOR if len(calibrations) == 1 else f"{PRIOR} of {name}"
-            shared = JudgedCandidate(name=label, correction=_by_prior(name, prior), prior=None)
+            shared = JudgedCandidate(name=label, correction=Correction.of_prior(name, prior), prior=None)
             priors.append(shared)
         correction = Correction.of(name, calibration)
         fitted.append(JudgedCandidate(name=name, correction=correction, prior=shared.name if shared else None))
     return (*priors, *fitted)
 
 
-def _by_prior(name: str, prior: Prior) -> Correction:
-    model = WrenchModel(matrix=prior.matrix, offset=prior.offset)
-    return Correction(model=model, source=f"the prior {prior.source}, offset of the data that {name} was fitted on")
+def uncalibrated(run: SensorRun) -> Correction:
+    """Read a sensor by the prior of the experiment, or take the logged wrench.
+
+    Args:
+        run: The sensor.
+
+    Returns:
+        The correction, with the offset that the calibration intervals give; without any no offset is removed.
+
+    Raises:
+        ExperimentError: If raw counts have no prior.
+    """
+    bare = Correction.without_offset(run.sensor)
+    if not any(interval.use is Use.CALIBRATION for interval in run.experiment.recording.intervals):
+        return bare
+    parts = run.samples(Use.CALIBRATION)
+    # the mean over all samples at once: its last bits depend on how it is summed
+    wrench = np.concatenate([part.samples.reading.values for part in parts])
+    wrench = wrench if bare.of_wrench else wrench @ bare.model.matrix.T
+    offset = (np.concatenate([part.samples.reference for part in parts]) - wrench).mean(axis=0)
+    words = "the logged wrench" if bare.of_wrench else f"the prior {run.sensor.prior_source}"
+    labels = ", ".join(repr(part.interval.label) for part in parts)
+    return replace(
+        bare,
+        model=replace(bare.model, offset=offset),
+        source=f"{words}, offset over {labels} ({len(wrench)} samples)",
+        removes_offset=True,
+    )
 
 
 def _same(prior: Prior, model: WrenchModel) -> bool:

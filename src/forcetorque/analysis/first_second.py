@@ -8,11 +8,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from forcetorque.analysis.candidate import JudgedCandidate
 from forcetorque.arrays import BoolArray, FloatArray, IntArray
+from forcetorque.evaluation import Offset
 from forcetorque.recording import Interval, SavitzkyGolay
 from forcetorque.recording.smoothing import smooth
-from forcetorque.study import OFFSET_S, OffsetSource
+from forcetorque.study import OFFSET_S
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -30,7 +30,7 @@ class OffsetClock:
         first: BoolArray = self.at_ns < self.at_ns[0] + round(OFFSET_S * 1e9)
         return first
 
-    def with_offset(self, error: FloatArray, source: OffsetSource) -> FloatArray:
+    def with_offset(self, error: FloatArray, source: Offset) -> FloatArray:
         """Take off the mean error of the first second where offsets are re-estimated.
 
         Args:
@@ -40,7 +40,7 @@ class OffsetClock:
         Returns:
             Errors, not filtered; all NaN where every sample of the first second has a gap: the offset is not known.
         """
-        if source is OffsetSource.FITTED:
+        if source is Offset.FITTED:
             return error
         moved: FloatArray = error - self._mean(self._filtered(error))
         return moved
@@ -57,7 +57,7 @@ class OffsetClock:
         later: FloatArray = self._filtered(error)[~self.first]
         return later
 
-    def judged_with_both(self, error: FloatArray) -> dict[OffsetSource, FloatArray]:
+    def judged_with_both(self, error: FloatArray) -> dict[Offset, FloatArray]:
         """Give what is judged with either offset.
 
         Args:
@@ -68,7 +68,7 @@ class OffsetClock:
         """
         filtered = self._filtered(error)
         later = filtered[~self.first]
-        return {OffsetSource.FITTED: later, OffsetSource.RE_ESTIMATED: later - self._mean(filtered)}
+        return {Offset.FITTED: later, Offset.FIRST_SECOND: later - self._mean(filtered)}
 
     def _mean(self, filtered: FloatArray) -> FloatArray:
         early = filtered[self.first]
@@ -78,19 +78,6 @@ class OffsetClock:
 
     def _filtered(self, values: FloatArray) -> FloatArray:
         return values if self.window is None else smooth(self.at_ns, values, self.window)
-
-
-def offset_words(candidate: JudgedCandidate, source: OffsetSource) -> str:
-    """Tell where an offset comes from.
-
-    Args:
-        candidate: The candidate.
-        source: Which offset it is judged with.
-
-    Returns:
-        The origin, in words.
-    """
-    return candidate.correction.source if source is OffsetSource.FITTED else "the first second of every judged interval"
 
 
 def nothing_left(clock: OffsetClock, interval: Interval) -> str | None:
@@ -108,7 +95,7 @@ def nothing_left(clock: OffsetClock, interval: Interval) -> str | None:
     return f"interval {interval.label!r}: it ends within its first {OFFSET_S:g} s, after which it would be judged"
 
 
-def gap_words(what: str, interval: Interval, judged: Mapping[OffsetSource, FloatArray]) -> str | None:
+def gap_words(what: str, interval: Interval, judged: Mapping[Offset, FloatArray]) -> str | None:
     """Tell whether gaps leave nothing to judge in an interval, with either offset or with the re-estimated one.
 
     Args:
@@ -120,7 +107,7 @@ def gap_words(what: str, interval: Interval, judged: Mapping[OffsetSource, Float
         What is left out, in words; None where both can be judged.
     """
     gone = [source for source, errors in judged.items() if np.isnan(errors.reshape(len(errors), -1)).any(axis=1).all()]
-    if OffsetSource.FITTED in gone:
+    if Offset.FITTED in gone:
         return f"{what} over {interval.label!r}: every judged sample has a gap"
     if gone:
         return f"{what} over {interval.label!r}, offset re-estimated: every sample of its first second has a gap"

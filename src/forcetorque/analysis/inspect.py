@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from forcetorque.analysis.samples import samples_over
+from forcetorque.analysis.sensor_run import SensorRun
 from forcetorque.arrays import BoolArray, IntArray
 from forcetorque.calibration import recover_raw
 from forcetorque.errors import ForceTorqueError
@@ -53,7 +53,7 @@ def inspect_experiment(experiment: Experiment) -> tuple[Finding, ...]:
             found.append(Finding(stream=sensor.stream, kind="not_compared", message=text, count=0))
         for interval in _spans(experiment):
             try:
-                found += _against_model(experiment, sensor, interval)
+                found += _against_model(SensorRun(experiment, sensor), interval)
             except ForceTorqueError as error:
                 text = f"no comparison with the model over {interval.label}: {error}"
                 found.append(Finding(stream=sensor.stream, kind="not_compared", message=text, count=0))
@@ -103,14 +103,14 @@ def _spans(experiment: Experiment) -> tuple[Interval, ...]:
     return (replace(supported[0], label="the whole log", start_ns=start, end_ns=end + 1, use=Use.VALIDATION),)
 
 
-def _against_model(experiment: Experiment, sensor: ExperimentSensor, interval: Interval) -> tuple[Finding, ...]:
-    samples = samples_over(experiment, sensor, interval, replace(experiment.processing, smoothing=None))
+def _against_model(run: SensorRun, interval: Interval) -> tuple[Finding, ...]:
+    sensor, samples = run.sensor, run.interval_samples(interval, smoothed=False).samples
     measured = samples.reading.values
     if sensor.quantity == "raw":
         if sensor.prior is None:
             return ()
         measured = measured @ sensor.prior.T
-    in_use = _in_use(experiment, samples.stamp_ns)
+    in_use = _in_use(run.experiment, samples.stamp_ns)
     if not in_use.any():
         return ()
     return model_findings(sensor.stream, samples.stamp_ns, measured, samples.reference, in_use=in_use)

@@ -9,17 +9,21 @@ from typing import Literal
 
 import numpy as np
 
-from forcetorque.analysis.candidate import JudgedCandidate, judged_candidates
-from forcetorque.analysis.first_second import OffsetClock, gap_words, nothing_left, offset_words
-from forcetorque.analysis.reading import Correction, corrections_of, wrench_at
-from forcetorque.analysis.validate import clock_of, free_part
+from forcetorque.analysis.candidate import JudgedCandidate
+from forcetorque.analysis.corrections import corrections_of
+from forcetorque.analysis.first_second import OffsetClock, gap_words, nothing_left
+from forcetorque.analysis.reading import Correction, wrench_at
+from forcetorque.analysis.sensor_run import SensorRun
+from forcetorque.analysis.validate import free_part
 from forcetorque.arrays import FloatArray, IntArray
 from forcetorque.calibration import Calibration
 from forcetorque.errors import ExperimentError
 from forcetorque.estimation import Estimates, Question, estimate, required_joints_of
 from forcetorque.estimation.samples import robot_motion_at
 from forcetorque.evaluation import (
+    KNOWN_BEFORE,
     ContactForceValidation,
+    Offset,
     OtherSensors,
     TorqueErrors,
     TorqueMap,
@@ -32,7 +36,6 @@ from forcetorque.experiment.inputs import stated_in
 from forcetorque.recording import Interval, MovingSupport, Stream, Support, Use
 from forcetorque.recording.alignment import interpolate, require_overlap
 from forcetorque.robot import BodyTree, JointType
-from forcetorque.study import OffsetSource
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -45,7 +48,7 @@ class JointTorqueVerdict:
     """Its serial number."""
     candidate: str
     """Name of the calibration, or of its prior: `prior`, and `prior of NAME` among several calibrations."""
-    offset: OffsetSource
+    offset: Offset
     """Offsets as fitted, or from the first second of every judged interval."""
     offset_source: str
     """Where the sensor's offset comes from, in words."""
@@ -72,8 +75,7 @@ class JointTorques:
 
 
 def compare_joint_torques(
-    experiment: Experiment,
-    sensor: ExperimentSensor,
+    run: SensorRun,
     calibrations: Mapping[str, Calibration],
     *,
     others: Mapping[str, Calibration] | None = None,
@@ -88,8 +90,7 @@ def compare_joint_torques(
     contact.
 
     Args:
-        experiment: The experiment; its validation intervals are judged.
-        sensor: One of its sensors.
+        run: The sensor; the validation intervals are judged.
         calibrations: Calibrations of that sensor by name; their priors are judged too, or that of the experiment where
             there is none.
         others: Calibrations of the other sensors by name, for the mode `measured`; where there is none, their prior.
@@ -103,16 +104,17 @@ def compare_joint_torques(
     Raises:
         ExperimentError: If an interval has no support.
     """
-    candidates = judged_candidates(experiment, sensor, calibrations)
+    experiment, sensor = run.experiment, run.sensor
+    candidates = run.candidates(calibrations)
     needed = corrections_of(experiment, others or {}) if other_sensors is OtherSensors.MEASURED else {}
     found: dict[_Key, list[_Errors]] = {}
     left_out: dict[str, None] = {}
-    for interval in sorted(experiment.intervals(Use.VALIDATION), key=lambda each: each.start_ns):
+    for interval in run.intervals(Use.VALIDATION):
         with stated_in(f"interval {interval.label!r}"):
             part = free_part(experiment, sensor, interval, other_sensors, sub_model, contact)
             scheme = _scheme_of(experiment, interval, part, contact)
             left_out |= dict.fromkeys(scheme.left_out)
-            clock = clock_of(experiment, sensor, interval)
+            clock = run.clock(interval)
             short = nothing_left(clock, interval)
             if short is not None:
                 left_out[short] = None
@@ -127,8 +129,8 @@ def compare_joint_torques(
             sensor=sensor.name,
             serial=sensor.serial,
             candidate=candidates[key.candidate].name,
-            offset=key.offset,
-            offset_source=offset_words(candidates[key.candidate], key.offset),
+            offset=candidates[key.candidate].offset(key.offset),
+            offset_source=candidates[key.candidate].offset_source(key.offset),
             prior=candidates[key.candidate].prior,
             joint=key.joint,
             unit="N" if experiment.model.joints[key.joint].type is JointType.PRISMATIC else "N m",
@@ -145,7 +147,7 @@ def compare_joint_torques(
 class _Key:
     candidate: int
     """Its place: a calibration may be called `prior` too."""
-    offset: OffsetSource
+    offset: Offset
     joint: str
 
 
@@ -242,7 +244,7 @@ def _over(
         require_overlap(source, experiment.recording.stream(other.stream))
         rest[name] = wrench_at(experiment, other, needed[name], at_ns) - model.expected_of(name)
     logged = _logged(experiment, source, scheme.logged, at_ns)
-    for offset in OffsetSource:
+    for offset in KNOWN_BEFORE:
         by_others = np.zeros((len(at_ns), len(scheme.joints)))
         for name, error in rest.items():
             by_others += _borne(scheme, maps[name], clock.with_offset(error, offset))
@@ -261,7 +263,7 @@ def _over(
 
 def _gaps(interval: Interval, candidates: Sequence[JudgedCandidate], over: Mapping[_Key, _Errors]) -> Iterator[str]:
     """Torques that gaps leave out in one interval, in words."""
-    by_offset: dict[tuple[str, int], dict[OffsetSource, FloatArray]] = {}
+    by_offset: dict[tuple[str, int], dict[Offset, FloatArray]] = {}
     for key, errors in over.items():
         by_offset.setdefault((key.joint, key.candidate), {})[key.offset] = errors.from_model
     for (joint, candidate), judged in by_offset.items():

@@ -1,29 +1,24 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the sensors of an experiment measured, as wrenches at given instants."""
+"""How a sensor is read: what it logged, and what a calibration or a prior makes of it. Everybody reads it here."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import Self
 
 import numpy as np
 
-from forcetorque.analysis.applicability import one_per_sensor, require_fit
-from forcetorque.analysis.samples import samples_of
-from forcetorque.arrays import FloatArray, IntArray
-from forcetorque.calibration import Calibration, WrenchModel, recover_raw
+from forcetorque.arrays import FloatArray, IntArray, require_shape
+from forcetorque.calibration import Calibration, Prior, WrenchModel, recover_raw
 from forcetorque.errors import ExperimentError
-from forcetorque.experiment.content import Experiment, ExperimentSensor
-from forcetorque.recording import Use
+from forcetorque.experiment import Experiment, ExperimentSensor
 from forcetorque.recording.alignment import interpolate
-
-NO_OFFSET = "no offset removed"
-"""Said of a prior without an interval that could give its offset: its wrenches have whatever offset the sensor has."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Correction:
-    """How raw counts become a wrench."""
+    """How a reading becomes a wrench."""
 
     model: WrenchModel
     """What is done to the reading."""
@@ -33,9 +28,11 @@ class Correction:
     """Whether the model is for the logged wrench, not for raw counts."""
     variables: tuple[str, ...] = ()
     """Variables of the sensor that the model needs, in its order."""
+    removes_offset: bool = True
+    """Whether data gave its offset; without, its wrenches have whatever offset the sensor has."""
 
     @classmethod
-    def of(cls, name: str, calibration: Calibration) -> Correction:
+    def of(cls, name: str, calibration: Calibration) -> Self:
         """Read by a calibration.
 
         Args:
@@ -48,34 +45,110 @@ class Correction:
         variables = tuple(variable.name for variable in calibration.variables)
         return cls(model=calibration.model, source=name, variables=variables)
 
+    @classmethod
+    def of_prior(cls, name: str, prior: Prior) -> Self:
+        """Read by the prior of a calibration, with the offset that the calibration carries for it.
 
-def corrections_of(experiment: Experiment, calibrations: Mapping[str, Calibration]) -> dict[str, Correction]:
-    """Decide how every sensor is read.
+        Args:
+            name: Name of the calibration.
+            prior: Its prior.
 
-    A calibration is used where one is given. Else the prior is, or the logged wrench, with the
-    offset that makes its mean that of the model over the calibration intervals.
+        Returns:
+            The correction.
+        """
+        model = WrenchModel(matrix=prior.matrix, offset=prior.offset)
+        return cls(model=model, source=f"the prior {prior.source}, offset of the data that {name} was fitted on")
 
-    Args:
-        experiment: The experiment.
-        calibrations: Calibrations by name of their file.
+    @classmethod
+    def without_offset(cls, sensor: ExperimentSensor) -> Self:
+        """Read by the prior of the experiment, or take the logged wrench, with whatever offset it has.
 
-    Returns:
-        Corrections by sensor.
+        Args:
+            sensor: The sensor.
 
-    Raises:
-        ExperimentError: If a calibration may not be applied, or raw counts have neither calibration nor prior.
-    """
-    chosen = one_per_sensor(experiment, calibrations)
-    corrections = {}
-    for sensor in experiment.sensors:
-        if sensor.name in chosen:
-            name, calibration = chosen[sensor.name]
-            require_fit(name, calibration, experiment, sensor)
-            correction = Correction.of(name, calibration)
-        else:
-            correction = uncalibrated(experiment, sensor)
-        corrections[sensor.name] = correction
-    return corrections
+        Returns:
+            The correction.
+
+        Raises:
+            ExperimentError: If raw counts have no prior.
+        """
+        of_wrench = sensor.quantity != "raw"
+        if not of_wrench and sensor.prior is None:
+            raise ExperimentError(
+                f"sensor {sensor.name!r}: raw counts become wrenches by --calibration or a prior matrix"
+            )
+        matrix = np.eye(6) if of_wrench or sensor.prior is None else sensor.prior
+        words = "the logged wrench" if of_wrench else f"the prior {sensor.prior_source}"
+        return cls(
+            model=WrenchModel(matrix=matrix, offset=np.zeros(6)),
+            source=f"{words}, no offset removed",
+            of_wrench=of_wrench,
+            removes_offset=False,
+        )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Readings:
+    """What a sensor read at n instants, in every form that a correction may want."""
+
+    logged: FloatArray
+    """As logged; shape (n, c); counts, or N and N m."""
+    raw: FloatArray
+    """Raw readings, logged or recovered through the prior; shape (n, c); counts."""
+    variables: Mapping[str, FloatArray]
+    """Linear variables by name; shape (n,) each."""
+
+    @classmethod
+    def of(cls, sensor: ExperimentSensor, logged: FloatArray, variables: Mapping[str, FloatArray]) -> Self:
+        """Recover raw counts where only wrenches were logged.
+
+        Args:
+            sensor: The sensor.
+            logged: What it logged; shape (n, c).
+            variables: Linear variables by name; shape (n,) each.
+
+        Returns:
+            The readings.
+
+        Raises:
+            ExperimentError: If the stream is calibrated and the sensor has no prior.
+        """
+        if sensor.quantity == "raw":
+            return cls(logged=logged, raw=logged, variables=variables)
+        if sensor.prior is None:
+            raise ExperimentError(f"sensor {sensor.name!r}: recovering raw counts needs the prior matrix")
+        return cls(logged=logged, raw=recover_raw(logged, sensor.prior), variables=variables)
+
+    @classmethod
+    def joined(cls, parts: Sequence[Readings]) -> Self:
+        """Put readings one after the other.
+
+        Args:
+            parts: Readings of one sensor with the same variables, at least one.
+
+        Returns:
+            All of them.
+        """
+        return cls(
+            logged=np.concatenate([part.logged for part in parts]),
+            raw=np.concatenate([part.raw for part in parts]),
+            variables={name: np.concatenate([part.variables[name] for part in parts]) for name in parts[0].variables},
+        )
+
+    def wrench(self, correction: Correction) -> FloatArray:
+        """Read the sensor.
+
+        Args:
+            correction: How.
+
+        Returns:
+            Wrenches in the sensor's frame and direction; shape (n, 6); N, N m; NaN in gaps.
+        """
+        values = self.logged if correction.of_wrench else self.raw
+        name = f"{correction.source}: matrix"
+        require_shape(correction.model.matrix, name=name, shape=(6, values.shape[1]))
+        columns = [self.variables[variable] for variable in correction.variables]
+        return correction.model.wrench(values, np.stack(columns, axis=-1) if columns else None)
 
 
 def wrench_at(experiment: Experiment, sensor: ExperimentSensor, correction: Correction, at_ns: IntArray) -> FloatArray:
@@ -92,63 +165,5 @@ def wrench_at(experiment: Experiment, sensor: ExperimentSensor, correction: Corr
     """
     stream = experiment.recording.stream(sensor.stream)
     logged = np.where(stream.held[:, None], np.nan, stream.signal(sensor.quantity).values)
-    values = interpolate(stream, logged, at_ns)
-    if not correction.of_wrench and sensor.quantity == "wrench" and sensor.prior is not None:
-        values = recover_raw(values, sensor.prior)
-    columns = [sensor.variable(name).source.at(experiment.recording, at_ns) for name in correction.variables]
-    return correction.model.wrench(values, np.stack(columns, axis=-1) if columns else None)
-
-
-def uncalibrated(experiment: Experiment, sensor: ExperimentSensor) -> Correction:
-    """Read a sensor by the prior of the experiment, or take the logged wrench.
-
-    Args:
-        experiment: The experiment.
-        sensor: One of its sensors.
-
-    Returns:
-        The correction, with the offset that the calibration intervals give; without any no offset is removed.
-
-    Raises:
-        ExperimentError: If raw counts have no prior.
-    """
-    if not any(interval.use is Use.CALIBRATION for interval in experiment.recording.intervals):
-        return without_offset(sensor)
-    matrix, words = _prior(sensor)
-    parts = samples_of(experiment, sensor, Use.CALIBRATION)
-    read = np.concatenate([p.samples.reading.values for p in parts])
-    wrench = read if matrix is None else read @ matrix.T
-    reference = np.concatenate([p.samples.reference for p in parts])
-    labels = ", ".join(repr(part.interval.label) for part in parts)
-    offset = (reference - wrench).mean(axis=0)
-    return _with_prior(matrix, offset, f"{words}, offset over {labels} ({len(read)} samples)")
-
-
-def without_offset(sensor: ExperimentSensor) -> Correction:
-    """Read a sensor by the prior of the experiment, or take the logged wrench, with whatever offset it has.
-
-    Args:
-        sensor: The sensor.
-
-    Returns:
-        The correction.
-
-    Raises:
-        ExperimentError: If raw counts have no prior.
-    """
-    matrix, words = _prior(sensor)
-    return _with_prior(matrix, np.zeros(6), f"{words}, {NO_OFFSET}")
-
-
-def _prior(sensor: ExperimentSensor) -> tuple[FloatArray | None, str]:
-    """The matrix that raw counts go through, none for a logged wrench, and its origin in words."""
-    if sensor.quantity != "raw":
-        return None, "the logged wrench"
-    if sensor.prior is None:
-        raise ExperimentError(f"sensor {sensor.name!r}: raw counts become wrenches by --calibration or a prior matrix")
-    return sensor.prior, f"the prior {sensor.prior_source}"
-
-
-def _with_prior(matrix: FloatArray | None, offset: FloatArray, source: str) -> Correction:
-    model = WrenchModel(matrix=np.eye(6) if matrix is None else matrix, offset=offset)
-    return Correction(model=model, source=source, of_wrench=matrix is None)
+    variables = {name: sensor.variable(name).source.at(experiment.recording, at_ns) for name in correction.variables}
+    return Readings.of(sensor, interpolate(stream, logged, at_ns), variables).wrench(correction)

@@ -3,17 +3,19 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
+from forcetorque.analysis.reading import Readings
 from forcetorque.arrays import FloatArray
-from forcetorque.calibration import DataSet, recover_raw
+from forcetorque.calibration import DataSet
 from forcetorque.errors import ExperimentError
-from forcetorque.estimation import Processing, SensorSamples, sensor_samples
+from forcetorque.estimation import SensorSamples, sensor_samples
 from forcetorque.estimation.samples import pick_samples
 from forcetorque.experiment.content import Experiment, ExperimentSensor
-from forcetorque.recording import Interval, Use
+from forcetorque.recording import Interval
 from forcetorque.recording.smoothing import smooth
 
 
@@ -25,8 +27,13 @@ class IntervalSamples:
     """The interval."""
     samples: SensorSamples
     """Reading and reference at the same instants."""
-    raw: FloatArray
-    """Raw readings, logged or recovered through the prior; shape (n, c); counts."""
+    readings: Readings
+    """The same readings in every form that a correction may want."""
+
+    @property
+    def raw(self) -> FloatArray:
+        """Raw readings, logged or recovered through the prior; shape (n, c); counts."""
+        return self.readings.raw
 
     @property
     def data_set(self) -> DataSet:
@@ -43,32 +50,35 @@ def samples_over(
     experiment: Experiment,
     sensor: ExperimentSensor,
     interval: Interval,
-    processing: Processing,
     *,
-    with_variables: bool = False,
-) -> SensorSamples:
+    variables: Sequence[str] = (),
+    smoothed: bool = True,
+) -> IntervalSamples:
     """Pair the readings of a sensor with what the model expects over one interval.
 
     Args:
         experiment: The experiment.
         sensor: One of its sensors.
         interval: An interval of its recording.
-        processing: Filters and gravity.
-        with_variables: Whether the sensor's linear variables are wanted; samples without one are then left out.
+        variables: Names of linear variables of the sensor that are wanted; samples that lack one are left out.
+        smoothed: Whether the filter of the experiment is applied.
 
     Returns:
         Reading and reference at the same instants.
     """
-    return sensor_samples(
+    processing = experiment.processing
+    samples = sensor_samples(
         experiment.recording,
         experiment.model,
         sensor=sensor.name,
         stream=sensor.stream,
         quantity=sensor.quantity,
         interval=interval,
-        processing=processing,
-        variables=[variable.source for variable in sensor.variables] if with_variables else (),
+        processing=processing if smoothed else replace(processing, smoothing=None),
+        variables=[sensor.variable(name).source for name in variables],
     )
+    readings = Readings.of(sensor, samples.reading.values, dict(zip(variables, samples.variables.T, strict=True)))
+    return IntervalSamples(interval=interval, samples=samples, readings=readings)
 
 
 def readings_over(
@@ -103,32 +113,3 @@ def readings_over(
             f"interval {interval.label!r}: none of {len(picked)} samples of {sensor.stream!r} is complete"
         )
     return complete[:, : values.shape[1]], complete[:, values.shape[1] :]
-
-
-def samples_of(
-    experiment: Experiment, sensor: ExperimentSensor, use: Use, *, with_variables: bool = False
-) -> list[IntervalSamples]:
-    """Collect the samples of a sensor in all intervals of one use.
-
-    Args:
-        experiment: The experiment.
-        sensor: One of its sensors.
-        use: Use of the intervals.
-        with_variables: Whether the sensor's linear variables are wanted; samples without one are then left out.
-
-    Returns:
-        Samples per interval, in the order of the file.
-
-    Raises:
-        ExperimentError: If the stream is calibrated and the sensor has no prior.
-    """
-    collected = []
-    for interval in experiment.intervals(use):
-        samples = samples_over(experiment, sensor, interval, experiment.processing, with_variables=with_variables)
-        raw = samples.reading.values
-        if sensor.quantity == "wrench":
-            if sensor.prior is None:
-                raise ExperimentError(f"sensor {sensor.name!r}: recovering raw counts needs the prior matrix")
-            raw = recover_raw(raw, sensor.prior)
-        collected.append(IntervalSamples(interval=interval, samples=samples, raw=raw))
-    return collected

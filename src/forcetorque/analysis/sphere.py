@@ -191,7 +191,8 @@ def _collected(
         readings, variables = zip(*pairs, strict=True)
         return np.concatenate(readings), np.concatenate(variables), None
     parts = [
-        samples_over(experiment, sensor, interval, experiment.processing, with_variables=True) for interval in intervals
+        samples_over(experiment, sensor, interval, variables=[v.linear.name for v in sensor.variables]).samples
+        for interval in intervals
     ]
     return (
         np.concatenate([part.reading.values for part in parts]),

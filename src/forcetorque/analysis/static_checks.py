@@ -4,12 +4,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
-from forcetorque.analysis.applicability import require_fit
-from forcetorque.analysis.samples import samples_of
+from forcetorque.analysis.sensor_run import SensorRun
 from forcetorque.arrays import BoolArray, FloatArray, IntArray, read_only
 from forcetorque.calibration import Calibration, recover_raw
 from forcetorque.errors import ExperimentError, ForceTorqueError
@@ -106,8 +105,7 @@ class StaticChecks:
 
 
 def check_sensor(
-    experiment: Experiment,
-    sensor: ExperimentSensor,
+    run: SensorRun,
     calibration: tuple[str, Calibration] | None = None,
     *,
     population: Mapping[str, FloatArray] | None = None,
@@ -115,8 +113,7 @@ def check_sensor(
     """Check a sensor and its calibration, or its prior.
 
     Args:
-        experiment: The experiment.
-        sensor: One of its sensors.
+        run: The sensor.
         calibration: Name and calibration; the prior is checked if left out.
         population: Matrices of other sensors by serial number; that of the sensor itself is left out.
 
@@ -126,8 +123,9 @@ def check_sensor(
     Raises:
         ExperimentError: If there is neither calibration nor prior, or all intervals are ignored.
     """
+    experiment, sensor = run.experiment, run.sensor
     if calibration is not None:
-        require_fit(*calibration, experiment, sensor)
+        run.require_fit(*calibration)
     elif sensor.prior is None:
         raise ExperimentError(f"sensor {sensor.name!r}: expected a calibration, or a prior matrix, to check")
     used = [interval for interval in experiment.recording.intervals if interval.use is not Use.IGNORE]
@@ -138,7 +136,7 @@ def check_sensor(
     offsets: tuple[IntervalOffset, ...] = ()
     change, matrix, position = None, None, None
     try:
-        offsets = _offsets(experiment, sensor, model)
+        offsets = _offsets(run, model)
         change = _change(offsets)
     except ForceTorqueError as error:
         reasons["offset"] = str(error)
@@ -164,9 +162,8 @@ def check_sensor(
     )
 
 
-def _offsets(
-    experiment: Experiment, sensor: ExperimentSensor, calibration: Calibration | None
-) -> tuple[IntervalOffset, ...]:
+def _offsets(run: SensorRun, calibration: Calibration | None) -> tuple[IntervalOffset, ...]:
+    experiment, sensor = run.experiment, run.sensor
     fitted = () if calibration is None else tuple(variable.name for variable in calibration.variables)
     temperature = _temperature(experiment, sensor)
     needed = tuple(v for v in sensor.variables if v is temperature or v.linear.name in fitted)
@@ -174,7 +171,7 @@ def _offsets(
     uses = {interval.use for interval in experiment.recording.intervals} - {Use.IGNORE}
     found = []
     for use in sorted(uses):
-        for part in samples_of(experiment, replace(sensor, variables=needed), use, with_variables=bool(needed)):
+        for part in run.samples(use, variables=column):
             variables = part.samples.variables
             with stated_in(f"interval {part.interval.label!r}"):
                 if calibration is None:

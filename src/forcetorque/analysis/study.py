@@ -21,8 +21,14 @@ from forcetorque.calibration import (
     calibrate,
 )
 from forcetorque.errors import ExperimentError, known_names
+from forcetorque.evaluation import KNOWN_BEFORE, Offset
 from forcetorque.spatial import WRENCH_COMPONENTS
-from forcetorque.study import Candidate, OffsetSource, Study, assembled, run_study
+from forcetorque.study import (
+    Candidate,
+    Study,
+    assembled,
+    run_study,
+)
 
 _MOST_KINDS = 6
 """Kinds of data whose combinations are all tried; 63 of them."""
@@ -92,7 +98,7 @@ def study_sensor(
     )
     maker = _Maker(data=data, study=study, sphere=drawing, code_version=code_version, created=created)
     made = {}
-    for source in OffsetSource:
+    for source in KNOWN_BEFORE:
         made[f"best_offset_{source.replace('-', '_')}"] = maker.by_magnitude(source)
         made[f"best_by_axis_offset_{source.replace('-', '_')}"] = maker.by_axis(source)
     return SensorStudy(data=data, study=study, calibrations=made)
@@ -149,13 +155,13 @@ class _Maker:
     code_version: str
     created: str
 
-    def by_magnitude(self, source: OffsetSource) -> Calibration:
+    def by_magnitude(self, source: Offset) -> Calibration:
         best = self.study.choices[source].by_magnitude
         value = self.study.judgements[source].over().force_mean[best]
         rule = f"smallest mean contact force, offset {source}: {value:.4g} N by {self.study.name(best)}"
         return self._of(self.study.fits.candidates[best], rule)
 
-    def by_axis(self, source: OffsetSource) -> Calibration:
+    def by_axis(self, source: Offset) -> Calibration:
         rows = self.study.choices[source].by_axis
         words = "; ".join(f"{c} by {self.study.name(k)}" for c, k in zip(WRENCH_COMPONENTS, rows, strict=True))
         rule = f"smallest mean absolute value of every axis, offset {source}: {words}"

@@ -10,7 +10,8 @@ from pathlib import Path
 import numpy as np
 
 from forcetorque.analysis.calibrate import identity_of
-from forcetorque.analysis.samples import IntervalSamples, samples_of
+from forcetorque.analysis.samples import IntervalSamples
+from forcetorque.analysis.sensor_run import SensorRun
 from forcetorque.calibration import DataSet, SensorIdentity
 from forcetorque.errors import ExperimentError
 from forcetorque.experiment.content import Experiment, ExperimentSensor
@@ -124,7 +125,7 @@ def _share(path: Path, experiment: Experiment, sensor: ExperimentSensor) -> _Sha
     intervals = []
     for use in (Use.CALIBRATION, Use.VALIDATION):
         if any(interval.use is use for interval in experiment.recording.intervals):
-            for part in samples_of(experiment, sensor, use, with_variables=True):
+            for part in SensorRun(experiment, sensor).samples(use, variables=[v.linear.name for v in sensor.variables]):
                 role = experiment.roles[part.interval.label]
                 intervals.append(
                     StudyInterval(

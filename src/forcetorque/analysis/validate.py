@@ -8,21 +8,28 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from forcetorque.analysis.candidate import JudgedCandidate, judged_candidates
-from forcetorque.analysis.first_second import OffsetClock, gap_words, nothing_left, offset_words
-from forcetorque.analysis.reading import Correction, corrections_of, wrench_at
+from forcetorque.analysis.candidate import JudgedCandidate
+from forcetorque.analysis.corrections import corrections_of
+from forcetorque.analysis.first_second import OffsetClock, gap_words, nothing_left
+from forcetorque.analysis.reading import Correction, wrench_at
+from forcetorque.analysis.sensor_run import SensorRun
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration import Calibration
 from forcetorque.errors import ExperimentError
 from forcetorque.estimation import Contact
-from forcetorque.estimation.samples import pick_samples, robot_motion_at
-from forcetorque.evaluation import ContactForceValidation, OtherSensors, WrenchErrors, contact_forces, errors_from_zero
+from forcetorque.evaluation import (
+    ContactForceValidation,
+    Offset,
+    OtherSensors,
+    WrenchErrors,
+    contact_forces,
+    errors_from_zero,
+)
 from forcetorque.experiment.content import Experiment, ExperimentSensor
 from forcetorque.experiment.inputs import stated_in
 from forcetorque.recording import Interval, Use
 from forcetorque.recording.alignment import require_overlap
 from forcetorque.robot import Wrenches, build_tree
-from forcetorque.study import OffsetSource
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -37,7 +44,7 @@ class ContactForceVerdict:
     """Sub-model that nothing touches, by the sensor at its base or the root link."""
     candidate: str
     """Name of the calibration, or of its prior: `prior`, and `prior of NAME` among several calibrations."""
-    offset: OffsetSource
+    offset: Offset
     """Offset of the candidate, or from the first second of every judged interval."""
     offset_source: str
     """Where that offset comes from, in words."""
@@ -58,8 +65,7 @@ class ContactForceComparison:
 
 
 def compare_contact_forces(
-    experiment: Experiment,
-    sensor: ExperimentSensor,
+    run: SensorRun,
     calibrations: Mapping[str, Calibration],
     *,
     others: Mapping[str, Calibration] | None = None,
@@ -70,8 +76,7 @@ def compare_contact_forces(
     """Judge candidates of a sensor by the contact wrench of a sub-model that nothing touches.
 
     Args:
-        experiment: The experiment; its validation intervals are judged.
-        sensor: One of its sensors.
+        run: The sensor; the validation intervals are judged.
         calibrations: Calibrations of that sensor by name; their priors are judged too, or that of the experiment where
             there is none.
         others: Calibrations of the other sensors by name, for the mode `measured`; where there is none, their prior.
@@ -86,21 +91,22 @@ def compare_contact_forces(
     Raises:
         ExperimentError: If there is nothing to judge, or an interval has no support.
     """
-    candidates = judged_candidates(experiment, sensor, calibrations)
+    experiment, sensor = run.experiment, run.sensor
+    candidates = run.candidates(calibrations)
     needed = corrections_of(experiment, others or {}) if other_sensors is OtherSensors.MEASURED else {}
-    found: dict[tuple[int, OffsetSource], list[FloatArray]] = {}
+    found: dict[tuple[int, Offset], list[FloatArray]] = {}
     left_out: dict[str, None] = {}
     part = ""
-    for interval in sorted(experiment.intervals(Use.VALIDATION), key=lambda each: each.start_ns):
+    for interval in run.intervals(Use.VALIDATION):
         with stated_in(f"interval {interval.label!r}"):
             validation = free_part(experiment, sensor, interval, other_sensors, sub_model, contact)
             part = validation.part.name
-            clock = clock_of(experiment, sensor, interval)
+            clock = run.clock(interval)
             short = nothing_left(clock, interval)
             if short is not None:
                 left_out[short] = None
                 continue
-            wrenches = _over(experiment, sensor, interval, clock, validation, candidates, needed)
+            wrenches = _over(run, interval, clock, validation, candidates, needed)
         for index, wrench in enumerate(wrenches):
             judged = clock.judged_with_both(wrench)
             words = gap_words(f"contact force by {candidates[index].name}", interval, judged)
@@ -114,8 +120,8 @@ def compare_contact_forces(
             serial=sensor.serial,
             sub_model=part,
             candidate=candidates[index].name,
-            offset=source,
-            offset_source=offset_words(candidates[index], source),
+            offset=candidates[index].offset(source),
+            offset_source=candidates[index].offset_source(source),
             prior=candidates[index].prior,
             errors=errors_from_zero(errors),
         )
@@ -125,22 +131,6 @@ def compare_contact_forces(
     if not verdicts:
         raise ExperimentError(f"nothing can be judged: {'; '.join(left_out)}")
     return ContactForceComparison(verdicts=verdicts, left_out=tuple(left_out))
-
-
-def clock_of(experiment: Experiment, sensor: ExperimentSensor, interval: Interval) -> OffsetClock:
-    """Give the instants at which a sensor is judged in an interval.
-
-    Args:
-        experiment: The experiment.
-        sensor: One of its sensors.
-        interval: One of the intervals.
-
-    Returns:
-        Instants of all its samples, and the filter of the experiment.
-    """
-    source = experiment.recording.stream(sensor.stream)
-    at_ns = source.stamp_ns[pick_samples(experiment.recording, source, interval)[0]]
-    return OffsetClock(at_ns=at_ns, window=experiment.processing.smoothing)
 
 
 def free_part(
@@ -181,8 +171,7 @@ def free_part(
 
 
 def _over(
-    experiment: Experiment,
-    sensor: ExperimentSensor,
+    run: SensorRun,
     interval: Interval,
     clock: OffsetClock,
     validation: ContactForceValidation,
@@ -190,26 +179,14 @@ def _over(
     needed: Mapping[str, Correction],
 ) -> list[FloatArray]:
     """Contact wrench at the sensor, candidate by candidate, with its own offset and not filtered; shape (n, 6)."""
-    if interval.support is None:
-        raise ExperimentError("expected a support frame, got none")
-    source = experiment.recording.stream(sensor.stream)
-    joints, root = robot_motion_at(
-        experiment.recording,
-        experiment.model,
-        interval.support,
-        validation.required_joints,
-        source,
-        clock.at_ns,
-        processing=experiment.processing,
-    )
+    experiment, source = run.experiment, run.stream
+    joints, root = run.motion(interval, validation.required_joints)
     measured = {}
     for name in validation.others if needed else ():
         other = experiment.sensor(name)
         require_overlap(source, experiment.recording.stream(other.stream))
         measured[name] = wrench_at(experiment, other, needed[name], clock.at_ns)
     # by their places, because a calibration may be called `prior` too
-    readings = {
-        str(k): wrench_at(experiment, sensor, each.correction, clock.at_ns) for k, each in enumerate(candidates)
-    }
+    readings = {str(k): run.measured(interval, each.correction) for k, each in enumerate(candidates)}
     forces = contact_forces(validation, joints, root, readings, measured=Wrenches.of(measured) if measured else None)
     return [forces.of(place) for place in readings]

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING
 import typer
 
 from forcetorque.analysis import (
+    SensorRun,
     accept_sensor,
-    judged_where_chosen,
     read_acceptance,
     read_population,
 )
@@ -59,10 +59,7 @@ def run(
         mine = chosen.get(sensor.name)
         rest = {file: one for name, (file, one) in chosen.items() if name != sensor.name}
         with stated_in(str(spec)):
-            found.append(accept_sensor(experiment, sensor, stated, mine, others=rest, population=others))
-        if mine is not None and (stated.evaluate or stated.improvement or stated.validate_):
-            for label in judged_where_chosen(experiment, mine[1]):
-                log.warning("%s was chosen among others on %r too, so the verdict on it flatters", mine[0], label)
+            found.append(accept_sensor(SensorRun(experiment, sensor), stated, mine, others=rest, population=others))
     criteria = [row for each in found for row in criterion_rows(each)]
     result = AcceptResult(
         experiment=experiment.name,

@@ -14,7 +14,7 @@ from urllib.parse import quote
 from pydantic import BaseModel, ConfigDict, Field
 from rich.table import Table
 
-from forcetorque.analysis import calibrate_sensor, doubtful_spans
+from forcetorque.analysis import SensorRun, calibrate_sensor, doubtful_spans
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration import Calibration, estimation_type, write_calibration
 from forcetorque.cli.output import Format, console, print_result, start_logging, table
@@ -97,8 +97,7 @@ def run(
         log.info("fitting %s (%s)", sensor.name, sensor.serial)
         with stated_in(f"{path}: sensor {sensor.name!r}"):
             calibration = calibrate_sensor(
-                experiment,
-                sensor,
+                SensorRun(experiment, sensor),
                 code_version=version("forcetorque"),
                 created=created,
                 regularisation=given,

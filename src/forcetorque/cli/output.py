@@ -8,13 +8,17 @@ import json
 import logging
 import math
 import sys
+from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from enum import StrEnum
+from shutil import get_terminal_size
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from rich.console import Console
     from rich.table import Table
+
+    from forcetorque.result import Result
 
 _PIPE_WIDTH = 120
 """Columns of a table that goes to a file or a pipe."""
@@ -78,6 +82,36 @@ def console() -> Console:
     return Console(
         highlight=False, markup=False, emoji=False, soft_wrap=False, width=None if sys.stdout.isatty() else _PIPE_WIDTH
     )
+
+
+def show(result: Result, output_format: Format) -> None:
+    """Print a result in the form that was asked for, and its warnings, each once, to standard error.
+
+    Args:
+        result: The result.
+        output_format: Form.
+    """
+    log = start_logging()
+    for sentence, count in Counter(result.warnings).items():
+        log.warning("%s", sentence if count == 1 else f"{sentence} ({count} times)")
+    if output_format is Format.JSON:
+        sys.stdout.write(result.json_text() + "\n")
+    elif output_format is Format.CSV:
+        columns = result.columns()
+        writer = csv.DictWriter(sys.stdout, fieldnames=columns, lineterminator="\n")
+        writer.writeheader()
+        writer.writerows(result.records())
+    else:
+        sys.stdout.write(result.text(width()))
+
+
+def width() -> int:
+    """Tell how wide a line may be.
+
+    Returns:
+        Characters of the terminal, or of the variable COLUMNS; of the widest table where there is neither.
+    """
+    return get_terminal_size((_PIPE_WIDTH, 24)).columns
 
 
 def finite_or_none(value: float) -> float | None:

@@ -96,9 +96,9 @@ def _estimate() -> dict[str, Any]:
 
 
 def _evaluate() -> dict[str, Any]:
-    from forcetorque.cli.evaluate_result import EvaluateResult
+    from forcetorque.analysis import Evaluation
 
-    return EvaluateResult.model_json_schema()
+    return Evaluation.described()
 
 
 def _export() -> dict[str, Any]:

@@ -14,7 +14,13 @@ from forcetorque.analysis import SensorStudy
 from forcetorque.arrays import FloatArray
 from forcetorque.atomic import write_bytes_atomically
 from forcetorque.calibration import WrenchModel, write_calibration
-from forcetorque.study import WORKBENCH, OffsetSource, ValidationSet, tables, with_offset
+from forcetorque.evaluation import KNOWN_BEFORE, Offset
+from forcetorque.study import (
+    WORKBENCH,
+    ValidationSet,
+    tables,
+    with_offset,
+)
 
 _PAUSE_S = 2.0
 """Pause that is drawn between validation intervals; s."""
@@ -42,8 +48,8 @@ def write_tables(made: SensorStudy, folder: Path) -> list[str]:
         "table_5_2_squared_errors.csv": tables.squared_errors(study),
         "table_5_3_matrix_differences.csv": differences,
         "table_5_4_offsets.csv": tables.offsets(study),
-        "table_5_5_mean_forces_offset_re_estimated.csv": tables.mean_forces(study, OffsetSource.RE_ESTIMATED),
-        "table_5_6_mean_forces_offset_fitted.csv": tables.mean_forces(study, OffsetSource.FITTED),
+        "table_5_5_mean_forces_offset_first_second.csv": tables.mean_forces(study, Offset.FIRST_SECOND),
+        "table_5_6_mean_forces_offset_fitted.csv": tables.mean_forces(study, Offset.FITTED),
         "table_5_7_best_by_axis.csv": tables.best_by_axis_table(study),
         "candidates.csv": tables.candidate_rows(study),
     }
@@ -80,7 +86,7 @@ def write_figures(made: SensorStudy, folder: Path) -> list[str]:
     from forcetorque import report
 
     study = made.study
-    chosen = study.choices[OffsetSource.RE_ESTIMATED].by_magnitude
+    chosen = study.choices[Offset.FIRST_SECOND].by_magnitude
     data_set = study.fits.candidates[chosen].data_set
     names, differences = tables.matrix_differences(study, data_set)
     unit = "1e-4 N/count"  # that of `tables.DIFFERENCE_UNIT`
@@ -97,7 +103,7 @@ def write_figures(made: SensorStudy, folder: Path) -> list[str]:
         draw["figure_5_4_differences_to_workbench.png"] = lambda: report.lambda_difference_figure(
             np.array(of_table), curves, unit=unit
         )
-        for source in OffsetSource:
+        for source in KNOWN_BEFORE:
             name = f"figure_5_5_mean_forces_offset_{source.replace('-', '_')}.png"
             draw[name] = lambda source=source: _lambda_force_figure(made, source)  # type: ignore[misc]
     for name, figure in draw.items():
@@ -112,7 +118,7 @@ def _clouds(made: SensorStudy) -> dict[str, FloatArray]:
     return {kind: np.concatenate(parts) for kind, parts in kinds.items()}
 
 
-def _lambda_force_figure(made: SensorStudy, source: OffsetSource) -> bytes:
+def _lambda_force_figure(made: SensorStudy, source: Offset) -> bytes:
     from forcetorque.report import lambda_force_figure
 
     study = made.study
@@ -130,12 +136,12 @@ def _lambda_force_figure(made: SensorStudy, source: OffsetSource) -> bytes:
     )
 
 
-def _judged_models(made: SensorStudy) -> dict[str, tuple[WrenchModel, OffsetSource]]:
+def _judged_models(made: SensorStudy) -> dict[str, tuple[WrenchModel, Offset]]:
     """The candidates of figures 5.6 and 5.7, with the offset that each is judged with."""
     found = {}
     if made.study.workbench is not None:
-        found[WORKBENCH] = (made.study.workbench, OffsetSource.RE_ESTIMATED)
-    for source in OffsetSource:
+        found[WORKBENCH] = (made.study.workbench, Offset.FIRST_SECOND)
+    for source in KNOWN_BEFORE:
         mode = source.replace("-", "_")
         found[f"best, offset {source}"] = (made.calibrations[f"best_offset_{mode}"].model, source)
         found[f"best by axis, offset {source}"] = (made.calibrations[f"best_by_axis_offset_{mode}"].model, source)
@@ -172,7 +178,7 @@ def _comparison_figure(made: SensorStudy) -> bytes:
     candidates = {
         name: with_offset(model, liveliest, source)
         for name, (model, source) in _judged_models(made).items()
-        if name in (WORKBENCH, f"best, offset {OffsetSource.RE_ESTIMATED}")
+        if name in (WORKBENCH, f"best, offset {Offset.FIRST_SECOND}")
     }
     return comparison_figure(liveliest.time_s, liveliest.reference, candidates)
 

@@ -8,8 +8,9 @@ from typing import Literal
 from pydantic import BaseModel, ConfigDict, Field
 
 from forcetorque.analysis import SensorStudy
+from forcetorque.evaluation import KNOWN_BEFORE, Offset
 from forcetorque.spatial import WRENCH_COMPONENTS
-from forcetorque.study import OffsetSource, Study
+from forcetorque.study import Study
 
 
 class CombinationRow(BaseModel):
@@ -83,7 +84,7 @@ class SessionRow(BaseModel):
 class ModeResult(BaseModel):
     """What is best in one offset mode."""
 
-    offset: Literal["re-estimated", "fitted"]
+    offset: Offset
     """Offset from the first second of the judged interval, or that of the fitted data."""
     best: ChosenRow
     """Smallest mean contact force."""
@@ -145,7 +146,7 @@ def sensor_result(made: SensorStudy, *, folder: str, files: list[str]) -> Sensor
         The result.
     """
     study = made.study
-    judged = study.judgements[OffsetSource.RE_ESTIMATED]
+    judged = study.judgements[Offset.FIRST_SECOND]
     return SensorStudyResult(
         sensor=made.data.identity.name,
         serial=made.data.identity.serial,
@@ -163,16 +164,16 @@ def sensor_result(made: SensorStudy, *, folder: str, files: list[str]) -> Sensor
             for each in study.fits.combinations
         ],
         left_out=list(study.fits.left_out),
-        workbench=None if study.workbench is None else _chosen(study, OffsetSource.RE_ESTIMATED, len(study.models) - 1),
-        modes=[_mode(study, source) for source in OffsetSource],
+        workbench=None if study.workbench is None else _chosen(study, Offset.FIRST_SECOND, len(study.models) - 1),
+        modes=[_mode(study, source) for source in KNOWN_BEFORE],
         files=files,
     )
 
 
-def _mode(study: Study, source: OffsetSource) -> ModeResult:
+def _mode(study: Study, source: Offset) -> ModeResult:
     choice, pooled = study.choices[source], study.judgements[source].over()
     return ModeResult(
-        offset=source.value,
+        offset=source,
         best=_chosen(study, source, choice.by_magnitude),
         by_axis=[
             AxisRow(
@@ -198,7 +199,7 @@ def _mode(study: Study, source: OffsetSource) -> ModeResult:
     )
 
 
-def _chosen(study: Study, source: OffsetSource, index: int) -> ChosenRow:
+def _chosen(study: Study, source: Offset, index: int) -> ChosenRow:
     pooled, spread = study.judgements[source].over(), study.judgements[source].part().standard_error()
     candidate = study.fits.candidates[index] if index < len(study.fits.candidates) else None
     return ChosenRow(

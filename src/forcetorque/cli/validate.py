@@ -10,11 +10,11 @@ from typing import TYPE_CHECKING, TypedDict
 from forcetorque.analysis import (
     ContactForceVerdict,
     JointTorqueVerdict,
+    SensorRun,
     compare_contact_forces,
     compare_joint_torques,
 )
 from forcetorque.analysis.applicability import by_sensor, one_per_sensor
-from forcetorque.analysis.reading import NO_OFFSET
 from forcetorque.calibration import Calibration
 from forcetorque.cli.output import Format, console, print_result, start_logging, table
 from forcetorque.cli.reading import read_calibrations, read_experiment
@@ -27,7 +27,7 @@ from forcetorque.cli.validate_result import (
     joint_torque_row,
 )
 from forcetorque.cli.words import with_error
-from forcetorque.evaluation import OtherSensors
+from forcetorque.evaluation import Offset, OtherSensors
 from forcetorque.experiment.inputs import stated_in
 from forcetorque.result.names import short_names
 from forcetorque.spatial import WRENCH_COMPONENTS, WRENCH_UNITS
@@ -86,8 +86,9 @@ def run(
                 "sub_model": sub_model,
                 "contact": contact,
             }
-            forces = compare_contact_forces(experiment, experiment.sensor(name), groups.get(name, {}), **question)
-            compared = compare_joint_torques(experiment, experiment.sensor(name), groups.get(name, {}), **question)
+            run = SensorRun(experiment, name)
+            forces = compare_contact_forces(run, groups.get(name, {}), **question)
+            compared = compare_joint_torques(run, groups.get(name, {}), **question)
             verdicts += forces.verdicts
             torques += compared.verdicts
             left_out |= dict.fromkeys(f"{name}: {words}" for words in (*forces.left_out, *compared.left_out))
@@ -134,7 +135,7 @@ def _show(result: ValidateResult) -> None:
 def _without_offset(result: ValidateResult, sensor: str) -> dict[str, str]:
     """What candidates are read by whose wrenches have whatever offset the sensor has."""
     rows = [row for row in result.contact_forces if row.sensor == sensor]
-    return {row.candidate: row.offset_source for row in rows if row.offset_source.endswith(NO_OFFSET)}
+    return {row.candidate: row.offset_source for row in rows if row.offset is Offset.NONE}
 
 
 def _table(rows: Sequence[ContactForceRow]) -> Table:

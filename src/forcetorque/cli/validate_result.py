@@ -10,6 +10,7 @@ from pydantic import BaseModel, ConfigDict, Field
 
 from forcetorque.analysis import ContactForceVerdict, JointTorqueVerdict
 from forcetorque.cli.output import finite_or_none
+from forcetorque.evaluation import Offset
 
 
 class ContactForceRow(BaseModel):
@@ -23,7 +24,7 @@ class ContactForceRow(BaseModel):
     """Sub-model that nothing touches."""
     candidate: str
     """The calibration file, or its prior: `prior`, and `prior of FILE` among several files."""
-    offset: Literal["re-estimated", "fitted"]
+    offset: Offset
     """Offset from the first second of every judged interval, or that of the candidate."""
     offset_source: str
     """Where that offset comes from, in words."""
@@ -50,7 +51,7 @@ class JointTorqueRow(BaseModel):
     """Its serial number."""
     candidate: str
     """The calibration file, or its prior: `prior`, and `prior of FILE` among several files."""
-    offset: Literal["re-estimated", "fitted"]
+    offset: Offset
     """Offset from the first second of every judged interval, or that of the candidate."""
     offset_source: str
     """Where that offset comes from, in words."""
@@ -85,7 +86,7 @@ class BestRow(BaseModel):
 
     sensor: str
     """Sensor."""
-    offset: Literal["re-estimated", "fitted"]
+    offset: Offset
     """Offset mode."""
     by_magnitude: str
     """Candidate with the smallest mean norm of the force."""
@@ -129,7 +130,7 @@ def contact_force_row(verdict: ContactForceVerdict) -> ContactForceRow:
         serial=verdict.serial,
         sub_model=verdict.sub_model,
         candidate=verdict.candidate,
-        offset=verdict.offset.value,
+        offset=verdict.offset,
         offset_source=verdict.offset_source,
         prior=verdict.prior,
         samples=errors.count,
@@ -154,7 +155,7 @@ def joint_torque_row(verdict: JointTorqueVerdict) -> JointTorqueRow:
         sensor=verdict.sensor,
         serial=verdict.serial,
         candidate=verdict.candidate,
-        offset=verdict.offset.value,
+        offset=verdict.offset,
         offset_source=verdict.offset_source,
         prior=verdict.prior,
         joint=verdict.joint,
@@ -186,7 +187,7 @@ def best_rows(verdicts: Sequence[ContactForceVerdict]) -> list[BestRow]:
     return [
         BestRow(
             sensor=sensor,
-            offset=group[0].offset.value,
+            offset=group[0].offset,
             by_magnitude=min(group, key=lambda one: one.errors.force_mean).candidate,
             by_axis=[
                 min(group, key=lambda one, k=axis: float(one.errors.mean_absolute[k])).candidate  # type: ignore[misc]

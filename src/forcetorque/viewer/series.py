@@ -16,7 +16,7 @@ from forcetorque.analysis import (
 )
 from forcetorque.analysis.applicability import require_fit
 from forcetorque.analysis.candidate import PRIOR
-from forcetorque.analysis.reading import without_offset, wrench_at
+from forcetorque.analysis.reading import wrench_at
 from forcetorque.arrays import FloatArray, IntArray
 from forcetorque.calibration import Calibration
 from forcetorque.errors import ForceTorqueError
@@ -125,7 +125,7 @@ def _prior_correction(sensor: ExperimentSensor, priors: Priors, notes: list[str]
         return priors.of(sensor)
     except ForceTorqueError as error:
         notes.append(f"sensor {sensor.name!r}: no offset is removed from the prior reading: {error}")
-    return without_offset(sensor)
+    return Correction.without_offset(sensor)
 
 
 def _values(

@@ -8,8 +8,8 @@ from typing import Annotated
 
 import typer
 
+from forcetorque.cli.options import ExperimentArgument, FormatOption, SensorOption
 from forcetorque.cli.output import Format
-from forcetorque.cli.parser.options import ExperimentArgument, FormatOption, SensorOption
 
 
 def calibrate(

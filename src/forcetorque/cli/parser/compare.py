@@ -8,8 +8,8 @@ from typing import Annotated
 
 import typer
 
+from forcetorque.cli.options import ComparedCalibrationsOption, FormatOption, SensorOption, SphereIntervalOption
 from forcetorque.cli.output import Format, TrialsChoice
-from forcetorque.cli.parser.options import ComparedCalibrationsOption, FormatOption, SensorOption, SphereIntervalOption
 
 
 def compare(

@@ -3,8 +3,8 @@
 
 from __future__ import annotations
 
+from forcetorque.cli.options import ExperimentArgument, FormatOption
 from forcetorque.cli.output import Format
-from forcetorque.cli.parser.options import ExperimentArgument, FormatOption
 
 
 def payload(experiment: ExperimentArgument, output_format: FormatOption = Format.TABLE) -> None:

@@ -8,14 +8,14 @@ from typing import Annotated
 
 import typer
 
-from forcetorque.cli.output import Format
-from forcetorque.cli.parser.options import (
+from forcetorque.cli.options import (
     ComparedCalibrationsOption,
     ExperimentArgument,
     FormatOption,
     SensorOption,
     SphereIntervalOption,
 )
+from forcetorque.cli.output import Format
 
 
 def sphere(

@@ -7,8 +7,8 @@ from typing import Annotated
 
 import typer
 
+from forcetorque.cli.options import CalibrationsOption, ExperimentArgument, FormatOption
 from forcetorque.cli.output import Format, OtherSensorsChoice
-from forcetorque.cli.parser.options import CalibrationsOption, ExperimentArgument, FormatOption
 
 
 def validate(

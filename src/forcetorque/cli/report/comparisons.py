@@ -10,8 +10,7 @@ import numpy as np
 from forcetorque.analysis import JudgedWrenches
 from forcetorque.cli.output import finite_or_none
 from forcetorque.cli.report.result import ComparisonRow, IndependenceRow
-from forcetorque.evaluation import PairedMean, autocorrelation, offset_removed, paired_difference
-from forcetorque.study import OffsetSource
+from forcetorque.evaluation import Offset, PairedMean, autocorrelation, offset_removed, paired_difference
 
 _Quantity = tuple[Literal["force", "moment"], Literal["N", "N m"], slice, PairedMean]
 
@@ -52,7 +51,7 @@ def comparison_rows(judged: JudgedWrenches) -> list[ComparisonRow]:
     for name, prior in judged.priors.items():
         pair = (measured[name], measured[prior])
         moved = tuple(offset_removed(wrench, judged.reference) for wrench in pair)
-        for offset, (new, old) in ((OffsetSource.FITTED, pair), (OffsetSource.RE_ESTIMATED, moved)):
+        for offset, (new, old) in ((Offset.FITTED, pair), (Offset.JUDGED_MEAN, moved)):
             found = paired_difference(new, old, judged.reference, judged.time_s)
             errors = (new - judged.reference, old - judged.reference)
             quantities: tuple[_Quantity, ...] = (
@@ -65,7 +64,7 @@ def comparison_rows(judged: JudgedWrenches) -> list[ComparisonRow]:
                     ComparisonRow(
                         candidate=name,
                         prior=prior,
-                        offset=offset.value,
+                        offset=offset,
                         quantity=quantity,
                         unit=unit,
                         samples=found.count,

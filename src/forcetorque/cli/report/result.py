@@ -13,6 +13,7 @@ from forcetorque.cli.evaluate_result import VerdictRow
 from forcetorque.cli.inspect_result import FindingRow
 from forcetorque.cli.sphere_result import SphereRow
 from forcetorque.cli.validate_result import BestRow, ContactForceRow, JointTorqueRow
+from forcetorque.evaluation import Offset
 
 
 class VerdictLine(BaseModel):
@@ -42,7 +43,7 @@ class ComparisonRow(BaseModel):
     """The calibration file."""
     prior: str
     """Its prior, as the evaluation names it."""
-    offset: Literal["fitted", "re-estimated"]
+    offset: Offset
     """Offset of the fitted data, or re-estimated on the judged samples."""
     quantity: Literal["force", "moment"]
     """What the errors are of."""
