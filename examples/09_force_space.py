@@ -16,7 +16,7 @@ import numpy as np
 
 from forcetorque import load_experiment
 from forcetorque.analysis import corrections_of, estimate_experiment
-from forcetorque.report import force_space_figure
+from forcetorque.report.figures import force_space_figure
 
 
 def main() -> None:

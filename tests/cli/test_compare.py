@@ -14,7 +14,6 @@ from typing import Any
 import numpy as np
 import pytest
 
-from forcetorque import report
 from forcetorque.evaluation.sphere import RULE, TOLERANCE
 from tests.axia import write_axia
 from tests.cli.json_schema import faults
@@ -241,7 +240,7 @@ def test_a_figure_that_could_not_be_drawn_is_not_named(trials: Path, run: Run, m
         raise OSError("no room")
 
     (trials / "compare.png").write_bytes(b"of another day")
-    monkeypatch.setattr(report, "index_figure", refuse)
+    monkeypatch.setattr(figures, "index_figure", refuse)
     words = ("compare", FIRST, SECOND, "--figure", "compare.png")
     result = _ended_with_failures(run(*words, "--format", "json"))
     assert (result["figure"], len(result["trials"])) == (None, 2)

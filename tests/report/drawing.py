@@ -24,7 +24,7 @@ from forcetorque.analysis import (
     group_trials,
 )
 from forcetorque.evaluation.sphere import analyse_sphere
-from forcetorque.report import (
+from forcetorque.report.figures import (
     comparison_figure,
     contact_figure,
     difference_figure,

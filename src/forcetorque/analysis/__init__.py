@@ -4,12 +4,15 @@
 from forcetorque.analysis.acceptance import Acceptance, accept_sensor
 from forcetorque.analysis.acceptance_file import AcceptanceFile, read_acceptance
 from forcetorque.analysis.applicability import by_sensor, one_per_sensor
+from forcetorque.analysis.assessment import Assessment, Demands, assess
 from forcetorque.analysis.calibrate import calibrate_sensor
 from forcetorque.analysis.candidate import JudgedCandidate
 from forcetorque.analysis.compare import TrialFailure, TrialGroup, TrialSphere, group_trials, read_trials
+from forcetorque.analysis.comparison import Independence, PriorComparison, compare_with_prior
 from forcetorque.analysis.corrections import corrections_of
 from forcetorque.analysis.estimate import IntervalEstimates, estimate_experiment
 from forcetorque.analysis.evaluate import CandidateErrors, Evaluation, evaluate
+from forcetorque.analysis.experiment_assessment import ExperimentAssessment, assess_experiment
 from forcetorque.analysis.gains import JointPosition, SensorGains, StrongestSample, select_gains
 from forcetorque.analysis.inspect import doubtful_spans, inspect_experiment, inspect_recording
 from forcetorque.analysis.joint_torques import JointTorques, JointTorqueVerdict, compare_joint_torques
@@ -23,8 +26,18 @@ from forcetorque.analysis.static_checks import StaticChecks, check_sensor
 from forcetorque.analysis.study import SensorStudy, study_sensor
 from forcetorque.analysis.study_data import StudyData, read_study_data
 from forcetorque.analysis.validate import ContactForceComparison, ContactForceVerdict, compare_contact_forces
+from forcetorque.analysis.verdict import VerdictLine
 
 __all__ = [
+    "Assessment",
+    "Demands",
+    "ExperimentAssessment",
+    "Independence",
+    "PriorComparison",
+    "VerdictLine",
+    "assess",
+    "assess_experiment",
+    "compare_with_prior",
     "CandidateErrors",
     "Evaluation",
     "evaluate",

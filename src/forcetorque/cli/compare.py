@@ -82,7 +82,7 @@ def _drawn(figure: Path | None, groups: Sequence[TrialGroup]) -> tuple[str | Non
     """Draw the figure, and name it if it was drawn; what fails then must not cost the result."""
     if figure is None or not groups:
         return None, []
-    from forcetorque.report import index_figure
+    from forcetorque.report.figures import index_figure
 
     try:
         write_bytes_atomically(figure, index_figure(groups))

@@ -62,7 +62,7 @@ def run(
         found.append(select_gains(experiment, changed, margin=margin, calibration=matrices.get(sensor.name)))
         _warn(log, found[-1])
     if figure is not None:
-        from forcetorque.report import gain_figure
+        from forcetorque.report.figures import gain_figure
 
         write_bytes_atomically(figure, gain_figure(found))
     result = GainsResult(

@@ -105,6 +105,19 @@ def show(result: Result, output_format: Format) -> None:
         sys.stdout.write(result.text(width()))
 
 
+def say(sentence: str, output_format: Format) -> None:
+    """Print a sentence below a result for people; the other forms hold the result alone.
+
+    Args:
+        sentence: The sentence.
+        output_format: Form of the result.
+    """
+    from forcetorque.result import wrapped
+
+    if output_format is Format.TABLE:
+        sys.stdout.write(wrapped(sentence, width()) + "\n")
+
+
 def width() -> int:
     """Tell how wide a line may be.
 

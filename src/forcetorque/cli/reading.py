@@ -8,7 +8,7 @@ from collections.abc import Collection, Iterable
 from pathlib import Path
 
 from forcetorque.calibration import Calibration, read_calibration
-from forcetorque.errors import ExperimentError
+from forcetorque.errors import ExperimentError, ForceTorqueError
 from forcetorque.experiment import Experiment, ExperimentSensor, load_experiment
 
 
@@ -72,3 +72,19 @@ def refuse_left_out(
         name = experiment.sensor(calibration.sensor.name).name
         if name not in names:
             raise ExperimentError(f"{file}: calibrates {name!r}, which --sensor leaves out")
+
+
+def refuse_inputs(outputs: Iterable[Path], inputs: Iterable[Path]) -> None:
+    """Refuse to write over a file that is read.
+
+    Args:
+        outputs: Files to write.
+        inputs: Files that are read.
+
+    Raises:
+        ForceTorqueError: If one is both.
+    """
+    read = {path.resolve() for path in inputs}
+    for path in outputs:
+        if path.resolve() in read:
+            raise ForceTorqueError(f"{path}: this is a file to read; choose another --output")

@@ -62,7 +62,7 @@ def run(
             labels = ", ".join(map(repr, each.fitted_on))
             log.warning("%s was fitted on %s, so the verdict on it flatters", each.candidate, labels)
     if figure is not None:
-        from forcetorque.report import sphere_figure
+        from forcetorque.report.figures import sphere_figure
 
         write_bytes_atomically(figure, sphere_figure(found))
     result = SphereResult(

@@ -83,7 +83,7 @@ def write_figures(made: SensorStudy, folder: Path) -> list[str]:
     Returns:
         Names of the files.
     """
-    from forcetorque import report
+    from forcetorque.report import figures
 
     study = made.study
     chosen = study.choices[Offset.FIRST_SECOND].by_magnitude
@@ -91,8 +91,8 @@ def write_figures(made: SensorStudy, folder: Path) -> list[str]:
     names, differences = tables.matrix_differences(study, data_set)
     unit = "1e-4 N/count"  # that of `tables.DIFFERENCE_UNIT`
     draw: dict[str, Callable[[], bytes]] = {
-        "figure_5_2_wrench_space.png": lambda: report.space_figure(_clouds(made)),
-        "figure_5_3_matrix_differences.png": lambda: report.difference_figure(names, differences, unit=unit),
+        "figure_5_2_wrench_space.png": lambda: figures.space_figure(_clouds(made)),
+        "figure_5_3_matrix_differences.png": lambda: figures.difference_figure(names, differences, unit=unit),
         "figure_5_6_contact_forces.png": lambda: _contact_figure(made, slice(0, 3), "N"),
         "figure_5_7_contact_moments.png": lambda: _contact_figure(made, slice(3, 6), "N m"),
         "figure_5_9_measured_and_reference.png": lambda: _comparison_figure(made),
@@ -100,7 +100,7 @@ def write_figures(made: SensorStudy, folder: Path) -> list[str]:
     lambdas = {candidate.table_lambda for candidate in study.fits.candidates}
     if study.workbench is not None and len(lambdas) > 1:
         of_table, curves = tables.differences_to_workbench(study, data_set)
-        draw["figure_5_4_differences_to_workbench.png"] = lambda: report.lambda_difference_figure(
+        draw["figure_5_4_differences_to_workbench.png"] = lambda: figures.lambda_difference_figure(
             np.array(of_table), curves, unit=unit
         )
         for source in KNOWN_BEFORE:
@@ -119,7 +119,7 @@ def _clouds(made: SensorStudy) -> dict[str, FloatArray]:
 
 
 def _lambda_force_figure(made: SensorStudy, source: Offset) -> bytes:
-    from forcetorque.report import lambda_force_figure
+    from forcetorque.report.figures import lambda_force_figure
 
     study = made.study
     pooled, best = study.judgements[source].over(), study.choices[source].by_magnitude
@@ -149,7 +149,7 @@ def _judged_models(made: SensorStudy) -> dict[str, tuple[WrenchModel, Offset]]:
 
 
 def _contact_figure(made: SensorStudy, axes: slice, unit: str) -> bytes:
-    from forcetorque.report import contact_figure
+    from forcetorque.report.figures import contact_figure
 
     sets = [interval.validation_set for interval in made.data.validation]
     candidates = {
@@ -171,7 +171,7 @@ def _joined_time(sets: Sequence[ValidationSet]) -> tuple[FloatArray, list[tuple[
 
 
 def _comparison_figure(made: SensorStudy) -> bytes:
-    from forcetorque.report import comparison_figure
+    from forcetorque.report.figures import comparison_figure
 
     sets = [interval.validation_set for interval in made.data.validation]
     liveliest = max(sets, key=lambda one: float(one.reference[:, :3].var(axis=0).sum()))

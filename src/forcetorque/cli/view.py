@@ -16,10 +16,9 @@ from pydantic import BaseModel, ConfigDict, Field
 from forcetorque.atomic import write_bytes_atomically
 from forcetorque.cli.output import Format, console, print_result, start_logging
 from forcetorque.cli.reading import read_calibrations, read_experiment
-from forcetorque.cli.scene import scene_of
 from forcetorque.cli.view_source import view_source
 from forcetorque.errors import ForceTorqueError, MissingFileError
-from forcetorque.viewer import BuiltScene, ViewerServer, page_of, write_page
+from forcetorque.viewer import BuiltScene, ViewerServer, page_of, scene_of, write_page
 from forcetorque.viewer.annotations import Annotations, save_annotations, saved_files
 from forcetorque.viewer.scene import read_array
 from forcetorque.viewer.serve import ANNOTATIONS_URL, DATA_URL

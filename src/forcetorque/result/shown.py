@@ -46,6 +46,8 @@ class Shown:
             return ("-",)
         if isinstance(value, bool):
             return ("yes" if value else "no",)
+        if isinstance(value, tuple):
+            return (", ".join(str(entry) for entry in value),)
         if self.digits is None or isinstance(value, str):
             return (str(value),)
         if self.error is not None:
