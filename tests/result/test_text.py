@@ -30,9 +30,7 @@ def tables(draw: st.DrawFn) -> Table:
     return Table(
         caption=draw(WORDS),
         headings=tuple(draw(WORDS) for _ in range(texts + columns)),
-        rows=tuple(
-            (*(draw(WORDS) for _ in range(texts)), *(draw(CELLS) for _ in range(columns))) for _ in range(rows)
-        ),
+        rows=tuple((*(draw(WORDS) for _ in range(texts)), *(draw(CELLS) for _ in range(columns))) for _ in range(rows)),
     )
 
 
