@@ -16,7 +16,7 @@ from rich.table import Table
 
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration import Calibration, estimation_type, write_calibration
-from forcetorque.cli.output import Format, console, print_result, start_logging, table
+from forcetorque.cli.output import Format, console, print_result, refuse_standard_output, start_logging, table
 from forcetorque.cli.reading import read_experiment, sensors_named
 from forcetorque.errors import ExperimentError, FitError
 from forcetorque.experiment import Experiment, ExperimentSensor, calibrate_sensor, doubtful_spans
@@ -69,6 +69,7 @@ def run(
         output_format: Form of the result.
     """
     log = start_logging()
+    refuse_standard_output("--output", output)
     chosen_kind = None if kind is None else estimation_type(kind)
     experiment = read_experiment(path, log)
     chosen = sensors_named(experiment, sensors)
