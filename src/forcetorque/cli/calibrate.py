@@ -17,7 +17,7 @@ from rich.table import Table
 from forcetorque.analysis import SensorRun, calibrate_sensor, doubtful_spans
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration import Calibration, estimation_type, write_calibration
-from forcetorque.cli.output import Format, console, print_result, start_logging, table
+from forcetorque.cli.output import Format, console, print_result, refuse_standard_output, start_logging, table
 from forcetorque.cli.reading import read_experiment, sensors_named
 from forcetorque.errors import ExperimentError, FitError
 from forcetorque.experiment import Experiment, ExperimentSensor
@@ -70,6 +70,7 @@ def run(
         output_format: Form of the result.
     """
     log = start_logging()
+    refuse_standard_output("--output", output)
     chosen_kind = None if kind is None else estimation_type(kind)
     experiment = read_experiment(path, log)
     chosen = sensors_named(experiment, sensors)

@@ -10,6 +10,7 @@ from pathlib import Path
 from forcetorque.calibration import Calibration, read_calibration
 from forcetorque.errors import ExperimentError, ForceTorqueError
 from forcetorque.experiment import Experiment, ExperimentSensor, load_experiment
+from forcetorque.paths import real_path
 
 
 def read_experiment(path: Path, log: logging.Logger) -> Experiment:
@@ -84,7 +85,7 @@ def refuse_inputs(outputs: Iterable[Path], inputs: Iterable[Path]) -> None:
     Raises:
         ForceTorqueError: If one is both.
     """
-    read = {path.resolve() for path in inputs}
+    read = {real_path(path) for path in inputs}
     for path in outputs:
-        if path.resolve() in read:
+        if real_path(path) in read:
             raise ForceTorqueError(f"{path}: this is a file to read; choose another --output")

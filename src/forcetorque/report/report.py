@@ -10,9 +10,9 @@ from typing import Any, Literal
 from pydantic import Field
 
 from forcetorque.analysis import Demands, ExperimentAssessment, assess_experiment
-from forcetorque.atomic import write_bytes_atomically
+from forcetorque.atomic import refuse_unwritable, write_bytes_atomically
 from forcetorque.calibration import Calibration
-from forcetorque.errors import ForceTorqueError, MissingFileError
+from forcetorque.errors import ForceTorqueError
 from forcetorque.experiment import Experiment
 from forcetorque.experiment.inputs import stated_in
 from forcetorque.report.document import Document, Section, html_bytes, pdf_bytes
@@ -101,13 +101,11 @@ def require_writable(paths: Sequence[Path]) -> None:
 
     Raises:
         ForceTorqueError: If one has another ending.
-        MissingFileError: If a folder is missing.
     """
     for path in paths:
         if path.suffix.lower() not in _WRITERS:
             raise ForceTorqueError(f"--output {path}: expected a name that ends in {' or '.join(_WRITERS)}")
-        if not path.resolve().parent.is_dir():
-            raise MissingFileError(f"{path}: expected an existing folder to write to, there is none")
+        refuse_unwritable(path)
     empty = Document(title="", subtitle="", created="2000-01-01T00:00:00+00:00", sections=())
     for path in paths:
         _WRITERS[path.suffix.lower()](empty)
