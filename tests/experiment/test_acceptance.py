@@ -62,8 +62,11 @@ def _spec(**tables: Any) -> AcceptanceFile:
     return AcceptanceFile.model_validate({"schema": "forcetorque/acceptance/1", "name": "test", **tables})
 
 
-def _fitted(experiment: Experiment) -> tuple[str, Calibration]:
-    return "new", calibrate_sensor(experiment, experiment.sensors[0], code_version="test", created="test")
+def _fitted(experiment: Experiment, *, regularisation: float | None = None) -> tuple[str, Calibration]:
+    sensor = experiment.sensors[0]
+    return "new", calibrate_sensor(
+        experiment, sensor, code_version="test", created="test", regularisation=regularisation
+    )
 
 
 def _numbered(experiment: Experiment) -> Experiment:
@@ -212,7 +215,7 @@ def test_the_offset_is_that_which_is_asked_for(arm: Path) -> None:
 def test_other_sensors_as_measured_count(arm: Path) -> None:
     """The error of the tool's prior is in the arm's contact force where the tool's own reading is used."""
     experiment = load_experiment(arm / TWO)
-    calibration = _fitted(experiment)
+    calibration = _fitted(experiment, regularisation=100.0)  # more of the prior would hide it
     seen = [
         _criteria(experiment, _spec(validate={"force_mean_N": 1e9, "other_sensors": mode}), calibration)
         for mode in ("model", "measured")

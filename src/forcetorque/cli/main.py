@@ -3,11 +3,11 @@
 
 from __future__ import annotations
 
-import sys
 from typing import Annotated
 
 import typer
 
+from forcetorque.cli.output import report_error
 from forcetorque.cli.parser.accept import accept
 from forcetorque.cli.parser.calibrate import calibrate
 from forcetorque.cli.parser.compare import compare
@@ -40,7 +40,7 @@ def main() -> None:
     try:
         app()
     except (ForceTorqueError, OSError) as error:
-        sys.stderr.write("error: " + " ".join(str(error).split()) + "\n")
+        report_error(error)
         raise SystemExit(2) from None
 
 

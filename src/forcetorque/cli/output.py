@@ -66,6 +66,15 @@ def start_logging() -> logging.Logger:
     return logger
 
 
+def report_error(error: Exception) -> None:
+    """Say on standard error, in one line, what was refused.
+
+    Args:
+        error: A known error.
+    """
+    sys.stderr.write("error: " + " ".join(str(error).split()) + "\n")
+
+
 def console() -> Console:
     """Give the console for tables: as wide as the terminal, or as the widest table where there is none.
 
