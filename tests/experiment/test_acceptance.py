@@ -311,6 +311,8 @@ HEAD = 'schema = "forcetorque/acceptance/1"\nname = "limits"\n'
         (HEAD + '[evaluate]\noffset = "none"\nbias = { fz = 1.0 }\n', "evaluate.offset: .*'fitted' or 're-estimated'"),
         (HEAD + "[recording]\nsaturated_share = 2.0\n", "recording.saturated_share: .*less than or equal to 1"),
         (HEAD + "[population]\nquantiles = [0.9, 0.1]\n", "quantiles: expected the lower one first"),
+        (HEAD + "[population]\nquantiles = [0.1]\n", r"population.quantiles: expected 2 values, got \[0\.1\]$"),
+        (HEAD + "[population]\nquantiles = [-0.1]\n", r"population.quantiles\[0\]: .* equal to 0, got -0\.1$"),
         (HEAD + "[excitation]\ndirections = 5.5\n", "excitation.directions"),
         (HEAD.replace("/1", "/2") + "[matrix]\ncondition = 3.0\n", "schema: .*'forcetorque/acceptance/1'"),
         ('name = "limits"\n[matrix]\ncondition = 3.0\n', "schema: Field required"),

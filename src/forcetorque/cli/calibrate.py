@@ -17,7 +17,15 @@ from rich.table import Table
 
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration import Calibration, estimation_type, write_calibration
-from forcetorque.cli.output import Format, console, print_result, report_error, start_logging, table
+from forcetorque.cli.output import (
+    Format,
+    console,
+    print_result,
+    refuse_standard_output,
+    report_error,
+    start_logging,
+    table,
+)
 from forcetorque.cli.reading import read_experiment, sensors_named
 from forcetorque.errors import ExperimentError, FitError, ForceTorqueError
 from forcetorque.experiment import Experiment, ExperimentSensor, calibrate_sensor, doubtful_spans
@@ -73,6 +81,7 @@ def run(
         typer.Exit: With code 2, if a sensor cannot be fitted; the others have their files.
     """
     log = start_logging()
+    refuse_standard_output("--output", output)
     chosen_kind = None if kind is None else estimation_type(kind)
     experiment = read_experiment(path, log)
     chosen = sensors_named(experiment, sensors)
