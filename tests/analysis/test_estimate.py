@@ -9,7 +9,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from forcetorque.analysis import calibrate_sensor, corrections_of, estimate_experiment
+from forcetorque.analysis import (
+    SensorRun,
+    calibrate_sensor,
+    corrections_of,
+    estimate_experiment,
+)
 from forcetorque.calibration import Calibration
 from forcetorque.errors import EstimationError, ExperimentError, RecordingError
 from forcetorque.experiment import Experiment, load_experiment
@@ -41,7 +46,9 @@ def _pushed(folder: Path, *, after_s: float) -> None:
 def fitted(intact: Path) -> Calibration:
     """Calibration of the arm's sensor before anything pushed."""
     experiment = load_experiment(intact / PARQUET)
-    return calibrate_sensor(experiment, experiment.sensors[0], code_version="1", created="now", regularisation=1.0)
+    return calibrate_sensor(
+        SensorRun(experiment, experiment.sensors[0]), code_version="1", created="now", regularisation=1.0
+    )
 
 
 def test_a_push_is_found(arm: Path, fitted: Calibration) -> None:

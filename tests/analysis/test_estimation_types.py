@@ -8,7 +8,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from forcetorque.analysis import calibrate_sensor, samples_of
+from forcetorque.analysis import (
+    SensorRun,
+    calibrate_sensor,
+)
 from forcetorque.calibration import ESTIMATION_TYPES, Calibration, EstimationType, Moments, sphere_centre
 from forcetorque.errors import ExperimentError, FitError, FormatError
 from forcetorque.experiment import Experiment, load_experiment
@@ -22,7 +25,7 @@ LAMBDA = 6e4
 
 def _fitted(experiment: Experiment, kind: EstimationType | None = None) -> Calibration:
     return calibrate_sensor(
-        experiment, experiment.sensors[0], code_version="1", created="now", regularisation=LAMBDA, kind=kind
+        SensorRun(experiment, experiment.sensors[0]), code_version="1", created="now", regularisation=LAMBDA, kind=kind
     )
 
 
@@ -119,7 +122,7 @@ def test_the_sphere_is_drawn_by_the_named_intervals(warm: Path) -> None:
     """The raw offset is that of the named grid alone, while all intervals are fitted."""
     file = _two_grids(with_variables(warm / PARQUET, TEMPERATURE))
     experiment = load_experiment(file)
-    parts = {p.interval.label: p for p in samples_of(experiment, experiment.sensors[0], Use.CALIBRATION)}
+    parts = {p.interval.label: p for p in SensorRun(experiment, experiment.sensors[0]).samples(Use.CALIBRATION)}
     assert list(parts) == ["fit", "fit_2"]
     centres = {label: sphere_centre(Moments.of(p.raw, p.samples.reference)) for label, p in parts.items()}
     for label in parts:
@@ -130,7 +133,7 @@ def test_the_sphere_is_drawn_by_the_named_intervals(warm: Path) -> None:
         assert made.provenance.samples == sum(len(p.samples) for p in parts.values())
     assert not np.allclose(centres["fit"], centres["fit_2"], rtol=1e-3)
     both = _fitted(_with_calibration(file, 'type = "SwTrTO"\nsphere_intervals = ["fit", "fit_2"]'))
-    (whole,) = samples_of(load_experiment(_joined(file)), experiment.sensors[0], Use.CALIBRATION)
+    (whole,) = SensorRun(load_experiment(_joined(file)), experiment.sensors[0]).samples(Use.CALIBRATION)
     assert both.raw_offset_counts is not None
     np.testing.assert_allclose(
         both.raw_offset_counts, sphere_centre(Moments.of(whole.raw, whole.samples.reference)), rtol=1e-9

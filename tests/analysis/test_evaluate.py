@@ -10,10 +10,9 @@ import numpy as np
 import pytest
 
 from forcetorque.analysis import (
+    SensorRun,
     calibrate_sensor,
-    evaluate_sensor,
-    judged_wrenches,
-    samples_of,
+    evaluate,
 )
 from forcetorque.calibration import Calibration
 from forcetorque.errors import ExperimentError, SerialNumberError, ShapeError
@@ -37,20 +36,22 @@ def fitted(experiment: Experiment) -> Calibration:
 
 def _fitted(experiment: Experiment, regularisation: float) -> Calibration:
     sensor = experiment.sensors[0]
-    return calibrate_sensor(experiment, sensor, code_version="1", created="today", regularisation=regularisation)
+    return calibrate_sensor(
+        SensorRun(experiment, sensor), code_version="1", created="today", regularisation=regularisation
+    )
 
 
 def test_every_candidate_is_judged_with_both_offsets(experiment: Experiment, fitted: Calibration) -> None:
     """One calibration means four verdicts, the prior first; all are of the same samples."""
-    verdicts = evaluate_sensor(experiment, experiment.sensors[0], {"new": fitted})
+    verdicts = evaluate(SensorRun(experiment, experiment.sensors[0]), {"new": fitted}).verdicts
     assert [(v.candidate, v.offset) for v in verdicts] == [
         ("prior", "fitted"),
-        ("prior", "re-estimated"),
+        ("prior", "judged-mean"),
         ("new", "fitted"),
-        ("new", "re-estimated"),
+        ("new", "judged-mean"),
     ]
-    (part,) = samples_of(experiment, experiment.sensors[0], Use.VALIDATION)
-    assert {v.errors.count for v in verdicts} == {len(part.samples)}
+    (part,) = SensorRun(experiment, experiment.sensors[0]).samples(Use.VALIDATION)
+    assert {v.samples for v in verdicts} == {len(part.samples)}
     assert len(part.samples) > 400
 
 
@@ -58,19 +59,22 @@ def test_the_new_matrix_is_better_than_the_prior_where_it_was_not_fitted(
     experiment: Experiment, fitted: Calibration
 ) -> None:
     """The simulated mounting is found: every force error falls to a tenth, with either offset."""
-    by_key = {(v.candidate, v.offset): v for v in evaluate_sensor(experiment, experiment.sensors[0], {"new": fitted})}
-    for offset in ("fitted", "re-estimated"):
-        new, prior = by_key["new", offset].errors, by_key["prior", offset].errors
-        assert new.force_mean < 0.1 * prior.force_mean
+    by_key = {
+        (v.candidate, v.offset): v
+        for v in evaluate(SensorRun(experiment, experiment.sensors[0]), {"new": fitted}).verdicts
+    }
+    for offset in ("fitted", "judged-mean"):
+        new, prior = by_key["new", offset], by_key["prior", offset]
+        assert new.force_error_mean_N < 0.1 * prior.force_error_mean_N
         assert (new.rmse[:3] < 0.1 * prior.rmse[:3]).all()
     assert len(by_key) == 4
 
 
 def test_the_re_estimated_offset_leaves_no_mean_error(experiment: Experiment, fitted: Calibration) -> None:
     """It is estimated on the judged samples; the fitted one is not."""
-    verdicts = evaluate_sensor(experiment, experiment.sensors[0], {"new": fitted})
-    bias = {v.offset: np.abs(v.errors.bias).max() for v in verdicts if v.candidate == "new"}
-    assert bias["re-estimated"] < 1e-11 < 1e-3 < bias["fitted"]
+    verdicts = evaluate(SensorRun(experiment, experiment.sensors[0]), {"new": fitted}).verdicts
+    bias = {v.offset: np.abs(v.bias).max() for v in verdicts if v.candidate == "new"}
+    assert bias["judged-mean"] < 1e-11 < 1e-3 < bias["fitted"]
 
 
 def test_a_shared_prior_comes_once(experiment: Experiment, fitted: Calibration) -> None:
@@ -80,7 +84,7 @@ def test_a_shared_prior_comes_once(experiment: Experiment, fitted: Calibration) 
         assert fitted.prior is not None
         prior = fitted.prior.model_copy(update={"offset": fitted.prior.offset + change})
         other = _fitted(experiment, 1e6).model_copy(update={"prior": prior})
-        verdicts = evaluate_sensor(experiment, experiment.sensors[0], {"a": fitted, "b": other})
+        verdicts = evaluate(SensorRun(experiment, experiment.sensors[0]), {"a": fitted, "b": other}).verdicts
         candidates[change] = list(dict.fromkeys(v.candidate for v in verdicts))
     assert candidates == {1e-13: ["prior of a", "a", "b"], 1e-3: ["prior of a", "prior of b", "a", "b"]}
 
@@ -88,7 +92,7 @@ def test_a_shared_prior_comes_once(experiment: Experiment, fitted: Calibration) 
 def test_a_calibration_without_prior_stands_alone(experiment: Experiment, fitted: Calibration) -> None:
     """There is nothing to compare with, and nothing is made up."""
     alone = fitted.model_copy(update={"prior": None})
-    verdicts = evaluate_sensor(experiment, experiment.sensors[0], {"new": alone})
+    verdicts = evaluate(SensorRun(experiment, experiment.sensors[0]), {"new": alone}).verdicts
     assert [v.candidate for v in verdicts] == ["new", "new"]
 
 
@@ -96,7 +100,7 @@ def test_another_serial_number_is_refused(experiment: Experiment, fitted: Calibr
     """A calibration of another sensor is named, with both numbers."""
     foreign = fitted.model_copy(update={"sensor": fitted.sensor.model_copy(update={"serial": "SIM009"})})
     with pytest.raises(SerialNumberError, match="^new: calibration of sensor 'SIM009': .* got 'SIM001'"):
-        evaluate_sensor(experiment, experiment.sensors[0], {"old": fitted, "new": foreign})
+        evaluate(SensorRun(experiment, experiment.sensors[0]), {"old": fitted, "new": foreign})
 
 
 @pytest.mark.parametrize(("field", "value"), [("frame", "parent"), ("measure_direction", "parent_to_child")])
@@ -109,14 +113,14 @@ def test_a_reading_in_another_frame_or_sign_is_refused(
     with pytest.raises(
         ExperimentError, match=rf"calibration 'new': expected .* child, child_to_parent, .* got .*{value}"
     ):
-        evaluate_sensor(experiment, experiment.sensors[0], {"new": other})
+        evaluate(SensorRun(experiment, experiment.sensors[0]), {"new": other})
 
 
 def test_another_number_of_channels_is_refused(experiment: Experiment, fitted: Calibration) -> None:
     """A matrix that does not fit the readings is named."""
     narrow = fitted.model_copy(update={"matrix": fitted.matrix[:, :5], "prior": None})
     with pytest.raises(ShapeError, match=r"new: matrix: expected an array of shape \(6, 6\), got \(6, 5\)"):
-        evaluate_sensor(experiment, experiment.sensors[0], {"new": narrow})
+        evaluate(SensorRun(experiment, experiment.sensors[0]), {"new": narrow})
 
 
 @pytest.mark.parametrize(("start_s", "refused"), [("13.999", True), ("14.0", False)])
@@ -129,9 +133,9 @@ def test_samples_that_were_fitted_are_not_judged(arm: Path, fitted: Calibration,
         with pytest.raises(
             ExperimentError, match="'new' was fitted on the interval 'fit', which overlaps the judged inte"
         ):
-            evaluate_sensor(changed, changed.sensors[0], {"new": fitted})
+            evaluate(SensorRun(changed, changed.sensors[0]), {"new": fitted})
     else:
-        assert len(evaluate_sensor(changed, changed.sensors[0], {"new": fitted})) == 4
+        assert len(evaluate(SensorRun(changed, changed.sensors[0]), {"new": fitted}).verdicts) == 4
 
 
 def test_intervals_are_pooled_before_anything_is_averaged(arm: Path, fitted: Calibration) -> None:
@@ -142,8 +146,8 @@ def test_intervals_are_pooled_before_anything_is_averaged(arm: Path, fitted: Cal
     add(arm / PARQUET, f"\n[[interval]]\n{rest}\n")
     parts = load_experiment(arm / PARQUET)
     assert [interval.label for interval in parts.intervals(Use.VALIDATION)] == ["judge", "rest"]
-    one, many = (evaluate_sensor(e, e.sensors[0], {"new": fitted})[2].errors for e in (whole, parts))
-    assert one.count == many.count
+    one, many = (evaluate(SensorRun(e, e.sensors[0]), {"new": fitted}).verdicts[2] for e in (whole, parts))
+    assert one.samples == many.samples
     assert np.abs(one.rmse - many.rmse).max() < 1e-9  # N, N m; rounding
 
 
@@ -152,7 +156,7 @@ def test_an_experiment_that_only_fits_judges_nothing(experiment: Experiment, fit
     fits = experiment.intervals(Use.CALIBRATION)
     only = replace(experiment, recording=experiment.recording.with_intervals(fits))
     with pytest.raises(ExperimentError, match=r"expected an interval with use = \"validation\", it has none"):
-        evaluate_sensor(only, only.sensors[0], {"new": fitted})
+        evaluate(SensorRun(only, only.sensors[0]), {"new": fitted})
 
 
 def test_counts_through_another_prior_are_refused(arm: Path) -> None:
@@ -160,10 +164,10 @@ def test_counts_through_another_prior_are_refused(arm: Path) -> None:
     path = arm / YARP
     experiment = load_experiment(path)
     calibration = _fitted(experiment, 100.0)
-    assert evaluate_sensor(experiment, experiment.sensors[0], {"new": calibration})
+    assert evaluate(SensorRun(experiment, experiment.sensors[0]), {"new": calibration}).verdicts
     other = load_experiment(edit(path, 'prior = "matrix_SIM001.txt"', 'prior = "identity"'))
     with pytest.raises(ExperimentError, match="recovered through the prior that it was fitted with"):
-        evaluate_sensor(other, other.sensors[0], {"new": calibration})
+        evaluate(SensorRun(other, other.sensors[0]), {"new": calibration})
 
 
 def test_without_a_calibration_the_prior_of_the_experiment_is_judged(
@@ -171,12 +175,12 @@ def test_without_a_calibration_the_prior_of_the_experiment_is_judged(
 ) -> None:
     """It gets the same offset as the prior that a calibration carries, so the same numbers."""
     sensor = experiment.sensors[0]
-    alone = evaluate_sensor(experiment, sensor, {})
-    carried = evaluate_sensor(experiment, sensor, {"new": fitted})[:2]
-    assert [(one.candidate, one.offset) for one in alone] == [("prior", "fitted"), ("prior", "re-estimated")]
+    alone = evaluate(SensorRun(experiment, sensor), {}).verdicts
+    carried = evaluate(SensorRun(experiment, sensor), {"new": fitted}).verdicts[:2]
+    assert [(one.candidate, one.offset) for one in alone] == [("prior", "fitted"), ("prior", "judged-mean")]
     for one, other in zip(alone, carried, strict=True):
-        np.testing.assert_allclose(one.errors.rmse, other.errors.rmse, rtol=1e-9)
-        assert one.errors.count == other.errors.count
+        np.testing.assert_allclose(one.rmse, other.rmse, rtol=1e-9)
+        assert one.samples == other.samples
 
 
 def test_intervals_are_judged_in_the_order_of_time(arm: Path, fitted: Calibration) -> None:
@@ -188,7 +192,7 @@ def test_intervals_are_judged_in_the_order_of_time(arm: Path, fitted: Calibratio
     turned = replace(ordered, recording=ordered.recording.with_intervals(intervals[::-1]))
     assert [interval.label for interval in turned.intervals(Use.VALIDATION)] == ["rest", "judge"]
     for given in ({"new": fitted}, {}):
-        one, other = (judged_wrenches(each, each.sensors[0], given) for each in (ordered, turned))
+        one, other = (SensorRun(each, each.sensors[0]).judged(given) for each in (ordered, turned))
         assert (np.diff(other.time_s) > 0.0).all()
         assert autocorrelation(other.reference[:, 0], other.time_s).count == len(other.time_s)
         np.testing.assert_array_equal(one.time_s, other.time_s)
@@ -202,10 +206,10 @@ def test_every_calibration_names_the_prior_to_compare_it_with(experiment: Experi
     moved = fitted.model_copy(update={"prior": fitted.prior.model_copy(update={"offset": fitted.prior.offset + 1.0})})
     bare = fitted.model_copy(update={"prior": None})
     given = {"a": fitted, "b": _fitted(experiment, 1e6), "c": moved, "prior": bare}
-    judged = judged_wrenches(experiment, experiment.sensors[0], given)
+    judged = SensorRun(experiment, experiment.sensors[0]).judged(given)
     assert judged.priors == {"a": "prior of a", "b": "prior of a", "c": "prior of c"}
     assert [each.name for each in judged.candidates] == [name for name, _ in judged.measured]
-    verdicts = evaluate_sensor(experiment, experiment.sensors[0], given)
+    verdicts = evaluate(SensorRun(experiment, experiment.sensors[0]), given).verdicts
     assert {(v.candidate, v.prior) for v in verdicts} == {
         ("prior of a", None),
         ("prior of c", None),
@@ -220,16 +224,18 @@ def test_calibrations_one_by_one_are_judged_as_together(experiment: Experiment, 
     """Each, and the prior that it names, has the same errors, whoever else is judged."""
     given = {"a": fitted, "b": _fitted(experiment, 1e6)}
     sensor = experiment.sensors[0]
-    together = {(v.candidate, v.offset): v for v in evaluate_sensor(experiment, sensor, given)}
+    together = {(v.candidate, v.offset): v for v in evaluate(SensorRun(experiment, sensor), given).verdicts}
     compared = 0
     for name, calibration in given.items():
-        alone = {(v.candidate, v.offset): v for v in evaluate_sensor(experiment, sensor, {name: calibration})}
-        for offset in ("fitted", "re-estimated"):
+        alone = {
+            (v.candidate, v.offset): v for v in evaluate(SensorRun(experiment, sensor), {name: calibration}).verdicts
+        }
+        for offset in ("fitted", "judged-mean"):
             one, other = alone[name, offset], together[name, offset]
             assert (one.prior, other.prior) == ("prior", "prior of a")
             for a, b in ((one, other), (alone["prior", offset], together["prior of a", offset])):
-                np.testing.assert_allclose(a.errors.rmse, b.errors.rmse, rtol=1e-9)
-                assert a.errors.force_mean_error == pytest.approx(b.errors.force_mean_error, rel=1e-9)
+                np.testing.assert_allclose(a.rmse, b.rmse, rtol=1e-9)
+                assert a.force_error_standard_error_N == pytest.approx(b.force_error_standard_error_N, rel=1e-9)
                 compared += 1
     assert compared == 8
 
@@ -237,13 +243,16 @@ def test_calibrations_one_by_one_are_judged_as_together(experiment: Experiment, 
 def test_where_the_offset_comes_from_is_said(experiment: Experiment, fitted: Calibration) -> None:
     """That of a prior from the fitted data, of a calibration from its file; of a prior alone, perhaps from nowhere."""
     sensor = experiment.sensors[0]
-    sources = {(v.candidate, v.offset): v.offset_source for v in evaluate_sensor(experiment, sensor, {"new": fitted})}
+    sources = {
+        (v.candidate, v.offset): v.offset_source
+        for v in evaluate(SensorRun(experiment, sensor), {"new": fitted}).verdicts
+    }
     assert sources == {
         ("prior", "fitted"): "the prior matrix_SIM001.txt, offset of the data that new was fitted on",
         ("new", "fitted"): "new",
-        ("prior", "re-estimated"): "the judged samples themselves",
-        ("new", "re-estimated"): "the judged samples themselves",
+        ("prior", "judged-mean"): "the judged samples themselves",
+        ("new", "judged-mean"): "the judged samples themselves",
     }
     judged = experiment.recording.with_intervals(experiment.intervals(Use.VALIDATION))
-    alone, _ = evaluate_sensor(replace(experiment, recording=judged), sensor, {})
+    alone, _ = evaluate(SensorRun(replace(experiment, recording=judged), sensor), {}).verdicts
     assert alone.offset_source == "the prior matrix_SIM001.txt, no offset removed"

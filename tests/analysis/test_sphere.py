@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 
 from forcetorque.analysis import (
+    SensorRun,
     SensorSphere,
     analyse_sensor,
     calibrate_sensor,
-    samples_of,
     sphere_intervals,
 )
 from forcetorque.calibration import Calibration
@@ -36,7 +36,7 @@ def experiment(intact: Path) -> Experiment:
 @pytest.fixture(scope="module")
 def fitted(experiment: Experiment) -> Calibration:
     """Its sensor, calibrated on the first interval."""
-    return calibrate_sensor(experiment, experiment.sensors[0], code_version="1", created="today")
+    return calibrate_sensor(SensorRun(experiment, experiment.sensors[0]), code_version="1", created="today")
 
 
 def _analysed(experiment: Experiment, names: list[str] | None, **calibrations: Calibration) -> list[SensorSphere]:
@@ -48,7 +48,7 @@ def test_every_candidate_is_analysed_on_the_same_samples(experiment: Experiment,
     prior, new = _analysed(experiment, ["judge"], new=fitted)
     assert [each.candidate for each in (prior, new)] == ["prior", "new"]
     assert prior.sensor == new.sensor == "arm_ft"
-    (part,) = samples_of(experiment, experiment.sensors[0], Use.VALIDATION)
+    (part,) = SensorRun(experiment, experiment.sensors[0]).samples(Use.VALIDATION)
     matrix = experiment.sensors[0].prior
     assert matrix is not None
     by_hand = analyse_sphere(part.raw @ matrix.T, part.samples.reference, gravity=GRAVITY, mass=ARM_MASS)

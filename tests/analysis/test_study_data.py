@@ -11,7 +11,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from forcetorque.analysis import StudyData, read_study_data, samples_of
+from forcetorque.analysis import (
+    SensorRun,
+    StudyData,
+    read_study_data,
+)
 from forcetorque.errors import ExperimentError, ForceTorqueError, MissingFileError
 from forcetorque.exchange.icub import encode_matrix, write_matrix_file
 from forcetorque.experiment import load_experiment
@@ -44,7 +48,9 @@ def test_the_samples_are_those_of_the_files_in_their_order(recorded: Path) -> No
     for file, interval in zip(FILES, intervals, strict=True):
         experiment = load_experiment(recorded / file)
         use = Use.CALIBRATION if file in CALIBRATION else Use.VALIDATION
-        (part,) = samples_of(experiment, experiment.sensors[0], use, with_variables=True)
+        (part,) = SensorRun(experiment, experiment.sensors[0]).samples(
+            use, variables=[v.linear.name for v in experiment.sensors[0].variables]
+        )
         fitted, judged = interval.data_set, interval.validation_set
         for arrays in (fitted, judged):
             assert arrays.label == file.removesuffix(".toml")

@@ -11,11 +11,11 @@ import numpy as np
 import pytest
 
 from forcetorque.analysis import (
+    SensorRun,
     calibrate_sensor,
     corrections_of,
     estimate_experiment,
-    evaluate_sensor,
-    samples_of,
+    evaluate,
     select_gains,
 )
 from forcetorque.arrays import FloatArray
@@ -45,7 +45,7 @@ PLACES = pytest.mark.parametrize("place", [TEMPERATURE, SLOW_TEMPERATURE], ids=[
 
 def _fitted(experiment: Experiment) -> Calibration:
     sensor = experiment.sensors[0]
-    return calibrate_sensor(experiment, sensor, code_version="1", created="now", regularisation=0.0)
+    return calibrate_sensor(SensorRun(experiment, sensor), code_version="1", created="now", regularisation=0.0)
 
 
 @pytest.fixture(scope="module")
@@ -86,12 +86,12 @@ def test_a_verdict_takes_the_temperature_of_the_judged_samples(
 ) -> None:
     """The exact calibration leaves nothing on data that was not fitted; prior and plain calibration leave newtons."""
     experiment = load_experiment(with_variables(warm / PARQUET, place))
-    verdicts = evaluate_sensor(experiment, experiment.sensors[0], {"new": with_temperature})
-    errors = {(v.candidate, v.offset): v.errors for v in verdicts}
-    assert list(errors) == [(c, o) for c in ("prior", "new") for o in ("fitted", "re-estimated")]
-    for offset in ("fitted", "re-estimated"):
+    verdicts = evaluate(SensorRun(experiment, experiment.sensors[0]), {"new": with_temperature}).verdicts
+    errors = {(v.candidate, v.offset): v for v in verdicts}
+    assert list(errors) == [(c, o) for c in ("prior", "new") for o in ("fitted", "judged-mean")]
+    for offset in ("fitted", "judged-mean"):
         assert errors["new", offset].rmse.max() < NOTHING < 0.1 < errors["prior", offset].rmse.max()
-    (part,) = samples_of(experiment, experiment.sensors[0], Use.VALIDATION)
+    (part,) = SensorRun(experiment, experiment.sensors[0]).samples(Use.VALIDATION)
     wrong = with_temperature.model.wrench(part.raw, np.full((len(part.raw), 1), 30.0))
     assert np.abs(wrong - part.samples.reference).max() > 1.0  # negative control: the temperature matters there
 
@@ -104,16 +104,16 @@ def test_a_verdict_does_not_depend_on_who_is_judged_beside(
     sensor = experiment.sensors[0]
     alone = {}
     for name, one in {"warm": with_temperature, "plain": without}.items():
-        verdicts = evaluate_sensor(experiment, sensor, {name: one.model_copy(update={"prior": None})})
-        alone |= {(v.candidate, v.offset): v.errors.rmse for v in verdicts}
+        verdicts = evaluate(SensorRun(experiment, sensor), {name: one.model_copy(update={"prior": None})}).verdicts
+        alone |= {(v.candidate, v.offset): v.rmse for v in verdicts}
     tried = 0
     for order in (("warm", "plain"), ("plain", "warm")):
         given = {name: {"warm": with_temperature, "plain": without}[name] for name in order}
-        verdicts = evaluate_sensor(experiment, sensor, given)
-        assert len({v.errors.count for v in verdicts}) == 1
+        verdicts = evaluate(SensorRun(experiment, sensor), given).verdicts
+        assert len({v.samples for v in verdicts}) == 1
         for verdict in verdicts:
             if not verdict.candidate.startswith("prior"):
-                np.testing.assert_array_equal(verdict.errors.rmse, alone[verdict.candidate, verdict.offset])
+                np.testing.assert_array_equal(verdict.rmse, alone[verdict.candidate, verdict.offset])
                 tried += 1
     assert tried == 8
 
@@ -125,15 +125,15 @@ def test_samples_without_a_temperature_are_judged_for_nobody(
     _silence(warm, 15.0, 19.0)
     experiment = load_experiment(with_variables(warm / PARQUET, SLOW_TEMPERATURE, SUPPLY))
     sensor = experiment.sensors[0]
-    both = evaluate_sensor(experiment, sensor, {"warm": with_temperature, "plain": without})
-    plain = evaluate_sensor(experiment, sensor, {"plain": without})
+    both = evaluate(SensorRun(experiment, sensor), {"warm": with_temperature, "plain": without}).verdicts
+    plain = evaluate(SensorRun(experiment, sensor), {"plain": without}).verdicts
     stream = experiment.recording.stream("arm_ft")
     (judge,) = experiment.intervals(Use.VALIDATION)
     inside = (stream.stamp_ns >= judge.start_ns) & (stream.stamp_ns < judge.end_ns)
     seconds = seconds_of(experiment.recording, stream.stamp_ns)
-    assert {v.errors.count for v in plain} == {np.count_nonzero(inside)}
-    assert {v.errors.count for v in both} == {np.count_nonzero(inside & ((seconds <= 15.0) | (seconds >= 19.0)))}
-    assert max(v.errors.rmse.max() for v in both if v.candidate == "warm") < NOTHING
+    assert {v.samples for v in plain} == {np.count_nonzero(inside)}
+    assert {v.samples for v in both} == {np.count_nonzero(inside & ((seconds <= 15.0) | (seconds >= 19.0)))}
+    assert max(v.rmse.max() for v in both if v.candidate == "warm") < NOTHING
 
 
 @PLACES
@@ -196,8 +196,8 @@ def test_a_calibrated_stream_is_corrected_with_its_temperature(warm: Path) -> No
     experiment = load_experiment(with_variables(warm / PARQUET, TEMPERATURE))
     assert experiment.sensors[0].quantity == "wrench"
     made = _fitted(experiment)
-    verdicts = evaluate_sensor(experiment, experiment.sensors[0], {"new": made})
-    assert max(v.errors.rmse.max() for v in verdicts if v.candidate == "new") < NOTHING
+    verdicts = evaluate(SensorRun(experiment, experiment.sensors[0]), {"new": made}).verdicts
+    assert max(v.rmse.max() for v in verdicts if v.candidate == "new") < NOTHING
     spans = estimate_experiment(experiment, corrections_of(experiment, {"new": made}))
     assert max(np.abs(span.estimates.contact("arm_ft")).max() for span in spans) < NOTHING
 
@@ -214,7 +214,7 @@ def test_gains_take_the_matrix_of_a_calibration_with_temperature(warm: Path, wit
 
 Use_ = Callable[[Experiment, Calibration], object]
 USES: dict[str, Use_] = {
-    "evaluate": lambda experiment, made: evaluate_sensor(experiment, experiment.sensors[0], {"warm.json": made}),
+    "evaluate": lambda experiment, made: evaluate(SensorRun(experiment, experiment.sensors[0]), {"warm.json": made}),
     "estimate": lambda experiment, made: corrections_of(experiment, {"warm.json": made}),
     "gains": lambda experiment, made: select_gains(experiment, experiment.sensors[0], calibration=("warm.json", made)),
 }

@@ -15,6 +15,7 @@ import numpy as np
 import pytest
 
 from forcetorque.evaluation.sphere import RULE, TOLERANCE
+from forcetorque.report import figures
 from tests.axia import write_axia
 from tests.cli.json_schema import faults
 from tests.cli.outcome import Outcome, Run

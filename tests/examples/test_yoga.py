@@ -12,11 +12,12 @@ import numpy as np
 import pytest
 
 from forcetorque.analysis import (
+    SensorRun,
     Verdict,
     calibrate_sensor,
     corrections_of,
     estimate_experiment,
-    evaluate_sensor,
+    evaluate,
 )
 from forcetorque.experiment import Experiment, load_experiment
 
@@ -35,8 +36,8 @@ def _load(path: Path, data_dir: Path, tmp_path: Path) -> Experiment:
 
 def _verdicts(experiment: Experiment) -> tuple[dict[tuple[str, str], Verdict], float]:
     sensor = experiment.sensors[0]
-    calibration = calibrate_sensor(experiment, sensor, code_version="test", created="test")
-    verdicts = evaluate_sensor(experiment, sensor, {"new": calibration})
+    calibration = calibrate_sensor(SensorRun(experiment, sensor), code_version="test", created="test")
+    verdicts = evaluate(SensorRun(experiment, sensor), {"new": calibration}).verdicts
     return {(v.candidate, v.offset): v for v in verdicts}, calibration.lambda_counts2
 
 
@@ -44,17 +45,17 @@ def _verdicts(experiment: Experiment) -> tuple[dict[tuple[str, str], Verdict], f
 def test_never_worse_than_the_prior(path: Path, data_dir: Path, tmp_path: Path) -> None:
     """On judged data the force error with the chosen lambda is at most that of the prior, offset as fitted."""
     verdicts, _ = _verdicts(_load(path, data_dir, tmp_path))
-    prior, new = verdicts["prior", "fitted"].errors, verdicts["new", "fitted"].errors
-    assert new.count > 1000
-    assert new.force_mean <= prior.force_mean
-    assert new.moment_mean <= prior.moment_mean
+    prior, new = verdicts["prior", "fitted"], verdicts["new", "fitted"]
+    assert new.samples > 1000
+    assert new.force_error_mean_N <= prior.force_error_mean_N
+    assert new.moment_error_mean_Nm <= prior.moment_error_mean_Nm
 
 
 def test_half_the_error_where_the_fitted_part_moves(data_dir: Path, tmp_path: Path) -> None:
     """Fitted on the moving half, the force error on the other is less than half of the prior's."""
     verdicts, regularisation = _verdicts(_load(YOGA[0], data_dir, tmp_path))
     assert math.isfinite(regularisation)
-    assert verdicts["new", "fitted"].errors.force_mean < 0.5 * verdicts["prior", "fitted"].errors.force_mean
+    assert verdicts["new", "fitted"].force_error_mean_N < 0.5 * verdicts["prior", "fitted"].force_error_mean_N
 
 
 def test_the_prior_reproduces_the_known_error(data_dir: Path, tmp_path: Path) -> None:
@@ -64,7 +65,7 @@ def test_the_prior_reproduces_the_known_error(data_dir: Path, tmp_path: Path) ->
         plain = tmp_path / "plain.toml"
         plain.write_text(text.replace("smoothing = ", "# smoothing = "))
         verdicts, _ = _verdicts(_load(plain, data_dir, tmp_path))
-        assert verdicts["prior", "fitted"].errors.force_mean == pytest.approx(seen, abs=0.15)
+        assert verdicts["prior", "fitted"].force_error_mean_N == pytest.approx(seen, abs=0.15)
 
 
 def test_joints_that_the_sensor_does_not_need_may_be_absent(data_dir: Path, tmp_path: Path) -> None:

@@ -7,7 +7,12 @@ from pathlib import Path
 
 import pytest
 
-from forcetorque.analysis import JointTorqueVerdict, calibrate_sensor, compare_joint_torques
+from forcetorque.analysis import (
+    JointTorqueVerdict,
+    SensorRun,
+    calibrate_sensor,
+    compare_joint_torques,
+)
 from forcetorque.evaluation.offset import Offset
 from forcetorque.experiment import load_experiment
 
@@ -30,7 +35,7 @@ def verdicts(data_dir: Path, tmp_path_factory: pytest.TempPathFactory) -> dict[K
     copy.write_text(EXAMPLE.read_text(encoding="utf-8").replace("../../shared/data", data_dir.as_posix()))
     experiment = load_experiment(copy)
     sensor = experiment.sensors[0]
-    new = calibrate_sensor(experiment, sensor, code_version="test", created="test")
+    new = calibrate_sensor(SensorRun(experiment, sensor), code_version="test", created="test")
     found = compare_joint_torques(experiment, sensor, {"new": new})
     assert found.left_out == ()
     return {(verdict.candidate, verdict.offset, verdict.joint): verdict for verdict in found.verdicts}

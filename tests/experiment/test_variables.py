@@ -9,7 +9,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from forcetorque.analysis import calibrate_sensor, samples_of
+from forcetorque.analysis import (
+    SensorRun,
+    calibrate_sensor,
+)
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration import Calibration
 from forcetorque.errors import ExperimentError, FitError, ForceTorqueError, FormatError, RecordingError
@@ -41,7 +44,10 @@ INTERPOLATED = 1e-9
 
 def _fitted(experiment: Experiment, *, sensor: int = 0, regularisation: float | None = 0.0) -> Calibration:
     return calibrate_sensor(
-        experiment, experiment.sensors[sensor], code_version="1", created="now", regularisation=regularisation
+        SensorRun(experiment, experiment.sensors[sensor]),
+        code_version="1",
+        created="now",
+        regularisation=regularisation,
     )
 
 
@@ -59,7 +65,9 @@ def test_the_truth_is_found_with_the_temperature(warm: Path, place: str) -> None
     (variable,) = made.variables
     assert (variable.name, variable.unit, variable.prior) == ("temperature", "degC", None)
     assert _close(variable.coefficients, PER_DEGREE)
-    (part,) = samples_of(experiment, experiment.sensors[0], Use.CALIBRATION, with_variables=True)
+    (part,) = SensorRun(experiment, experiment.sensors[0]).samples(
+        Use.CALIBRATION, variables=[v.linear.name for v in experiment.sensors[0].variables]
+    )
     first = true_temperature(seconds_of(experiment.recording, part.samples.stamp_ns[:1]))[0]
     assert abs(variable.reference_value - first) < INTERPOLATED
     assert _close(made.offset, OFFSET + PER_DEGREE * (first - WARM_DEGC))
@@ -80,7 +88,9 @@ def test_without_the_temperature_the_drift_stays(warm: Path) -> None:
 def test_values_are_those_at_the_instants_of_the_sensor(warm: Path, place: str) -> None:
     """Interpolated over time: a temperature that comes back to a value has that value both times."""
     experiment = load_experiment(with_variables(warm / PARQUET, place))
-    (part,) = samples_of(experiment, experiment.sensors[0], Use.CALIBRATION, with_variables=True)
+    (part,) = SensorRun(experiment, experiment.sensors[0]).samples(
+        Use.CALIBRATION, variables=[v.linear.name for v in experiment.sensors[0].variables]
+    )
     seconds = seconds_of(experiment.recording, part.samples.stamp_ns)
     values = part.samples.variables[:, 0]
     assert np.abs(values - true_temperature(seconds)).max() < INTERPOLATED
@@ -109,7 +119,7 @@ def test_samples_in_a_gap_of_the_thermometer_are_left_out(warm: Path) -> None:
     assert made.provenance.samples == np.count_nonzero(inside & ~silent)
     assert _close(made.matrix, MOUNTED)
     assert _close(made.variables[0].coefficients, PER_DEGREE)
-    (without,) = samples_of(experiment, experiment.sensors[0], Use.CALIBRATION)
+    (without,) = SensorRun(experiment, experiment.sensors[0]).samples(Use.CALIBRATION)
     assert without.samples.dropped == 0
 
 
@@ -160,7 +170,9 @@ def test_a_missing_current_is_nothing_to_the_voltage(warm: Path) -> None:
     values[:, 1] = np.nan
     put(warm, replace(board, signals={**board.signals, "scalar": replace(scalar, values=values)}))
     experiment = load_experiment(with_variables(warm / PARQUET, SUPPLY))
-    (part,) = samples_of(experiment, experiment.sensors[0], Use.CALIBRATION, with_variables=True)
+    (part,) = SensorRun(experiment, experiment.sensors[0]).samples(
+        Use.CALIBRATION, variables=[v.linear.name for v in experiment.sensors[0].variables]
+    )
     assert part.samples.dropped == 0
     seconds = seconds_of(experiment.recording, part.samples.stamp_ns)
     assert np.abs(part.samples.variables[:, 0] - true_supply(seconds)).max() < INTERPOLATED
@@ -193,7 +205,9 @@ def test_smoothing_takes_the_temperature_along(warm: Path) -> None:
     made = _fitted(experiment)
     assert _close(made.matrix, MOUNTED)
     assert _close(made.variables[0].coefficients, PER_DEGREE)
-    (part,) = samples_of(experiment, experiment.sensors[0], Use.CALIBRATION, with_variables=True)
+    (part,) = SensorRun(experiment, experiment.sensors[0]).samples(
+        Use.CALIBRATION, variables=[v.linear.name for v in experiment.sensors[0].variables]
+    )
     values = np.interp(part.samples.stamp_ns, stream.stamp_ns, jumping.values[:, 0])[:, None]
     alone = smooth(part.samples.stamp_ns, values, SavitzkyGolay(window_s=0.5, order=2))
     assert np.abs(part.samples.variables - alone).max() < 1e-6  # degC; stamps as floats

@@ -10,7 +10,11 @@ from typing import Any
 import numpy as np
 import pytest
 
-from forcetorque.analysis import calibrate_sensor, inspect_experiment
+from forcetorque.analysis import (
+    SensorRun,
+    calibrate_sensor,
+    inspect_experiment,
+)
 from forcetorque.exchange.icub import read_matrix_file
 from forcetorque.exchange.yarp import PortKind, StreamPort, write_ports
 from forcetorque.experiment import load_experiment
@@ -55,7 +59,9 @@ def test_a_written_log_calibrates_as_the_recording_itself(arm: Path) -> None:
     fits = []
     for form in (PARQUET, YARP):
         experiment = load_experiment(arm / form)
-        fits.append(calibrate_sensor(experiment, experiment.sensors[0], code_version="1", created="now").matrix)
+        fits.append(
+            calibrate_sensor(SensorRun(experiment, experiment.sensors[0]), code_version="1", created="now").matrix
+        )
     np.testing.assert_allclose(fits[1], fits[0], rtol=1e-6, atol=1e-9)
 
 

@@ -11,7 +11,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from forcetorque.analysis import calibrate_sensor
+from forcetorque.analysis import (
+    SensorRun,
+    calibrate_sensor,
+)
 from forcetorque.analysis.samples import samples_over
 from forcetorque.arrays import BoolArray, FloatArray
 from forcetorque.calibration import Calibration
@@ -36,7 +39,10 @@ def _view(file: Path, calibrations: dict[str, Calibration] | None = None, **opti
 
 def _fitted(experiment: Experiment, *, regularisation: float) -> Calibration:
     return calibrate_sensor(
-        experiment, experiment.sensors[0], code_version="1", created="2020-01-01", regularisation=regularisation
+        SensorRun(experiment, experiment.sensors[0]),
+        code_version="1",
+        created="2020-01-01",
+        regularisation=regularisation,
     )
 
 
