@@ -12,9 +12,11 @@ from forcetorque.arrays import FloatArray
 from forcetorque.calibration import Calibration
 from forcetorque.errors import ExperimentError
 from forcetorque.estimation import Contact
-from forcetorque.estimation.samples import pick_samples, robot_motion_at
+from forcetorque.estimation.picked import padded_samples
+from forcetorque.estimation.samples import robot_motion_at
 from forcetorque.evaluation import ContactForceValidation, OtherSensors, WrenchErrors, contact_forces, errors_from_zero
 from forcetorque.experiment.candidates import JudgedCandidate, judged_candidates
+from forcetorque.experiment.contacts import touched_otherwise
 from forcetorque.experiment.content import Experiment, ExperimentSensor
 from forcetorque.experiment.first_second import OffsetClock, gap_words, nothing_left, offset_words
 from forcetorque.experiment.inputs import stated_in
@@ -136,11 +138,12 @@ def clock_of(experiment: Experiment, sensor: ExperimentSensor, interval: Interva
         interval: One of the intervals.
 
     Returns:
-        Instants of all its samples, and the filter of the experiment.
+        Instants of all its samples, and those around it that the filter of the experiment takes.
     """
-    source = experiment.recording.stream(sensor.stream)
-    at_ns = source.stamp_ns[pick_samples(experiment.recording, source, interval)[0]]
-    return OffsetClock(at_ns=at_ns, window=experiment.processing.smoothing)
+    recording, smoothing = experiment.recording, experiment.processing.smoothing
+    apart = touched_otherwise(interval, recording, experiment.contacts)
+    source = recording.stream(sensor.stream)
+    return OffsetClock(samples=padded_samples(recording, source, interval, smoothing, apart=apart))
 
 
 def free_part(
@@ -189,7 +192,7 @@ def _over(
     candidates: Sequence[JudgedCandidate],
     needed: Mapping[str, Correction],
 ) -> list[FloatArray]:
-    """Contact wrench at the sensor, candidate by candidate, with its own offset and not filtered; shape (n, 6)."""
+    """Contact wrench at the sensor by candidate, with its own offset and not filtered; shape (n, 6), n of the clock."""
     if interval.support is None:
         raise ExperimentError("expected a support frame, got none")
     source = experiment.recording.stream(sensor.stream)
