@@ -168,6 +168,47 @@ def test_the_reference_temperature_only_moves_the_offset(strategy: str, lam: flo
     np.testing.assert_allclose(zero.wrench(raw, values), first.wrench(raw, values), rtol=1e-7, atol=1e-7)
 
 
+SHIFTS = {"kelvin": 273.15, "a clock of 1970": 1e9}
+
+
+def _shifted(shift: float) -> DataSet:
+    """Two stretches at 29 to 42 units, in steps that doubles hold also beyond the shift: the shift alone is new."""
+    raw, reference, variables = (
+        np.concatenate([getattr(d, part) for d in _two_sets()]) for part in ("raw", "reference", "variables")
+    )
+    return DataSet(label="all", raw=raw, reference=reference, variables=np.round(variables * 2**16) / 2**16 + shift)
+
+
+@pytest.mark.parametrize("name", ["OwTdTO", "OwTrTO", "CwTdTO", "CwTrTO"])
+@pytest.mark.parametrize("shift", SHIFTS.values(), ids=SHIFTS)
+def test_where_a_variable_counts_from_costs_no_digits(name: str, shift: float) -> None:
+    """Matrix and coefficients are those of QR on centred samples, also in parts; uncentred products have others."""
+    data, lam = _shifted(shift), 600.0
+    centred = [values - values.mean(axis=0) for values in (data.raw, data.variables - shift, data.reference)]
+    columns, reference = np.hstack(centred[:2]), centred[2]
+    solved = _by_samples(columns, reference, lam)
+    estimation = estimation_of(data, PRIOR, kind=ESTIMATION_TYPES[name], variables=[TEMPERATURE])
+    halves = [Moments.of(data.raw[half], data.reference[half], data.variables[half]) for half in _halves(data)]
+    for moments in (Moments.of(data.raw, data.reference, data.variables), halves[0] + halves[1]):
+        model = solve(moments, estimation, lam)
+        np.testing.assert_allclose(model.matrix, solved[:, :6], rtol=0.0, atol=1e-10 * np.abs(solved[:, :6]).max())
+        np.testing.assert_allclose(model.coefficients, solved[:, 6:], rtol=0.0, atol=1e-10 * np.abs(solved[:, 6]).max())
+        felt = model.wrench(data.raw.mean(axis=0), data.variables.mean(axis=0))
+        rounding = 1e-9 + 1e-15 * shift  # of offset and coefficient times the variable, whose sum is the wrench
+        np.testing.assert_allclose(felt, data.reference.mean(axis=0), rtol=0.0, atol=rounding)
+    plain = np.hstack([data.raw, data.variables, np.ones((len(data.raw), 1))])
+    penalty = np.diag([lam * len(plain)] * 6 + [0.0, 0.0])
+    wanted = data.reference.T @ plain
+    wanted[:, :6] += lam * len(plain) * PRIOR
+    uncentred = np.linalg.solve(plain.T @ plain + penalty, wanted.T).T
+    if shift > 1e6:  # negative control: there the products of such values have no digits left for the rest
+        assert np.abs(uncentred[:, 6] - solved[:, 6]).max() > 1e-3 * np.abs(solved[:, 6]).max()
+
+
+def _halves(data: DataSet) -> tuple[slice, slice]:
+    return slice(0, len(data.raw) // 3), slice(len(data.raw) // 3, len(data.raw))
+
+
 def test_sphere_finds_the_raw_offset_where_gravity_alone_loads() -> None:
     """On a rigid grid at one temperature the centre is the raw reading without load, exactly."""
     grid = _grid("grid", 29.0, seed=5)

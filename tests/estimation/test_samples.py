@@ -198,22 +198,39 @@ def test_missing_readings_and_bad_stamps_are_dropped_and_counted() -> None:
     assert samples.stamp_ns.tolist() == np.delete(LATE, [100, 101, 200, 201, 500]).tolist()
 
 
-@pytest.mark.parametrize("ignored", [(), (_span(4.0, 5.0, support=None, use=Use.IGNORE),)])
-def test_smoothing_sees_only_the_samples_of_the_interval(ignored: tuple[Interval, ...]) -> None:
-    """Readings outside the interval or ignored change nothing inside, bit by bit; those inside do."""
+@pytest.mark.parametrize("ignored", [(), (_span(1.5, 2.0, support=None, use=Use.IGNORE),)])
+def test_smoothing_sees_half_a_window_around_the_interval_that_is_not_ignored(ignored: tuple[Interval, ...]) -> None:
+    """By hand: a window holds 11 samples of 10 ms. Those further outside, or ignored, change nothing, bit by bit."""
     span = _span(2.0, 8.0)
     inside = np.array([span.start_ns <= t < span.end_ns for t in LATE])
+    near = np.array([span.start_ns - 60_000_000 <= t < span.end_ns + 60_000_000 for t in LATE])
     for cut in ignored:
-        inside &= (cut.start_ns > LATE) | (cut.end_ns <= LATE)
+        near &= (cut.start_ns > LATE) | (cut.end_ns <= LATE)
     clean = _truth(_motion(LATE))
     results = []
-    for change in (np.zeros(1000), 1e3 * ~inside, 1e3 * (np.arange(1000) == 300)):
+    for change in (np.zeros(1000), 1e3 * ~near, 1e3 * (near & ~inside)):
         log = recording(_joints(_stamps()), _sensor(LATE, clean + change[:, None]), intervals=ignored)
         results.append(_samples(log, span, SMOOTHED).reading.values)
-    assert len(results[0]) == np.count_nonzero(inside) < 1000
+    assert len(results[0]) == np.count_nonzero(inside)
     assert results[0].tobytes() == results[1].tobytes()
-    assert results[0].tobytes() != results[2].tobytes()
+    moved = np.abs(results[2] - results[0]).max(axis=1) > 1.0
+    assert np.flatnonzero(moved).tolist() == [*(() if ignored else range(5)), *range(595, 600)]
     assert _rms(results[0] - clean[inside]) > 1e-6  # the filter did something
+
+
+@pytest.mark.parametrize("processing", [Processing(), SMOOTHED, replace(SMOOTHED, logged_derivatives=False)])
+def test_an_interval_reads_as_a_longer_one_does(processing: Processing) -> None:
+    """Readings, references and their derivatives come from the log on either side; a log that ends there has others."""
+    noisy = _truth(_motion(LATE)) + np.random.default_rng(2).normal(size=(1000, 6))
+    log = recording(_joints(_stamps()), _sensor(LATE, noisy))
+    short, long = (_samples(log, span, processing) for span in (_span(3.0, 6.0), _span(1.0, 9.0)))
+    kept = np.isin(long.stamp_ns, short.stamp_ns)
+    np.testing.assert_allclose(short.reading.values, long.reading.values[kept], rtol=0.0, atol=1e-10)  # 50 N
+    np.testing.assert_allclose(short.reference, long.reference[kept], rtol=0.0, atol=1e-10)
+    rows, middle = np.isin(LATE, short.stamp_ns), slice(300, 602)
+    ended = recording(_joints(_stamps()[middle]), _sensor(LATE[rows], noisy[rows]))
+    other = _samples(ended, replace(_span(3.01, 6.0), start_ns=int(LATE[301])), processing)
+    assert np.abs(other.reference - short.reference[1:]).max() > 1e-6  # one-sided derivatives, or smoothing
 
 
 def test_smoothing_keeps_the_relation_of_reading_and_reference() -> None:

@@ -23,13 +23,13 @@ from forcetorque.estimation import (
     moving_joints,
     required_joints_of,
 )
-from forcetorque.estimation.samples import pick_samples, robot_motion_at
-from forcetorque.experiment.contacts import contacts_at_sensors
+from forcetorque.estimation.picked import PaddedSamples, padded_samples
+from forcetorque.estimation.samples import robot_motion_at
+from forcetorque.experiment.contacts import contacts_at_sensors, contacts_in, touched_otherwise
 from forcetorque.experiment.content import Experiment, ExperimentContact
-from forcetorque.recording import Interval, MovingSupport, SavitzkyGolay, Support, Use
+from forcetorque.recording import Interval, MovingSupport, Support, Use
 from forcetorque.recording.alignment import interpolate, require_overlap
-from forcetorque.recording.smoothing import smooth
-from forcetorque.robot import Wrenches, build_tree
+from forcetorque.robot import JointMotion, Wrenches, build_tree
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -82,14 +82,18 @@ def estimate_experiment(
     named = experiment.contacts if contacts is None else tuple(contacts)
     scale = experiment.length_scale if length_scale is None else length_scale
     source = experiment.recording.stream(experiment.sensors[0].stream)
-    instants = [source.stamp_ns[pick_samples(experiment.recording, source, i)[0]] for i in intervals]
-    total, done = sum(map(len, instants)), 0
+    recording, smoothing = experiment.recording, experiment.processing.smoothing
+    taken = [
+        padded_samples(recording, source, each, smoothing, apart=touched_otherwise(each, recording, named))
+        for each in intervals
+    ]
+    total, done = sum(len(samples.rows) for samples in taken), 0
     results = []
-    for interval, at_ns in zip(intervals, instants, strict=True):
+    for interval, samples in zip(intervals, taken, strict=True):
         before = done
         report = None if progress is None else lambda count, start=before: progress(start + count, total)
-        results.append(_over(experiment, corrections, interval, at_ns, named, scale, report))
-        done += len(at_ns)
+        results.append(_over(experiment, corrections, interval, samples, named, scale, report))
+        done += len(samples.rows)
     return results
 
 
@@ -97,7 +101,7 @@ def _over(
     experiment: Experiment,
     corrections: Mapping[str, Correction],
     interval: Interval,
-    at_ns: IntArray,
+    samples: PaddedSamples,
     named: Sequence[ExperimentContact],
     length_scale: float | None,
     progress: Callable[[int], None] | None,
@@ -105,7 +109,7 @@ def _over(
     support = interval.support
     if support is None:
         raise ExperimentError(f"interval {interval.label!r}: expected a support frame")
-    present = [entry for entry in named if entry.intervals is None or interval.label in entry.intervals]
+    present, at_ns, inside = contacts_in(interval, named), samples.stamp_ns, samples.inside
     question = _question(experiment, support, present, asked=bool(named), length_scale=length_scale)
     available = set(experiment.recording.joint_signals("position"))
     question, left_out = narrowed(question, available, required={entry.contact.name for entry in present})
@@ -128,15 +132,13 @@ def _over(
     estimates = estimate(
         question, joints, root, measured=measured, known=_known(experiment, question, present, at_ns), progress=progress
     )
-    if processing.smoothing is not None:
-        estimates = _smoothed(estimates, at_ns, processing.smoothing)
     return IntervalEstimates(
         interval=interval,
-        stamp_ns=at_ns,
-        measured=measured,
-        estimates=estimates,
+        stamp_ns=at_ns[inside],
+        measured=Wrenches(names=measured.names, values=measured.values[inside]),
+        estimates=_smoothed(estimates, samples),
         left_out=tuple(left_out),
-        ambiguous=indistinguishable(question, joints),
+        ambiguous=indistinguishable(question, JointMotion.at_rest(joints.names, joints.position[inside])),
     )
 
 
@@ -186,12 +188,13 @@ def _known(
     return Wrenches.of(wrenches) if wrenches else None
 
 
-def _smoothed(estimates: Estimates, at_ns: IntArray, window: SavitzkyGolay) -> Estimates:
+def _smoothed(estimates: Estimates, samples: PaddedSamples) -> Estimates:
     """Filter results as readings and references are filtered elsewhere; rank and condition stay as they are."""
-    n = len(estimates)
+    n, count = len(estimates), int(np.count_nonzero(samples.inside))
     arrays: dict[str, FloatArray] = {}
     for name in ("expected", "contact_wrenches", "torques", "net_wrenches", "residual"):
         values = getattr(estimates, name)
-        filtered = smooth(at_ns, values.reshape(n, -1), window) if values.size else values
-        arrays[name] = np.ascontiguousarray(filtered.reshape(values.shape))
-    return Estimates(layout=estimates.layout, rank=estimates.rank, condition=estimates.condition, **arrays)
+        filtered = samples.smoothed(values.reshape(n, -1)) if values.size else values[samples.inside]
+        arrays[name] = np.ascontiguousarray(filtered.reshape(count, *values.shape[1:]))
+    rank, condition = estimates.rank[samples.inside], estimates.condition[samples.inside]
+    return Estimates(layout=estimates.layout, rank=rank, condition=condition, **arrays)

@@ -9,9 +9,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from forcetorque.arrays import BoolArray, FloatArray, IntArray
+from forcetorque.estimation.picked import PaddedSamples
 from forcetorque.evaluation import Offset
-from forcetorque.recording import Interval, SavitzkyGolay
-from forcetorque.recording.smoothing import smooth
+from forcetorque.recording import Interval
 from forcetorque.study import OFFSET_S
 
 
@@ -19,15 +19,19 @@ from forcetorque.study import OFFSET_S
 class OffsetClock:
     """Instants of one interval: filters, and tells its first second from what is judged."""
 
-    at_ns: IntArray
-    """Instants; shape (n,); ns."""
-    window: SavitzkyGolay | None
-    """Filter of all that is judged; None for none."""
+    samples: PaddedSamples
+    """Instants of the interval, with those around it that the filter of all that is judged takes."""
+
+    @property
+    def at_ns(self) -> IntArray:
+        """Instants at which errors are wanted, also those around the interval; shape (n,); ns."""
+        return self.samples.stamp_ns
 
     @property
     def first(self) -> BoolArray:
-        """Samples of the first second, where offsets are re-estimated; shape (n,)."""
-        first: BoolArray = self.at_ns < self.at_ns[0] + round(OFFSET_S * 1e9)
+        """Samples of the first second of the interval, where offsets are re-estimated; shape (m,)."""
+        stamps = self.at_ns[self.samples.inside]
+        first: BoolArray = stamps < stamps[0] + round(OFFSET_S * 1e9)
         return first
 
     def with_offset(self, error: FloatArray, source: Offset) -> FloatArray:
@@ -42,7 +46,7 @@ class OffsetClock:
         """
         if source is Offset.FITTED:
             return error
-        moved: FloatArray = error - self._mean(self._filtered(error))
+        moved: FloatArray = error - self._mean(self.samples.smoothed(error))
         return moved
 
     def judged(self, error: FloatArray) -> FloatArray:
@@ -54,7 +58,7 @@ class OffsetClock:
         Returns:
             Filtered errors of the later samples; shape (m, k).
         """
-        later: FloatArray = self._filtered(error)[~self.first]
+        later: FloatArray = self.samples.smoothed(error)[~self.first]
         return later
 
     def judged_with_both(self, error: FloatArray) -> dict[Offset, FloatArray]:
@@ -66,7 +70,7 @@ class OffsetClock:
         Returns:
             Filtered errors of the later samples by offset; shape (m, k).
         """
-        filtered = self._filtered(error)
+        filtered = self.samples.smoothed(error)
         later = filtered[~self.first]
         return {Offset.FITTED: later, Offset.FIRST_SECOND: later - self._mean(filtered)}
 
@@ -75,9 +79,6 @@ class OffsetClock:
         whole = early[~np.isnan(early).any(axis=1)]
         mean: FloatArray = whole.mean(axis=0) if len(whole) else np.full(filtered.shape[1], np.nan)
         return mean
-
-    def _filtered(self, values: FloatArray) -> FloatArray:
-        return values if self.window is None else smooth(self.at_ns, values, self.window)
 
 
 def nothing_left(clock: OffsetClock, interval: Interval) -> str | None:

@@ -11,7 +11,7 @@ from forcetorque.analysis.applicability import require_fit
 from forcetorque.arrays import FloatArray, IntArray, read_only, require_shape
 from forcetorque.calibration import Calibration, recover_raw
 from forcetorque.errors import ExperimentError
-from forcetorque.estimation.samples import pick_samples
+from forcetorque.estimation.picked import pick_samples
 from forcetorque.evaluation import (
     MARGIN,
     AxisResolution,

@@ -13,10 +13,10 @@ from forcetorque.arrays import FloatArray
 from forcetorque.calibration import DataSet
 from forcetorque.errors import ExperimentError
 from forcetorque.estimation import SensorSamples, sensor_samples
-from forcetorque.estimation.samples import pick_samples
+from forcetorque.estimation.picked import padded_samples
+from forcetorque.experiment.contacts import touched_otherwise
 from forcetorque.experiment.content import Experiment, ExperimentSensor
 from forcetorque.recording import Interval
-from forcetorque.recording.smoothing import smooth
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -76,6 +76,7 @@ def samples_over(
         interval=interval,
         processing=processing if smoothed else replace(processing, smoothing=None),
         variables=[sensor.variable(name).source for name in variables],
+        apart=touched_otherwise(interval, experiment.recording, experiment.contacts),
     )
     readings = Readings.of(sensor, samples.reading.values, dict(zip(variables, samples.variables.T, strict=True)))
     return IntervalSamples(interval=interval, samples=samples, readings=readings)
@@ -100,16 +101,15 @@ def readings_over(
     """
     recording = experiment.recording
     stream = recording.stream(sensor.stream)
-    picked, _ = pick_samples(recording, stream, interval)
-    at_ns = stream.stamp_ns[picked]
-    values = np.where(stream.held[picked, None], np.nan, stream.signal(sensor.quantity).values[picked])
+    apart = touched_otherwise(interval, recording, experiment.contacts)
+    padded = padded_samples(recording, stream, interval, experiment.processing.smoothing, apart=apart)
+    rows, at_ns = padded.rows, padded.stamp_ns
+    values = np.where(stream.held[rows, None], np.nan, stream.signal(sensor.quantity).values[rows])
     columns = [variable.source.at(recording, at_ns)[:, None] for variable in sensor.variables]
-    both = np.hstack([values, *columns])
-    if experiment.processing.smoothing is not None:
-        both = smooth(at_ns, both, experiment.processing.smoothing)
+    both = padded.smoothed(np.hstack([values, *columns]))
     complete = both[np.isfinite(both).all(axis=1)]
     if not len(complete):
         raise ExperimentError(
-            f"interval {interval.label!r}: none of {len(picked)} samples of {sensor.stream!r} is complete"
+            f"interval {interval.label!r}: none of {len(both)} samples of {sensor.stream!r} is complete"
         )
     return complete[:, : values.shape[1]], complete[:, values.shape[1] :]

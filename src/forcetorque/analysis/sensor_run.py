@@ -15,8 +15,10 @@ from forcetorque.analysis.samples import IntervalSamples, samples_over
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration import Calibration
 from forcetorque.errors import ExperimentError
-from forcetorque.estimation.samples import pick_samples, robot_motion_at
+from forcetorque.estimation.picked import padded_samples
+from forcetorque.estimation.samples import robot_motion_at
 from forcetorque.experiment import Experiment, ExperimentSensor
+from forcetorque.experiment.contacts import touched_otherwise
 from forcetorque.recording import Interval, Stream, Use
 from forcetorque.robot import JointMotion, RootMotion
 
@@ -94,12 +96,13 @@ class SensorRun:
             interval: The interval.
 
         Returns:
-            Instants of all its samples, and the filter of the experiment.
+            Instants of all its samples, and those around it that the filter of the experiment takes.
         """
 
         def instants() -> OffsetClock:
-            picked, _ = pick_samples(self.experiment.recording, self.stream, interval)
-            return OffsetClock(at_ns=self.stream.stamp_ns[picked], window=self.experiment.processing.smoothing)
+            recording, smoothing = self.experiment.recording, self.experiment.processing.smoothing
+            apart = touched_otherwise(interval, recording, self.experiment.contacts)
+            return OffsetClock(samples=padded_samples(recording, self.stream, interval, smoothing, apart=apart))
 
         return self._once(("clock", _key(interval)), instants)
 

@@ -12,7 +12,7 @@ from forcetorque.analysis.sensor_run import SensorRun
 from forcetorque.arrays import BoolArray, FloatArray, IntArray, read_only
 from forcetorque.calibration import Calibration, recover_raw
 from forcetorque.errors import ExperimentError, ForceTorqueError
-from forcetorque.estimation.samples import pick_samples
+from forcetorque.estimation.picked import pick_samples
 from forcetorque.evaluation import (
     MatrixChecks,
     OffsetChange,

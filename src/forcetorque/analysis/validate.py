@@ -178,7 +178,7 @@ def _over(
     candidates: Sequence[JudgedCandidate],
     needed: Mapping[str, Correction],
 ) -> list[FloatArray]:
-    """Contact wrench at the sensor, candidate by candidate, with its own offset and not filtered; shape (n, 6)."""
+    """Contact wrench at the sensor by candidate, with its own offset and not filtered; shape (n, 6), n of the clock."""
     experiment, source = run.experiment, run.stream
     joints, root = run.motion(interval, validation.required_joints)
     measured = {}

@@ -35,14 +35,17 @@ class Moments:
     """Number c of raw channels."""
     variables: int
     """Number v of linear variables."""
-    mean: FloatArray
-    """Mean of every column; shape (m,)."""
+    origin: FloatArray
+    """Rough mean of every column, which keeps the digits of what is beyond it; shape (m,)."""
+    step: FloatArray
+    """Mean of every column beyond the rough one; shape (m,)."""
     second: FloatArray
     """Mean product of centred columns; shape (m, m)."""
 
     def __post_init__(self) -> None:
         width = self.channels + self.variables + 6
-        object.__setattr__(self, "mean", read_only(self.mean, name="mean", shape=(width,)))
+        object.__setattr__(self, "origin", read_only(self.origin, name="origin", shape=(width,)))
+        object.__setattr__(self, "step", read_only(self.step, name="step", shape=(width,)))
         object.__setattr__(self, "second", read_only(self.second, name="second", shape=(width, width)))
 
     @classmethod
@@ -75,7 +78,12 @@ class Moments:
         rough, step, second = _reduce((r, v, f))
         if not np.isfinite(second).all():
             raise FitError("expected finite values only, got others; leave out gaps")
-        return cls(count=len(r), channels=r.shape[1], variables=v.shape[1], mean=rough + step, second=second)
+        return cls(count=len(r), channels=r.shape[1], variables=v.shape[1], origin=rough, step=step, second=second)
+
+    @property
+    def mean(self) -> FloatArray:
+        """Mean of every column; shape (m,)."""
+        return self.origin + self.step
 
     @property
     def raw_mean(self) -> FloatArray:
@@ -115,12 +123,14 @@ class Moments:
             )
         count = self.count + other.count
         mine, theirs = self.count / count, other.count / count
-        step = other.mean - self.mean
+        # in this order: of a clock that counts from 1970 the means would lose what lies between them
+        step = (other.origin - self.origin) + (other.step - self.step)
         return Moments(
             count=count,
             channels=self.channels,
             variables=self.variables,
-            mean=self.mean + theirs * step,
+            origin=self.origin,
+            step=self.step + theirs * step,
             second=mine * self.second + theirs * other.second + mine * theirs * np.outer(step, step),
         )
 
@@ -133,7 +143,7 @@ class Moments:
         Returns:
             Second moment about it; shape (m, m).
         """
-        step = self.mean - origin
+        step = (self.origin - origin) + self.step
         moved: FloatArray = self.second + np.outer(step, step)
         return moved
 
@@ -144,10 +154,11 @@ class Moments:
             Moments of what is left, without variables.
         """
         v = slice(self.channels, self.channels + self.variables)
-        kept = np.r_[: self.channels, self.channels + self.variables : len(self.mean)]
+        kept = np.r_[: self.channels, self.channels + self.variables : len(self.origin)]
         shared = self.second[kept][:, v]
         left = self.second[np.ix_(kept, kept)] - shared @ symmetric_pseudo_inverse(self.second[v, v]) @ shared.T
-        return Moments(count=self.count, channels=self.channels, variables=0, mean=self.mean[kept], second=left)
+        origin, step = self.origin[kept], self.step[kept]
+        return Moments(count=self.count, channels=self.channels, variables=0, origin=origin, step=step, second=left)
 
     def squared_error(self, model: WrenchModel) -> FloatArray:
         """Mean squared error of a model on these samples, per component.

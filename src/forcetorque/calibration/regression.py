@@ -183,8 +183,9 @@ def _columns(moments: Moments, estimation: Estimation) -> tuple[FloatArray, Floa
     elif estimation.kind.offset is OffsetStrategy.CENTRALISED:
         origin = moments.mean
     else:
-        # a constant takes up any shift of the columns; from the raw mean no digits are lost to large offsets
-        origin = np.concatenate([moments.raw_mean, values, zero])
+        # a constant takes up any shift of the columns; from the means no digits are lost to large raw offsets or to
+        # variables far from zero, such as kelvins and seconds since 1970
+        origin = np.concatenate([moments.raw_mean, moments.variable_mean, zero])
     gram, step = moments.about(origin), moments.mean - origin
     kept = np.r_[: c + len(fitted), len(origin) - 6 : len(origin)]
     gram, step, constants = gram[np.ix_(kept, kept)], step[kept], 0

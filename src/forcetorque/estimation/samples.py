@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -13,6 +13,7 @@ from forcetorque.constants import STANDARD_GRAVITY
 from forcetorque.errors import RecordingError
 from forcetorque.estimation.estimate import estimate
 from forcetorque.estimation.needs import required_joints_of
+from forcetorque.estimation.picked import padded_samples
 from forcetorque.estimation.question import Question
 from forcetorque.estimation.root_motion import joints_to_support, support_motion_at
 from forcetorque.recording import (
@@ -24,11 +25,9 @@ from forcetorque.recording import (
     Signal,
     Stream,
     Support,
-    Use,
 )
-from forcetorque.recording.alignment import require_overlap, usable_samples
+from forcetorque.recording.alignment import require_overlap
 from forcetorque.recording.joints import joint_motion_at
-from forcetorque.recording.smoothing import smooth
 from forcetorque.robot import JointMotion, RobotModel, RootMotion, build_tree
 
 
@@ -41,10 +40,10 @@ class Processing:
     logged_derivatives: bool = False
     """Whether joint velocities and accelerations are taken from the log instead."""
     smoothing: SavitzkyGolay | None = None
-    """Filter of reading and reference alike, inside each interval; None leaves both as they are.
+    """Filter of reading and reference alike; None leaves both as they are.
 
-    The same linear filter on both keeps `reference = matrix reading + offset` exact, and takes out
-    vibration that joint encoders do not see.
+    It takes samples around an interval too, as `padded_samples` has it. The same linear filter on both keeps
+    `reference = matrix reading + offset` exact, and takes out vibration that joint encoders do not see.
     """
     gravity: float = STANDARD_GRAVITY
     """Magnitude of gravity; m/s2."""
@@ -90,6 +89,7 @@ def sensor_samples(
     interval: Interval,
     processing: Processing,
     variables: Sequence[ScalarSource] = (),
+    apart: Collection[str] = (),
 ) -> SensorSamples:
     """Pair the readings of a sensor in an interval with the wrenches expected from the robot model.
 
@@ -104,6 +104,7 @@ def sensor_samples(
         interval: Interval with a support frame.
         processing: Filters and gravity.
         variables: Where linear variables, such as the temperature, come from.
+        apart: Labels of intervals in which other links touch: the filter takes nothing from them.
 
     Returns:
         Samples of the interval that lie in no ignored interval and have a finite reading, reference and variables.
@@ -115,32 +116,29 @@ def sensor_samples(
     if interval.support is None:
         raise RecordingError(f"interval {interval.label!r}: expected a support frame, got none")
     source = recording.stream(stream)
-    picked, wanted = pick_samples(recording, source, interval)
-    at_ns = source.stamp_ns[picked]
+    padded = padded_samples(recording, source, interval, processing.smoothing, apart=apart)
+    at_ns = padded.stamp_ns
     reference, joints = _reference(recording, model, sensor, source, interval.support, at_ns, processing)
     reading = source.signal(quantity)
-    values = np.where(source.held[picked, None], np.nan, reading.values[picked])
+    values = np.where(source.held[padded.rows, None], np.nan, reading.values[padded.rows])
     extra = _variables(recording, source, variables, at_ns)
-    if processing.smoothing is not None:
-        # after the cut, so that nothing leaks in from outside; together, because a sample that only one
-        # of the two lacks would give them two different filters
-        channels = values.shape[1]
-        both = smooth(at_ns, np.hstack([values, reference, extra]), processing.smoothing)
-        values, reference, extra = np.split(both, [channels, channels + 6], axis=1)
-    complete = np.isfinite(np.hstack([values, reference, extra])).all(axis=1)
+    # together, because a sample that only one of them lacks would give them different filters
+    both = padded.smoothed(np.hstack([values, reference, extra]))
+    values, reference, extra = np.split(both, [values.shape[1], values.shape[1] + 6], axis=1)
+    complete = np.isfinite(both).all(axis=1)
     if not complete.any():
         needed = ", ".join((*joints, *(f"{v.stream} {v.column}" for v in variables))) or "motion of the support"
         raise RecordingError(
-            f"interval {interval.label!r}: none of {len(picked)} samples of {stream!r} has both a reading and the "
+            f"interval {interval.label!r}: none of {len(both)} samples of {stream!r} has both a reading and the "
             f"joint(s) {needed}; the streams have gaps or missing values all over it"
         )
     return SensorSamples(
         label=interval.label,
-        stamp_ns=at_ns[complete],
+        stamp_ns=at_ns[padded.inside][complete],
         reading=replace(reading, values=values[complete]),
         reference=reference[complete],
         variables=extra[complete],
-        dropped=wanted - int(np.count_nonzero(complete)),
+        dropped=padded.wanted - int(np.count_nonzero(complete)),
     )
 
 
@@ -204,36 +202,3 @@ def robot_motion_at(
     motion = joint_motion_at(recording, needed, at_ns, window=window, logged_derivatives=processing.logged_derivatives)
     root = support_motion_at(model, recording, support, motion, at_ns, window=window, gravity=processing.gravity)
     return motion, root
-
-
-def pick_samples(recording: Recording, source: Stream, interval: Interval) -> tuple[IntArray, int]:
-    """Find the samples of an interval that are not to be ignored.
-
-    Args:
-        recording: The recording.
-        source: One of its streams.
-        interval: The interval.
-
-    Returns:
-        Indices of its samples with increasing stamps, and the number of all its samples.
-
-    Raises:
-        RecordingError: If it lies outside the log, or no sample is left.
-    """
-    start, end = recording.span_ns
-    if interval.start_ns < start or interval.end_ns > end + 1:
-        first, last = ((t - start) * 1e-9 for t in (interval.start_ns, interval.end_ns))
-        raise RecordingError(
-            f"interval {interval.label!r}: expected a span inside the log, 0 to {(end - start) * 1e-9:.3f} s, "
-            f"got {first:.3f} to {last:.3f} s"
-        )
-    stamps = source.stamp_ns
-    inside = interval.holds(stamps)
-    for other in recording.intervals:
-        if other.use is Use.IGNORE:
-            inside &= (stamps < other.start_ns) | (stamps >= other.end_ns)
-    usable = usable_samples(stamps)
-    picked = usable[inside[usable]]
-    if not len(picked):
-        raise RecordingError(f"interval {interval.label!r}: stream {source.name!r} has no sample in it to use")
-    return picked, int(np.count_nonzero(inside))

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -13,7 +13,7 @@ from forcetorque.estimation import Contact, ContactType
 from forcetorque.experiment import schema
 from forcetorque.experiment.content import ExperimentContact
 from forcetorque.experiment.inputs import stated_in
-from forcetorque.recording import Recording
+from forcetorque.recording import Interval, Recording
 from forcetorque.robot import BodyTree, RobotModel
 from forcetorque.spatial import invert_pose
 
@@ -86,6 +86,36 @@ def contact_in_words(text: str, model: RobotModel) -> ExperimentContact:
         contact = Contact(link=frame, type=ContactType(word), direction=direction)
         _require_link(contact, model)
     return ExperimentContact(contact=contact)
+
+
+def contacts_in(interval: Interval, contacts: Iterable[ExperimentContact]) -> list[ExperimentContact]:
+    """Tell which contacts are there in an interval.
+
+    Args:
+        interval: The interval.
+        contacts: Contacts of an experiment, or in their place.
+
+    Returns:
+        Those of all intervals and of this one.
+    """
+    return [entry for entry in contacts if entry.intervals is None or interval.label in entry.intervals]
+
+
+def touched_otherwise(
+    interval: Interval, recording: Recording, contacts: Sequence[ExperimentContact]
+) -> tuple[str, ...]:
+    """Tell in which intervals the contacts of another do not hold: a filter of that one takes nothing from them.
+
+    Args:
+        interval: The interval whose contacts are meant.
+        recording: The recording with all intervals.
+        contacts: Contacts of the experiment, or in their place.
+
+    Returns:
+        Labels of the intervals with other contacts.
+    """
+    mine = contacts_in(interval, contacts)
+    return tuple(other.label for other in recording.intervals if contacts_in(other, contacts) != mine)
 
 
 def contacts_at_sensors(tree: BodyTree, sensors: Iterable[str]) -> tuple[Contact, ...]:

@@ -12,6 +12,9 @@ from forcetorque.arrays import FloatArray, IntArray
 from forcetorque.errors import RecordingError
 from forcetorque.recording.alignment import gap_limit_ns, seconds_since, usable_samples
 
+_HIT = 1e-6
+"""A sample this close to an instant of the grid, in steps, is at it: places are rounded."""
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SavitzkyGolay:
@@ -30,7 +33,84 @@ class SavitzkyGolay:
             )
 
 
-def smooth(stamp_ns: IntArray, values: FloatArray, window: SavitzkyGolay, *, derivative: int = 0) -> FloatArray:
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class EvenGrid:
+    """Even instants between the gaps of a stream: it is filtered on them, whichever of its samples are looked at."""
+
+    period_s: float
+    """Median period of the stream; s."""
+    gap_ns: int
+    """A longer pause is a gap; ns."""
+    start_ns: IntArray
+    """First sample of every stretch between gaps; shape (k,); ns."""
+    end_ns: IntArray
+    """Last sample of every stretch; shape (k,); ns."""
+
+    @classmethod
+    def of(cls, stamp_ns: IntArray) -> EvenGrid:
+        """Lay a grid over a stream.
+
+        Args:
+            stamp_ns: At least two increasing stamps; shape (n,); ns.
+
+        Returns:
+            Its grid.
+        """
+        steps, limit = np.diff(stamp_ns), gap_limit_ns(stamp_ns)
+        last = np.flatnonzero(steps > limit)
+        return cls(
+            # of the whole stream: a short stretch has too few samples to tell it
+            period_s=float(np.median(steps)) * 1e-9,
+            gap_ns=limit,
+            start_ns=stamp_ns[np.concatenate([[0], last + 1])],
+            end_ns=stamp_ns[np.concatenate([last, [len(stamp_ns) - 1]])],
+        )
+
+    def length_of(self, window: SavitzkyGolay) -> int:
+        """Tell how many instants a window holds.
+
+        Args:
+            window: A filter.
+
+        Returns:
+            An odd number.
+
+        Raises:
+            RecordingError: If they cannot carry the order of the filter.
+        """
+        length = 2 * int(round(0.5 * window.window_s / self.period_s)) + 1
+        if length <= window.order:
+            raise RecordingError(
+                f"Savitzky-Golay: a window of {window.window_s:g} s holds {length} sample(s) of {self.period_s:.4g} s, "
+                f"which cannot carry order {window.order}; lengthen the window"
+            )
+        return length
+
+    def places(self, stamp_ns: IntArray) -> tuple[FloatArray, float]:
+        """Tell where samples of one stretch lie.
+
+        Args:
+            stamp_ns: Stamps of samples of one stretch; shape (n,); ns.
+
+        Returns:
+            Their places, in steps from the first instant of the stretch, shape (n,); length of a step, s.
+        """
+        stretch = int(np.searchsorted(self.start_ns, stamp_ns[0], side="right")) - 1
+        start, end = int(self.start_ns[stretch]), int(self.end_ns[stretch])
+        length = (end - start) * 1e-9
+        # both ends of a stretch are instants of the grid
+        step = length / max(round(length / self.period_s), 1) if end > start else self.period_s
+        return seconds_since(stamp_ns, start) / step, step
+
+
+def smooth(
+    stamp_ns: IntArray,
+    values: FloatArray,
+    window: SavitzkyGolay,
+    *,
+    derivative: int = 0,
+    grid: EvenGrid | None = None,
+) -> FloatArray:
     """Smooth or differentiate samples in time.
 
     Stamps jitter, so every stretch between gaps is brought to an even grid of the stream's median
@@ -43,6 +123,7 @@ def smooth(stamp_ns: IntArray, values: FloatArray, window: SavitzkyGolay, *, der
         values: Samples; shape (n, k).
         window: Length and order of the filter.
         derivative: 0 to smooth, 1 for the rate, 2 for the second derivative.
+        grid: Grid of the stream that the samples are a part of; None for that of the complete samples themselves.
 
     Returns:
         Filtered samples at the same stamps; shape (n, k); the unit of `values` per s ** derivative.
@@ -59,29 +140,30 @@ def smooth(stamp_ns: IntArray, values: FloatArray, window: SavitzkyGolay, *, der
     usable = usable[np.isfinite(values[usable]).all(axis=1)]
     if len(usable) < 2:
         return result
-    steps = np.diff(stamp_ns[usable])
-    # of the whole stream: a short stretch has too few samples to tell it
-    period = float(np.median(steps)) * 1e-9
-    length = 2 * int(round(0.5 * window.window_s / period)) + 1
-    if length <= window.order:
-        raise RecordingError(
-            f"Savitzky-Golay: a window of {window.window_s:g} s holds {length} sample(s) of {period:.4g} s, "
-            f"which cannot carry order {window.order}; lengthen the window"
-        )
-    for stretch in np.split(usable, np.flatnonzero(steps > gap_limit_ns(stamp_ns[usable])) + 1):
-        seconds = seconds_since(stamp_ns[stretch], int(stamp_ns[stretch[0]]))
-        count = round(float(seconds[-1]) / period) + 1
-        if count >= max(length, 2):
-            grid = np.linspace(0.0, seconds[-1], count)
-            result[stretch] = _smooth_on_grid(grid, seconds, values[stretch], length, window.order, derivative)
+    if grid is None:
+        grid = EvenGrid.of(stamp_ns[usable])
+    length = grid.length_of(window)
+    pauses = np.flatnonzero(np.diff(stamp_ns[usable]) > grid.gap_ns)
+    for stretch in np.split(usable, pauses + 1):
+        places, step = grid.places(stamp_ns[stretch])
+        first, last = math.ceil(places[0] - _HIT), math.floor(places[-1] + _HIT)
+        if last - first + 1 >= max(length, 2):
+            even = np.arange(first, last + 1, dtype=np.float64)
+            result[stretch] = _smooth_on_grid(even, places, values[stretch], (length, window.order, derivative), step)
     return result
 
 
 def _smooth_on_grid(
-    grid: FloatArray, seconds: FloatArray, values: FloatArray, length: int, order: int, derivative: int
+    grid: FloatArray, places: FloatArray, values: FloatArray, filtering: tuple[int, int, int], step: float
 ) -> FloatArray:
     from scipy.signal import savgol_filter  # here because importing it takes longer than most filters
 
-    even = np.column_stack([np.interp(grid, seconds, column) for column in values.T])
-    filtered = savgol_filter(even, length, order, deriv=derivative, delta=float(grid[1]), axis=0)
-    return np.column_stack([np.interp(seconds, grid, column) for column in filtered.T])
+    length, order, derivative = filtering
+    even = np.column_stack([np.interp(grid, places, column) for column in values.T])
+    filtered = savgol_filter(even, length, order, deriv=derivative, delta=step, axis=0)
+    # a part of a stretch may begin and end between instants of the grid
+    before, after = np.minimum(places - grid[0], 0.0), np.maximum(places - grid[-1], 0.0)
+    inner = np.column_stack([np.interp(places, grid, column) for column in filtered.T])
+    outer = np.outer(before, filtered[1] - filtered[0]) + np.outer(after, filtered[-1] - filtered[-2])
+    result: FloatArray = inner + outer
+    return result
