@@ -58,11 +58,11 @@ def test_no_worse_than_the_prior(path: Path, data_dir: Path, tmp_path: Path) -> 
 
 
 def test_a_quiet_half_may_give_a_force_a_little_worse_than_the_prior(data_dir: Path, tmp_path: Path) -> None:
-    """Quiet data excite little: the force error rises by 0.045 N, a fourth of its standard error; moments gain."""
+    """Quiet data excite little: the force error rises by 0.02 N, an eighth of its standard error; moments gain."""
     verdicts, regularisation = _verdicts(_load(YOGA[2], data_dir, tmp_path))
     prior, new = verdicts["prior", "fitted"].errors, verdicts["new", "fitted"].errors
-    assert regularisation == pytest.approx(4.73e4, rel=0.01)
-    assert (prior.force_mean, new.force_mean) == pytest.approx((0.861, 0.906), abs=0.002)
+    assert regularisation == pytest.approx(8.41e4, rel=0.01)
+    assert (prior.force_mean, new.force_mean) == pytest.approx((0.861, 0.881), abs=0.002)
     assert new.force_mean - prior.force_mean < 0.3 * new.force_mean_error
     assert new.moment_mean < 0.7 * prior.moment_mean
     prior, new = verdicts["prior", "re-estimated"].errors, verdicts["new", "re-estimated"].errors
