@@ -9,7 +9,7 @@ import pytest
 
 from forcetorque.calibration import ESTIMATION_TYPES
 from forcetorque.experiment import read_study_data, study_sensor
-from forcetorque.study import TABLE_LAMBDAS, OffsetSource
+from forcetorque.study import SWEEP_LAMBDAS, OffsetSource
 
 EXAMPLE = Path(__file__).resolve().parents[2] / "examples" / "10_icub_yoga_study.toml"
 
@@ -27,7 +27,7 @@ def test_a_choice_on_one_block_halves_the_force_on_the_other(data_dir: Path, tmp
             data,
             data_sets=None,
             kinds=list(ESTIMATION_TYPES.values()),
-            table_lambdas=TABLE_LAMBDAS,
+            lambdas=SWEEP_LAMBDAS,
             sphere=["early"],
             code_version="test",
             created="test",
