@@ -38,7 +38,7 @@ from tests.studies import CALIBRATION, FILES, SERIAL, VALIDATION, scenario
 SAME = 1e-8
 """Relative: rounding of double precision times the condition of the raw readings and of the temperature, some 1e6."""
 
-LAMBDAS = (0.0, 100.0, 1e5)
+LAMBDAS = (0.0, 600.0, 6e5)
 NAMES = {
     (source, by): f"{by}_offset_{source.replace('-', '_')}"
     for source in KNOWN_BEFORE
@@ -51,7 +51,7 @@ def _study(data: StudyData, **changes: Any) -> SensorStudy:
     options: dict[str, Any] = {
         "data_sets": None,
         "kinds": list(ESTIMATION_TYPES.values()),
-        "table_lambdas": LAMBDAS,
+        "lambdas": LAMBDAS,
         "sphere": ["grid_cold"],
         "code_version": "1.2.3",
         "created": "today",
@@ -309,7 +309,7 @@ def test_the_sphere_of_the_files_is_taken_unless_another_is_named(days: Path) ->
     """And one that is no calibration interval is refused."""
     edit(days / "grid_warm.toml", "[recording]", '[calibration]\nsphere_intervals = ["grid_warm"]\n\n[recording]')
     (data,) = read_study_data([days / file for file in FILES], None)
-    only = {"kinds": [ESTIMATION_TYPES["SwTrTO"]], "table_lambdas": [0.0], "data_sets": {"all": ["grid", "random"]}}
+    only = {"kinds": [ESTIMATION_TYPES["SwTrTO"]], "lambdas": [0.0], "data_sets": {"all": ["grid", "random"]}}
     of_file, warm, cold = (_study(data, sphere=sphere, **only) for sphere in (None, ["grid_warm"], ["grid_cold"]))
     offsets = [found.study.fits.candidates[0].model.offset for found in (of_file, warm, cold)]
     assert np.array_equal(offsets[0], offsets[1])

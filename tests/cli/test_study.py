@@ -8,6 +8,7 @@ import json
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
 from forcetorque.analysis import SensorStudy
@@ -46,9 +47,10 @@ FIGURES = (
     "figure_5_7_contact_moments.png",
     "figure_5_9_measured_and_reference.png",
 )
-LAMBDAS = ("0", "1", "5", "10", "50", "100", "1000", "5000", "10000", "50000", "100000", "500000", "1000000")
+PRINTED_LAMBDAS = (0, 1, 5, 10, 50, 100, 1000, 5000, 10000, 50000, 100000, 500000, 1000000)
+LAMBDAS = tuple(f"lambda {6 * value} (table {value})" for value in PRINTED_LAMBDAS)
 SPHERE = ("--sphere", "grid_cold", "--sphere", "grid_warm")
-QUICK = ("--type", "OnTdTO", "--type", "OwTrTO", "--lambda", "0", "--lambda", "100")
+QUICK = ("--type", "OnTdTO", "--type", "OwTrTO", "--lambda", "0", "--lambda", "600")
 PRINTED = 1e-12
 """Relative; numbers are written with all their digits."""
 
@@ -79,7 +81,8 @@ def test_from_a_scenario_to_a_calibration_that_is_better(
     files = [f"simulated/{file}" for file in FILES]
     result = run("study", *files, *SPHERE, "-o", "out", "--format", "json").result()
     assert faults(result, run("schema", "study").result()) == []
-    assert result["schema"] == "forcetorque/study/1"
+    assert result["schema"] == "forcetorque/study/2"
+    assert result["lambda_convention"].startswith("thesis (5.4): mean squared residual norm + lambda |C - C_prior|^2")
     assert result["experiments"] == files
     (sensor,) = result["sensors"]
     assert (sensor["sensor"], sensor["serial"], sensor["folder"]) == ("arm_ft", SERIAL, str(FOLDER))
@@ -149,12 +152,13 @@ def test_tables_5_5_and_5_6_are_in_the_form_of_the_thesis(days: Path, run: Run, 
         *(("random", name) for name in without),
         *(("grid + random", name) for name in ESTIMATION_TYPES),
     ]
-    assert (workbench["data_set"], workbench["type"], workbench["0"]) == ("workbench", "", "")
+    assert (workbench["data_set"], workbench["type"], workbench[LAMBDAS[0]]) == ("workbench", "", "")
     assert float(workbench["mean"]) == pytest.approx(sensor["workbench"]["force_mean_N"], rel=PRINTED)
     (found,) = [each["best"] for each in sensor["modes"] if each["offset"].replace("-", "_") == mode]
     data_set, _, name = found["name"].partition(" lambda ")[0].rpartition(" ")
     (row,) = [row for row in rows if (row["data_set"], row["type"]) == (data_set, name)]
-    assert float(row[f"{found['table_lambda']:.0f}"]) == pytest.approx(found["force_mean_N"], rel=PRINTED)
+    heading = f"lambda {found['lambda_counts2']:.0f} (table {found['table_lambda_counts2']:.0f})"
+    assert float(row[heading]) == pytest.approx(found["force_mean_N"], rel=PRINTED)
     assert sensor["candidates"] == len(rows) * 13 == 312
 
 
@@ -182,9 +186,9 @@ def test_the_other_tables_can_be_read(days: Path, run: Run) -> None:
             assert float(row["workbench"]) == found["workbench"]
     *candidates, workbench = _rows(FOLDER / TABLES[6])
     assert len(candidates) == sensor["candidates"]
-    assert (workbench["data_set"], workbench["table_lambda"]) == ("workbench", "")
+    assert (workbench["data_set"], workbench["table_lambda_counts2"]) == ("workbench", "")
     for row in candidates:
-        assert float(row["lambda_counts2"]) == 6.0 * float(row["table_lambda"])
+        assert float(row["lambda_counts2"]) == 6.0 * float(row["table_lambda_counts2"])
 
 
 def test_the_result_agrees_with_the_candidates(days: Path, run: Run) -> None:
@@ -196,7 +200,7 @@ def test_the_result_agrees_with_the_candidates(days: Path, run: Run) -> None:
         smallest = min(float(row[f"force_mean_{suffix}"]) for row in candidates)
         assert best["force_mean_N"] == pytest.approx(smallest, rel=1e-6)
         assert 0.0 < best["force_mean_error_N"] < best["force_mean_N"]
-        assert best["lambda_counts2"] == 6.0 * best["table_lambda"]
+        assert best["lambda_counts2"] == 6.0 * best["table_lambda_counts2"]
         for row in mode["by_axis"]:
             least = min(float(candidate[f"{row['axis']}_{suffix}"]) for candidate in candidates)
             assert row["mean_absolute"] == pytest.approx(least, rel=1e-6)
@@ -229,13 +233,15 @@ def test_the_calibrations_can_be_evaluated(days: Path, run: Run) -> None:
 
 def test_types_and_lambdas_can_be_chosen(days: Path, run: Run) -> None:
     """In any order and each once: types as they are typed, lambdas sorted."""
-    sensor = _sensor(run, "--type", "OwTrTO", "--type", "CnTdTO", "--lambda", "50", "--lambda", "0.5", "--lambda", "50")
+    sensor = _sensor(run, "--type", "OwTrTO", "--type", "CnTdTO", "--lambda", "60", "--lambda", "1.5", "--lambda", "60")
     rows = _rows(FOLDER / "candidates.csv")[:-1]
-    assert [(row["type"], row["table_lambda"]) for row in rows[:4]] == [
-        ("OwTrTO", "0.5"), ("OwTrTO", "50.0"), ("CnTdTO", "0.5"), ("CnTdTO", "50.0"),
+    assert [(row["type"], row["lambda_counts2"]) for row in rows[:4]] == [
+        ("OwTrTO", "1.5"), ("OwTrTO", "60.0"), ("CnTdTO", "1.5"), ("CnTdTO", "60.0"),
     ]  # fmt: skip
     assert sensor["candidates"] == len(rows) == 12
-    assert list(_rows(FOLDER / TABLES[3])[0]) == ["data_set", "type", "0.5", "50", "mean"]
+    assert list(_rows(FOLDER / TABLES[3])[0]) == [
+        "data_set", "type", "lambda 1.5 (table 0.25)", "lambda 60 (table 10)", "mean",
+    ]  # fmt: skip
 
 
 def test_data_sets_are_named_by_label_or_kind(days: Path, run: Run) -> None:
@@ -358,3 +364,18 @@ def test_the_same_files_give_the_same_tables(days: Path, run: Run) -> None:
         for text in texts:
             del text["provenance"]["created"]
         assert texts[0] == texts[1]
+
+
+def test_a_lambda_is_what_calibrate_calls_so(days: Path, run: Run) -> None:
+    """Typed for a study of one file or for a calibration of it, a lambda gives the same matrix; a sixth does not."""
+    words = ("--type", "OnTdTO", "--lambda", "6e5", "-o", "out", "--format", "json")
+    (sensor,) = run("study", "move_cold.toml", *VALIDATION, *words).result()["sensors"]
+    assert sensor["modes"][0]["best"]["lambda_counts2"] == 6e5
+    studied = read_calibration(FOLDER / "best_offset_re_estimated.json")
+    matrices = {}
+    for regularisation in ("6e5", "1e5"):
+        words = ("--type", "OnTdTO", "--lambda", regularisation, "-o", f"{regularisation}.json")
+        assert run("calibrate", "move_cold.toml", *words).code == 0
+        matrices[regularisation] = read_calibration(Path(f"{regularisation}.json")).matrix
+    np.testing.assert_allclose(studied.matrix, matrices["6e5"], rtol=0.0, atol=1e-9 * np.abs(studied.matrix).max())
+    assert np.abs(studied.matrix - matrices["1e5"]).max() > 1e-6 * np.abs(studied.matrix).max()

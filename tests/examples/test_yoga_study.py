@@ -9,8 +9,8 @@ import pytest
 
 from forcetorque.analysis import read_study_data, study_sensor
 from forcetorque.calibration import ESTIMATION_TYPES
-from forcetorque.evaluation.offset import Offset
-from forcetorque.study import TABLE_LAMBDAS
+from forcetorque.evaluation import Offset
+from forcetorque.study import SWEEP_LAMBDAS
 
 EXAMPLE = Path(__file__).resolve().parents[2] / "examples" / "10_icub_yoga_study.toml"
 
@@ -28,7 +28,7 @@ def test_a_choice_on_one_block_halves_the_force_on_the_other(data_dir: Path, tmp
             data,
             data_sets=None,
             kinds=list(ESTIMATION_TYPES.values()),
-            table_lambdas=TABLE_LAMBDAS,
+            lambdas=SWEEP_LAMBDAS,
             sphere=["early"],
             code_version="test",
             created="test",

@@ -21,7 +21,16 @@ from forcetorque.calibration import (
     sphere_centre,
 )
 from forcetorque.errors import FitError
-from forcetorque.study import TABLE_FACTOR, TABLE_LAMBDAS, Candidate, Fits, fit_candidates, relative_lambda, run_study
+from forcetorque.study import (
+    SWEEP_LAMBDAS,
+    TABLE_FACTOR,
+    TABLE_LAMBDAS,
+    Candidate,
+    Fits,
+    fit_candidates,
+    relative_lambda,
+    run_study,
+)
 from tests.study.measured import COMBINATIONS, FITTED, JUDGED, PRIOR, TEMPERATURE, TRUTH, grid, moving, study
 
 SAME = 1e-8
@@ -36,7 +45,7 @@ def _fits(
     combinations: Mapping[str, Collection[str]],
     *,
     prior: FloatArray | None = PRIOR,
-    lambdas: Sequence[float] = (0.0, 1000.0),
+    lambdas: Sequence[float] = (0.0, 6000.0),
     sphere: Collection[str] | None = ("grid",),
     types: Sequence[str] = tuple(ESTIMATION_TYPES),
 ) -> Fits:
@@ -46,7 +55,7 @@ def _fits(
         prior=prior,
         variables=[TEMPERATURE],
         kinds=[ESTIMATION_TYPES[name] for name in types],
-        table_lambdas=lambdas,
+        lambdas=lambdas,
         sphere=sphere,
     )
 
@@ -76,7 +85,7 @@ def test_every_combination_type_and_lambda_is_there_once() -> None:
     assert len(found) == 351
     assert fits.left_out == ()
     assert len({candidate.name for candidate in fits.candidates}) == 351
-    assert fits.candidates[-1].name == "all OwTrTO lambda 1000000"
+    assert fits.candidates[-1].name == "all OwTrTO lambda 6000000"
     assert [c.labels for c in fits.combinations] == list(COMBINATIONS.values())
     assert [c.moments.count for c in fits.combinations] == [500, 700, 1000]
     assert all(candidate.determined for candidate in fits.candidates)
@@ -87,6 +96,7 @@ def test_the_lambdas_are_those_of_the_tables_as_printed() -> None:
     """Thirteen, of which the text of 5.3 lists eleven and drops 500 000; (5.4) has six times each."""
     assert TABLE_LAMBDAS == (0, 1, 5, 10, 50, 100, 1000, 5000, 10000, 50000, 100000, 500000, 1000000)
     assert TABLE_FACTOR == 6.0
+    assert tuple(6.0 * value for value in TABLE_LAMBDAS) == SWEEP_LAMBDAS
     for candidate in study().fits.candidates:
         assert candidate.lambda_counts2 == 6.0 * candidate.table_lambda
         raw = np.concatenate([NAMES[label].raw for label in COMBINATIONS[candidate.data_set]])
@@ -95,7 +105,7 @@ def test_the_lambdas_are_those_of_the_tables_as_printed() -> None:
 
 @pytest.mark.parametrize("kind", ESTIMATION_TYPES)
 def test_each_is_what_calibrate_gives_on_the_same_data(kind: str) -> None:
-    """Matrix, offset, coefficients and reference values, for every combination and lambda; the factor six counts."""
+    """Matrix, offset, coefficients and reference values, for every combination and lambda; lambda is counted alike."""
     candidates = [candidate for candidate in study().fits.candidates if candidate.kind.name == kind]
     assert len(candidates) == 39
     for candidate in candidates:
@@ -202,7 +212,7 @@ def test_what_is_not_determined_is_never_chosen() -> None:
         prior=10.0 * PRIOR,
         variables=[TEMPERATURE],
         kinds=[ESTIMATION_TYPES["OwTrTO"]],
-        table_lambdas=[0.0, 1e12],
+        lambdas=[0.0, 6e12],
     )
     assert [c.determined for c in found.fits.candidates] == [False, True]
     for source, choice in found.choices.items():
@@ -213,7 +223,7 @@ def test_what_is_not_determined_is_never_chosen() -> None:
         assert choice.by_axis == (1,) * 6
         assert [(score.chosen, score.by_axis) for score in choice.across_sessions] == [(1, (1,) * 6)] * 2
     with pytest.raises(FitError, match="lambda is 0, and in every data set the loads leave a direction"):
-        run_study([still], combinations, JUDGED, prior=PRIOR, variables=[TEMPERATURE], table_lambdas=[0.0])
+        run_study([still], combinations, JUDGED, prior=PRIOR, variables=[TEMPERATURE], lambdas=[0.0])
 
 
 def test_a_constant_temperature_leaves_out_the_types_that_fit_it() -> None:

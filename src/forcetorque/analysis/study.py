@@ -51,7 +51,7 @@ def study_sensor(
     *,
     data_sets: Mapping[str, Sequence[str]] | None,
     kinds: Sequence[EstimationType],
-    table_lambdas: Sequence[float],
+    lambdas: Sequence[float],
     sphere: Collection[str] | None,
     code_version: str,
     created: str,
@@ -64,7 +64,7 @@ def study_sensor(
         data_sets: Labels or kinds of the intervals that are fitted together, by name; None for every combination of
             kinds.
         kinds: Estimation types; those with variables are left out for a sensor without.
-        table_lambdas: Lambdas as the tables of the thesis count them; counts2.
+        lambdas: Lambdas of (5.4); counts2.
         sphere: Labels of the intervals that draw the sphere; None for what the files say.
         code_version: Version of this library, for the record.
         created: Date and time, ISO 8601, for the record.
@@ -92,7 +92,7 @@ def study_sensor(
         prior=data.sensor.prior,
         variables=[variable.linear for variable in data.sensor.variables],
         kinds=chosen_kinds,
-        table_lambdas=table_lambdas,
+        lambdas=lambdas,
         sphere=drawing,
         progress=progress,
     )

@@ -20,7 +20,7 @@ from forcetorque.cli.study_result import ModeResult, SensorStudyResult, StudyRes
 from forcetorque.errors import FitError, ForceTorqueError, MissingExtraError
 from forcetorque.experiment.inputs import stated_in
 from forcetorque.spatial import WRENCH_COMPONENTS, WRENCH_UNITS
-from forcetorque.study import TABLE_LAMBDAS, tables
+from forcetorque.study import SWEEP_LAMBDAS, tables
 
 if TYPE_CHECKING:
     from rich.table import Table
@@ -45,7 +45,7 @@ def run(
         sensors: Names of the sensors; all of the first file if None.
         data_sets: `NAME=LABEL,LABEL` with labels or kinds of intervals; every combination of kinds if None.
         kinds: Names of estimation types; all nine if None.
-        lambdas: Lambdas as the tables of the thesis count them; counts2; its thirteen if None.
+        lambdas: Lambdas of (5.4), as `calibrate` takes them; counts2; the thirteen of the thesis' tables if None.
         sphere: Labels of the intervals that draw the sphere; what the files say if None.
         output_format: Form of the result.
     """
@@ -65,7 +65,7 @@ def run(
                     data,
                     data_sets=combinations,
                     kinds=chosen_kinds,
-                    table_lambdas=chosen_lambdas,
+                    lambdas=chosen_lambdas,
                     sphere=sphere,
                     code_version=version("forcetorque"),
                     created=created,
@@ -110,7 +110,7 @@ def _data_sets(texts: Sequence[str]) -> dict[str, list[str]]:
 
 
 def _lambdas(given: Sequence[float] | None) -> tuple[float, ...]:
-    chosen = tuple(sorted(set(TABLE_LAMBDAS if given is None else given)))
+    chosen = tuple(sorted(set(SWEEP_LAMBDAS if given is None else given)))
     if not all(0.0 <= value < math.inf for value in chosen):
         raise FitError(f"--lambda: expected numbers of at least 0 counts2, got {list(chosen)}")
     return chosen

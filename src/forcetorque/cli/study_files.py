@@ -97,11 +97,11 @@ def write_figures(made: SensorStudy, folder: Path) -> list[str]:
         "figure_5_7_contact_moments.png": lambda: _contact_figure(made, slice(3, 6), "N m"),
         "figure_5_9_measured_and_reference.png": lambda: _comparison_figure(made),
     }
-    lambdas = {candidate.table_lambda for candidate in study.fits.candidates}
+    lambdas = {candidate.lambda_counts2 for candidate in study.fits.candidates}
     if study.workbench is not None and len(lambdas) > 1:
-        of_table, curves = tables.differences_to_workbench(study, data_set)
+        lambdas_of, curves = tables.differences_to_workbench(study, data_set)
         draw["figure_5_4_differences_to_workbench.png"] = lambda: figures.lambda_difference_figure(
-            np.array(of_table), curves, unit=unit
+            np.array(lambdas_of), curves, unit=unit
         )
         for source in KNOWN_BEFORE:
             name = f"figure_5_5_mean_forces_offset_{source.replace('-', '_')}.png"
@@ -126,13 +126,13 @@ def _lambda_force_figure(made: SensorStudy, source: Offset) -> bytes:
     curves: dict[str, dict[str, list[float]]] = {}
     for candidate, value in zip(study.fits.candidates, pooled.force_mean, strict=False):
         curves.setdefault(candidate.data_set, {}).setdefault(candidate.kind.name, []).append(float(value))
-    lambdas = list(dict.fromkeys(candidate.table_lambda for candidate in study.fits.candidates))
+    lambdas = list(dict.fromkeys(candidate.lambda_counts2 for candidate in study.fits.candidates))
     chosen = study.fits.candidates[best]
     return lambda_force_figure(
         np.array(lambdas),
         {name: {kind: np.array(values) for kind, values in types.items()} for name, types in curves.items()},
         workbench=float(pooled.force_mean[-1]),
-        chosen=(chosen.data_set, chosen.kind.name, chosen.table_lambda),
+        chosen=(chosen.data_set, chosen.kind.name, chosen.lambda_counts2),
     )
 
 

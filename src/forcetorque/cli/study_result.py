@@ -10,7 +10,7 @@ from pydantic import BaseModel, ConfigDict, Field
 from forcetorque.analysis import SensorStudy
 from forcetorque.evaluation import KNOWN_BEFORE, Offset
 from forcetorque.spatial import WRENCH_COMPONENTS
-from forcetorque.study import Study
+from forcetorque.study import CONVENTION, Study
 
 
 class CombinationRow(BaseModel):
@@ -32,11 +32,11 @@ class ChosenRow(BaseModel):
     """A candidate, or the workbench matrix, with its mean contact force over all validation data."""
 
     name: str
-    """Data set, type and lambda of the thesis' tables; `workbench` for the prior."""
-    table_lambda: float | None
-    """Lambda as the tables of the thesis count it; counts2."""
+    """Data set, type and lambda of (5.4); `workbench` for the prior."""
     lambda_counts2: float | None
-    """The same in the convention of (5.4); counts2."""
+    """Lambda of (5.4), as `calibrate` counts it; counts2."""
+    table_lambda_counts2: float | None
+    """The same as the tables of the thesis count it, a sixth; counts2."""
     relative_lambda: float | None
     """The same over the mean variance of the raw channels."""
     force_mean_N: float
@@ -124,8 +124,10 @@ class StudyResult(BaseModel):
 
     model_config = ConfigDict(populate_by_name=True)
 
-    schema_name: Literal["forcetorque/study/1"] = Field(default="forcetorque/study/1", alias="schema")
+    schema_name: Literal["forcetorque/study/2"] = Field(default="forcetorque/study/2", alias="schema")
     """Form of the result."""
+    lambda_convention: str = f"{CONVENTION}; counts2"
+    """How lambdas are counted; in the first form of the result names and `--lambda` counted a sixth of it."""
     experiments: list[str]
     """Experiment files."""
     folder: str
@@ -204,7 +206,7 @@ def _chosen(study: Study, source: Offset, index: int) -> ChosenRow:
     candidate = study.fits.candidates[index] if index < len(study.fits.candidates) else None
     return ChosenRow(
         name=study.name(index),
-        table_lambda=None if candidate is None else candidate.table_lambda,
+        table_lambda_counts2=None if candidate is None else candidate.table_lambda,
         lambda_counts2=None if candidate is None else candidate.lambda_counts2,
         relative_lambda=None if candidate is None else candidate.relative_lambda,
         force_mean_N=float(pooled.force_mean[index]),

@@ -4,12 +4,8 @@
 from forcetorque.study import tables
 from forcetorque.study.candidate import Candidate
 from forcetorque.study.fitting import Combination, Fits, fit_candidates
-from forcetorque.study.judging import (
-    Judgement,
-    judge,
-    with_offset,
-)
-from forcetorque.study.lambdas import TABLE_FACTOR, TABLE_LAMBDAS, relative_lambda
+from forcetorque.study.judging import Judgement, judge, with_offset
+from forcetorque.study.lambdas import CONVENTION, SWEEP_LAMBDAS, TABLE_FACTOR, TABLE_LAMBDAS, relative_lambda
 from forcetorque.study.selection import (
     SessionScore,
     assembled,
@@ -21,6 +17,8 @@ from forcetorque.study.study import WORKBENCH, Choice, Study, run_study
 from forcetorque.study.validation_set import OFFSET_S, ValidationSet
 
 __all__ = [
+    "CONVENTION",
+    "SWEEP_LAMBDAS",
     "OFFSET_S",
     "TABLE_FACTOR",
     "TABLE_LAMBDAS",

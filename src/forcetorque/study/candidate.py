@@ -6,7 +6,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from forcetorque.calibration import EstimationType, WrenchModel
-from forcetorque.study.lambdas import lambda_text
+from forcetorque.study.lambdas import TABLE_FACTOR, lambda_text
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -17,10 +17,8 @@ class Candidate:
     """Name of the combination of calibration intervals."""
     kind: EstimationType
     """Estimation type."""
-    table_lambda: float
-    """Lambda as the tables of the thesis count it; counts2."""
     lambda_counts2: float
-    """The same in the convention of (5.4), six times as large; counts2."""
+    """Lambda of (5.4), as `calibrate` counts it; counts2."""
     relative_lambda: float
     """The same over the mean variance of the raw channels; 1."""
     determined: bool
@@ -29,6 +27,11 @@ class Candidate:
     """The fitted model."""
 
     @property
+    def table_lambda(self) -> float:
+        """Lambda as the tables of the thesis count it, a sixth; counts2."""
+        return self.lambda_counts2 / TABLE_FACTOR
+
+    @property
     def name(self) -> str:
-        """Data set, type and lambda of the tables."""
-        return f"{self.data_set} {self.kind.name} lambda {lambda_text(self.table_lambda)}"
+        """Data set, type and lambda of (5.4)."""
+        return f"{self.data_set} {self.kind.name} lambda {lambda_text(self.lambda_counts2)}"

@@ -25,7 +25,7 @@ from forcetorque.calibration import (
 )
 from forcetorque.errors import FitError, known_names
 from forcetorque.study.candidate import Candidate
-from forcetorque.study.lambdas import TABLE_FACTOR, relative_lambda
+from forcetorque.study.lambdas import relative_lambda
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -61,7 +61,7 @@ def fit_candidates(
     prior: FloatArray | None,
     variables: Sequence[LinearVariable],
     kinds: Sequence[EstimationType],
-    table_lambdas: Sequence[float],
+    lambdas: Sequence[float],
     sphere: Collection[str] | None,
 ) -> Fits:
     """Fit all candidates of a sensor.
@@ -73,7 +73,7 @@ def fit_candidates(
         prior: Matrix to stay close to; shape (6, c); None for a sensor without one, which leaves only lambda 0.
         variables: What the columns of `variables` in the data sets are.
         kinds: Estimation types.
-        table_lambdas: Lambdas as the tables of the thesis count them; counts2.
+        lambdas: Lambdas of (5.4); counts2.
         sphere: Labels of the data sets that draw the sphere of the sphere types; None if a combination has only one.
 
     Returns:
@@ -84,7 +84,7 @@ def fit_candidates(
     """
     _require_labels([data.label for data in data_sets], combinations, sphere)
     moments = {data.label: Moments.of(data.raw, data.reference, data.variables) for data in data_sets}
-    lambdas = tuple(table_lambdas) if prior is not None else (0.0,)
+    lambdas = lambdas if prior is not None else (0.0,)
     made, candidates, left_out = [], [], []
     for name, labels in combinations.items():
         chosen = [data for data in data_sets if data.label in labels]
@@ -147,11 +147,10 @@ def _sweep(
         Candidate(
             data_set=name,
             kind=estimation.kind,
-            table_lambda=table_lambda,
-            lambda_counts2=TABLE_FACTOR * table_lambda,
-            relative_lambda=relative_lambda(TABLE_FACTOR * table_lambda, moments),
-            determined=excited or table_lambda > 0.0,
-            model=regression.at(TABLE_FACTOR * table_lambda),
+            lambda_counts2=regularisation,
+            relative_lambda=relative_lambda(regularisation, moments),
+            determined=excited or regularisation > 0.0,
+            model=regression.at(regularisation),
         )
-        for table_lambda in lambdas
+        for regularisation in lambdas
     ]

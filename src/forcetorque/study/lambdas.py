@@ -16,6 +16,12 @@ TABLE_LAMBDAS: Final = (
 TABLE_FACTOR: Final = 6.0
 """Lambda of equation (5.4) per lambda of the tables: their program took the mean over the six axes too."""
 
+SWEEP_LAMBDAS: Final = tuple(TABLE_FACTOR * value for value in TABLE_LAMBDAS)
+"""The same thirteen as equation (5.4) has them, which is how `calibrate` counts; counts2."""
+
+CONVENTION: Final = "thesis (5.4): mean squared residual norm + lambda |C - C_prior|^2"
+"""How every lambda is counted, unless it is called one of the tables; unit counts2."""
+
 
 def relative_lambda(regularisation: float, moments: Moments) -> float:
     """Express a lambda in the scale of the sensor's own readings, so that sensors can be compared.
@@ -36,13 +42,13 @@ def relative_lambda(regularisation: float, moments: Moments) -> float:
     return regularisation / variance
 
 
-def lambda_text(table_lambda: float) -> str:
-    """Write a lambda as the tables of the thesis do, 1000000 and not 1e+06.
+def lambda_text(regularisation: float) -> str:
+    """Write a lambda in full, 1000000 and not 1e+06.
 
     Args:
-        table_lambda: Lambda of the tables; counts2.
+        regularisation: Lambda; counts2.
 
     Returns:
         All its digits that a person would type.
     """
-    return f"{table_lambda:.12g}"
+    return f"{regularisation:.12g}"

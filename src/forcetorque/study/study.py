@@ -19,11 +19,8 @@ from forcetorque.calibration import (
 from forcetorque.errors import FitError
 from forcetorque.evaluation import KNOWN_BEFORE, Offset
 from forcetorque.study.fitting import Fits, fit_candidates
-from forcetorque.study.judging import (
-    Judgement,
-    judge,
-)
-from forcetorque.study.lambdas import TABLE_LAMBDAS
+from forcetorque.study.judging import Judgement, judge
+from forcetorque.study.lambdas import SWEEP_LAMBDAS
 from forcetorque.study.selection import SessionScore, best_by_axis, best_by_magnitude, choosable, scored_across_sessions
 from forcetorque.study.validation_set import ValidationSet
 
@@ -82,7 +79,7 @@ def run_study(
     prior: FloatArray | None,
     variables: Sequence[LinearVariable] = (),
     kinds: Sequence[EstimationType] = tuple(ESTIMATION_TYPES.values()),
-    table_lambdas: Sequence[float] = TABLE_LAMBDAS,
+    lambdas: Sequence[float] = SWEEP_LAMBDAS,
     sphere: Collection[str] | None = None,
     progress: Callable[[str], None] | None = None,
 ) -> Study:
@@ -95,7 +92,7 @@ def run_study(
         prior: Matrix to stay close to, the workbench's; shape (6, c); None for a sensor without one.
         variables: What the columns of `variables` in the data are.
         kinds: Estimation types.
-        table_lambdas: Lambdas as the tables of the thesis count them, a sixth of (5.4); counts2.
+        lambdas: Lambdas of (5.4); counts2; those of the thesis' tables, six times as printed there, if left out.
         sphere: Labels of the data that draw the sphere of the sphere types.
         progress: Called with a line for people at every step.
 
@@ -108,14 +105,14 @@ def run_study(
     if not validation:
         raise FitError('expected at least one interval with use = "validation", got none')
     say = progress or (lambda line: None)
-    say(f"fitting {len(combinations)} combinations of data sets, {len(kinds)} types, {len(table_lambdas)} lambdas")
+    say(f"fitting {len(combinations)} combinations of data sets, {len(kinds)} types, {len(lambdas)} lambdas")
     fits = fit_candidates(
         calibration,
         combinations,
         prior=prior,
         variables=variables,
         kinds=kinds,
-        table_lambdas=table_lambdas,
+        lambdas=lambdas,
         sphere=sphere,
     )
     if not any(candidate.determined for candidate in fits.candidates):

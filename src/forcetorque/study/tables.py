@@ -74,13 +74,13 @@ def mean_forces(study: Study, source: Offset) -> list[Row]:
         source: Offset re-estimated (5.5) or fitted (5.6).
 
     Returns:
-        One row per combination and type, a column per lambda of the tables, then their mean; N. The workbench last.
+        One row per combination and type, a column per lambda, headed in both ways, then their mean; N. Workbench last.
     """
     force = study.judgements[source].over().force_mean
     rows: dict[tuple[str, str], Row] = {}
     for candidate, value in zip(study.fits.candidates, force, strict=False):
         row = rows.setdefault((candidate.data_set, candidate.kind.name), _labelled(candidate))
-        row[lambda_text(candidate.table_lambda)] = float(value)
+        row[_heading(candidate)] = float(value)
     table = list(rows.values())
     for row in table:
         row["mean"] = float(np.mean([value for value in row.values() if isinstance(value, float)]))
@@ -129,8 +129,8 @@ def candidate_rows(study: Study) -> list[Row]:
         if index < len(study.fits.candidates):
             candidate = study.fits.candidates[index]
             row = _labelled(candidate) | {
-                "table_lambda": candidate.table_lambda,
                 "lambda_counts2": candidate.lambda_counts2,
+                "table_lambda_counts2": candidate.table_lambda,
                 "relative_lambda": candidate.relative_lambda,
             }
         for source in KNOWN_BEFORE:
@@ -151,7 +151,7 @@ def differences_to_workbench(study: Study, data_set: str) -> tuple[tuple[float, 
         data_set: Combination of data sets.
 
     Returns:
-        Lambdas of the tables, and by type the differences in `DIFFERENCE_UNIT`.
+        Lambdas of (5.4), and by type the differences in `DIFFERENCE_UNIT`.
 
     Raises:
         FitError: If there is no prior to differ from.
@@ -164,7 +164,7 @@ def differences_to_workbench(study: Study, data_set: str) -> tuple[tuple[float, 
         if candidate.data_set == data_set:
             distance = float(np.abs(candidate.model.matrix - matrix).mean()) / DIFFERENCE_UNIT
             curves.setdefault(candidate.kind.name, []).append(distance)
-    lambdas = dict.fromkeys(c.table_lambda for c in study.fits.candidates)
+    lambdas = dict.fromkeys(c.lambda_counts2 for c in study.fits.candidates)
     return tuple(lambdas), {kind: np.array(values) for kind, values in curves.items()}
 
 
@@ -177,8 +177,12 @@ def unregularised(study: Study) -> Iterable[Candidate]:
     Returns:
         One per combination and type.
     """
-    smallest = min(candidate.table_lambda for candidate in study.fits.candidates)
-    return [candidate for candidate in study.fits.candidates if candidate.table_lambda == smallest]
+    smallest = min(candidate.lambda_counts2 for candidate in study.fits.candidates)
+    return [candidate for candidate in study.fits.candidates if candidate.lambda_counts2 == smallest]
+
+
+def _heading(candidate: Candidate) -> str:
+    return f"lambda {lambda_text(candidate.lambda_counts2)} (table {lambda_text(candidate.table_lambda)})"
 
 
 def _labelled(candidate: Candidate) -> Row:

@@ -26,7 +26,7 @@ def test_every_curve_is_drawn_and_named(drawn: list[Figure]) -> None:
         np.testing.assert_array_equal(line.get_xydata(), np.column_stack([LAMBDAS, values]))
     assert panel.get_xlabel() == "lambda, counts²"
     assert panel.get_ylabel() == f"difference to the Workbench matrix, {UNIT}"
-    assert "6 lambda weighs |C - C_prior|² beside mean |f - C r - o|²" in words(drawn[0])
+    assert "lambda of (5.4): it weighs |C - C_prior|² beside mean |f - C r - o|²" in words(drawn[0])
 
 
 def test_lambda_0_has_a_place_left_of_the_others(drawn: list[Figure]) -> None:

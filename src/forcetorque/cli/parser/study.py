@@ -32,8 +32,8 @@ def study(
         list[float] | None,
         typer.Option(
             "--lambda",
-            help="Lambda as the thesis' tables count it, a sixth of that of its equation (5.4); repeat for more. "
-            "Default: the thirteen of the tables.",
+            help="Lambda of the thesis' equation (5.4) in counts2, as `calibrate` takes it; repeat for more. Default: "
+            "the thirteen of its tables, six times as printed there.",
         ),
     ] = None,
     sphere: Annotated[

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 LAMBDA_LABEL = "lambda, counts²"
 """Label of the axis."""
 LAMBDA_MEANING = (
-    "lambda as the tables of the thesis count it: 6 lambda weighs |C - C_prior|² beside mean |f - C r - o|²"
+    "lambda of (5.4): it weighs |C - C_prior|² beside mean |f - C r - o|²; tables of the thesis print a sixth"
 )
 """The number means nothing without its convention."""
 

@@ -23,7 +23,7 @@ def lambda_difference_figure(lambdas: FloatArray, curves: Mapping[str, FloatArra
     Curves that coincide are dashed in turn, and their points take turns, so that each is seen.
 
     Args:
-        lambdas: As the tables of [1] count them, a sixth of (5.4), at least 0, in any order; shape (l,); counts2.
+        lambdas: Those of equation (5.4) of [1], at least 0, in any order; shape (l,); counts2.
         curves: Difference to the Workbench matrix by estimation type; shape (l,); in `unit`. What is not a finite
             number breaks the curve.
         unit: Unit of the difference with its power of ten, such as `1e-4 N/count`.

@@ -60,7 +60,7 @@ def lambda_force_figure(
     decade.
 
     Args:
-        lambdas: As the tables of [1] count them, a sixth of (5.4), at least 0, in any order; shape (l,); counts2.
+        lambdas: Those of equation (5.4) of [1], at least 0, in any order; shape (l,); counts2.
         curves: Mean magnitude of the contact force by data set and estimation type; shape (l,); N. What is not a finite
             number breaks the curve.
         workbench: The same with the Workbench matrix, for a horizontal line; N. None where there is no such matrix.
