@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import json
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -13,6 +14,9 @@ import pytest
 from forcetorque.cli.output import Format, print_result
 from tests.cli.outcome import Outcome
 from tests.experiments import PARQUET, YARP, edit, snapshot
+
+_PATHS = {name: os.environ[name] for name in ("PYTHONPATH", "HOME") if name in os.environ}
+"""Where an interpreter finds the library and its compiled code."""
 
 
 def _start(*words: str) -> Outcome:
@@ -44,6 +48,33 @@ def test_the_parser_needs_nothing_scientific() -> None:
     """Help and version answer at once, because what computes is imported when a command runs."""
     code = "import sys, forcetorque.cli; print(sorted({'numpy', 'scipy', 'pyarrow', 'pydantic'} & set(sys.modules)))"
     assert _start("-c", code) == Outcome(code=0, out="[]\n", err="")
+
+
+@pytest.mark.parametrize("form", ["table", "csv", "json"])
+def test_a_terminal_without_letters_gets_them_spelled(arm: Path, form: str) -> None:
+    """Under `LC_ALL=C` without UTF-8 mode: numbers with their errors in plain letters, as many as elsewhere."""
+    plain = {"LC_ALL": "C", "PYTHONCOERCECLOCALE": "0", "PYTHONUTF8": "0", "PATH": os.environ["PATH"]}
+    rich = {**plain, "PYTHONUTF8": "1"}
+    words = ("-m", "forcetorque", "evaluate", PARQUET, "-c", "fitted.json", "--format", form)
+    shown, whole = (
+        subprocess.run([sys.executable, *words], capture_output=True, check=False, env={**extra, **_PATHS})
+        for extra in (plain, rich)
+    )
+    assert (shown.returncode, b"Traceback" in shown.stderr) == (0, False)
+    text = whole.stdout.decode("utf-8").replace("±", "+-").replace("─", "-")
+    assert shown.stdout.decode("ascii") == text
+    assert (b"+-" in shown.stdout) is (form == "table")
+
+
+def test_a_name_that_is_no_text_is_one_line(arm: Path) -> None:
+    """The name of a file may hold bytes of another encoding; the error still says it."""
+    ended = subprocess.run(
+        [sys.executable.encode(), b"-m", b"forcetorque", b"evaluate", b"caf\xe9.toml", b"-c", b"fitted.json"],
+        capture_output=True,
+        check=False,
+    )
+    assert ended.returncode == 2
+    assert ended.stderr.decode("utf-8").splitlines()[-1].startswith("error: caf\\xdce9.toml: ")
 
 
 def test_rows_of_different_length_make_one_csv(capsys: pytest.CaptureFixture[str]) -> None:

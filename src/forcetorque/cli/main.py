@@ -7,6 +7,7 @@ from typing import Annotated
 
 import typer
 
+from forcetorque.cli.encoding import spell_missing_letters
 from forcetorque.cli.evaluate import evaluate
 from forcetorque.cli.output import report_error
 from forcetorque.cli.parser.accept import accept
@@ -37,6 +38,7 @@ app = typer.Typer(
 
 def main() -> None:
     """Run the command line; a known error is one line on standard error and exit code 2."""
+    spell_missing_letters()
     try:
         app()
     except (ForceTorqueError, OSError) as error:
