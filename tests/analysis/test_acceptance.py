@@ -12,18 +12,23 @@ import numpy as np
 import pytest
 
 from forcetorque.analysis import (
+    Acceptance,
     AcceptanceFile,
-    accept_sensor,
+    Bound,
+    Criterion,
+    SensorRun,
+    accept,
     calibrate_sensor,
-    check_sensor,
+    check,
     compare_contact_forces,
-    evaluate_sensor,
+    evaluate,
     read_acceptance,
 )
-from forcetorque.analysis.criterion import Bound, Criterion
-from forcetorque.calibration import Calibration
+from forcetorque.calibration import Calibration, FittedInterval, Selection
 from forcetorque.errors import ExperimentError, ForceTorqueError, FormatError, MissingFileError
+from forcetorque.evaluation import Offset
 from forcetorque.experiment import Experiment, load_experiment
+from forcetorque.recording import Use
 from forcetorque.spatial import WRENCH_COMPONENTS
 from tests.experiments import MOUNTED, PARQUET, TWO, YARP, edit, holed
 from tests.warm_experiments import TEMPERATURE, with_variables
@@ -62,10 +67,11 @@ def _spec(**tables: Any) -> AcceptanceFile:
 
 
 def _fitted(experiment: Experiment, *, regularisation: float | None = None) -> tuple[str, Calibration]:
-    sensor = experiment.sensors[0]
-    return "new", calibrate_sensor(
-        experiment, sensor, code_version="test", created="test", regularisation=regularisation
-    )
+    return "new", calibrate_sensor(_run(experiment), code_version="test", created="test", regularisation=regularisation)
+
+
+def _run(experiment: Experiment) -> SensorRun:
+    return SensorRun(experiment, experiment.sensors[0])
 
 
 def _numbered(experiment: Experiment) -> Experiment:
@@ -77,10 +83,9 @@ def _numbered(experiment: Experiment) -> Experiment:
 
 
 def _criteria(experiment: Experiment, spec: AcceptanceFile, calibration: Any) -> dict[str, Criterion]:
-    sensor = experiment.sensors[0]
-    judged = accept_sensor(experiment, sensor, spec, calibration, population=OTHERS).criteria
-    assert len({each.name for each in judged}) == len(judged)
-    return {each.name: each for each in judged}
+    judged = accept(_run(experiment), spec, calibration, population=OTHERS).criteria
+    assert len({row.criterion for row in judged}) == len(judged)
+    return {row.criterion: row for row in judged}
 
 
 @pytest.fixture
@@ -113,7 +118,7 @@ def _beside(found: dict[str, Criterion], side: float) -> dict[str, dict[str, Any
     """Limits just beside what was measured: side 1 where all hold, -1 where none does."""
     tables: dict[str, dict[str, Any]] = {}
     for each in found.values():
-        table, key, *component = each.name.split(".")
+        table, key, *component = each.criterion.split(".")
         step = side * JUST * max(abs(each.measured), 1e-3)
         limit = each.measured + (step if each.bound is Bound.AT_MOST else -step)
         if isinstance(LIMITS[table].get(key), int):
@@ -146,32 +151,29 @@ def test_every_limit_holds_on_one_side_and_fails_on_the_other(drifting: Experime
 def test_the_numbers_are_those_of_the_other_commands(drifting: Experiment) -> None:
     """Evaluation, contact forces, checks and the calibration give the same numbers by themselves."""
     name, calibration = _fitted(drifting)
-    sensor = drifting.sensors[0]
+    run = _run(drifting)
     found = {key: each.measured for key, each in _criteria(drifting, _spec(**LIMITS), (name, calibration)).items()}
     counts = {key: each.count for key, each in _criteria(drifting, _spec(**LIMITS), (name, calibration)).items()}
-    verdicts = {(v.candidate, v.offset): v.errors for v in evaluate_sensor(drifting, sensor, {name: calibration})}
-    new, prior = verdicts["new", "fitted"], verdicts["prior", "fitted"]
-    assert found["evaluate.force_error_mean_N"] == new.force_mean
+    verdicts = {(v.candidate, v.offset): v for v in evaluate(run, {name: calibration}).verdicts}
+    new, prior = verdicts["new", Offset.FITTED], verdicts["prior", Offset.FITTED]
+    assert found["evaluate.force_error_mean_N"] == new.force_error_mean_N
     assert found["evaluate.rmse.tz"] == new.rmse[5]
     assert found["evaluate.bias.fx"] == abs(new.bias[0])
-    assert found["improvement.force_error_ratio"] == new.force_mean / prior.force_mean
-    assert counts["evaluate.rmse.tz"] == new.count
+    assert found["improvement.force_error_ratio"] == new.force_error_mean_N / prior.force_error_mean_N
+    assert counts["evaluate.rmse.tz"] == new.samples
     (contact,) = [
         v.errors
-        for v in compare_contact_forces(drifting, sensor, {name: calibration}).verdicts
-        if (v.candidate, v.offset.value) == ("new", "re-estimated")
+        for v in compare_contact_forces(run, {name: calibration}).verdicts
+        if (v.candidate, v.offset) == ("new", Offset.FIRST_SECOND)
     ]
     assert found["validate.mean_absolute.fz"] == contact.mean_absolute[2]
-    checks = check_sensor(drifting, sensor, (name, calibration), population=OTHERS)
-    assert checks.matrix is not None
-    assert checks.matrix.full_scale is not None
-    assert checks.population is not None
-    assert found["matrix.full_scale.ty"] == min(
-        checks.matrix.full_scale.positive[4], -checks.matrix.full_scale.negative[4]
-    )
-    assert found["population.robust_z"] == abs(checks.population.most_unusual.robust_z)
+    checks = check(run, (name, calibration), population=OTHERS)
+    assert checks.full_scale_positive is not None
+    assert checks.full_scale_negative is not None
+    assert found["matrix.full_scale.ty"] == min(checks.full_scale_positive[4], -checks.full_scale_negative[4])
+    assert found["population.robust_z"] == max(abs(feature.robust_z) for feature in checks.population)
     assert (counts["population.robust_z"], found["population.at_least_sensors"]) == (9, 9)
-    assert found["recording.lost_share"] == max(each.lost_share or 0.0 for each in checks.intervals) > 0.0
+    assert found["recording.lost_share"] == max(row.lost_share or 0.0 for row in checks.recording) > 0.0
     assert calibration.matrix_standard_error is not None
     errors = np.linalg.norm(calibration.matrix_standard_error, axis=1) / np.linalg.norm(calibration.matrix, axis=1)
     assert found["uncertainty.matrix_relative"] == errors.max()
@@ -192,21 +194,23 @@ def test_an_offset_that_gaps_do_not_give_cannot_be_judged(arm: Path) -> None:
     experiment = load_experiment(arm / PARQUET)
     gap = replace(experiment, recording=holed(experiment.recording, "arm_ft", 14.5, 15.6))
     as_fitted = _spec(validate={"force_mean_N": 1e9, "offset": "fitted"})
-    assert [each.passed for each in accept_sensor(gap, gap.sensors[0], as_fitted).criteria] == [True]
+    assert [each.passed for each in accept(_run(gap), as_fitted).criteria] == [True]
     with pytest.raises(
         ExperimentError, match=r"\[validate\] cannot be judged: contact force by prior over 'judge', off"
     ):
-        accept_sensor(gap, gap.sensors[0], _spec(validate={"force_mean_N": 1e9, "offset": "re-estimated"}))
+        accept(_run(gap), _spec(validate={"force_mean_N": 1e9, "offset": "first-second"}))
 
 
 def test_the_offset_is_that_which_is_asked_for(arm: Path) -> None:
-    """Fitted and re-estimated offsets give different numbers, in evaluation and validation."""
+    """The fitted offset and the other one give different numbers, in evaluation and validation."""
     experiment = load_experiment(arm / PARQUET)
     calibration = _fitted(experiment)
     seen = []
-    for offset in ("fitted", "re-estimated"):
-        tables = {"evaluate": {"force_error_mean_N": 1.0}, "validate": {"force_mean_N": 1.0}}
-        spec = _spec(**{key: {**table, "offset": offset} for key, table in tables.items()})
+    for of_errors, of_contacts in (("fitted", "fitted"), ("judged-mean", "first-second")):
+        spec = _spec(
+            evaluate={"force_error_mean_N": 1.0, "offset": of_errors},
+            validate={"force_mean_N": 1.0, "offset": of_contacts},
+        )
         seen.append([each.measured for each in _criteria(experiment, spec, calibration).values()])
     assert all(first != second for first, second in zip(*seen, strict=True))
 
@@ -232,6 +236,69 @@ def test_without_a_calibration_the_prior_is_judged(arm: Path) -> None:
     assert prior["matrix.condition"].measured != new["matrix.condition"].measured
 
 
+def test_a_prior_without_data_for_an_offset_is_judged_with_what_it_has(arm: Path) -> None:
+    """Its own offset is none: the sensor's own one is in the error, which fails where the first second hides it."""
+    edit(arm / PARQUET, 'use = "calibration"', 'use = "ignore"')
+    experiment = load_experiment(arm / PARQUET)
+    forces = [
+        _criteria(experiment, _spec(validate={"force_mean_N": 1e9, "offset": offset}), None)["validate.force_mean_N"]
+        for offset in ("fitted", "first-second")
+    ]
+    assert forces[0].measured > 1.5 * forces[1].measured > 0.0
+
+
+def test_a_choice_made_on_the_judged_interval_is_a_warning(drifting: Experiment) -> None:
+    """Where errors are judged, in evaluation, improvement or validation; not where only the matrix is."""
+    name, calibration = _fitted(drifting)
+    (judged,) = drifting.intervals(Use.VALIDATION)
+    span = FittedInterval(label="day", start_ns=judged.start_ns, end_ns=judged.end_ns)
+    chosen = calibration.model_copy(update={"selection": Selection(rule="best of two", chosen_on=(span,))})
+    tables = ("evaluate", "improvement", "validate", "matrix", "offset")
+    words = "new was chosen among others on 'judge' too, so the verdict on it flatters"
+    for table in tables:
+        expected = (words,) if table not in ("matrix", "offset") else ()
+        spec = _spec(**{table: LIMITS[table]})
+        assert accept(_run(drifting), spec, (name, chosen)).warnings == expected
+        assert accept(_run(drifting), spec, (name, calibration)).warnings == ()
+
+
+def test_together_every_sensor_must_pass(arm: Path) -> None:
+    """One sensor that fails is enough, in either order; nobody can state another verdict than the criteria give."""
+    experiment = load_experiment(arm / TWO)
+    first, second = experiment.sensors
+    runs = [SensorRun(experiment, first), SensorRun(experiment, replace(second, prior=MOUNTED))]
+    conditions = [check(run).condition or 0.0 for run in runs]
+    spec = _spec(matrix={"condition": sum(conditions) / 2.0})
+    single = [accept(run, spec) for run in runs]
+    assert sorted(result.accepted for result in single) == [False, True]
+    for results in (single, single[::-1]):
+        both = Acceptance.together(results)
+        assert not both.accepted
+        assert [row.sensor for row in both.measured] == [row.sensor for row in both.criteria]
+        assert len(both.criteria) == 2
+    (passing,) = [result for result in single if result.accepted]
+    (failing,) = [result for result in single if not result.accepted]
+    assert Acceptance.together([passing, passing]).accepted
+    assert not Acceptance.model_validate({**dict(failing), "accepted": True}).accepted
+
+
+def test_an_acceptance_shows_itself(drifting: Experiment) -> None:
+    """On a narrow page no number is folded; a notebook gets the table; the first words of it are few."""
+    result = accept(_run(drifting), _spec(**LIMITS), _fitted(drifting), population=OTHERS)
+    narrow, wide = result.text(60), result.text(120)
+    for row in result.criteria:
+        assert f"{row.measured:.4g}" in narrow.split()
+        assert row.criterion in wide.split()
+    assert max(len(line) for line in narrow.splitlines()) <= 60
+    assert "<th" in result._repr_html_()
+    assert '<td style="text-align:left">evaluate.rmse.fx</td>' in result._repr_html_()
+    assert len(repr(result)) < 600
+    assert result.records()[0]["passed"] is True
+    assert list(result.model_dump(by_alias=True)) == [
+        "schema", "experiment", "specification", "accepted", "criteria", "measured"
+    ]  # fmt: skip
+
+
 @pytest.mark.parametrize(
     ("table", "key", "reason"),
     [
@@ -247,10 +314,9 @@ def test_without_a_calibration_the_prior_is_judged(arm: Path) -> None:
 def test_what_cannot_be_judged_is_an_error_that_names_it(arm: Path, table: str, key: str, reason: str) -> None:
     """Sensor, table and reason; the same limit is no obstacle where it is not stated."""
     experiment = load_experiment(arm / PARQUET)
-    sensor = experiment.sensors[0]
     with pytest.raises(ForceTorqueError, match=rf"^sensor 'arm_ft': \[{table}\] cannot be judged: .*{reason}"):
-        accept_sensor(experiment, sensor, _spec(**{table: {key: LIMITS[table][key]}}))
-    assert len(accept_sensor(experiment, sensor, _spec(matrix={"condition": 5.0})).criteria) == 1
+        accept(_run(experiment), _spec(**{table: {key: LIMITS[table][key]}}))
+    assert len(accept(_run(experiment), _spec(matrix={"condition": 5.0})).criteria) == 1
 
 
 def test_missing_intervals_and_counts_are_errors(arm: Path) -> None:
@@ -307,7 +373,11 @@ HEAD = 'schema = "forcetorque/acceptance/1"\nname = "limits"\n'
         (HEAD + "[evaluate]\nrmse = { fz = -1.0 }\n", "evaluate.rmse.fz: .*greater than or equal to 0"),
         (HEAD + "[evaluate]\nforce_error_mean_N = nan\n", "evaluate.force_error_mean_N: .*finite"),
         (HEAD + '[evaluate]\nforce_error_mean_N = "2"\n', "evaluate.force_error_mean_N: .*number"),
-        (HEAD + '[evaluate]\noffset = "none"\nbias = { fz = 1.0 }\n', "evaluate.offset: .*'fitted' or 're-estimated'"),
+        (HEAD + '[evaluate]\noffset = "none"\nbias = { fz = 1.0 }\n', "evaluate.offset: .*'fitted' or 'judged-mean'"),
+        (HEAD + '[evaluate]\noffset = "re-estimated"\nbias = { fz = 1 }\n', 'evaluate.offset: .*write "judged-mean"'),
+        (HEAD + '[improvement]\noffset = "re-estimated"\nforce_error_ratio = 1\n', '.offset: .*write "judged-mean"'),
+        (HEAD + '[validate]\noffset = "re-estimated"\nforce_mean_N = 1\n', 'validate.offset: .*write "first-second"'),
+        (HEAD + '[validate]\noffset = "judged-mean"\nforce_mean_N = 1\n', "'first-second' or 'fitted'"),
         (HEAD + "[recording]\nsaturated_share = 2.0\n", "recording.saturated_share: .*less than or equal to 1"),
         (HEAD + "[population]\nquantiles = [0.9, 0.1]\n", "quantiles: expected the lower one first"),
         (HEAD + "[population]\nquantiles = [0.1]\n", r"population.quantiles: expected 2 values, got \[0\.1\]$"),

@@ -10,10 +10,10 @@ from typing import Any
 import numpy as np
 import pytest
 
-from forcetorque.analysis import calibrate_sensor, check_sensor, samples_of
+from forcetorque.analysis import SensorRun, StaticChecks, calibrate_sensor, check
 from forcetorque.calibration import Calibration
 from forcetorque.errors import ExperimentError, SerialNumberError
-from forcetorque.experiment import Experiment, load_experiment
+from forcetorque.experiment import Experiment, ExperimentSensor, load_experiment
 from forcetorque.recording import Use
 from tests.experiments import MOUNTED, OFFSET, PARQUET, TWO, YARP, edit
 from tests.warm_experiments import (
@@ -38,8 +38,15 @@ def _rows(experiment: Experiment) -> list[int]:
 
 
 def _fitted(experiment: Experiment, **options: Any) -> tuple[str, Calibration]:
-    made = calibrate_sensor(experiment, experiment.sensors[0], code_version="test", created="test", **options)
-    return "new", made
+    run = SensorRun(experiment, experiment.sensors[0])
+    return "new", calibrate_sensor(run, code_version="test", created="test", **options)
+
+
+def _checked(
+    experiment: Experiment, calibration: Any = None, *, sensor: ExperimentSensor | None = None, population: Any = None
+) -> StaticChecks:
+    """Check the first sensor of an experiment, or a changed one."""
+    return check(SensorRun(experiment, sensor or experiment.sensors[0]), calibration, population=population)
 
 
 def _changed(experiment: Experiment, *, sequence: Any = None, saturated: Any = None, **values: float) -> Experiment:
@@ -59,18 +66,18 @@ def _changed(experiment: Experiment, *, sequence: Any = None, saturated: Any = N
 def test_samples_are_counted_by_interval(arm: Path) -> None:
     """Two samples at a limit and one missing in the first, none in the second; those outside do not count."""
     plain = load_experiment(arm / PARQUET)
-    checks = check_sensor(plain, plain.sensors[0])
+    checks = _checked(plain)
     fit, judge = _rows(plain)
     assert min(fit, judge) > 400
-    assert [(each.label, each.samples) for each in checks.intervals] == [("fit", fit), ("judge", judge)]
-    assert [(each.saturated, each.missing, each.lost) for each in checks.intervals] == [(0, 0, None)] * 2
+    assert [(row.label, row.samples) for row in checks.recording] == [("fit", fit), ("judge", judge)]
+    shares = [(row.saturated_share, row.missing_share, row.lost_share) for row in checks.recording]
+    assert shares == [(0.0, 0.0, None)] * 2
     damaged = _changed(plain, r30c2=32767.0, r31c5=-32700.0, r50c0=float("nan"), r5c0=32767.0, r710c1=float("nan"))
-    first, second = check_sensor(damaged, damaged.sensors[0]).intervals
-    assert (first.saturated, first.missing) == (2, 1)
-    assert (second.saturated, second.missing) == (0, 0)
+    first, second = _checked(damaged).recording
     assert (first.saturated_share, first.missing_share) == (2 / fit, 1 / fit)
+    assert (second.saturated_share, second.missing_share) == (0.0, 0.0)
     near = _changed(plain, r30c2=32600.0)  # 0.51 % below the limit
-    assert check_sensor(near, near.sensors[0]).intervals[0].saturated == 0
+    assert _checked(near).recording[0].saturated_share == 0.0
 
 
 def test_a_stretch_of_one_reading_is_saturated(arm: Path) -> None:
@@ -80,7 +87,8 @@ def test_a_stretch_of_one_reading_is_saturated(arm: Path) -> None:
     for length, counted in ((60, 60), (40, 0)):
         held = {f"r{row}c{k}": raw[100, k] for row in range(100, 100 + length) for k in range(6)}
         damaged = _changed(plain, **held)
-        assert [each.saturated for each in check_sensor(damaged, damaged.sensors[0]).intervals] == [counted, 0]
+        shares = [row.saturated_share for row in _checked(damaged).recording]
+        assert shares == [counted / _rows(plain)[0], 0.0]
 
 
 def test_what_the_board_says_is_believed(arm: Path) -> None:
@@ -89,7 +97,7 @@ def test_what_the_board_says_is_believed(arm: Path) -> None:
     status = np.zeros(len(plain.recording.stream("arm_ft")))
     status[730:737] = 1.0
     damaged = _changed(plain, saturated=status, r30c2=32767.0)
-    assert [each.saturated for each in check_sensor(damaged, damaged.sensors[0]).intervals] == [0, 7]
+    assert [row.saturated_share for row in _checked(damaged).recording] == [0.0, 7 / _rows(plain)[1]]
 
 
 def test_lost_messages_are_counted_where_they_were_lost(arm: Path) -> None:
@@ -98,9 +106,9 @@ def test_lost_messages_are_counted_where_they_were_lost(arm: Path) -> None:
     sequence = np.arange(len(plain.recording.stream("arm_ft")))
     for row, lost in ((10, 8), (100, 3), (800, 5)):
         sequence[row:] += lost
-    first, second = check_sensor(_changed(plain, sequence=sequence), plain.sensors[0]).intervals
-    assert (first.lost, second.lost) == (3, 5)
-    assert first.lost_share == 3 / (3 + _rows(plain)[0])
+    fit, judge = _rows(plain)
+    shares = [row.lost_share for row in _checked(_changed(plain, sequence=sequence)).recording]
+    assert shares == [3 / (3 + fit), 5 / (5 + judge)]
 
 
 def test_offsets_by_hand(arm: Path) -> None:
@@ -108,25 +116,24 @@ def test_offsets_by_hand(arm: Path) -> None:
     experiment = load_experiment(arm / PARQUET)
     sensor = experiment.sensors[0]
     name, calibration = _fitted(experiment)
-    prior, new = check_sensor(experiment, sensor), check_sensor(experiment, sensor, (name, calibration))
+    prior, new = _checked(experiment), _checked(experiment, (name, calibration))
     assert sensor.prior is not None
     for checks, matrix in ((prior, sensor.prior), (new, calibration.matrix)):
         assert [each.label for each in checks.offsets] == ["fit", "judge"]
         for each, use in zip(checks.offsets, (Use.CALIBRATION, Use.VALIDATION), strict=True):
-            (part,) = samples_of(experiment, sensor, use)
-            by_hand = (part.samples.reference - part.raw @ matrix.T).mean(axis=0)
+            (data,) = SensorRun(experiment, sensor).samples(use)
+            by_hand = (data.samples.reference - data.raw @ matrix.T).mean(axis=0)
             np.testing.assert_allclose(each.offset, by_hand, atol=ROUNDING)
-        assert checks.offset is not None
+        assert checks.offset_change is not None
         apart = checks.offsets[0].offset - checks.offsets[1].offset
-        np.testing.assert_allclose(checks.offset.change, np.abs(apart), atol=ROUNDING)
-    assert prior.offset is not None
-    assert new.offset is not None
-    assert new.offset.force_change < 0.1 * prior.offset.force_change
+        np.testing.assert_allclose(checks.offset_change, np.abs(apart), atol=ROUNDING)
+    assert prior.offset_force_change_N is not None
+    assert new.offset_force_change_N is not None
+    assert new.offset_force_change_N < 0.1 * prior.offset_force_change_N
     assert (prior.candidate, new.candidate) == ("prior matrix_SIM001.txt", "new")
-    assert prior.matrix is not None
-    assert prior.matrix.full_scale is not None
+    assert prior.full_scale_positive is not None
     unloaded = -np.linalg.solve(sensor.prior, prior.offsets[0].offset)
-    at_limit = np.linalg.solve(sensor.prior, prior.matrix.full_scale.positive[2] * np.eye(6)[2]) + unloaded
+    at_limit = np.linalg.solve(sensor.prior, prior.full_scale_positive[2] * np.eye(6)[2]) + unloaded
     assert np.abs(at_limit).max() == pytest.approx(sensor.limit_counts, rel=1e-9)
 
 
@@ -135,47 +142,46 @@ def test_temperature_explains_the_change(warm: Path) -> None:
     path = with_variables(warm / PARQUET, TEMPERATURE)
     experiment = load_experiment(path)
     sensor = experiment.sensors[0]
-    true = check_sensor(experiment, replace(sensor, prior=MOUNTED))
-    assert true.offset is not None
-    assert true.offset.per_degree is not None
-    np.testing.assert_allclose(true.offset.per_degree, PER_DEGREE, rtol=1e-6)
-    (part,) = samples_of(experiment, sensor, Use.CALIBRATION)
-    seconds = seconds_of(experiment.recording, part.samples.stamp_ns)
-    assert true.offsets[0].temperature == pytest.approx(true_temperature(seconds).mean(), abs=1e-9)
-    assert true.matrix is not None
-    moved = OFFSET + (true.offsets[0].temperature - WARM_DEGC) * PER_DEGREE
+    true = _checked(experiment, sensor=replace(sensor, prior=MOUNTED))
+    assert true.offset_per_degC is not None
+    np.testing.assert_allclose(true.offset_per_degC, PER_DEGREE, rtol=1e-6)
+    (data,) = SensorRun(experiment, sensor).samples(Use.CALIBRATION)
+    seconds = seconds_of(experiment.recording, data.samples.stamp_ns)
+    assert true.offsets[0].temperature_degC == pytest.approx(true_temperature(seconds).mean(), abs=1e-9)
+    moved = OFFSET + (true.offsets[0].temperature_degC - WARM_DEGC) * PER_DEGREE
     np.testing.assert_allclose(true.offsets[0].offset, moved, atol=1e-6)
-    compensated = check_sensor(experiment, sensor, _fitted(experiment, regularisation=0.0))
-    assert compensated.offset is not None
-    assert compensated.offset.force_change < 1e-4 < 1e-2 * true.offset.force_change
+    compensated = _checked(experiment, _fitted(experiment, regularisation=0.0))
+    assert compensated.offset_force_change_N is not None
+    assert true.offset_force_change_N is not None
+    assert compensated.offset_force_change_N < 1e-4 < 1e-2 * true.offset_force_change_N
 
 
 def test_temperature_of_another_stream_is_used(warm: Path) -> None:
     """A slow board's temperature gives the same slope; without a variable there is none."""
     slow = load_experiment(with_variables(warm / PARQUET, SLOW_TEMPERATURE))
-    found = check_sensor(slow, replace(slow.sensors[0], prior=MOUNTED)).offset
-    assert found is not None
-    assert found.per_degree is not None
-    np.testing.assert_allclose(found.per_degree, PER_DEGREE, rtol=1e-6)
+    slope = _checked(slow, sensor=replace(slow.sensors[0], prior=MOUNTED)).offset_per_degC
+    assert slope is not None
+    np.testing.assert_allclose(slope, PER_DEGREE, rtol=1e-6)
 
 
 def test_without_a_variable_there_is_no_slope(warm: Path) -> None:
     """The stream holds a temperature, but the experiment does not say that it is the sensor's."""
     experiment = load_experiment(warm / PARQUET)
-    found = check_sensor(experiment, experiment.sensors[0]).offset
-    assert found is not None
-    assert (found.temperature_span, found.per_degree) == (None, None)
+    checks = _checked(experiment)
+    assert checks.offset_change is not None
+    assert [row.temperature_degC for row in checks.offsets] == [None, None]
+    assert checks.offset_per_degC is None
 
 
 def test_recovered_counts_give_the_same_checks(arm: Path) -> None:
     """A log of calibrated wrenches, with the matrix that they were made with, is checked like one of counts."""
     raw, wrenches = (load_experiment(arm / form) for form in (PARQUET, YARP))
-    ours, theirs = check_sensor(raw, raw.sensors[0]), check_sensor(wrenches, wrenches.sensors[0])
-    assert ours.matrix is not None
-    assert theirs.matrix is not None
-    assert ours.matrix.condition == theirs.matrix.condition
-    assert ours.matrix.least_full_scale is not None
-    np.testing.assert_allclose(theirs.matrix.least_full_scale, ours.matrix.least_full_scale, rtol=1e-3)
+    ours, theirs = _checked(raw), _checked(wrenches)
+    assert ours.condition is not None
+    assert ours.condition == theirs.condition
+    assert ours.full_scale_least is not None
+    assert theirs.full_scale_least is not None
+    np.testing.assert_allclose(theirs.full_scale_least, ours.full_scale_least, rtol=1e-3)
 
 
 def test_what_cannot_be_measured_has_a_reason(arm: Path) -> None:
@@ -183,45 +189,57 @@ def test_what_cannot_be_measured_has_a_reason(arm: Path) -> None:
     text = (arm / PARQUET).read_text(encoding="utf-8")
     edit(arm / PARQUET, 'use = "validation"', 'use = "ignore"')
     experiment = load_experiment(arm / PARQUET)
-    checks = check_sensor(experiment, experiment.sensors[0])
+    checks = _checked(experiment)
     assert set(checks.not_measured) == {"offset", "population"}
     assert "at least 2 recordings, got 1" in checks.not_measured["offset"]
     assert "--population" in checks.not_measured["population"]
-    assert (checks.offset, len(checks.offsets), checks.population) == (None, 1, None)
-    assert checks.matrix is not None
+    assert (checks.offset_change, len(checks.offsets)) == (None, 1)
+    assert (checks.population_count, checks.population) == (None, ())
+    assert checks.condition is not None
     (arm / PARQUET).write_text(text, encoding="utf-8")
     edit(arm / YARP, 'prior = "matrix_SIM001.txt"', 'prior = "identity"')
     unknown = load_experiment(arm / YARP)
-    checks = check_sensor(unknown, unknown.sensors[0], population={str(k): MOUNTED for k in range(9)})
+    checks = _checked(unknown, population={str(k): MOUNTED for k in range(9)})
     assert set(checks.not_measured) == {"matrix", "population"}
     assert "not for counts" in checks.not_measured["matrix"]
-    assert [each.saturated for each in checks.intervals] == [0, 0]
-    assert checks.offset is not None
+    assert [row.saturated_share for row in checks.recording] == [0.0, 0.0]
+    assert checks.offset_change is not None
 
 
 def test_the_sensor_itself_is_not_in_its_population(arm: Path) -> None:
     """Its own serial number is left out, also where that leaves too few."""
     experiment = load_experiment(arm / PARQUET)
-    sensor = experiment.sensors[0]
     rng = np.random.default_rng(3)
     others = {f"SN{k}": MOUNTED * rng.uniform(0.9, 1.1, (6, 6)) for k in range(5)}
-    found = check_sensor(experiment, sensor, population={**others, "SIM001": MOUNTED}).population
-    assert found is not None
-    assert found.count == 5
+    assert _checked(experiment, population={**others, "SIM001": MOUNTED}).population_count == 5
     del others["SN0"]
-    reason = check_sensor(experiment, sensor, population={**others, "SIM001": MOUNTED}).not_measured["population"]
+    reason = _checked(experiment, population={**others, "SIM001": MOUNTED}).not_measured["population"]
     assert "expected at least 5 other sensors, got 4" in reason
+
+
+def test_the_checks_are_one_line_of_numbers_and_say_themselves_in_short(arm: Path) -> None:
+    """Components have their units in the keys, and what JSON cannot hold is null there but not in Python."""
+    experiment = load_experiment(arm / PARQUET)
+    name, calibration = _fitted(experiment)
+    equal = np.array(calibration.matrix)
+    equal[4] = equal[3]
+    checks = _checked(experiment, (name, calibration.model_copy(update={"matrix": equal})))
+    assert checks.condition == np.inf
+    line = checks.flat()
+    assert (line["condition"], line["resolution_rms_fx_N"]) == (None, float(checks.resolution_rms[0]))  # type: ignore[index]
+    assert (checks.full_scale_least, "singular" in checks.not_measured["full_scale"]) == (None, True)
+    assert len(repr(checks)) < 1000
 
 
 def test_calibrations_of_others_and_sensors_without_matrix_are_refused(arm: Path) -> None:
     """Another serial number; neither calibration nor prior; nothing but ignored intervals."""
     experiment = load_experiment(arm / TWO)
-    foreign = calibrate_sensor(experiment, experiment.sensors[1], code_version="test", created="test")
+    foreign = calibrate_sensor(SensorRun(experiment, experiment.sensors[1]), code_version="test", created="test")
     with pytest.raises(SerialNumberError, match="every sensor has its own matrix"):
-        check_sensor(experiment, experiment.sensors[0], ("foreign", foreign))
+        _checked(experiment, ("foreign", foreign))
     with pytest.raises(ExperimentError, match="expected a calibration, or a prior matrix"):
-        check_sensor(experiment, replace(experiment.sensors[0], prior=None))
+        _checked(experiment, sensor=replace(experiment.sensors[0], prior=None))
     ignored = [replace(interval, use=Use.IGNORE) for interval in experiment.recording.intervals]
     empty = replace(experiment, recording=replace(experiment.recording, intervals=tuple(ignored)))
     with pytest.raises(ExperimentError, match="an interval that is not ignored"):
-        check_sensor(empty, empty.sensors[0])
+        _checked(empty)

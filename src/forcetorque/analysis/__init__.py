@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Questions to the sensors of experiments: one file per question, each a function and its result."""
 
-from forcetorque.analysis.acceptance import Acceptance, accept_sensor
+from forcetorque.analysis.acceptance import Acceptance, accept
 from forcetorque.analysis.acceptance_file import AcceptanceFile, read_acceptance
 from forcetorque.analysis.applicability import by_sensor, one_per_sensor
 from forcetorque.analysis.assessment import Assessment, Demands, assess
@@ -10,11 +10,13 @@ from forcetorque.analysis.candidate import JudgedCandidate
 from forcetorque.analysis.compare import TrialFailure, TrialGroup, TrialSphere, group_trials, read_trials
 from forcetorque.analysis.comparison import Independence, PriorComparison, compare_with_prior
 from forcetorque.analysis.corrections import corrections_of
+from forcetorque.analysis.criterion import Bound, Criterion
 from forcetorque.analysis.estimate import IntervalEstimates, estimate_experiment
 from forcetorque.analysis.evaluate import CandidateErrors, Evaluation, evaluate
 from forcetorque.analysis.experiment_assessment import ExperimentAssessment, assess_experiment
 from forcetorque.analysis.gains import JointPosition, SensorGains, StrongestSample, select_gains
 from forcetorque.analysis.inspect import doubtful_spans, inspect_experiment, inspect_recording
+from forcetorque.analysis.interval_quality import IntervalQuality
 from forcetorque.analysis.joint_torques import JointTorques, JointTorqueVerdict, compare_joint_torques
 from forcetorque.analysis.judged import JudgedWrenches
 from forcetorque.analysis.population import read_population
@@ -22,7 +24,7 @@ from forcetorque.analysis.reading import Correction
 from forcetorque.analysis.samples import IntervalSamples
 from forcetorque.analysis.sensor_run import SensorRun
 from forcetorque.analysis.sphere import SensorSphere, analyse_sensor, sphere_intervals
-from forcetorque.analysis.static_checks import StaticChecks, check_sensor
+from forcetorque.analysis.static_checks import IntervalOffset, StaticChecks, check
 from forcetorque.analysis.study import SensorStudy, study_sensor
 from forcetorque.analysis.study_data import StudyData, read_study_data
 from forcetorque.analysis.validate import ContactForceComparison, ContactForceVerdict, compare_contact_forces
@@ -43,10 +45,14 @@ __all__ = [
     "evaluate",
     "Acceptance",
     "AcceptanceFile",
+    "Bound",
     "ContactForceComparison",
     "ContactForceVerdict",
     "Correction",
+    "Criterion",
     "IntervalEstimates",
+    "IntervalOffset",
+    "IntervalQuality",
     "IntervalSamples",
     "JointPosition",
     "JointTorqueVerdict",
@@ -62,12 +68,12 @@ __all__ = [
     "TrialFailure",
     "TrialGroup",
     "TrialSphere",
-    "accept_sensor",
+    "accept",
     "analyse_sensor",
     "by_sensor",
     "one_per_sensor",
     "calibrate_sensor",
-    "check_sensor",
+    "check",
     "compare_contact_forces",
     "compare_joint_torques",
     "corrections_of",

@@ -53,6 +53,27 @@ PerAxis = Annotated[
 """One limit per component, N and N m: six numbers fx fy fz tx ty tz, or a table with some of them by name."""
 
 
+def _refuse_old_word(instead: str) -> BeforeValidator:
+    """Refuse the word that older files have for either of two offsets."""
+
+    def refuse(value: Any) -> Any:
+        if value == "re-estimated":
+            raise PydanticCustomError(
+                "old_offset", "this word meant two different offsets; write {instead}", {"instead": instead}
+            )
+        return value
+
+    return BeforeValidator(refuse)
+
+
+_ErrorOffset = Annotated[
+    Literal["fitted", "judged-mean"], _refuse_old_word('"judged-mean" for the mean of the judged samples')
+]
+_ContactOffset = Annotated[
+    Literal["first-second", "fitted"], _refuse_old_word('"first-second" for that of the first second of every interval')
+]
+
+
 class _Limits(Table):
     """A table of limits; one without any would look like a criterion that holds."""
 
@@ -73,7 +94,7 @@ class Evaluate(_Limits):
     """Errors on the validation intervals, as `forcetorque evaluate` has them; at most."""
 
     settings: ClassVar[frozenset[str]] = frozenset({"offset"})
-    offset: Literal["fitted", "judged-mean"] = "fitted"
+    offset: _ErrorOffset = "fitted"
     """Offset of the fitted data, or the mean of the judged samples."""
     force_error_mean_N: _NotNegative | None = None
     """Mean norm of the force error."""
@@ -95,7 +116,7 @@ class Improvement(_Limits):
     """Errors of the calibration over those of its prior, on the validation intervals; at most."""
 
     settings: ClassVar[frozenset[str]] = frozenset({"offset"})
-    offset: Literal["fitted", "judged-mean"] = "fitted"
+    offset: _ErrorOffset = "fitted"
     """Offset of the fitted data, or the mean of the judged samples."""
     force_error_ratio: _NotNegative | None = None
     """Ratio of the mean norms of the force error."""
@@ -107,7 +128,7 @@ class Validate(_Limits):
     """Contact wrench where nothing touches, as `forcetorque validate` has it; at most."""
 
     settings: ClassVar[frozenset[str]] = frozenset({"offset", "other_sensors"})
-    offset: Literal["first-second", "fitted"] = "first-second"
+    offset: _ContactOffset = "first-second"
     """Offset from the first second of every judged interval, or that of the candidate."""
     other_sensors: Literal["model", "measured"] = OtherSensors.MODEL.value
     """What the other sensors of the part read: what the model expects, or what they measured."""

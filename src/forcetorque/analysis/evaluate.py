@@ -166,6 +166,20 @@ def doubts(run: SensorRun, name: str, calibration: Calibration) -> Iterator[str]
     """
     for sentence in _beyond_fitted_range(run, calibration):
         yield f"{name}: {sentence}"
+    yield from doubts_about_choice(run, name, calibration)
+
+
+def doubts_about_choice(run: SensorRun, name: str, calibration: Calibration) -> Iterator[str]:
+    """Say where a calibration is judged on what it was chosen on.
+
+    Args:
+        run: The sensor.
+        name: Name of the calibration.
+        calibration: The calibration.
+
+    Yields:
+        A sentence per validation interval on which it was chosen among others.
+    """
     for label in dict.fromkeys(judged for judged, _ in _overlaps(run, calibration.selection.chosen_on)):
         yield f"{name} was chosen among others on {label!r} too, so the verdict on it flatters"
 

@@ -3,17 +3,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from typing import TypeVar
 
 import numpy as np
 
+from forcetorque.analysis.interval_quality import IntervalQuality, has_counts, interval_qualities
+from forcetorque.analysis.reading import Correction
 from forcetorque.analysis.sensor_run import SensorRun
-from forcetorque.arrays import BoolArray, FloatArray, IntArray, read_only
-from forcetorque.calibration import Calibration, recover_raw
+from forcetorque.arrays import FloatArray
+from forcetorque.calibration import Calibration, WrenchModel
 from forcetorque.errors import ExperimentError, ForceTorqueError
-from forcetorque.estimation.picked import pick_samples
 from forcetorque.evaluation import (
+    FeaturePosition,
     MatrixChecks,
     OffsetChange,
     PopulationPosition,
@@ -21,90 +23,77 @@ from forcetorque.evaluation import (
     offset_change,
     position_in_population,
 )
-from forcetorque.experiment.content import Experiment, ExperimentSensor, SensorVariable
+from forcetorque.experiment.content import ExperimentSensor, SensorVariable
 from forcetorque.experiment.inputs import stated_in
-from forcetorque.recording import Interval, Stream, Use
-from forcetorque.recording.quality import SATURATION_SHARE, stream_findings
+from forcetorque.recording import Interval, Use
+from forcetorque.result import FloatOrNull, Row, WrenchValues
+
+_Answer = TypeVar("_Answer")
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class IntervalQuality:
-    """What an interval lacks of a sensor's readings."""
+class IntervalOffset(Row):
+    """Offset with which the matrix fits an interval best."""
 
     label: str
     """Label of the interval."""
     samples: int
-    """Number of its samples."""
-    saturated: int
-    """Samples that the board held or, where it does not say so, with a channel at its limit or in a long stretch of
-    one reading."""
-    missing: int
-    """Samples without a reading, or whose stamp does not step forward."""
-    lost: int | None
-    """Messages that were lost by their sequence numbers; None without these."""
-
-    @property
-    def saturated_share(self) -> float:
-        """Share of saturated samples."""
-        return self.saturated / self.samples
-
-    @property
-    def missing_share(self) -> float:
-        """Share of missing samples."""
-        return self.missing / self.samples
-
-    @property
-    def lost_share(self) -> float | None:
-        """Share of lost messages among those that were sent; None if it is not known."""
-        return None if self.lost is None else self.lost / (self.lost + self.samples)
+    """Number of its samples that the model covers."""
+    offset: WrenchValues
+    """Mean of reference less wrench without offset, per component; N, N m."""
+    temperature_degC: float | None
+    """Mean temperature of the same samples; None if the sensor has no such variable."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class IntervalOffset:
-    """Offset with which a matrix fits an interval best."""
-
-    label: str
-    """Label of the interval."""
-    use: Use
-    """What it is for."""
-    samples: int
-    """Number of its samples."""
-    offset: FloatArray
-    """Mean of reference less wrench without offset; shape (6,); N, N m."""
-    temperature: float | None
-    """Mean temperature of the same samples; degC; None if the sensor has no such variable."""
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "offset", read_only(self.offset, name="offset", shape=(6,)))
-
-
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class StaticChecks:
-    """What is checked of a sensor; what could not be is None, and `not_measured` says why."""
+class StaticChecks(Row):
+    """Static checks of one sensor; None is what could not be measured, see `not_measured`."""
 
     sensor: str
     """Sensor."""
     serial: str
     """Its serial number."""
     candidate: str
-    """Name of the calibration, or the file of the prior."""
+    """The calibration file, or the prior."""
     limit_counts: float
     """Largest magnitude of a reading; counts."""
-    intervals: tuple[IntervalQuality, ...]
-    """One per interval that is not ignored."""
+    condition: FloatOrNull | None
+    """Condition of the matrix with its rows over the stated full scale; infinite if it is singular, null in JSON."""
+    resolution_worst: WrenchValues | None
+    """Change of a component when all channels are off by one count with the worst signs; N, N m."""
+    resolution_rms: WrenchValues | None
+    """The same when they err independently with one count each; N, N m."""
+    full_scale_stated: WrenchValues | None
+    """Full scale with all channels at their limit, which no load reaches; N, N m."""
+    full_scale_positive: WrenchValues | None
+    """Largest load along each axis before a channel saturates; N, N m."""
+    full_scale_negative: WrenchValues | None
+    """Lowest load along each axis before a channel saturates; N, N m."""
+    population_count: int | None
+    """Number of other sensors that the matrix is compared with."""
+    population: tuple[FeaturePosition, ...]
+    """One per feature of the matrix."""
     offsets: tuple[IntervalOffset, ...]
     """One per interval that is not ignored; none where the model cannot be evaluated."""
-    matrix: MatrixChecks | None
-    """Full scale, resolution and condition."""
-    offset: OffsetChange | None
-    """How the offset changes between intervals."""
-    population: PopulationPosition | None
-    """Where the matrix stands among those of other serial numbers."""
-    not_measured: Mapping[str, str]
-    """Reason by `matrix`, `offset` or `population`."""
+    offset_change: WrenchValues | None
+    """Largest less smallest offset; N, N m."""
+    offset_force_change_N: float | None
+    """Largest norm of the difference of two offsets, force part."""
+    offset_per_degC: WrenchValues | None
+    """Slope of the offset against temperature; N/degC, N m/degC."""
+    recording: tuple[IntervalQuality, ...]
+    """One per interval that is not ignored."""
+    not_measured: dict[str, str]
+    """Reason by what is missing: matrix, full_scale, population, offset."""
+
+    @property
+    def full_scale_least(self) -> FloatArray | None:
+        """The smaller reachable full scale of both directions of each axis; shape (6,); N, N m."""
+        if self.full_scale_positive is None or self.full_scale_negative is None:
+            return None
+        smaller: FloatArray = np.minimum(self.full_scale_positive, -self.full_scale_negative)
+        return smaller
 
 
-def check_sensor(
+def check(
     run: SensorRun,
     calibration: tuple[str, Calibration] | None = None,
     *,
@@ -123,169 +112,124 @@ def check_sensor(
     Raises:
         ExperimentError: If there is neither calibration nor prior, or all intervals are ignored.
     """
-    experiment, sensor = run.experiment, run.sensor
-    if calibration is not None:
-        run.require_fit(*calibration)
-    elif sensor.prior is None:
-        raise ExperimentError(f"sensor {sensor.name!r}: expected a calibration, or a prior matrix, to check")
-    used = [interval for interval in experiment.recording.intervals if interval.use is not Use.IGNORE]
-    if not used:
-        raise ExperimentError(f"experiment {experiment.name!r}: expected an interval that is not ignored, it has none")
+    sensor = run.sensor
+    correction = _correction(run, calibration)
+    used = _used_intervals(run)
     reasons: dict[str, str] = {}
-    model = None if calibration is None else calibration[1]
-    offsets: tuple[IntervalOffset, ...] = ()
-    change, matrix, position = None, None, None
-    try:
-        offsets = _offsets(run, model)
-        change = _change(offsets)
-    except ForceTorqueError as error:
-        reasons["offset"] = str(error)
-    try:
-        matrix = _matrix(sensor, model, offsets)
-    except ForceTorqueError as error:
-        reasons["matrix"] = str(error)
-    try:
-        position = _position(sensor, model, population)
-    except ForceTorqueError as error:
-        reasons["population"] = str(error)
+
+    def attempt(what: str, measure: Callable[[], _Answer]) -> _Answer | None:
+        try:
+            return measure()
+        except ForceTorqueError as error:
+            reasons[what] = str(error)
+            return None
+
+    by_use = attempt("offset", lambda: {use: tuple(_offsets(run, correction, use)) for use in _uses(used)}) or {}
+    offsets = tuple(row for rows in by_use.values() for row in rows)
+    change = attempt("offset", lambda: _change(offsets)) if offsets else None
+    fitted = by_use.get(Use.CALIBRATION, offsets)
+    matrix = attempt("matrix", lambda: _matrix(sensor, calibration, fitted))
+    position = attempt("population", lambda: _position(sensor, correction, population))
+    if matrix is not None and matrix.full_scale is None:
+        reasons["full_scale"] = matrix.no_full_scale
+    full_scale = None if matrix is None else matrix.full_scale
     return StaticChecks(
         sensor=sensor.name,
         serial=sensor.serial,
         candidate=f"prior {sensor.prior_source}" if calibration is None else calibration[0],
         limit_counts=sensor.limit_counts,
-        intervals=_qualities(experiment, sensor, used),
+        condition=None if matrix is None else matrix.condition,
+        resolution_worst=None if matrix is None else matrix.resolution.worst,
+        resolution_rms=None if matrix is None else matrix.resolution.rms,
+        full_scale_stated=None if matrix is None else matrix.stated_full_scale,
+        full_scale_positive=None if full_scale is None else full_scale.positive,
+        full_scale_negative=None if full_scale is None else full_scale.negative,
+        population_count=None if position is None else position.count,
+        population=() if position is None else position.features,
         offsets=offsets,
-        matrix=matrix,
-        offset=change,
-        population=position,
+        offset_change=None if change is None else change.change,
+        offset_force_change_N=None if change is None else change.force_change,
+        offset_per_degC=None if change is None else change.per_degree,
+        recording=interval_qualities(run, used),
         not_measured=reasons,
     )
 
 
-def _offsets(run: SensorRun, calibration: Calibration | None) -> tuple[IntervalOffset, ...]:
-    experiment, sensor = run.experiment, run.sensor
-    fitted = () if calibration is None else tuple(variable.name for variable in calibration.variables)
-    temperature = _temperature(experiment, sensor)
-    needed = tuple(v for v in sensor.variables if v is temperature or v.linear.name in fitted)
-    column = {variable.linear.name: k for k, variable in enumerate(needed)}
-    uses = {interval.use for interval in experiment.recording.intervals} - {Use.IGNORE}
-    found = []
-    for use in sorted(uses):
-        for part in run.samples(use, variables=column):
-            variables = part.samples.variables
-            with stated_in(f"interval {part.interval.label!r}"):
-                if calibration is None:
-                    read = part.raw @ _prior(sensor).T
-                else:
-                    chosen = variables[:, [column[name] for name in fitted]]
-                    read = calibration.model.wrench(part.raw, chosen) - calibration.offset
-            warmth = None if temperature is None else float(variables[:, column[temperature.linear.name]].mean())
-            found.append(
-                IntervalOffset(
-                    label=part.interval.label,
-                    use=use,
-                    samples=len(read),
-                    offset=(part.samples.reference - read).mean(axis=0),
-                    temperature=warmth,
-                )
-            )
-    return tuple(found)
-
-
-def _prior(sensor: ExperimentSensor) -> FloatArray:
+def _correction(run: SensorRun, calibration: tuple[str, Calibration] | None) -> Correction:
+    """Read the counts by the matrix that is checked; logged wrenches go through the counts that they came from."""
+    sensor = run.sensor
+    if calibration is not None:
+        run.require_fit(*calibration)
+        return Correction.of(*calibration)
     if sensor.prior is None:
-        raise ExperimentError(f"sensor {sensor.name!r}: expected a prior matrix")
-    return sensor.prior
+        raise ExperimentError(f"sensor {sensor.name!r}: expected a calibration, or a prior matrix, to check")
+    model = WrenchModel(matrix=sensor.prior, offset=np.zeros(6))
+    return Correction(model=model, source=f"the prior {sensor.prior_source}", removes_offset=False)
 
 
-def _temperature(experiment: Experiment, sensor: ExperimentSensor) -> SensorVariable | None:
-    found = [variable for variable in sensor.variables if variable.source.unit(experiment.recording) == "degC"]
-    return found[0] if found else None
+def _used_intervals(run: SensorRun) -> tuple[Interval, ...]:
+    used = tuple(interval for interval in run.experiment.recording.intervals if interval.use is not Use.IGNORE)
+    if not used:
+        raise ExperimentError(
+            f"experiment {run.experiment.name!r}: expected an interval that is not ignored, it has none"
+        )
+    return used
 
 
-def _change(offsets: tuple[IntervalOffset, ...]) -> OffsetChange:
-    known = [each.temperature for each in offsets if each.temperature is not None]
+def _uses(intervals: Sequence[Interval]) -> list[Use]:
+    return sorted({interval.use for interval in intervals})
+
+
+def _offsets(run: SensorRun, correction: Correction, use: Use) -> Iterator[IntervalOffset]:
+    temperature = _temperature(run)
+    known = () if temperature is None else (temperature.linear.name,)
+    for data in run.samples(use, variables={*correction.variables, *known}):
+        with stated_in(f"interval {data.interval.label!r}"):
+            wrench = data.readings.wrench(correction) - correction.model.offset
+        yield IntervalOffset(
+            label=data.interval.label,
+            samples=len(wrench),
+            offset=(data.samples.reference - wrench).mean(axis=0),
+            temperature_degC=float(data.readings.variables[known[0]].mean()) if known else None,
+        )
+
+
+def _temperature(run: SensorRun) -> SensorVariable | None:
+    in_degrees = (v for v in run.sensor.variables if v.source.unit(run.experiment.recording) == "degC")
+    return next(in_degrees, None)
+
+
+def _change(offsets: Sequence[IntervalOffset]) -> OffsetChange:
+    known = [row.temperature_degC for row in offsets if row.temperature_degC is not None]
     temperature = np.array(known) if len(known) == len(offsets) else None
-    return offset_change(np.array([each.offset for each in offsets]).reshape(-1, 6), temperature)
+    return offset_change(np.array([row.offset for row in offsets]).reshape(-1, 6), temperature)
 
 
 def _matrix(
-    sensor: ExperimentSensor, calibration: Calibration | None, offsets: tuple[IntervalOffset, ...]
+    sensor: ExperimentSensor, calibration: tuple[str, Calibration] | None, offsets: Sequence[IntervalOffset]
 ) -> MatrixChecks:
     _require_counts(sensor)
     if calibration is not None:
-        return matrix_checks(calibration.matrix, calibration.offset, limit_counts=sensor.limit_counts)
-    fitted = [each for each in offsets if each.use is Use.CALIBRATION] or offsets
-    if not fitted:
+        return matrix_checks(calibration[1].matrix, calibration[1].offset, limit_counts=sensor.limit_counts)
+    if not offsets or sensor.prior is None:
         raise ExperimentError("the offset of the prior is not known, as the model could not be evaluated")
-    offset = np.average([each.offset for each in fitted], axis=0, weights=[each.samples for each in fitted])
-    return matrix_checks(_prior(sensor), offset, limit_counts=sensor.limit_counts)
+    offset = np.average([row.offset for row in offsets], axis=0, weights=[row.samples for row in offsets])
+    return matrix_checks(sensor.prior, offset, limit_counts=sensor.limit_counts)
 
 
 def _position(
-    sensor: ExperimentSensor, calibration: Calibration | None, population: Mapping[str, FloatArray] | None
+    sensor: ExperimentSensor, correction: Correction, population: Mapping[str, FloatArray] | None
 ) -> PopulationPosition:
     if population is None:
         raise ExperimentError("no matrices of other sensors were given; name them with --population")
     _require_counts(sensor)
     others = {serial: matrix for serial, matrix in population.items() if serial != sensor.serial}
-    return position_in_population(_prior(sensor) if calibration is None else calibration.matrix, others)
+    return position_in_population(correction.model.matrix, others)
 
 
 def _require_counts(sensor: ExperimentSensor) -> None:
-    if not _has_counts(sensor):
+    if not has_counts(sensor):
         raise ExperimentError(
             "the matrix is not for counts: the wrench of the log takes their place, as the experiment says by "
             'prior = "identity"'
         )
-
-
-def _has_counts(sensor: ExperimentSensor) -> bool:
-    return sensor.quantity == "raw" or sensor.prior_source != "identity"
-
-
-def _qualities(
-    experiment: Experiment, sensor: ExperimentSensor, intervals: list[Interval]
-) -> tuple[IntervalQuality, ...]:
-    stream = experiment.recording.stream(sensor.stream)
-    saturated, lost = _saturated(stream, sensor), _lost(stream)
-    missing: BoolArray = np.logical_not(np.isfinite(stream.signal(sensor.quantity).values).all(axis=1))
-    found = []
-    for interval in intervals:
-        rows, samples = pick_samples(experiment.recording, stream, interval)
-        found.append(
-            IntervalQuality(
-                label=interval.label,
-                samples=samples,
-                saturated=int(np.count_nonzero(saturated[rows])),
-                missing=samples - len(rows) + int(np.count_nonzero(missing[rows])),
-                lost=None if lost is None else int(lost[rows].sum()),
-            )
-        )
-    return tuple(found)
-
-
-def _saturated(stream: Stream, sensor: ExperimentSensor) -> BoolArray:
-    """Whether each sample of the whole log is held, or at the limit."""
-    if "saturated" in stream.signals:
-        return stream.held
-    values = stream.signal(sensor.quantity).values
-    found = np.zeros(len(stream), dtype=bool)
-    if _has_counts(sensor):
-        counts = values if sensor.quantity == "raw" else recover_raw(values, _prior(sensor))
-        found |= (np.abs(counts) >= (1.0 - SATURATION_SHARE) * sensor.limit_counts).any(axis=1)
-    for finding in stream_findings(stream):
-        if finding.kind == "frozen" and finding.start_ns is not None and finding.end_ns is not None:
-            found |= (stream.stamp_ns >= finding.start_ns) & (stream.stamp_ns <= finding.end_ns)
-    return found
-
-
-def _lost(stream: Stream) -> IntArray | None:
-    """Messages that were lost before each sample."""
-    if stream.sequence is None or (stream.sequence < 0).any():
-        return None
-    lost = np.zeros(len(stream), dtype=np.int64)
-    for finding in stream_findings(stream):
-        if finding.kind == "lost_messages" and finding.end_ns is not None:
-            lost[int(np.argmax(np.equal(stream.stamp_ns, finding.end_ns)))] += finding.count
-    return lost

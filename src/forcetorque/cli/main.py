@@ -7,10 +7,10 @@ from typing import Annotated
 
 import typer
 
+from forcetorque.cli.accept import accept
 from forcetorque.cli.encoding import spell_missing_letters
 from forcetorque.cli.evaluate import evaluate
 from forcetorque.cli.output import report_error
-from forcetorque.cli.parser.accept import accept
 from forcetorque.cli.parser.calibrate import calibrate
 from forcetorque.cli.parser.compare import compare
 from forcetorque.cli.parser.estimate import estimate

@@ -72,9 +72,9 @@ def _calibration() -> dict[str, Any]:
 
 
 def _accept() -> dict[str, Any]:
-    from forcetorque.cli.accept_result import AcceptResult
+    from forcetorque.analysis import Acceptance
 
-    return AcceptResult.model_json_schema()
+    return Acceptance.described()
 
 
 def _calibrate() -> dict[str, Any]:

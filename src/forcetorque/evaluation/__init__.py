@@ -24,7 +24,7 @@ from forcetorque.evaluation.joint_torques import TorqueErrors, TorqueMap, joints
 from forcetorque.evaluation.model_findings import model_findings
 from forcetorque.evaluation.offset import KNOWN_BEFORE, Offset
 from forcetorque.evaluation.paired import PairedDifference, PairedMean, paired_difference
-from forcetorque.evaluation.population import PopulationPosition, position_in_population
+from forcetorque.evaluation.population import FeaturePosition, PopulationPosition, position_in_population
 from forcetorque.evaluation.static_checks import MatrixChecks, OffsetChange, matrix_checks, offset_change
 from forcetorque.evaluation.wrench_errors import WrenchErrors, errors_from_zero, offset_removed, wrench_errors
 
@@ -37,6 +37,7 @@ __all__ = [
     "ChannelRange",
     "ContactForceValidation",
     "ContactForces",
+    "FeaturePosition",
     "GainAdvice",
     "GainChange",
     "MatrixChecks",

@@ -4,7 +4,7 @@
 from forcetorque.result.cells import finite_or_none, interval, number, with_error
 from forcetorque.result.names import short_names
 from forcetorque.result.result import Result
-from forcetorque.result.row import AxisValues, Row, Values, WrenchValues
+from forcetorque.result.row import AxisValues, FloatOrNull, Row, Values, WrenchValues
 from forcetorque.result.shown import COMPONENTS, Shown, ShownWrench
 from forcetorque.result.table import Table, table_of
 from forcetorque.result.text import table_text, wrapped
@@ -12,6 +12,7 @@ from forcetorque.result.text import table_text, wrapped
 __all__ = [
     "COMPONENTS",
     "AxisValues",
+    "FloatOrNull",
     "Result",
     "Row",
     "Shown",

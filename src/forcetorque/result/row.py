@@ -7,10 +7,11 @@ from collections.abc import Iterator
 from typing import Annotated, Any
 
 import numpy as np
-from pydantic import BaseModel, ConfigDict
+from pydantic import BaseModel, ConfigDict, PlainSerializer
 
 from forcetorque.array_field import ArrayField
 from forcetorque.arrays import FloatArray
+from forcetorque.result.cells import finite_or_none
 from forcetorque.spatial import WRENCH_COMPONENTS, WRENCH_UNITS
 
 WrenchValues = Annotated[FloatArray, ArrayField((6,))]
@@ -19,6 +20,8 @@ AxisValues = Annotated[FloatArray, ArrayField((3,))]
 """Three numbers x y z."""
 Values = Annotated[FloatArray, ArrayField((None,))]
 """Any number of numbers."""
+FloatOrNull = Annotated[float, PlainSerializer(finite_or_none, return_type=float | None)]
+"""A number that may be infinite, or NaN where there is none; null in JSON, which has neither."""
 
 _FEW = 8
 """Numbers of a list that are shown; more are counted."""
