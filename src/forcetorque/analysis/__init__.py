@@ -10,8 +10,9 @@ from forcetorque.analysis.compare import TrialFailure, TrialGroup, TrialSphere, 
 from forcetorque.analysis.corrections import corrections_of
 from forcetorque.analysis.estimate import IntervalEstimates, estimate_experiment
 from forcetorque.analysis.evaluate import CandidateErrors, Evaluation, evaluate
+from forcetorque.analysis.findings import doubtful_spans, inspect_experiment, inspect_recording
 from forcetorque.analysis.gains import JointPosition, SensorGains, StrongestSample, select_gains
-from forcetorque.analysis.inspect import doubtful_spans, inspect_experiment, inspect_recording
+from forcetorque.analysis.inspect import FindingRow, Inspection, finding_rows, finding_table, inspect_log
 from forcetorque.analysis.joint_torques import JointTorques, JointTorqueVerdict, compare_joint_torques
 from forcetorque.analysis.judged import JudgedWrenches
 from forcetorque.analysis.population import read_population
@@ -33,6 +34,8 @@ __all__ = [
     "ContactForceComparison",
     "ContactForceVerdict",
     "Correction",
+    "FindingRow",
+    "Inspection",
     "IntervalEstimates",
     "IntervalSamples",
     "JointPosition",
@@ -60,8 +63,11 @@ __all__ = [
     "corrections_of",
     "doubtful_spans",
     "estimate_experiment",
+    "finding_rows",
+    "finding_table",
     "group_trials",
     "inspect_experiment",
+    "inspect_log",
     "inspect_recording",
     "read_acceptance",
     "read_population",

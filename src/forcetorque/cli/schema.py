@@ -114,9 +114,9 @@ def _gains() -> dict[str, Any]:
 
 
 def _inspect() -> dict[str, Any]:
-    from forcetorque.cli.inspect_result import InspectResult
+    from forcetorque.analysis import Inspection
 
-    return InspectResult.model_json_schema()
+    return Inspection.described()
 
 
 def _payload() -> dict[str, Any]:
