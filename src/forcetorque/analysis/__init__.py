@@ -15,6 +15,7 @@ from forcetorque.analysis.gains import JointPosition, SensorGains, StrongestSamp
 from forcetorque.analysis.inspect import FindingRow, Inspection, finding_rows, finding_table, inspect_log
 from forcetorque.analysis.joint_torques import JointTorques, JointTorqueVerdict, compare_joint_torques
 from forcetorque.analysis.judged import JudgedWrenches
+from forcetorque.analysis.payload import WeighedLoad, weigh_load
 from forcetorque.analysis.population import read_population
 from forcetorque.analysis.reading import Correction
 from forcetorque.analysis.samples import IntervalSamples
@@ -52,6 +53,7 @@ __all__ = [
     "TrialFailure",
     "TrialGroup",
     "TrialSphere",
+    "WeighedLoad",
     "accept_sensor",
     "analyse_sensor",
     "by_sensor",
@@ -77,4 +79,5 @@ __all__ = [
     "select_gains",
     "sphere_intervals",
     "study_sensor",
+    "weigh_load",
 ]

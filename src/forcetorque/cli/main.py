@@ -16,7 +16,6 @@ from forcetorque.cli.parser.compare import compare
 from forcetorque.cli.parser.estimate import estimate
 from forcetorque.cli.parser.export import export
 from forcetorque.cli.parser.gains import gains
-from forcetorque.cli.parser.payload import payload
 from forcetorque.cli.parser.report import report
 from forcetorque.cli.parser.schema import schema
 from forcetorque.cli.parser.simulate import simulate
@@ -24,6 +23,7 @@ from forcetorque.cli.parser.sphere import sphere
 from forcetorque.cli.parser.study import study
 from forcetorque.cli.parser.validate import validate
 from forcetorque.cli.parser.view import view
+from forcetorque.cli.payload import payload
 from forcetorque.errors import ForceTorqueError
 
 app = typer.Typer(

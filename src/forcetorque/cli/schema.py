@@ -120,9 +120,9 @@ def _inspect() -> dict[str, Any]:
 
 
 def _payload() -> dict[str, Any]:
-    from forcetorque.cli.payload import PayloadResult
+    from forcetorque.analysis import WeighedLoad
 
-    return PayloadResult.model_json_schema()
+    return WeighedLoad.described()
 
 
 def _report() -> dict[str, Any]:
