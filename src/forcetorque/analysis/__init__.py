@@ -11,7 +11,7 @@ from forcetorque.analysis.corrections import corrections_of
 from forcetorque.analysis.estimate import IntervalEstimates, estimate_experiment
 from forcetorque.analysis.evaluate import CandidateErrors, Evaluation, evaluate
 from forcetorque.analysis.findings import doubtful_spans, inspect_experiment, inspect_recording
-from forcetorque.analysis.gains import JointPosition, SensorGains, StrongestSample, select_gains
+from forcetorque.analysis.gains import Gains, SensorGains, select_gains, sensor_gains
 from forcetorque.analysis.inspect import FindingRow, Inspection, finding_rows, finding_table, inspect_log
 from forcetorque.analysis.joint_torques import JointTorques, JointTorqueVerdict, compare_joint_torques
 from forcetorque.analysis.judged import JudgedWrenches
@@ -36,10 +36,10 @@ __all__ = [
     "ContactForceVerdict",
     "Correction",
     "FindingRow",
+    "Gains",
     "Inspection",
     "IntervalEstimates",
     "IntervalSamples",
-    "JointPosition",
     "JointTorqueVerdict",
     "JointTorques",
     "JudgedCandidate",
@@ -48,7 +48,6 @@ __all__ = [
     "SensorSphere",
     "SensorStudy",
     "StaticChecks",
-    "StrongestSample",
     "StudyData",
     "TrialFailure",
     "TrialGroup",
@@ -77,6 +76,7 @@ __all__ = [
     "read_trials",
     "SensorRun",
     "select_gains",
+    "sensor_gains",
     "sphere_intervals",
     "study_sensor",
     "weigh_load",

@@ -108,9 +108,9 @@ def _export() -> dict[str, Any]:
 
 
 def _gains() -> dict[str, Any]:
-    from forcetorque.cli.gains_result import GainsResult
+    from forcetorque.analysis import Gains
 
-    return GainsResult.model_json_schema()
+    return Gains.described()
 
 
 def _inspect() -> dict[str, Any]:
