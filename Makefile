@@ -4,13 +4,16 @@ DATA ?= ../shared/data
 VENV := .venv
 BIN := $(VENV)/bin
 
-.PHONY: demo test lint types bench web web-check web-types clean
+.PHONY: demo test test-long lint types bench web web-check web-types clean
 
 demo: $(VENV)/run.stamp
 	$(BIN)/python examples/01_known_truth.py build/demo
 
 test: lint types web-check
-	$(BIN)/pytest tests -n auto --dist loadfile --data=$(DATA)
+	$(BIN)/pytest tests -n auto --dist loadfile --data=$(DATA) -m "not long"
+
+test-long: $(VENV)/test.stamp
+	$(BIN)/pytest tests --data=$(DATA) -m long
 
 lint: $(VENV)/test.stamp
 	$(BIN)/ruff check .

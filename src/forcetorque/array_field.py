@@ -19,6 +19,8 @@ class ArrayField:
 
     shape: tuple[int | None, ...]
     """Expected shape; `None` accepts any length of that axis."""
+    minimum: float | None = None
+    """Least value; `None` accepts any."""
 
     def _validate(self, values: Any) -> FloatArray:
         try:
@@ -27,6 +29,8 @@ class ArrayField:
             raise ValueError(f"expected nested lists of numbers, got {error}") from error
         if not np.isfinite(array).all():
             raise ValueError("expected finite numbers")
+        if self.minimum is not None and (array < self.minimum).any():
+            raise ValueError(f"expected numbers of at least {self.minimum:g}, got {array.min():g}")
         return array
 
     def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
@@ -37,6 +41,8 @@ class ArrayField:
 
     def __get_pydantic_json_schema__(self, schema: CoreSchema, handler: GetJsonSchemaHandler) -> dict[str, Any]:
         described: dict[str, Any] = {"type": "number"}
+        if self.minimum is not None:
+            described["minimum"] = self.minimum
         for length in reversed(self.shape):
             described = {"type": "array", "items": described}
             if length is not None:

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Annotated, Any, TypeVar
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
-from pydantic_core import PydanticCustomError
+from pydantic_core import ErrorDetails, PydanticCustomError
 
 from forcetorque.errors import FormatError, MissingFileError, known_names
 
@@ -67,8 +67,8 @@ def read_toml(path: Path | str, form: type[_Content], *, what: str) -> _Content:
 
 
 def _one_line(file: Path, content: dict[str, Any], error: ValidationError) -> str:
+    errors = _short_lists_once(error.errors())
     # a list that is too short because its only element is wrong is no second error
-    errors = error.errors()
     places = [e["loc"] for e in errors]
     first, *more = [
         e for e in errors if e["type"] != "too_short" or not any(p[: len(e["loc"])] == e["loc"] != p for p in places)
@@ -81,6 +81,19 @@ def _one_line(file: Path, content: dict[str, Any], error: ValidationError) -> st
     got = "" if shown else f", got {first['input']!r}"
     rest = f" (and {len(more)} more)" if more else ""
     return f"{file}: {where}: {message[:400]}{got[:200]}{rest}"
+
+
+def _short_lists_once(errors: list[ErrorDetails]) -> list[ErrorDetails]:
+    """Name a list of fixed length that is too short, in place of each element that it lacks: those have no place."""
+    kept: list[ErrorDetails] = []
+    for entry in errors:
+        *place, last = entry["loc"] or ("",)
+        if entry["type"] == "missing" and isinstance(last, int):
+            if kept and kept[-1]["type"] == "too_short" and kept[-1]["loc"] == tuple(place):
+                kept.pop()
+            entry |= {"type": "too_short", "loc": tuple(place), "msg": f"expected {last + 1} values"}
+        kept.append(entry)
+    return kept
 
 
 def _place(content: Any, location: tuple[int | str, ...], *, missing: bool) -> str:

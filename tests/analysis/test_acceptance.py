@@ -61,8 +61,11 @@ def _spec(**tables: Any) -> AcceptanceFile:
     return AcceptanceFile.model_validate({"schema": "forcetorque/acceptance/1", "name": "test", **tables})
 
 
-def _fitted(experiment: Experiment) -> tuple[str, Calibration]:
-    return "new", calibrate_sensor(experiment, experiment.sensors[0], code_version="test", created="test")
+def _fitted(experiment: Experiment, *, regularisation: float | None = None) -> tuple[str, Calibration]:
+    sensor = experiment.sensors[0]
+    return "new", calibrate_sensor(
+        experiment, sensor, code_version="test", created="test", regularisation=regularisation
+    )
 
 
 def _numbered(experiment: Experiment) -> Experiment:
@@ -211,7 +214,7 @@ def test_the_offset_is_that_which_is_asked_for(arm: Path) -> None:
 def test_other_sensors_as_measured_count(arm: Path) -> None:
     """The error of the tool's prior is in the arm's contact force where the tool's own reading is used."""
     experiment = load_experiment(arm / TWO)
-    calibration = _fitted(experiment)
+    calibration = _fitted(experiment, regularisation=100.0)  # more of the prior would hide it
     seen = [
         _criteria(experiment, _spec(validate={"force_mean_N": 1e9, "other_sensors": mode}), calibration)
         for mode in ("model", "measured")
@@ -307,6 +310,8 @@ HEAD = 'schema = "forcetorque/acceptance/1"\nname = "limits"\n'
         (HEAD + '[evaluate]\noffset = "none"\nbias = { fz = 1.0 }\n', "evaluate.offset: .*'fitted' or 're-estimated'"),
         (HEAD + "[recording]\nsaturated_share = 2.0\n", "recording.saturated_share: .*less than or equal to 1"),
         (HEAD + "[population]\nquantiles = [0.9, 0.1]\n", "quantiles: expected the lower one first"),
+        (HEAD + "[population]\nquantiles = [0.1]\n", r"population.quantiles: expected 2 values, got \[0\.1\]$"),
+        (HEAD + "[population]\nquantiles = [-0.1]\n", r"population.quantiles\[0\]: .* equal to 0, got -0\.1$"),
         (HEAD + "[excitation]\ndirections = 5.5\n", "excitation.directions"),
         (HEAD.replace("/1", "/2") + "[matrix]\ncondition = 3.0\n", "schema: .*'forcetorque/acceptance/1'"),
         ('name = "limits"\n[matrix]\ncondition = 3.0\n', "schema: Field required"),

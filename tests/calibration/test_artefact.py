@@ -228,3 +228,44 @@ def test_a_failed_write_keeps_the_old_file(tmp_path: Path, monkeypatch: pytest.M
         write_calibration(path, _calibration(lam=1.0))
     assert path.read_bytes() == before
     assert [p.name for p in tmp_path.iterdir()] == ["c.json"]
+
+
+NEGATIVE = np.where(np.arange(36).reshape(6, 6) == 8, -0.25, 0.25)
+"""A matrix of which one number is negative."""
+
+
+@pytest.mark.parametrize(
+    ("place", "value", "message"),
+    [
+        ("matrix", np.zeros((6, 6)), "expected a matrix, got one of zeros, which reads no load"),
+        ("matrix_standard_error", NEGATIVE, "expected numbers of at least 0, got -0.25"),
+        ("offset_standard_error", NEGATIVE[1], "expected numbers of at least 0, got -0.25"),
+        ("variables.0.standard_error", NEGATIVE[1], "expected numbers of at least 0, got -0.25"),
+        ("residual_rms", NEGATIVE[1], "expected numbers of at least 0, got -0.25"),
+        ("lambda_counts2", -1.0, "greater than or equal to 0"),
+        ("selection.lambda_counts2.0", -1.0, "greater than or equal to 0"),
+        ("validity.variance_counts2", NEGATIVE[1], "expected numbers of at least 0, got -0.25"),
+        ("validity.reference_deviation", NEGATIVE[1], "expected numbers of at least 0, got -0.25"),
+        ("provenance.samples", -1, "greater than or equal to 0"),
+        ("provenance.dropped", -3, "greater than or equal to 0"),
+    ],
+)
+def test_numbers_that_no_fit_leaves_are_refused(tmp_path: Path, place: str, value: Any, message: str) -> None:
+    """A matrix of zeros, a negative error, variance or count: one line that names file and key; zero is accepted."""
+    path = tmp_path / "c.json"
+    write_calibration(path, _with_temperature())
+    for number, refused in ((np.abs(value) * 0.0 if place != "matrix" else NEGATIVE, False), (value, True)):
+        content = json.loads(path.read_text())
+        *tables, key = [int(word) if word.isdigit() else word for word in place.split(".")]
+        table = content
+        for step in tables:
+            table = table[step]
+        table[key] = np.asarray(number, dtype=np.asarray(value).dtype).tolist()
+        changed = tmp_path / "changed.json"
+        changed.write_text(json.dumps(content))
+        if not refused:
+            read_calibration(changed)
+            continue
+        with pytest.raises(FormatError, match=rf"changed\.json: {place}: .*{message}") as caught:
+            read_calibration(changed)
+        assert "\n" not in str(caught.value)

@@ -8,8 +8,17 @@ import math
 import numpy as np
 import pytest
 
-from forcetorque.calibration import DataSet, Estimation, Moments, calibrate, choose_lambda
-from forcetorque.calibration.held_out import candidate_lambdas, jackknife_errors
+from forcetorque.calibration import (
+    DataSet,
+    Estimation,
+    EstimationType,
+    LinearVariable,
+    Moments,
+    calibrate,
+    choose_lambda,
+    pooled,
+)
+from forcetorque.calibration.held_out import FLOOR, RULE, candidate_lambdas, jackknife_errors, lambda_floor
 from forcetorque.errors import FitError, ShapeError
 
 TRUTH = 0.02 * (np.eye(6) + 0.2 * np.random.default_rng(1).normal(size=(6, 6)))
@@ -82,6 +91,64 @@ def test_lambda_follows_the_unit_of_counts() -> None:
     one = choose_lambda(_moments(blocks), Estimation(prior=PRIOR)).chosen
     other = choose_lambda(_moments([(8.0 * r, f) for r, f in blocks]), Estimation(prior=PRIOR / 8.0)).chosen
     assert other == pytest.approx(64.0 * one, rel=1e-9)
+
+
+def _noisy(*, noise: float, per_degree: float = 0.0) -> list[tuple]:
+    """Blocks of raw, reference and temperature of a rigid limb: forces turn, and moments follow from them."""
+    rng = np.random.default_rng(21)
+    blocks = []
+    for k in range(5):
+        force = 20.0 * (rng.normal(size=3) + rng.normal(size=(400, 3)))
+        reference = np.hstack([force, np.cross([0.05, 0.02, -0.2], force)])
+        temperature = 30.0 + k + rng.normal(size=(400, 1))
+        raw = reference @ np.linalg.inv(TRUTH).T + noise * rng.normal(size=(400, 6)) + per_degree * temperature
+        blocks.append((raw, reference, temperature))
+    return blocks
+
+
+@pytest.mark.parametrize("noise", [1.0, 8.0])
+def test_the_floor_is_fifty_times_the_noise_of_the_counts(noise: float) -> None:
+    """The variance that neither loads nor offset explain is that of the noise that was put in."""
+    total = pooled(Moments.of(*block[:2]) for block in _noisy(noise=noise))
+    assert lambda_floor(total) == pytest.approx(50.0 * noise**2, rel=0.05)
+    assert "at least 50 times" in RULE
+
+
+def test_readings_that_follow_the_reference_exactly_have_no_floor() -> None:
+    """Rounding is not noise, and is never a negative lambda."""
+    total = pooled(Moments.of(*block[:2]) for block in _noisy(noise=0.0))
+    assert 0.0 <= lambda_floor(total) < 1e-9 * candidate_lambdas(total)[-2]
+
+
+def test_a_variable_that_is_fitted_is_no_noise() -> None:
+    """Drift with a temperature that is fitted leaves the floor; drift that nothing explains raises it."""
+    blocks = [Moments.of(*block) for block in _noisy(noise=2.0, per_degree=30.0)]
+    temperature = LinearVariable(name="temperature", unit="degC")
+    given = {"prior": PRIOR, "variables": (temperature,), "reference_values": np.zeros(1)}
+    fitted = choose_lambda(blocks, Estimation(kind=EstimationType(with_variables=True), **given))
+    left_out = choose_lambda(blocks, Estimation(**given))
+    assert fitted.floor == pytest.approx(FLOOR * 4.0, rel=0.05)
+    assert left_out.floor > 100.0 * fitted.floor
+
+
+def test_a_choice_below_the_floor_is_raised_to_it() -> None:
+    """One posture loads three of six directions; below the floor the prior is lost along the other three."""
+    blocks = _noisy(noise=3.0)
+    curve = choose_lambda([Moments.of(*block[:2]) for block in blocks], Estimation(prior=PRIOR))
+    free = (curve.worst_ratio <= 1.0) & (curve.regularisations != curve.floor)
+    unfloored = float(curve.regularisations[free][np.argmin(curve.held_out_error[free])])
+    assert curve.chosen == curve.floor
+    assert curve.floor in curve.regularisations
+    data = [DataSet(label=str(k), raw=raw, reference=reference) for k, (raw, reference, _) in enumerate(blocks)]
+    along = np.linalg.svd(np.vstack([reference for _, reference, _ in blocks]))[2][3:] @ np.linalg.inv(TRUTH).T
+    lost = [
+        np.linalg.norm((fit.fit.matrix - PRIOR) @ along.T) / np.linalg.norm(PRIOR @ along.T)
+        for fit in (calibrate(data, PRIOR), calibrate(data, PRIOR, regularisation=unfloored))
+    ]
+    assert lost[0] < 0.2
+    assert lost[1] > 0.5
+    # a lambda given by hand stays as it is
+    assert calibrate(data, PRIOR, regularisation=unfloored).fit.regularisation == unfloored < 0.1 * curve.floor
 
 
 def test_jackknife_covers_the_truth() -> None:

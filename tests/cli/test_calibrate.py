@@ -116,14 +116,71 @@ def test_sensors_are_chosen_by_name(arm: Path, run: Run) -> None:
     assert snapshot(arm) == before
 
 
-def test_all_sensors_or_none_are_written(arm: Path, run: Run) -> None:
-    """Where the second sensor cannot be fitted, the first leaves no file."""
-    before = snapshot(arm)
-    error = run("calibrate", TWO, "-o", "made", "--lambda", "0").error()
+@pytest.mark.parametrize("words", [("--format", "json"), ("--format", "csv"), ()])
+def test_a_sensor_that_cannot_be_fitted_leaves_the_others(arm: Path, run: Run, words: tuple[str, ...]) -> None:
+    """The others are written and shown, the refused one is one line on standard error, and the exit code is 2."""
+    alone = run("calibrate", TWO, "-o", "alone", "--sensor", "arm_ft", "--lambda", "0", *words)
+    ended = run("calibrate", TWO, "-o", "made", "--lambda", "0", *words)
+    assert (alone.code, ended.code) == (0, 2)
+    assert re.sub(r'("created": )".*"', r"\1", ended.out).replace("made/", "alone/") == re.sub(
+        r'("created": )".*"', r"\1", alone.out
+    )
+    assert [path.name for path in Path("made").iterdir()] == ["arm_ft_SIM001.json"]
+    *log, error = ended.err.splitlines()
+    assert log == ended.log
     assert error.startswith(
         "error: two.toml: sensor 'tool_ft': lambda is 0 and the data do not excite 3 of 6 directions"
     )
+
+
+def test_a_line_for_every_refused_sensor_and_no_file(arm: Path, run: Run) -> None:
+    """Where no sensor can be fitted nothing is written and nothing is on standard output."""
+    _stop(arm)
+    before = snapshot(arm)
+    ended = run("calibrate", TWO, "-o", "made", "--format", "json")
+    assert (ended.code, ended.out) == (2, "")
+    errors = [line for line in ended.err.splitlines() if line not in ended.log]
+    assert [line.split(": the reference stays within ")[0] for line in errors] == [
+        "error: two.toml: sensor 'arm_ft'",
+        "error: two.toml: sensor 'tool_ft'",
+    ]
     assert snapshot(arm) == before
+
+
+def test_a_limb_that_stands_still_is_refused(arm: Path, run: Run) -> None:
+    """The line of the file to change is named; its offset with the prior matrix is still to be had."""
+    _stop(arm)
+    error = run("calibrate", PARQUET, "-o", "a.json").error()
+    assert error.startswith("error: parquet.toml: sensor 'arm_ft': the reference stays within ")
+    assert error.endswith(
+        "as of a limb that stands still; in the experiment file set start_s and end_s of every [[interval]] with "
+        'use = "calibration" to where the limb moves'
+    )
+    kept = run("calibrate", PARQUET, "-o", "a.json", "--lambda", "inf", "--format", "json").result()
+    assert max(kept["calibrations"][0]["calibration"]["validity"]["reference_deviation"]) < 1e-9
+
+
+def test_a_tool_without_mass_is_refused(arm: Path, run: Run) -> None:
+    """The model is named as what to mend; the sensor of the arm is fitted all the same."""
+    place = "xyz='0.03 0 -0.05' rpy='0 0 0'/><mass value="
+    edit(arm / "arm.urdf", f"{place}'0.5'", f"{place}'0'")
+    ended = run("calibrate", TWO, "-o", "made", "--format", "json")
+    assert (ended.code, [path.name for path in Path("made").iterdir()]) == (2, ["arm_ft_SIM001.json"])
+    assert ended.err.splitlines()[-1].startswith(
+        "error: two.toml: sensor 'tool_ft': the reference is 0 N and 0 N m, so the model has no mass beyond the sensor"
+    )
+
+
+def _stop(folder: Path) -> None:
+    """Let the joints of the recording stay where they were first."""
+    joints = read_recording(folder / "recording").stream("joints")
+    stopped = {
+        quantity: replace(
+            signal, values=0.0 * signal.values + (signal.values[0] if quantity == "joint_position" else 0)
+        )
+        for quantity, signal in joints.signals.items()
+    }
+    put(folder, replace(joints, signals=stopped))
 
 
 @pytest.mark.parametrize(
@@ -244,7 +301,7 @@ def test_what_a_type_cannot_do_is_one_line(warm: Path, run: Run) -> None:
     assert error.startswith("error: no estimation type is called 'OwTrT0'; did you mean \"OwTrTO\"? known: CnTdTO, ")
     with_variables(warm / TWO, TEMPERATURE)
     before = snapshot(warm)
-    error = run("calibrate", TWO, "-o", "made", "--lambda", "5", "--type", "OwTrTO").error()
+    error = run("calibrate", TWO, "-o", "made", "--sensor", "tool_ft", "--lambda", "5", "--type", "OwTrTO").error()
     assert error == (
         "error: two.toml: sensor 'tool_ft': type OwTrTO: expected a linear variable such as temperature, "
         "the data have none"

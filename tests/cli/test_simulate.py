@@ -176,6 +176,30 @@ def test_files_that_are_refused(scenario: Path, run: Run, old: str, new: str, me
     assert snapshot(scenario.parent) == before
 
 
+@pytest.mark.parametrize(
+    ("old", "short", "where", "expected"),
+    [
+        ("[20.0, 21.0]", "[20.0]", "recording[1].temperature_degC: expected 2 values", "[20.0]"),
+        ("[20.0, 21.0]", "[]", "recording[1].temperature_degC: expected 2 values", "[]"),
+        ("[2.0, 3.0, 1.0]", "[2.0, 3.0]", "sensors.workbench_error.mean_force_N: Tuple should", "[2.0, 3.0]"),
+        ("[0.0, 0.0, 1.0]", "[1.0]", "recording[0].gravity_direction: Value error, array: expected an array", "[1.0]"),
+        ("[2.0, 2.0, 2.0, 1.0]", "[2.0]", "sensors.screw_torque_Nm: Tuple should have at least 3", "[2.0]"),
+        ('["arm"]', "[]", "robot.model: Tuple should have at least 1", "[]"),
+    ],
+)
+def test_a_list_that_is_too_short_is_named_with_what_it_lacks(
+    scenario: Path, run: Run, old: str, short: str, where: str, expected: str
+) -> None:
+    """One line of place, expectation and what came, for lists of every length; the whole lists are accepted."""
+    edit(scenario, '[[recording]]\nname = "fit"', f'{ERROR}gravity_direction = [0.0, 0.0, 1.0]\nname = "fit"')
+    edit(scenario, "mounting_spread", "screw_torque_Nm = [2.0, 2.0, 2.0, 1.0]\nmounting_spread")
+    load_scenario(scenario)
+    edit(scenario, old, short)
+    error = run("simulate", scenario, "-o", "out").error()
+    assert error.startswith(f"error: {scenario}: {where}")
+    assert error.endswith(f", got {expected}")
+
+
 def test_an_error_that_is_set_needs_recordings_to_take_it_over(scenario: Path, run: Run) -> None:
     """Without a recording for validation there is nothing whose mean could be set."""
     scenario.write_text(SMALL.replace("[[recording]]", ERROR, 1).replace('"validation"', '"calibration"'))

@@ -3,6 +3,9 @@
 
 from __future__ import annotations
 
+import csv
+import io
+import json
 import shutil
 import sys
 from pathlib import Path
@@ -189,6 +192,38 @@ def test_counts_are_refused_with_their_sensor(arm: Path, run: Run) -> None:
     error = run("sphere", PARQUET).error()
     assert "parquet.toml: sensor 'arm_ft', prior: force: expected N, got" in error
     assert "can only be counts; multiply them by the sensor's matrix" in error
+
+
+def test_a_sensor_that_fails_is_named_and_does_not_take_the_others_with_it(arm: Path, run: Run) -> None:
+    """One line in every form and on standard error; what is shown of the others is what they give alone."""
+    alone = run("sphere", TWO, "--sensor", "arm_ft", "--format", "json").result()
+    assert alone["failures"] == []
+    edit(arm / TWO, 'prior = "matrix_SIM002.txt"', 'prior = "identity"')
+    ended = run("sphere", TWO, "--figure", "spheres.png", "--format", "json")
+    assert ended.code == 1
+    result = json.loads(ended.out)
+    assert faults(result, run("schema", "sphere").result()) == []
+    assert result["rows"] == alone["rows"]
+    (failure,) = result["failures"]
+    assert (failure["file"], failure["sensor"]) == (TWO, "tool_ft")
+    assert failure["message"].startswith(f"{TWO}: sensor 'tool_ft', prior: force: expected N, got whole numbers")
+    assert f"WARNING: failed: {failure['message']}" in ended.log
+    assert (arm / "spheres.png").is_file()
+    shown, rows = run("sphere", TWO), run("sphere", TWO, "--format", "csv")
+    assert (shown.code, rows.code) == (1, 1)
+    assert f"FAILED: {failure['message']}" in shown.out.splitlines()
+    assert [row["sensor"] for row in csv.DictReader(io.StringIO(rows.out))] == ["arm_ft"]
+
+
+def test_where_every_sensor_fails_there_is_no_result(arm: Path, run: Run) -> None:
+    """Both are named in the one line of the error."""
+    edit(arm / TWO, 'prior = "matrix_SIM001.txt"', 'prior = "identity"')
+    edit(arm / TWO, 'prior = "matrix_SIM002.txt"', 'prior = "identity"')
+    before = snapshot(arm)
+    error = run("sphere", TWO, "--figure", "spheres.png", "--format", "json").error()
+    assert "two.toml: sensor 'arm_ft', prior: force: expected N" in error
+    assert "two.toml: sensor 'tool_ft', prior: force: expected N" in error
+    assert snapshot(arm) == before
 
 
 @pytest.mark.real_data

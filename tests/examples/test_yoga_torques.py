@@ -55,11 +55,11 @@ def test_the_largest_error_is_halved(verdicts: dict[Key, JointTorqueVerdict]) ->
 def test_it_is_as_the_page_says(verdicts: dict[Key, JointTorqueVerdict]) -> None:
     """Better and worse joints alike."""
     for source, joint, prior, new in (
-        (Offset.FITTED, "l_ankle_roll", 0.45, 0.23),
-        (Offset.FIRST_SECOND, "l_ankle_roll", 0.23, 0.06),
-        (Offset.FITTED, "l_hip_roll", 0.44, 0.12),
-        (Offset.FITTED, "l_ankle_pitch", 0.09, 0.16),
-        (Offset.FIRST_SECOND, "l_hip_roll", 0.11, 0.16),
+        (Offset.FITTED, "l_ankle_roll", 0.45, 0.22),
+        (Offset.FIRST_SECOND, "l_ankle_roll", 0.23, 0.08),
+        (Offset.FITTED, "l_hip_roll", 0.44, 0.14),
+        (Offset.FITTED, "l_ankle_pitch", 0.09, 0.12),
+        (Offset.FIRST_SECOND, "l_hip_roll", 0.11, 0.19),
     ):
         assert verdicts["prior", source, joint].errors.rmse == pytest.approx(prior, abs=SHOWN)
         assert verdicts["new", source, joint].errors.rmse == pytest.approx(new, abs=SHOWN)

@@ -13,6 +13,7 @@ import { listen, releaseAfterMouse } from "./keyboard";
 import { layout, type Panels } from "./layout";
 import { readBlock, readHeader } from "./load";
 import { marksPanel } from "./marks_panel";
+import { openingSample } from "./opening";
 import { PlaneView } from "./planes";
 import { AxisPlot } from "./plots";
 import { RobotView } from "./robot_view";
@@ -54,7 +55,7 @@ async function start(): Promise<boolean> {
 
 function build(data: SceneData): void {
   const store = new Store({
-    sample: 0,
+    sample: openingSample(data, 0),
     sensor: 0,
     quantity: "force",
     hidden: new Set(),

@@ -53,7 +53,6 @@ export class AxisPlot implements Drawable {
       this.key = key;
       this.rebuild(width, height);
     }
-    this.moveCursor();
   }
 
   /** Move the cursor to the current sample. */
@@ -137,7 +136,11 @@ export class AxisPlot implements Drawable {
           points: { show: false },
         })),
       ],
-      hooks: { drawClear: [(plot) => this.drawSpans(plot)], setSelect: [(plot) => this.zoom(plot)] },
+      hooks: {
+        drawClear: [(plot) => this.drawSpans(plot)],
+        draw: [() => this.moveCursor()], // before, the plot knows neither its new size nor its new scale
+        setSelect: [(plot) => this.zoom(plot)],
+      },
     };
   }
 

@@ -17,6 +17,7 @@ from forcetorque.errors import ExperimentError
 from forcetorque.experiment.content import Experiment, ExperimentSensor
 from forcetorque.experiment.inputs import stated_in
 from forcetorque.experiment.load import load_experiment
+from forcetorque.paths import real_path
 from forcetorque.recording import Use
 from forcetorque.study import ValidationSet
 
@@ -184,7 +185,7 @@ def _joined(shares: Sequence[_Share]) -> StudyData:
 
 def _names_of(paths: Sequence[Path]) -> dict[Path, str]:
     """Name every file by its stem, with as many folders in front as tell all of them apart."""
-    parts = [path.resolve().with_suffix("").parts for path in paths]
+    parts = [real_path(path).with_suffix("").parts for path in paths]
     for count in range(1, max(map(len, parts))):
         names = ["/".join(each[-count:]) for each in parts]
         if len(set(names)) == len(names):
@@ -195,9 +196,9 @@ def _names_of(paths: Sequence[Path]) -> dict[Path, str]:
 def _refuse_a_file_twice(paths: Sequence[Path]) -> None:
     seen: set[Path] = set()
     for path in paths:
-        if path.resolve() in seen:
+        if real_path(path) in seen:
             raise ExperimentError(f"{path}: expected every experiment file once, it comes twice; its samples would too")
-        seen.add(path.resolve())
+        seen.add(real_path(path))
 
 
 def _refuse_another_sensor(first: _Share, other: _Share) -> None:

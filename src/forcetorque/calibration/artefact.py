@@ -18,7 +18,9 @@ from pydantic import (
     PlainSerializer,
     ValidationError,
     WithJsonSchema,
+    field_validator,
 )
+from pydantic_core import PydanticCustomError
 
 from forcetorque.array_field import ArrayField
 from forcetorque.arrays import FloatArray
@@ -90,7 +92,7 @@ class CalibratedVariable(_Part):
     """Value at which it contributes nothing."""
     coefficients: Annotated[FloatArray, ArrayField((6,))]
     """What is added per unit above that; shape (6,); N, N m per unit."""
-    standard_error: Annotated[FloatArray, ArrayField((6,))] | None
+    standard_error: Annotated[FloatArray, ArrayField((6,), minimum=0.0)] | None
     """Standard error of the coefficients by leaving out blocks."""
     prior: Annotated[FloatArray, ArrayField((6,))] | None = None
     """Coefficients that the fit was pulled towards."""
@@ -107,7 +109,7 @@ class Validity(_Part):
     """Smallest fitted reading per channel; counts."""
     raw_maximum_counts: Annotated[FloatArray, ArrayField((None,))]
     """Largest fitted reading per channel; counts."""
-    reference_deviation: Annotated[FloatArray, ArrayField((6,))]
+    reference_deviation: Annotated[FloatArray, ArrayField((6,), minimum=0.0)]
     """Standard deviation of the reference wrench; N, N m."""
     rank: int
     """Number of raw directions that moved at all."""
@@ -115,7 +117,7 @@ class Validity(_Part):
     """Ratio of the largest to the smallest deviation over the raw directions; None if infinite."""
     directions: Annotated[FloatArray, ArrayField((None, None))]
     """Raw directions, strongest first, one per row; shape (c, c)."""
-    variance_counts2: Annotated[FloatArray, ArrayField((None,))]
+    variance_counts2: Annotated[FloatArray, ArrayField((None,), minimum=0.0)]
     """Variance of the raw reading along each direction; counts2."""
     explained: Annotated[FloatArray, ArrayField((None,))]
     """Share of each variance that the reference explains."""
@@ -160,9 +162,9 @@ class Provenance(_Part):
     """Name of the experiment."""
     intervals: tuple[FittedInterval, ...]
     """The fitted intervals."""
-    samples: int
+    samples: int = Field(ge=0)
     """Number of fitted samples."""
-    dropped: int
+    dropped: int = Field(ge=0)
     """Samples of the intervals that were left out."""
     inputs_sha256: dict[str, str]
     """SHA-256 of every input file, by its path as the experiment file names it."""
@@ -187,11 +189,11 @@ class Calibration(_Part):
     """Estimation type of thesis 5.1.4; `by axis` where every row has its own, see `selection`."""
     raw_offset_counts: Annotated[FloatArray, ArrayField((None,))] | None = None
     """Raw reading without load that a sphere type found; shape (c,)."""
-    matrix_standard_error: Annotated[FloatArray, ArrayField((6, None))] | None
+    matrix_standard_error: Annotated[FloatArray, ArrayField((6, None), minimum=0.0)] | None
     """Standard error of the matrix by leaving out blocks, without the pull of the prior; None where it was kept."""
-    offset_standard_error: Annotated[FloatArray, ArrayField((6,))] | None
+    offset_standard_error: Annotated[FloatArray, ArrayField((6,), minimum=0.0)] | None
     """Standard error of the offset by leaving out blocks; N, N m."""
-    residual_rms: Annotated[FloatArray, ArrayField((6,))]
+    residual_rms: Annotated[FloatArray, ArrayField((6,), minimum=0.0)]
     """Root mean square residual on the FITTED samples; N, N m."""
     lambda_counts2: Lambda | None
     """Lambda of the fit, convention of thesis (5.4); None where every row has its own, see `selection`."""
@@ -203,6 +205,13 @@ class Calibration(_Part):
     """How lambda came about."""
     provenance: Provenance
     """What the fit was made from."""
+
+    @field_validator("matrix")
+    @classmethod
+    def _reads_a_load(cls, matrix: FloatArray) -> FloatArray:
+        if not matrix.any():
+            raise PydanticCustomError("zero_matrix", "expected a matrix, got one of zeros, which reads no load")
+        return matrix
 
     @property
     def model(self) -> WrenchModel:

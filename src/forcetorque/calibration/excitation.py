@@ -131,5 +131,6 @@ def excitation_of(moments: Moments) -> Excitation:
         variance=variance,
         directions=directions,
         explained=np.clip(share, 0.0, 1.0),
-        reference_deviation=np.sqrt(np.diag(moments.reference_reference)),
+        # a component that stands still far from zero may be rounded below it
+        reference_deviation=np.sqrt(np.maximum(np.diag(moments.reference_reference), 0.0)),
     )

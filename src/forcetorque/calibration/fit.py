@@ -12,6 +12,7 @@ from forcetorque.arrays import FloatArray, read_only
 from forcetorque.calibration.estimation import Estimation
 from forcetorque.calibration.excitation import Excitation, excitation_of
 from forcetorque.calibration.moments import Moments
+from forcetorque.calibration.reference_motion import require_moving_load
 from forcetorque.calibration.regression import Regression
 from forcetorque.calibration.wrench_model import WrenchModel
 from forcetorque.errors import FitError
@@ -93,7 +94,8 @@ def require_determined(moments: Moments, estimation: Estimation, regularisation:
         regularisation: Lambda; counts2; infinite leaves only offset and variables unknown.
 
     Raises:
-        FitError: If there are fewer samples than unknowns of one axis, or a variable without a prior does not change.
+        FitError: If there are fewer samples than unknowns of one axis, a variable without a prior does not change, or
+            there is a matrix to fit and no load, or none that moves.
     """
     variables = estimation.variables if estimation.kind.with_variables else ()
     matrix = 0 if math.isinf(regularisation) else moments.channels
@@ -103,6 +105,8 @@ def require_determined(moments: Moments, estimation: Estimation, regularisation:
             f"expected at least {unknowns} samples for {unknowns} unknowns of every axis, got {moments.count}; "
             "give longer intervals"
         )
+    if matrix:
+        require_moving_load(moments)
     for k, variable in enumerate(variables):
         mean, place = moments.variable_mean[k], moments.channels + k
         if variable.prior is None and moments.second[place, place] <= _STILL * mean**2:

@@ -7,6 +7,10 @@ that asks what a validation will ask, whether a fit on few postures holds on oth
 block out asks the reverse, whether a fit on nearly everything holds in between, and trusts the data
 too much.) The prior, with the offset of the same block, is judged likewise. Coefficients of variables,
 which a block alone does not know, are those that all fitted data have with the matrix.
+
+Blocks of one motion cannot see what the matrix does along directions that this motion does not load. There
+the readings hold noise alone, and the fit is the prior times lambda / (noise variance + lambda): lost, not
+kept, where lambda is small. So lambda has a floor far above that variance.
 """
 
 from __future__ import annotations
@@ -19,15 +23,24 @@ import numpy as np
 
 from forcetorque.arrays import FloatArray, read_only
 from forcetorque.calibration.estimation import Estimation
-from forcetorque.calibration.moments import Moments, pooled
+from forcetorque.calibration.moments import Moments, pooled, symmetric_pseudo_inverse
 from forcetorque.calibration.regression import Regression, solve
 from forcetorque.calibration.wrench_model import WrenchModel
 from forcetorque.errors import FitError
 
+FLOOR = 50.0
+"""Least lambda that is chosen, over the variance of the readings that nothing explains.
+
+Along a direction without load the fit then keeps 50 / 51 of the prior. Of 240 simulated calibrations 63 make a push
+that was not recorded read worse than the prior by more than 5 % without a floor, 31 with 10, 2 with 50 and none with
+200, where the median error is 1.4 times larger.
+"""
+
 RULE = (
     "each block of the fitted data alone is fitted and judged on all other blocks; of the lambdas with which no "
-    "block's held-out mean squared error exceeds that of the prior, the one with the smallest mean; "
-    "where there is none, the prior is kept"
+    "block's held-out mean squared error exceeds that of the prior, the one with the smallest mean, "
+    f"but at least {FLOOR:g} times the mean variance of the readings that reference, offset and variables do not "
+    "explain; where there is none, the prior is kept"
 )
 """The rule by which lambda is chosen."""
 
@@ -47,6 +60,8 @@ class LambdaCurve:
     """Root mean square held-out wrench error, 1 N counted like 1 N m; shape (k,)."""
     worst_ratio: FloatArray
     """Largest ratio, over the blocks, of held-out mean squared error to that of the prior; shape (k,)."""
+    floor: float
+    """Least lambda that the rule takes; one of the candidates, unless it is below all of them; counts2."""
     chosen: float
     """Lambda that the rule takes; infinite where the prior is kept."""
 
@@ -76,6 +91,22 @@ def candidate_lambdas(moments: Moments) -> FloatArray:
     return np.append(finite, np.inf)
 
 
+def lambda_floor(moments: Moments) -> float:
+    """Find the lambda below which noise alone would change the matrix where no load speaks.
+
+    Args:
+        moments: Moments of the fitted samples, without what fitted variables explain.
+
+    Returns:
+        `FLOOR` times the variance of the raw readings, mean over the channels, that is left by a regression on
+        the reference and a constant; counts2.
+    """
+    shared = moments.reference_raw
+    explained = shared.T @ symmetric_pseudo_inverse(moments.reference_reference) @ shared
+    left = float(np.diag(moments.raw_raw - explained).mean())
+    return FLOOR * max(left, 0.0)  # readings that follow the reference exactly may leave a rounding below zero
+
+
 def choose_lambda(blocks: Sequence[Moments], estimation: Estimation) -> LambdaCurve:
     """Choose lambda by `RULE`.
 
@@ -98,7 +129,10 @@ def choose_lambda(blocks: Sequence[Moments], estimation: Estimation) -> LambdaCu
             f"alone, got {smallest}; give more data, or a lambda"
         )
     total = pooled(blocks)
-    candidates = candidate_lambdas(total.without_variables() if estimation.kind.with_variables else total)
+    fitted = total.without_variables() if estimation.kind.with_variables else total
+    candidates, floor = candidate_lambdas(fitted), lambda_floor(fitted)
+    if floor > candidates[0]:
+        candidates = np.unique(np.append(candidates, floor))
     everything = Regression.of(total, estimation)
     errors = np.empty((len(blocks), len(candidates)))
     for b, block in enumerate(blocks):
@@ -111,12 +145,13 @@ def choose_lambda(blocks: Sequence[Moments], estimation: Estimation) -> LambdaCu
     with np.errstate(divide="ignore", invalid="ignore"):
         ratio = np.nan_to_num((errors / errors[:, -1:]).max(axis=0), nan=1.0, posinf=math.inf)
     harmless = (errors <= errors[:, -1:]).all(axis=0)  # the prior itself, the last, is always so
-    chosen = int(np.argmin(np.where(harmless, mean, np.inf)))
+    best = int(np.argmin(np.where(harmless, mean, np.inf)))
     return LambdaCurve(
         regularisations=candidates,
         held_out_error=np.sqrt(mean),
         worst_ratio=ratio,
-        chosen=float(candidates[chosen]),
+        floor=floor,
+        chosen=max(float(candidates[best]), floor),
     )
 
 

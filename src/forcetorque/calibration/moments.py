@@ -194,7 +194,7 @@ def symmetric_pseudo_inverse(second: FloatArray) -> FloatArray:
     Returns:
         Its inverse; zero along columns that do not move, or that repeat others; shape (k, k).
     """
-    diagonal = np.sqrt(np.diag(second))
+    diagonal = np.sqrt(np.maximum(np.diag(second), 0.0))  # a column that stands still may be rounded below zero
     scale = np.where(diagonal > 0.0, diagonal, 1.0)
     unit = np.outer(scale, scale)
     return np.asarray(np.linalg.pinv(second / unit, rcond=_SINGULAR, hermitian=True) / unit, dtype=np.float64)

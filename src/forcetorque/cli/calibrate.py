@@ -11,15 +11,24 @@ from pathlib import Path
 from typing import Literal
 from urllib.parse import quote
 
+import typer
 from pydantic import BaseModel, ConfigDict, Field
 from rich.table import Table
 
 from forcetorque.analysis import SensorRun, calibrate_sensor, doubtful_spans
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration import Calibration, estimation_type, write_calibration
-from forcetorque.cli.output import Format, console, print_result, start_logging, table
+from forcetorque.cli.output import (
+    Format,
+    console,
+    print_result,
+    refuse_standard_output,
+    report_error,
+    start_logging,
+    table,
+)
 from forcetorque.cli.reading import read_experiment, sensors_named
-from forcetorque.errors import ExperimentError, FitError
+from forcetorque.errors import ExperimentError, FitError, ForceTorqueError
 from forcetorque.experiment import Experiment, ExperimentSensor
 from forcetorque.experiment.inputs import stated_in
 from forcetorque.recording import Use
@@ -47,7 +56,7 @@ class CalibrateResult(BaseModel):
     experiment: str
     """Name of the experiment."""
     calibrations: list[WrittenCalibration]
-    """One per sensor."""
+    """One per sensor that could be fitted."""
 
 
 def run(
@@ -59,7 +68,7 @@ def run(
     kind: str | None,
     output_format: Format,
 ) -> None:
-    """Fit every sensor that was asked for, then write all files.
+    """Fit every sensor that was asked for, then write the files of those that can be fitted.
 
     Args:
         path: Experiment file.
@@ -68,8 +77,12 @@ def run(
         regularisation: Lambda, or `held-out`; None for what the experiment says.
         kind: Estimation type by name; None for what the experiment says.
         output_format: Form of the result.
+
+    Raises:
+        typer.Exit: With code 2, if a sensor cannot be fitted; the others have their files.
     """
     log = start_logging()
+    refuse_standard_output("--output", output)
     chosen_kind = None if kind is None else estimation_type(kind)
     experiment = read_experiment(path, log)
     chosen = sensors_named(experiment, sensors)
@@ -92,18 +105,22 @@ def run(
         )
     given = _lambda(regularisation, experiment)
     created = datetime.now(UTC).isoformat(timespec="seconds")
-    written = []
+    written, refused = [], []
     for sensor, file in zip(chosen, files, strict=True):
         log.info("fitting %s (%s)", sensor.name, sensor.serial)
-        with stated_in(f"{path}: sensor {sensor.name!r}"):
-            calibration = calibrate_sensor(
-                SensorRun(experiment, sensor),
-                code_version=version("forcetorque"),
-                created=created,
-                regularisation=given,
-                kind=chosen_kind,
-            )
-            secondary = calibration.secondary_matrix()
+        try:
+            with stated_in(f"{path}: sensor {sensor.name!r}"):
+                calibration = calibrate_sensor(
+                    SensorRun(experiment, sensor),
+                    code_version=version("forcetorque"),
+                    created=created,
+                    regularisation=given,
+                    kind=chosen_kind,
+                )
+                secondary = calibration.secondary_matrix()
+        except ForceTorqueError as error:  # a limb that stands still says nothing against the others
+            refused.append(error)
+            continue
         reversed_axes = () if secondary is None else _reversed_axes(secondary)
         if reversed_axes:
             log.warning(
@@ -127,12 +144,18 @@ def run(
                 secondary_matrix=None if secondary is None else secondary.tolist(),
             )
         )
-    for entry, file in zip(written, files, strict=True):
+    for entry in written:
+        file = Path(entry.file)
         file.parent.mkdir(parents=True, exist_ok=True)
         write_calibration(file, entry.calibration)
-    result = CalibrateResult(experiment=experiment.name, calibrations=written)
-    rows = [row for entry in written for row in _rows(entry)]
-    print_result(result.model_dump(mode="json", by_alias=True), rows, output_format, show=lambda: _show(written))
+    if written:
+        result = CalibrateResult(experiment=experiment.name, calibrations=written)
+        rows = [row for entry in written for row in _rows(entry)]
+        print_result(result.model_dump(mode="json", by_alias=True), rows, output_format, show=lambda: _show(written))
+    for refusal in refused:
+        report_error(refusal)
+    if refused:
+        raise typer.Exit(2)
 
 
 def _files(output: Path, sensors: list[ExperimentSensor]) -> list[Path]:

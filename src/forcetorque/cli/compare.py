@@ -10,11 +10,12 @@ import typer
 
 from forcetorque.analysis import TrialGroup, group_trials, read_trials
 from forcetorque.atomic import write_bytes_atomically
-from forcetorque.cli.compare_result import CompareResult, FailureRow, flat_rows, group_rows, trial_row
+from forcetorque.cli.compare_result import CompareResult, flat_rows, group_rows, trial_row
 from forcetorque.cli.compare_tables import show
 from forcetorque.cli.figure_file import refuse_figure
 from forcetorque.cli.output import Format, print_result, start_logging
 from forcetorque.cli.reading import read_calibrations
+from forcetorque.cli.sphere_result import FailureRow
 from forcetorque.errors import ForceTorqueError
 from forcetorque.evaluation.sphere import RULE, TOLERANCE
 

@@ -11,7 +11,7 @@ from pydantic import BaseModel, ConfigDict, Field
 from forcetorque.analysis import TrialGroup, TrialSphere
 from forcetorque.arrays import BoolArray, FloatArray
 from forcetorque.cli.output import finite_or_none
-from forcetorque.cli.sphere_result import EllipsoidRow, ellipsoid_row
+from forcetorque.cli.sphere_result import EllipsoidRow, FailureRow, ellipsoid_row
 from forcetorque.evaluation.sphere import CloudForm, Drift, EllipsoidFit
 
 _AXES = "xyz"
@@ -116,17 +116,6 @@ class GroupRow(BaseModel):
     """By the fits with the model; none where no trial has one."""
     without_reference: GroupFitRow
     """By the fits without the model."""
-
-
-class FailureRow(BaseModel):
-    """What could not be analysed."""
-
-    file: str
-    """Experiment file, or the option that named something."""
-    sensor: str | None
-    """Sensor; none for the whole file."""
-    message: str
-    """What was wrong."""
 
 
 class CompareResult(BaseModel):

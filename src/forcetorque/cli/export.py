@@ -12,14 +12,24 @@ from pydantic import BaseModel, ConfigDict, Field
 from rich.table import Table
 
 from forcetorque.arrays import FloatArray, require_shape
+from forcetorque.atomic import STANDARD_OUTPUT, refuse_unwritable
 from forcetorque.calibration import Calibration, read_calibration
-from forcetorque.cli.output import ExportFormat, Format, console, print_result, start_logging, table
+from forcetorque.cli.output import (
+    ExportFormat,
+    Format,
+    console,
+    print_result,
+    refuse_two_on_standard_output,
+    start_logging,
+    table,
+)
 from forcetorque.errors import ExperimentError, ForceTorqueError
 from forcetorque.exchange.calibration_table import write_calibration_table
 from forcetorque.exchange.coefficient_table import write_coefficient_table
 from forcetorque.exchange.icub import encode_matrix, serial_number_in_name, write_matrix_file
 from forcetorque.exchange.wholebodydynamics import from_calibration, write_groups
 from forcetorque.experiment.inputs import stated_in
+from forcetorque.paths import real_path
 from forcetorque.spatial import WRENCH_COMPONENTS, WRENCH_UNITS
 
 _OFFSET_HANDLING = {
@@ -88,14 +98,15 @@ def run(
     Args:
         paths: Calibration files.
         to: Format of the file.
-        output: File to write or to replace.
+        output: File to write or to replace; `-` is standard output, which then takes no result.
         full_scale: Full scales for fx, fy, fz, tx, ty, tz of icub-matrix; N, N m; None to choose them.
         sensor_name: Name of the sensor for wholebodydynamics; that of the calibration if None.
         stream: Calibration that the robot's stream is already made with, for wholebodydynamics.
         output_format: Form of the result.
     """
     log = start_logging()
-    _require_consistent(paths, to=to, output=output, full_scale=full_scale, sensor_name=sensor_name, stream=stream)
+    _require_consistent(paths, to=to, full_scale=full_scale, sensor_name=sensor_name, stream=stream)
+    _refuse_output(output, paths, output_format)
     loaded = {path: read_calibration(path) for path in paths}
     made_with = None if stream is None else read_calibration(stream)
     writers: dict[ExportFormat, Callable[[], list[ExportedCalibration]]] = {
@@ -113,6 +124,8 @@ def run(
             log.warning("%s: the coefficients of %s are not in this file: --to coefficients", entry.calibration, names)
         if to is ExportFormat.WHOLEBODYDYNAMICS and not any(entry.offset):
             log.warning("%s: the device ignores an FT_OFFSET of six zeros and keeps its own", entry.calibration)
+    if output == STANDARD_OUTPUT:  # the file itself went there
+        return
     rows = [row for entry in result.calibrations for row in _rows(entry)]
     print_result(result.model_dump(mode="json", by_alias=True), rows, output_format, show=lambda: _show(result))
 
@@ -121,7 +134,6 @@ def _require_consistent(
     paths: list[Path],
     *,
     to: ExportFormat,
-    output: Path,
     full_scale: Sequence[int] | None,
     sensor_name: str | None,
     stream: Path | None,
@@ -140,9 +152,12 @@ def _require_consistent(
             f"{for_one}: expected --to {ExportFormat.WHOLEBODYDYNAMICS} and one calibration, "
             f"got --to {to} and {len(paths)}"
         )
-    if output.is_dir():
-        raise ForceTorqueError(f"--output {output}: expected a file to write, got a folder; name a file in it")
-    if output.resolve() in [path.resolve() for path in paths]:
+
+
+def _refuse_output(output: Path, paths: Sequence[Path], output_format: Format) -> None:
+    refuse_two_on_standard_output(output, output_format)
+    refuse_unwritable(output)
+    if real_path(output) in [real_path(path) for path in paths]:
         raise ForceTorqueError(f"--output {output}: expected another file, got a calibration that is to be exported")
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from forcetorque.atomic import refuse_unwritable
 from forcetorque.errors import ForceTorqueError
 
 
@@ -25,4 +26,5 @@ def refuse_figure(figure: Path | None) -> None:
         raise ForceTorqueError(f"--figure {figure}: expected a name that ends in .png")
     if not figure.parent.is_dir():
         raise ForceTorqueError(f"--figure {figure}: expected an existing folder to write to, there is none")
+    refuse_unwritable(figure)
     new_figure(1.0)

@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import sys
 from typing import Annotated
 
 import typer
@@ -11,6 +10,7 @@ import typer
 from forcetorque.cli.evaluate import evaluate
 from forcetorque.cli.gains import gains
 from forcetorque.cli.inspect import inspect
+from forcetorque.cli.output import report_error
 from forcetorque.cli.parser.accept import accept
 from forcetorque.cli.parser.calibrate import calibrate
 from forcetorque.cli.parser.compare import compare
@@ -40,7 +40,7 @@ def main() -> None:
     try:
         app()
     except (ForceTorqueError, OSError) as error:
-        sys.stderr.write("error: " + " ".join(str(error).split()) + "\n")
+        report_error(error)
         raise SystemExit(2) from None
 
 

@@ -3,12 +3,14 @@
 
 from __future__ import annotations
 
+import os
 import shutil
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 from uuid import uuid4
 
+from forcetorque.cli.output import refuse_standard_output
 from forcetorque.errors import ForceTorqueError
 
 
@@ -19,9 +21,10 @@ def refuse_existing(output: Path) -> None:
         output: Folder to make.
 
     Raises:
-        ForceTorqueError: If it is there.
+        ForceTorqueError: If it is there, or is `-`.
     """
-    if output.exists():
+    refuse_standard_output("--output", output)
+    if os.path.lexists(output):  # a link that leads nowhere is in the way too
         raise ForceTorqueError(f"--output {output}: expected a new folder, it is there already")
 
 

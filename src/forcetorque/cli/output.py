@@ -11,8 +11,12 @@ import sys
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from enum import StrEnum
+from pathlib import Path
 from shutil import get_terminal_size
 from typing import TYPE_CHECKING, Any
+
+from forcetorque.atomic import STANDARD_OUTPUT
+from forcetorque.errors import ForceTorqueError
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -70,6 +74,15 @@ def start_logging() -> logging.Logger:
     return logger
 
 
+def report_error(error: Exception) -> None:
+    """Say on standard error, in one line, what was refused.
+
+    Args:
+        error: A known error.
+    """
+    sys.stderr.write("error: " + " ".join(str(error).split()) + "\n")
+
+
 def console() -> Console:
     """Give the console for tables: as wide as the terminal, or as the widest table where there is none.
 
@@ -103,6 +116,19 @@ def show(result: Result, output_format: Format) -> None:
         writer.writerows(result.records())
     else:
         sys.stdout.write(result.text(width()))
+
+
+def say(sentence: str, output_format: Format) -> None:
+    """Print a sentence below a result for people; the other forms hold the result alone.
+
+    Args:
+        sentence: The sentence.
+        output_format: Form of the result.
+    """
+    from forcetorque.result import wrapped
+
+    if output_format is Format.TABLE:
+        sys.stdout.write(wrapped(sentence, width()) + "\n")
 
 
 def width() -> int:
@@ -143,6 +169,37 @@ def table(*headings: str, title: str | None = None) -> Table:
     for k, heading in enumerate(headings):
         made.add_column(heading, justify="left" if k == 0 else "right", overflow="fold")
     return made
+
+
+def refuse_standard_output(option: str, path: Path | None) -> None:
+    """Refuse `-` in place of a file or folder that does not go to standard output, which is for the result.
+
+    Args:
+        option: Option that names it.
+        path: The file or folder; None if the option was not given.
+
+    Raises:
+        ForceTorqueError: If it is `-`.
+    """
+    if path == STANDARD_OUTPUT:
+        raise ForceTorqueError(f"{option} -: expected a name, standard output takes the result only; see --format")
+
+
+def refuse_two_on_standard_output(output: Path | None, output_format: Format) -> None:
+    """Refuse a file and a result on one standard output.
+
+    Args:
+        output: File to write; None for none.
+        output_format: Form of the result; a table gives way to the file.
+
+    Raises:
+        ForceTorqueError: If the file goes to standard output, and the result is to be read by a program.
+    """
+    if output == STANDARD_OUTPUT and output_format is not Format.TABLE:
+        raise ForceTorqueError(
+            f"--output -: expected a file name beside --format {output_format}, got standard output for both; name a "
+            "file, or leave out --format"
+        )
 
 
 def print_result(

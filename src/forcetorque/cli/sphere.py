@@ -3,9 +3,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+import logging
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
+
+import numpy as np
+import typer
 
 from forcetorque.analysis import SensorSphere, analyse_sensor, sphere_intervals
 from forcetorque.analysis.applicability import by_sensor
@@ -13,13 +17,18 @@ from forcetorque.atomic import write_bytes_atomically
 from forcetorque.cli.figure_file import refuse_figure
 from forcetorque.cli.output import Format, console, print_result, start_logging, table
 from forcetorque.cli.reading import read_calibrations, read_experiment, refuse_left_out, sensors_named
-from forcetorque.cli.sphere_result import EllipsoidRow, SphereResult, SphereRow, flat_row, sphere_row
+from forcetorque.cli.sphere_result import EllipsoidRow, FailureRow, SphereResult, SphereRow, flat_row, sphere_row
+from forcetorque.errors import ExperimentError, ForceTorqueError
 from forcetorque.evaluation.sphere import RULE, TOLERANCE
 from forcetorque.experiment.inputs import stated_in
 from forcetorque.result.names import short_names
 
 if TYPE_CHECKING:
     from rich.table import Table
+
+    from forcetorque.calibration import Calibration
+    from forcetorque.experiment import Experiment, ExperimentSensor
+    from forcetorque.recording import Interval
 
 
 def run(
@@ -43,6 +52,8 @@ def run(
 
     Raises:
         ForceTorqueError: If a name or a file is not what it should be.
+        ExperimentError: If no sensor can be analysed.
+        Exit: With code 1 if a sensor failed; the result has the others.
     """
     log = start_logging()
     refuse_figure(figure)
@@ -53,16 +64,17 @@ def run(
     groups = by_sensor(experiment, loaded)
     with stated_in(str(path)):
         spans = sphere_intervals(experiment, intervals)
-        found: list[SensorSphere] = []
-        for sensor in chosen:
-            log.info("analysing %s", sensor.name)
-            found += analyse_sensor(experiment, sensor, spans, groups.get(sensor.name, {}))
+    found, failures = _analysed(str(path), experiment, chosen, spans, groups, log)
+    if not found:
+        raise ExperimentError("; ".join(failure.message for failure in failures))
+    for failure in failures:
+        log.warning("failed: %s", failure.message)
     for each in found:
         if each.fitted_on:
             labels = ", ".join(map(repr, each.fitted_on))
             log.warning("%s was fitted on %s, so the verdict on it flatters", each.candidate, labels)
     if figure is not None:
-        from forcetorque.report import sphere_figure
+        from forcetorque.report.figures import sphere_figure
 
         write_bytes_atomically(figure, sphere_figure(found))
     result = SphereResult(
@@ -72,9 +84,34 @@ def run(
         rule=RULE,
         figure=None if figure is None else str(figure),
         rows=[sphere_row(each) for each in found],
+        failures=failures,
     )
     rows = [flat_row(row) for row in result.rows]
     print_result(result.model_dump(mode="json", by_alias=True), rows, output_format, show=lambda: _show(result))
+    if failures:
+        raise typer.Exit(1)
+
+
+def _analysed(
+    file: str,
+    experiment: Experiment,
+    sensors: Iterable[ExperimentSensor],
+    spans: Sequence[Interval],
+    calibrations: Mapping[str, Mapping[str, Calibration]],
+    log: logging.Logger,
+) -> tuple[list[SensorSphere], list[FailureRow]]:
+    """Analyse one sensor after the other; what fails does not stop the others."""
+    found: list[SensorSphere] = []
+    failures: list[FailureRow] = []
+    for sensor in sensors:
+        log.info("analysing %s", sensor.name)
+        try:
+            found += analyse_sensor(experiment, sensor, spans, calibrations.get(sensor.name, {}))
+        except (ForceTorqueError, np.linalg.LinAlgError) as error:
+            message = " ".join(str(error).split())
+            named = message if sensor.name in message else f"sensor {sensor.name!r}: {message}"
+            failures.append(FailureRow(file=file, sensor=sensor.name, message=f"{file}: {named}"))
+    return found, failures
 
 
 def _show(result: SphereResult) -> None:
@@ -99,6 +136,8 @@ def _show(result: SphereResult) -> None:
         "index: standard deviation of the three masses; known: whether they are worth comparing",
         soft_wrap=True,
     )
+    for failure in result.failures:
+        screen.print(f"FAILED: {failure.message}", soft_wrap=True)
     if result.figure is not None:
         screen.print(f"drawn to {result.figure}", soft_wrap=True)
 

@@ -162,6 +162,17 @@ class SphereRow(BaseModel):
     """Moments with the model."""
 
 
+class FailureRow(BaseModel):
+    """What could not be analysed."""
+
+    file: str
+    """Experiment file, or the option that named something."""
+    sensor: str | None
+    """Sensor; none for the whole file."""
+    message: str
+    """What was wrong."""
+
+
 class SphereResult(BaseModel):
     """What `forcetorque sphere` found."""
 
@@ -181,6 +192,8 @@ class SphereResult(BaseModel):
     """File of the figure."""
     rows: list[SphereRow]
     """One per sensor and way to read it."""
+    failures: list[FailureRow]
+    """Sensors that could not be analysed; the exit code is 1 if there is any, and 2 if there are no others."""
 
 
 def sphere_row(found: SensorSphere) -> SphereRow:

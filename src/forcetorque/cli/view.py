@@ -13,12 +13,19 @@ from typing import Literal
 import numpy as np
 from pydantic import BaseModel, ConfigDict, Field
 
-from forcetorque.atomic import write_bytes_atomically
-from forcetorque.cli.output import Format, console, print_result, start_logging
+from forcetorque.atomic import STANDARD_OUTPUT, refuse_unwritable, write_bytes_atomically
+from forcetorque.cli.output import (
+    Format,
+    console,
+    print_result,
+    refuse_standard_output,
+    refuse_two_on_standard_output,
+    start_logging,
+)
 from forcetorque.cli.reading import read_calibrations, read_experiment
 from forcetorque.cli.scene import scene_of
 from forcetorque.cli.view_source import view_source
-from forcetorque.errors import ForceTorqueError, MissingFileError
+from forcetorque.errors import ForceTorqueError
 from forcetorque.viewer import BuiltScene, ViewerServer, page_of, write_page
 from forcetorque.viewer.annotations import Annotations, save_annotations, saved_files
 from forcetorque.viewer.scene import read_array
@@ -81,7 +88,8 @@ def run(
         calibrations: Calibration files; of a sensor any number.
         sensors: Sensors to show; all if None.
         mesh_folders: Folders with packages of meshes.
-        output: File of the page; None to serve it, unless a video is wanted.
+        output: File of the page, `-` for standard output, which then takes no result; None to serve it, unless a
+            video is wanted.
         port: Port to serve at; any that is free if None.
         open_browser: Whether the served page is opened.
         video: File of the video; None for none.
@@ -95,6 +103,7 @@ def run(
     """
     log = start_logging()
     _refuse_contradictions(output, port, video)
+    refuse_two_on_standard_output(output, output_format)
     path, files = view_source(path, calibrations)
     program = None
     if video is not None:
@@ -128,16 +137,17 @@ def run(
         result = result.model_copy(update={"video_frames": frames})
     if output is None and video is None:
         _serve(path, built, result, port or 0, open_browser, output_format, log)
-    else:
+    elif output != STANDARD_OUTPUT:  # else the page itself went there
         _print(result, output_format)
 
 
 def _refuse_contradictions(output: Path | None, port: int | None, video: Path | None) -> None:
     if port is not None and (output is not None or video is not None):
         raise ForceTorqueError("--port belongs to a page that is served; leave out --output and --video, or --port")
+    refuse_standard_output("--video", video)
     for file in (output, video):
-        if file is not None and not file.resolve().parent.is_dir():
-            raise MissingFileError(f"{file}: expected an existing folder to write to, there is none")
+        if file is not None:
+            refuse_unwritable(file)
 
 
 def _span(built: BuiltScene, start_s: float | None, end_s: float | None) -> tuple[int, int]:

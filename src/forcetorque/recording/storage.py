@@ -22,6 +22,7 @@ import pyarrow.parquet as pq
 
 from forcetorque.arrays import FloatArray, IntArray
 from forcetorque.errors import FormatError, MissingFileError, RecordingError, ShapeError
+from forcetorque.paths import real_path
 from forcetorque.recording.finding import Finding
 from forcetorque.recording.interval import Interval, MovingSupport, Support, Use
 from forcetorque.recording.quantity import QUANTITIES
@@ -47,7 +48,7 @@ def write_recording(folder: Path | str, recording: Recording) -> None:
         RecordingError: If the folder exists and is not a recording, or holds other files too.
         MissingFileError: If the folder that it is to be made in does not exist.
     """
-    target = Path(folder).resolve()
+    target = real_path(folder)
     if not target.parent.is_dir():
         raise MissingFileError(f"{folder}: expected an existing folder to write to, got none; create {target.parent}")
     if target.exists():

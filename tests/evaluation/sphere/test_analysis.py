@@ -249,6 +249,28 @@ def test_what_cannot_be_forces_is_refused(damage: object, error: type[Exception]
         analyse_sphere(damage(wrench), gravity=GRAVITY)  # type: ignore[operator]
 
 
+@pytest.mark.parametrize("seed", range(5))
+@pytest.mark.parametrize("noise", [1e-6, 0.01, 0.3, 3.0])
+def test_a_limb_that_stands_still_to_rounding_is_refused(noise: float, seed: int) -> None:
+    """The force by the model moves in its last digits, which is one point as well; a ten-millionth of it is a cloud."""
+    rng = np.random.default_rng(seed)
+    still = np.tile(_reference(np.array([[0.6, 0.0, -0.8]])), (300, 1))
+    measured = still + noise * rng.normal(size=still.shape)
+    for size in (0.0, 1e-16, 1e-15, 1e-12):
+        with pytest.raises(FitError, match="reference force: expected a cloud, got 300 times one point"):
+            analyse_sphere(measured, still * (1.0 + size * rng.normal(size=still.shape)), gravity=9.81)
+    analyse_sphere(measured, still * (1.0 + 1e-7 * rng.normal(size=still.shape)), gravity=9.81)
+
+
+def test_a_moment_that_changes_by_rounding_is_none() -> None:
+    """It does not cost the analysis of the forces."""
+    reference = _reference(grid(300, 60.0))
+    reference[:, 3:] = 0.3 * (1.0 + 1e-16 * np.random.default_rng(3).normal(size=(300, 3)))
+    found = analyse_sphere(reference, reference, gravity=9.81)
+    assert found.free_moment is None
+    assert found.mapped is not None
+
+
 def test_counts_are_noticed_against_the_model_too() -> None:
     """Readings that move by hundreds of times the weight are counts, even where they are no whole numbers."""
     reference = _reference(grid(300, 60.0))

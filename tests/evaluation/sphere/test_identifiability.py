@@ -235,6 +235,69 @@ def test_with_the_model_the_shape_is_no_reason_against_it() -> None:
     assert "five times" not in with_model
 
 
+def _far(fit: EllipsoidFit | None, extent: float) -> bool:
+    """Whether an ellipsoid is shown whose longest radius is more than five times the size that was measured."""
+    return fit is not None and fit.ellipsoid is not None and fit.ellipsoid.principal_radii[0] > 5.0 * extent
+
+
+def _extent(cloud: np.ndarray) -> float:
+    return 2.0 * float(np.linalg.norm(cloud - cloud.mean(axis=0), axis=1).max())
+
+
+@pytest.mark.parametrize("memory", [0.0, 0.98])
+@pytest.mark.parametrize("half", [1e-2, 0.1, 1.0, 3.0])
+def test_a_limb_that_hardly_moves_has_no_ellipsoid_far_from_its_forces(half: float, memory: float) -> None:
+    """Noise of any size, divided by what the reference moves, is none: neither with the model nor without."""
+    rng = np.random.default_rng(23)
+    reference = WEIGHT * grid(COUNT, half)
+    none = 0
+    for size in np.geomspace(1e-9, 10.0, 8):
+        force = reference @ map_of(DEFORMED).T / WEIGHT + [3.0, 5.0, -8.0] + slow_noise(rng, COUNT, size, memory)
+        mapped = fit_mapped(force, reference, radius=WEIGHT, tolerance=TOLERANCE)
+        _, free = _both(force)
+        assert free.identifiable or not _far(free, _extent(force))
+        assert mapped is not None
+        assert mapped.fit.identifiable or not _far(mapped.fit, max(_extent(force), WEIGHT))
+        if mapped.fit.ellipsoid is None:
+            none += 1
+            assert np.isnan(mapped.fit.index)
+            assert (mapped.fit.index_low, mapped.fit.index_high) == (0.0, np.inf)
+            assert "so there is no ellipsoid" in mapped.fit.why[-1]
+            assert "tenth of the recording" in mapped.fit.why[0]
+    assert none > 0
+
+
+@pytest.mark.parametrize("half", [10.0, 20.0, 30.0, 60.0])
+def test_ellipsoids_that_are_known_are_near_their_forces(half: float) -> None:
+    """Negative control: of no size of noise does the limit on the size take an ellipsoid that the others leave."""
+    rng = np.random.default_rng(24)
+    reference = WEIGHT * grid(COUNT, half)
+    known = 0
+    for size in np.geomspace(1e-9, 1.0, 10):
+        force = reference @ map_of(DEFORMED).T / WEIGHT + slow_noise(rng, COUNT, size, 0.0)
+        mapped = fit_mapped(force, reference, radius=WEIGHT, tolerance=TOLERANCE)
+        assert mapped is not None
+        assert mapped.fit.ellipsoid is not None
+        assert mapped.fit.ellipsoid.principal_radii[0] < 2.0 * WEIGHT
+        _, free = _both(force)
+        assert free.ellipsoid is not None
+        if free.identifiable:
+            known += 1
+            assert free.ellipsoid.principal_radii[0] < 2.5 * _extent(force)
+    assert known > 0
+
+
+def test_a_sensor_that_reads_ten_times_too_much_is_known_with_the_model() -> None:
+    """What is identifiable is never taken away, whatever its size."""
+    reference = WEIGHT * grid(COUNT, 1.0)
+    mapped = fit_mapped(10.0 * reference, reference, radius=WEIGHT, tolerance=TOLERANCE)
+    assert mapped is not None
+    assert mapped.fit.ellipsoid is not None
+    assert mapped.fit.identifiable
+    np.testing.assert_allclose(mapped.fit.ellipsoid.axis_intersections, 10.0 * WEIGHT, rtol=1e-6)
+    assert _far(mapped.fit, max(_extent(10.0 * reference), WEIGHT))
+
+
 def _weight_with(*, gain: float = 1.0, offset_deg: float = 0.0, tilt_deg: float = 0.0) -> np.ndarray:
     """The weight on a grid of 60 degrees by a model whose second joint, or base, is off by so much."""
     x, y, z = grid(COUNT, 60.0).T

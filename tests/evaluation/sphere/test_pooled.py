@@ -220,6 +220,18 @@ def test_what_pools_cannot_tell() -> None:
     assert "no one size in a trial" in shaken.free.why[0]
 
 
+@pytest.mark.parametrize("noise", np.geomspace(1e-6, 3.0, 7))
+def test_limbs_that_hardly_move_have_no_pooled_ellipsoid(noise: float) -> None:
+    """What noise makes of references that move by a hundredth of a degree is not shown, nor are its centres."""
+    forces, references = _trials(np.random.default_rng(12), [grid(700, 1e-2)] * 3, noise=noise)
+    pooled = pool_trials(forces, references, weight=WEIGHT)
+    extent = max(2.0 * float(np.linalg.norm(force - force.mean(axis=0), axis=1).max()) for force in forces)
+    for fit, centres in ((pooled.free, pooled.free_centres), (pooled.mapped, pooled.mapped_centres)):
+        assert fit is None or (fit.ellipsoid is None) == (centres is None)
+        if fit is not None and fit.ellipsoid is not None:
+            assert fit.ellipsoid.principal_radii[0] <= 5.0 * max(extent, WEIGHT)
+
+
 def test_wrong_input_is_refused() -> None:
     """What is missing is named with its trial."""
     forces, references = _trials(np.random.default_rng(9), _whole_grids(50))
@@ -229,5 +241,7 @@ def test_wrong_input_is_refused() -> None:
         pool_trials(forces, references)
     with pytest.raises(FitError, match="force of trial 2: expected at least 10 points, got 7"):
         pool_trials([forces[0], forces[1][:7]])
+    with pytest.raises(FitError, match="reference of trial 2: expected a cloud, got 50 times one point"):
+        pool_trials(forces, [references[0], np.tile(references[0][:1], (50, 1)), references[2]], weight=WEIGHT)
     with pytest.raises(ShapeError, match="reference of trial 3"):
         pool_trials(forces, [*references[:2], references[2][:-1]], weight=WEIGHT)

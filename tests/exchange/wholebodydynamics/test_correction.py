@@ -189,7 +189,7 @@ def test_a_stream_needs_no_prior() -> None:
             FormatError,
             "the stream depends on variables that the calibration does not have; fit with them",
         ),
-        (NEW, make_calibration(matrix=np.zeros((6, 6))), FitError, "expected a prior matrix that can be inverted"),
+        (NEW, make_calibration(matrix=np.eye(6, k=1)), FitError, "expected a prior matrix that can be inverted"),
         (
             make_calibration(prior=np.eye(6), prior_source="identity"),
             make_calibration(),

@@ -31,8 +31,9 @@ FIRST = """() => {
     document.activeElement.blur();
     for (const part of document.querySelectorAll("details")) part.open = part.closest(".notes") !== null;
     window.ft.reset();
+    window.ft.show(0);
 }"""
-"""Brings a page back to what it showed first."""
+"""Brings a page back to what it showed first, and to the first sample."""
 
 
 @pytest.fixture(scope="session")
@@ -51,7 +52,7 @@ def shared(chromium: Browser, arm: Arm, tmp_path_factory: pytest.TempPathFactory
 
 @pytest.fixture
 def page(shared: tuple[Visit, Page]) -> Iterator[Page]:
-    """That scene as it was when it was opened."""
+    """That scene as it was when it was opened, at its first sample."""
     visit, page = shared
     page.evaluate(FIRST)
     yield page

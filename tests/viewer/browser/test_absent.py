@@ -72,6 +72,7 @@ def test_no_graphics(visit: Visit, arm: Arm) -> None:
     page.goto(file.as_uri())
     page.evaluate("window.ft.ready")
     assert page.get_by_text("This browser draws nothing in 3-D").count() == 2
+    page.evaluate("window.ft.show(0)")
     at = page.evaluate("window.ft.planePoint(0, 1, 425)")
     page.mouse.click(at["x"], at["y"])
     assert page.evaluate("window.ft.sample()") != 0

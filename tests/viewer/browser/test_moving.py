@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pytest
 
+from tests.browser import Visit
 from tests.viewer.browser.arm_scene import SAMPLES, Arm
 from tests.viewer.browser.press import wait_for_drawing, wait_until
 
@@ -75,6 +76,53 @@ def test_drag_on_a_plot_shows_a_part_of_the_time(page: Page, sample: Callable[[]
     page.mouse.click(box["x"] + 0.25 * box["width"], y)
     wanted = arm.time_s[0] + 0.25 * (arm.time_s[-1] - arm.time_s[0])
     assert abs(arm.time_s[sample()] - wanted) < 2 * PIXEL_S
+
+
+def _cursor_errors(page: Page, time_s: float, window: tuple[float, float]) -> list[float]:
+    """How far the cursor of every plot is from a time; pixels."""
+    errors = []
+    for plot in range(3):
+        box, cursor = (page.locator(name).nth(plot).bounding_box() for name in (".u-over", ".plot-cursor"))
+        assert box is not None
+        assert cursor is not None
+        share = (time_s - window[0]) / (window[1] - window[0])
+        errors.append(abs(cursor["x"] + cursor["width"] / 2 - (box["x"] + share * box["width"])))
+    return errors
+
+
+def test_the_cursor_stays_at_its_time_when_the_plots_are_zoomed(page: Page, arm: Arm) -> None:
+    """It is where the sample is in the part that was dragged, and again in the whole, without another sample."""
+    page.evaluate("window.ft.show(350)")
+    whole = (float(arm.time_s[0]), float(arm.time_s[-1]))
+    box = page.locator(".u-over").first.bounding_box()
+    assert box is not None
+    y = box["y"] + box["height"] / 2
+    page.mouse.move(box["x"] + 0.5 * box["width"], y)
+    page.mouse.down()
+    page.mouse.move(box["x"] + 0.6 * box["width"], y, steps=3)
+    page.mouse.up()
+    wait_for_drawing(page)
+    start, end = (whole[0] + share * (whole[1] - whole[0]) for share in (0.5, 0.6))
+    assert start < arm.time_s[350] < end
+    # the dragged pixels are whole ones, and ten times as wide here
+    assert max(_cursor_errors(page, float(arm.time_s[350]), (start, end))) < 11.0
+    page.get_by_role("button", name="Whole recording").click()
+    wait_for_drawing(page)
+    assert max(_cursor_errors(page, float(arm.time_s[350]), whole)) < 1.0
+
+
+def test_the_cursor_stays_at_its_time_when_the_window_is_resized(visit: Visit, arm: Arm) -> None:
+    """In a wider and in a narrower window, without another sample."""
+    page = visit.open(arm.built)
+    page.evaluate("window.ft.show(350)")
+    time_s = float(arm.time_s[350])
+    whole = (float(arm.time_s[0]), float(arm.time_s[-1]))
+    wait_for_drawing(page)
+    assert max(_cursor_errors(page, time_s, whole)) < 1.0
+    for size in (1400, 1000, 900):
+        page.set_viewport_size({"width": size, "height": 650})
+        wait_for_drawing(page)
+        assert max(_cursor_errors(page, time_s, whole)) < 1.0, size
 
 
 def test_click_on_a_point_jumps_to_a_sample_there(page: Page, sample: Callable[[], int], arm: Arm) -> None:

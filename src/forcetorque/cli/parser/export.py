@@ -22,7 +22,7 @@ def export(
             "coefficients of temperature and other variables by themselves.",
         ),
     ],
-    output: Annotated[Path, typer.Option("--output", "-o", help="File to write.")],
+    output: Annotated[Path, typer.Option("--output", "-o", help="File to write; - for standard output.")],
     full_scale: Annotated[
         tuple[int, int, int, int, int, int] | None,
         typer.Option(

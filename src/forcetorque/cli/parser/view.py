@@ -20,7 +20,11 @@ def view(
     sensor: SensorOption = None,
     output: Annotated[
         Path | None,
-        typer.Option("--output", "-o", help="File for the page, which then works offline. Default: it is served."),
+        typer.Option(
+            "--output",
+            "-o",
+            help="File for the page, which then works offline; - for standard output. Default: it is served.",
+        ),
     ] = None,
     no_browser: Annotated[bool, typer.Option("--no-browser", help="Print the address and open nothing.")] = False,
     port: Annotated[

@@ -8,16 +8,17 @@ from datetime import UTC, datetime
 from importlib.metadata import version
 from pathlib import Path
 
-from forcetorque.analysis import read_population
-from forcetorque.atomic import write_bytes_atomically
+from forcetorque.atomic import refuse_unwritable, write_bytes_atomically
 from forcetorque.cli.output import Format, console, print_result, start_logging
 from forcetorque.cli.reading import read_experiment
 from forcetorque.cli.report.gather import Demands, ExperimentMaterial, gather_experiment
 from forcetorque.cli.report.inputs import assign_calibrations, sort_inputs
 from forcetorque.cli.report.result import ReportResult
 from forcetorque.cli.report.sections import report_document, viewer_section
-from forcetorque.errors import ForceTorqueError, MissingFileError
+from forcetorque.errors import ForceTorqueError
+from forcetorque.experiment import read_population
 from forcetorque.experiment.inputs import stated_in
+from forcetorque.paths import real_path
 from forcetorque.report.canvas import new_figure
 from forcetorque.report.document import Document, Section, html_bytes, pdf_bytes
 
@@ -88,14 +89,13 @@ def run(
 
 def _refuse_outputs(outputs: Sequence[Path], numbers: Path, inputs: Sequence[Path]) -> None:
     """What cannot be written is said before the work: other kinds of files, folders that are missing, the inputs."""
-    given = {path.resolve() for path in inputs}
+    given = {real_path(path) for path in inputs}
     for output in outputs:
         if output.suffix.lower() not in _WRITERS:
             raise ForceTorqueError(f"--output {output}: expected a name that ends in {' or '.join(_WRITERS)}")
-        if not output.resolve().parent.is_dir():
-            raise MissingFileError(f"{output}: expected an existing folder to write to, there is none")
     for file in (*outputs, numbers):
-        if file.resolve() in given:
+        refuse_unwritable(file)
+        if real_path(file) in given:
             raise ForceTorqueError(f"{file}: this is a file to read; choose another --output")
     empty = Document(title="", subtitle="", created=datetime.now(UTC).isoformat(timespec="seconds"), sections=())
     for output in outputs:  # also whether what writes it is installed

@@ -15,9 +15,11 @@ import numpy as np
 
 from forcetorque.arrays import FloatArray, read_only
 from forcetorque.evaluation.sphere.algebraic import inverse_lengths
+from forcetorque.evaluation.sphere.cloud import reach
 from forcetorque.evaluation.sphere.ellipsoid import ellipsoid_of_map
 from forcetorque.evaluation.sphere.findings import (
     EllipsoidFit,
+    far_from,
     index_ends,
     lengths_of,
     lowest_index,
@@ -108,7 +110,14 @@ def fit_mapped(force: FloatArray, reference: FloatArray, *, radius: float, toler
     centres = resampled(sums, lambda mean: _maps(mean, shift)[1], extent=_reference_extent)
     error = force - reference @ matrix.T - centre
     fit = image_of_sphere(
-        matrix, centre, estimates, radius=radius, centre_margin=centres.margin, error=error, tolerance=tolerance
+        matrix,
+        centre,
+        estimates,
+        radius=radius,
+        extent=reach(force),
+        centre_margin=centres.margin,
+        error=error,
+        tolerance=tolerance,
     )
     return MappedFit(matrix=matrix, centre=centre, radius=radius, fit=fit)
 
@@ -119,6 +128,7 @@ def image_of_sphere(
     estimates: Resampled,
     *,
     radius: float,
+    extent: float,
     centre_margin: FloatArray,
     error: FloatArray,
     tolerance: float,
@@ -130,12 +140,13 @@ def image_of_sphere(
         centre: What the sensor reads without force; shape (3,); N.
         estimates: One over the lengths of the ellipsoid, by `inverse_lengths_of`; k is 6.
         radius: Weight on the sensor; N.
+        extent: Size that the measured forces are within; N.
         centre_margin: Half of the 95 % interval of the centre; shape (3,); N.
         error: What the map leaves of the measured forces; shape (n, 3); N.
         tolerance: Half width of an interval, relative to the mean intersection, up to which it is identifiable.
 
     Returns:
-        The ellipsoid with its intervals.
+        The ellipsoid with its intervals; none where the map makes of the weight what was nowhere measured.
     """
     if not (estimates.whole > 0.0).all():
         return no_ellipsoid("the measured forces lie in a plane")
@@ -143,6 +154,9 @@ def image_of_sphere(
     low, high = estimates.jackknifed
     mean = float(ellipsoid.axis_intersections.mean())
     why = _against(len(error), relative_margin(low[:3], high[:3], mean), tolerance)
+    far = far_from(ellipsoid, max(extent, radius)) if why else None
+    if far is not None:
+        return no_ellipsoid(*why, far)
     tilt = not why and relative_margin(low[3:], high[3:], mean) <= tolerance
     if why:
         low, high = estimates.ranged

@@ -12,7 +12,7 @@ from forcetorque.arrays import FloatArray
 from forcetorque.errors import ForceTorqueError, ShapeError, UnitError
 from forcetorque.evaluation.sphere.affine import MappedFit, MomentFit, fit_mapped, fit_moment
 from forcetorque.evaluation.sphere.apparent_mass import apparent_masses, axis_errors
-from forcetorque.evaluation.sphere.cloud import require_cloud
+from forcetorque.evaluation.sphere.cloud import is_one_point, require_cloud
 from forcetorque.evaluation.sphere.coverage import share_of_directions
 from forcetorque.evaluation.sphere.findings import TOLERANCE, CloudForm, EllipsoidFit, RadiusFit, percent
 from forcetorque.evaluation.sphere.free import fit_ellipsoid, fit_radius, may_be_flat
@@ -153,7 +153,7 @@ def _analyse(
 
 
 def _free_moment(moment: FloatArray, tolerance: float) -> EllipsoidFit | None:
-    if not np.ptp(moment, axis=0).any():
+    if is_one_point(moment):
         return None
     cloud = require_cloud(moment, name="moment", unit="N m")
     return fit_ellipsoid(cloud, fit_radius(cloud, unit="N m", tolerance=tolerance), tolerance=tolerance)

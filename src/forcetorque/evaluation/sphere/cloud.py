@@ -13,6 +13,11 @@ from forcetorque.errors import FitError, ShapeError, UnitError
 FEWEST = 10
 """Points below which nothing is fitted: an ellipsoid has nine unknowns."""
 
+_ROUNDING = 1e-9
+"""Extent of a cloud, relative to its largest value, up to which it is one point and what rounding makes of it.
+
+By the model, the force on a limb that stands still moves by 1e-17 to 1e-15 of itself; no sensor resolves 1e-9.
+"""
 _LARGEST = 2e4
 """Half of the extent of a cloud beyond which it cannot be forces or moments: the weight of two tonnes; N, N m."""
 _WHOLE = 100.0
@@ -45,7 +50,7 @@ def require_cloud(points: Any, *, name: str, unit: str) -> FloatArray:
     if len(cloud) < FEWEST:
         raise FitError(f"{name}: expected at least {FEWEST} points, got {len(cloud)}; an ellipsoid has nine unknowns")
     extent = np.ptp(cloud, axis=0).max()
-    if extent == 0.0:
+    if is_one_point(cloud):
         raise FitError(f"{name}: expected a cloud, got {len(cloud)} times one point; turn the limb, or see `inspect`")
     whole = extent > _WHOLE and np.array_equal(cloud, np.round(cloud))
     if extent > 2.0 * _LARGEST or whole:
@@ -55,3 +60,27 @@ def require_cloud(points: Any, *, name: str, unit: str) -> FloatArray:
             "multiply them by the sensor's matrix"
         )
     return cloud
+
+
+def is_one_point(cloud: FloatArray) -> bool:
+    """Find whether all points are the same to rounding.
+
+    Args:
+        cloud: Points; shape (n, 3).
+
+    Returns:
+        Whether they are.
+    """
+    return bool(np.ptp(cloud, axis=0).max() <= _ROUNDING * np.abs(cloud).max())
+
+
+def reach(cloud: FloatArray) -> float:
+    """Give a size that the points are certainly within.
+
+    Args:
+        cloud: Points; shape (n, 3).
+
+    Returns:
+        Twice the largest distance from the mean.
+    """
+    return 2.0 * float(np.sqrt(((cloud - cloud.mean(axis=0)) ** 2).sum(axis=1).max()))

@@ -26,6 +26,12 @@ are taken as exact: what is wrong with them moves every block alike and is not i
 The rules are about axis intersections, of which the index is made. Half-widths and principal radii need what lies
 between the axes as well, and are judged by the same ways for themselves.
 
+NO ELLIPSOID. What is not identifiable is shown in brackets, and a number in brackets is still read. Where the longest
+radius is more than five times the extent of the cloud, and with the model also more than five times the weight, the
+surface lies where nothing was measured. Without the model the cloud then goes a tenth of that radius to each side,
+across which a sphere leaves its plane by a two-hundredth of it, which is noise. With the model the reference hardly
+moves, and the map divides noise by it. That is no ellipsoid. What is identifiable is never taken away by this.
+
 The tolerance is part of the mean length. It is no property of the data: it says what the numbers are for. Thesis Table
 4.1 tells sensors apart whose index is 2 to 25 % of the mass.
 """
@@ -45,12 +51,20 @@ from forcetorque.evaluation.sphere.resampling import Resampled
 TOLERANCE = 0.1
 """Half width of an interval, relative to the mean length, up to which a number is identifiable."""
 
+_FAR = 5.0
+"""Longest radius, relative to the extent of the cloud and to the weight, beyond which nothing was measured there.
+
+Sensors had 1.6 times the weight at most; on grids of 10 to 60 degrees to each side, whatever the noise, ellipsoids that
+are identifiable without the model had less than 2.5 times the extent of their cloud.
+"""
+
 RULE = (
     "a number is identifiable if its 95 % interval, from leaving out one of ten blocks of time after the other, is "
     "within the tolerance of the mean radius; with the model that is all, and the interval takes the model and the "
     "joint angles as exact; without the model, methods that treat noise differently must also agree within the "
     "tolerance, and each must find a closed surface, and the ellipsoid must be less than five times as long as thick; "
-    "what is not identifiable has the range over methods, halves and windows as its interval"
+    "what is not identifiable has the range over methods, halves and windows as its interval, and is no ellipsoid at "
+    "all if its longest radius is more than five times the extent of the cloud, and the weight where the model gives it"
 )
 """Both rules in one sentence, for results."""
 
@@ -155,11 +169,11 @@ def no_radius(reason: str) -> RadiusFit:
     )
 
 
-def no_ellipsoid(reason: str) -> EllipsoidFit:
+def no_ellipsoid(*reasons: str) -> EllipsoidFit:
     """Say that there is no ellipsoid.
 
     Args:
-        reason: Why not.
+        reasons: Why not.
 
     Returns:
         A fit that may be anything.
@@ -176,8 +190,24 @@ def no_ellipsoid(reason: str) -> EllipsoidFit:
         rms=np.nan,
         identifiable=False,
         tilt_identifiable=False,
-        why=(reason,),
+        why=reasons,
     )
+
+
+def far_from(ellipsoid: Ellipsoid, extent: float) -> str | None:
+    """Find whether an ellipsoid lies where nothing was measured.
+
+    Args:
+        ellipsoid: The ellipsoid.
+        extent: Size that the data vouch for: that of the cloud, or of the weight if it is larger.
+
+    Returns:
+        Why it is none; None if it may be one.
+    """
+    ratio = float(ellipsoid.principal_radii[0]) / extent
+    if ratio <= _FAR:
+        return None
+    return f"its longest radius would be {ratio:.3g} times the extent of what was measured, so there is no ellipsoid"
 
 
 def spread_index(lengths: FloatArray) -> float:

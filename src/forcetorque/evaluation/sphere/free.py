@@ -9,10 +9,12 @@ import numpy as np
 
 from forcetorque.arrays import FloatArray
 from forcetorque.evaluation.sphere.algebraic import Quadrics, direct_fit, gradient_weighted_fit, inverse_lengths
+from forcetorque.evaluation.sphere.cloud import reach
 from forcetorque.evaluation.sphere.ellipsoid import Ellipsoid
 from forcetorque.evaluation.sphere.findings import (
     EllipsoidFit,
     RadiusFit,
+    far_from,
     index_ends,
     indices_of,
     lengths_of,
@@ -120,7 +122,8 @@ def fit_ellipsoid(cloud: FloatArray, radius: RadiusFit, *, tolerance: float) -> 
         tolerance: Half width of an interval, relative to the mean intersection, up to which it is identifiable.
 
     Returns:
-        The geometric ellipsoid where it is a minimum, else the direct one; see `findings` for the rule.
+        The geometric ellipsoid where it is a minimum, else the direct one; none where nothing was measured near it;
+        see `findings` for the rules.
     """
     if is_flat(cloud):
         return no_ellipsoid("the cloud lies in a plane")
@@ -136,6 +139,9 @@ def fit_ellipsoid(cloud: FloatArray, radius: RadiusFit, *, tolerance: float) -> 
     else:
         ellipsoid = Ellipsoid(centre=first.centre[0], shape=first.shape[0])
     why = _against(len(cloud), direct, weighted, geometric, slice(0, 3), tolerance) + _squashed(ellipsoid)
+    far = far_from(ellipsoid, reach(cloud)) if why else None
+    if far is not None:
+        return no_ellipsoid(*why, far)
     low, high, index_low, index_high = _intervals(direct, weighted, geometric, radius if why else None)
     centres = resampled(moments.sums, lambda mean: direct_fit(mean, moments).centre, extent=extent)
     return EllipsoidFit(

@@ -24,7 +24,7 @@ from forcetorque.arrays import FloatArray, read_only
 from forcetorque.errors import ForceTorqueError
 from forcetorque.evaluation.sphere.affine import image_of_sphere, inverse_lengths_of
 from forcetorque.evaluation.sphere.algebraic import inverse_lengths
-from forcetorque.evaluation.sphere.cloud import require_cloud
+from forcetorque.evaluation.sphere.cloud import reach, require_cloud
 from forcetorque.evaluation.sphere.findings import (
     TOLERANCE,
     EllipsoidFit,
@@ -51,7 +51,8 @@ class PooledSphere:
     mapped: EllipsoidFit | None
     """Ellipsoid with the model; its centre is zero; N; None where a trial has no reference."""
     mapped_centres: FloatArray | None
-    """What the sensor read without force in each trial; shape (t, 3); N; None without `mapped`."""
+    """What the sensor read without force in each trial; shape (t, 3); N; None without its
+    ellipsoid."""
 
     def __post_init__(self) -> None:
         for name in ("free_centres", "mapped_centres"):
@@ -80,6 +81,7 @@ def pool_trials(
     Raises:
         ForceTorqueError: If there is no trial, or references without their weight.
         ShapeError: If there is not a reference for every force.
+        FitError: If a trial has fewer than ten samples, or its forces or references are one point.
     """
     if not forces:
         raise ForceTorqueError("trials: expected at least one, got none")
@@ -95,6 +97,8 @@ def pool_trials(
         expected = [
             read_only(references[k], name=f"reference of trial {k + 1}", shape=(len(clouds[k]), 3)) for k in order
         ]
+        for k, reference in zip(order, expected, strict=True):
+            require_cloud(reference, name=f"reference of trial {k + 1}", unit="N")
         mapped, mapped_centres = _mapped(sorted_clouds, expected, weight, tolerance)
         why = _no_one_size(expected, tolerance)
     if why is not None:
@@ -129,7 +133,7 @@ def _free(clouds: Sequence[FloatArray], tolerance: float) -> tuple[EllipsoidFit,
         return no_ellipsoid("the trials together determine no ellipsoid with a centre for each"), None
     moved = np.concatenate(_tenths([cloud - centre for cloud, centre in zip(clouds, own.centres, strict=True)]))
     fit = fit_ellipsoid(moved, fit_radius(moved, unit="N", tolerance=tolerance), tolerance=tolerance)
-    return _with_unknown_centres(fit, clouds, own, tolerance), own.centres
+    return _with_unknown_centres(fit, clouds, own, tolerance), None if fit.ellipsoid is None else own.centres
 
 
 def _with_unknown_centres(
@@ -202,11 +206,12 @@ def _mapped(
         np.zeros(3),
         estimates,
         radius=weight,
+        extent=max(reach(cloud) for cloud in clouds),
         centre_margin=margin.reshape(count, 3).max(axis=0),
         error=error,
         tolerance=tolerance,
     )
-    return fit, centres
+    return fit, None if fit.ellipsoid is None else centres
 
 
 def _centred(mean: FloatArray) -> tuple[FloatArray, FloatArray]:

@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import io
 from pathlib import Path
 from typing import Any
 
@@ -14,6 +13,7 @@ import pyarrow.csv as pacsv
 
 from forcetorque.arrays import FloatArray, IntArray
 from forcetorque.errors import FormatError, MissingFileError, UnitError, known_names
+from forcetorque.exchange.arrow_text import arrow_text
 from forcetorque.exchange.tabular.layout import NANOSECOND_DIGITS, StampColumn, TableLayout, TableSignal
 from forcetorque.recording import QUANTITIES, Labels, Signal, Stream
 from forcetorque.spatial import si_factor
@@ -21,7 +21,7 @@ from forcetorque.spatial import si_factor
 ROW_CLOCK = "row"
 """Clock of a table without times: row k is stamped k seconds."""
 LARGEST_FILE = 4 << 30
-"""Bytes that a table may have: it is held in memory as text once."""
+"""Bytes that a table may have: it is held in memory as text twice."""
 
 _ROW_NS = 1_000_000_000
 
@@ -57,7 +57,7 @@ def read_table(path: Path | str, layout: TableLayout, *, stream: str, clock: str
         types[layout.stamp.column] = pa.string()
     try:
         table = pacsv.read_csv(
-            io.BytesIO(text),
+            arrow_text(text),
             read_options=pacsv.ReadOptions(column_names=list(names)),
             parse_options=pacsv.ParseOptions(delimiter=layout.delimiter, quote_char=False, ignore_empty_lines=False),
             convert_options=pacsv.ConvertOptions(

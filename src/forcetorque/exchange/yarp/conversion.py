@@ -13,6 +13,7 @@ import pyarrow.compute as pc
 import pyarrow.csv as pacsv
 
 from forcetorque.arrays import BoolArray, FloatArray, IntArray
+from forcetorque.exchange.arrow_text import arrow_text
 from forcetorque.exchange.yarp.bottle import Bottle, leaves
 from forcetorque.exchange.yarp.message_line import is_number
 from forcetorque.exchange.yarp.skeleton import NUMBER_CHARACTERS, LineGroup
@@ -105,7 +106,7 @@ def convert(group: LineGroup, layout: NumberLayout) -> Numbers | None:
     n_cells = text.count(b" ", 0, text.index(b"\n")) + 1
     try:
         table = pacsv.read_csv(
-            pa.BufferReader(text),
+            arrow_text(text),
             read_options=pacsv.ReadOptions(
                 column_names=[str(cell) for cell in range(n_cells)], block_size=_ARROW_BLOCK_SIZE
             ),

@@ -18,6 +18,7 @@ import numpy as np
 from forcetorque.errors import MissingFileError, RecordingError
 from forcetorque.exchange.yarp.message_text import device_messages, stamp_text, stream_messages
 from forcetorque.exchange.yarp.written_port import DevicePort, WrittenPort
+from forcetorque.paths import real_path
 from forcetorque.recording import Recording, Stream
 
 
@@ -38,7 +39,7 @@ def write_ports(folder: Path | str, recording: Recording, ports: Sequence[Writte
             does not hold what its port sends.
         MissingFileError: If the folder that the folder of logs is to be made in does not exist.
     """
-    target = Path(folder).resolve()
+    target = real_path(folder)
     if not target.parent.is_dir():
         raise MissingFileError(f"{folder}: expected an existing folder to write to, got none; create {target.parent}")
     _check_places(target, ports)

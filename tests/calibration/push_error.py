@@ -1,0 +1,143 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Sensors of a simulated iCub whose true matrices are known, and what calibrations make of pushes not recorded."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from forcetorque.arrays import FloatArray
+from forcetorque.calibration import CalibrationFit, DataSet, LinearVariable, calibrate
+from forcetorque.estimation import Processing, sensor_samples
+from forcetorque.recording import Interval, Support, Use
+from forcetorque.simulation.scenario import (
+    INTERVAL_MARGIN_S,
+    Scenario,
+    ScenarioFile,
+    SimulatedRecording,
+    build_scenario,
+    bundled_scenario,
+    simulate,
+    trace_recordings,
+)
+from forcetorque.toml_table import read_toml
+
+TEMPERATURE = LinearVariable(name="temperature", unit="degC")
+PUSH_N, LEVER_M, PUSHES = 50.0, 0.3, 2000
+EXACT = 1e-9
+"""Relative rounding of a lambda that was chosen among candidates."""
+
+
+def _pushes() -> FloatArray:
+    """Wrenches of pushes in random directions at random points around the sensor; shape (n, 6); N, N m."""
+    rng = np.random.default_rng(2024)
+    force, lever = rng.normal(size=(2, PUSHES, 3))
+    force *= PUSH_N / np.linalg.norm(force, axis=1, keepdims=True)
+    lever *= LEVER_M * rng.uniform(size=(PUSHES, 1)) / np.linalg.norm(lever, axis=1, keepdims=True)
+    return np.hstack([force, np.cross(lever, force)])
+
+
+WRENCHES = _pushes()
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Case:
+    """One sensor with the recordings of one motion, its workbench matrix and its truth."""
+
+    name: str
+    data: list[DataSet]
+    prior: FloatArray
+    truth: FloatArray
+
+    def fitted(self, regularisation: float | None = None) -> CalibrationFit:
+        """Calibrate with the default type, temperature and all."""
+        return calibrate(self.data, self.prior, regularisation=regularisation, variables=[TEMPERATURE])
+
+    def unfloored(self, choice: CalibrationFit) -> CalibrationFit:
+        """Calibrate with what the rule would choose if it had no floor."""
+        curve = choice.curve
+        assert curve is not None
+        free = (curve.worst_ratio <= 1.0) & (np.abs(curve.regularisations - curve.floor) > EXACT * curve.floor)
+        best = curve.regularisations[free][np.argmin(curve.held_out_error[free])]
+        return self.fitted(float(best))
+
+    def ratio(self, fit: CalibrationFit) -> FloatArray:
+        """Mean error of a push with the fitted matrix over that with the prior; force and moment; shape (2,)."""
+        return self._errors(fit.fit.matrix) / self._errors(self.prior)
+
+    def _errors(self, matrix: FloatArray) -> FloatArray:
+        error = WRENCHES @ (matrix @ np.linalg.inv(self.truth) - np.eye(6)).T
+        return np.array([np.linalg.norm(error[:, part], axis=1).mean() for part in (slice(3), slice(3, 6))])
+
+
+def cases(motions: dict[str, Sequence[str]], moved: dict[str, Sequence[str]], seeds: range) -> Iterator[Case]:
+    """Calibration cases of `icub-insitu`, one after the other.
+
+    Args:
+        motions: Names of recordings by motion.
+        moved: Motions by sensor, those in which its load changes.
+        seeds: Seeds of the sensors.
+
+    Yields:
+        A case for every seed, sensor and motion.
+    """
+    used = {name for names in motions.values() for name in names}
+    content = read_toml(bundled_scenario("icub-insitu"), ScenarioFile, what="a scenario")
+    # a recording that is not fitted sets the error of the workbench matrix
+    kept = tuple(entry for entry in content.recording if entry.name in used or entry.name == "bsl_day1")
+    changed = content.model_copy(update={"recording": kept}).with_sensors(names=tuple(moved))
+    scenario = build_scenario(changed)
+    traces, references = trace_recordings(scenario), {}
+    for seed in seeds:
+        drawn = scenario.with_sensors(seed=seed)
+        data: dict[tuple[str, str], DataSet] = {}
+        for recorded in simulate(drawn, traces):
+            for sensor in moved if recorded.use is Use.CALIBRATION else ():
+                key = (sensor, recorded.name)
+                if key not in references:
+                    references[key] = _reference(scenario, recorded, sensor)
+                data[key] = _data_set(recorded, sensor, *references[key])
+        for sensor, names in moved.items():
+            for motion in names:
+                yield Case(
+                    name=f"{sensor} {motion} seed {seed}",
+                    data=[data[sensor, name] for name in motions[motion]],
+                    prior=drawn.specimens[sensor].workbench,
+                    truth=drawn.specimens[sensor].sensor.matrix,
+                )
+
+
+def _reference(scenario: Scenario, recorded: SimulatedRecording, sensor: str) -> tuple[FloatArray, FloatArray]:
+    """Samples that have an expected wrench, and that wrench: neither depends on the specimen."""
+    (start, end), margin = recorded.recording.span_ns, round(INTERVAL_MARGIN_S * 1e9)
+    movement = recorded.movement
+    samples = sensor_samples(
+        recorded.recording,
+        scenario.model,
+        sensor=sensor,
+        stream=sensor,
+        quantity="raw",
+        interval=Interval(
+            label=recorded.name,
+            start_ns=start + margin,
+            end_ns=end - margin,
+            use=Use.CALIBRATION,
+            support=Support(frame=movement.support, gravity_direction=movement.gravity_direction),
+        ),
+        processing=Processing(),
+    )
+    inside = np.isin(recorded.recording.stream(sensor).stamp_ns, samples.stamp_ns)
+    return np.flatnonzero(inside), samples.reference
+
+
+def _data_set(recorded: SimulatedRecording, sensor: str, index: FloatArray, reference: FloatArray) -> DataSet:
+    stream = recorded.recording.stream(sensor)
+    valid = ~stream.held[index]
+    return DataSet(
+        label=recorded.name,
+        raw=stream.signal("raw").values[index[valid]],
+        reference=reference[valid],
+        variables=stream.signal("temperature").values[index[valid]],
+    )
