@@ -10,6 +10,8 @@ from forcetorque.analysis.compare import TrialFailure, TrialGroup, TrialSphere, 
 from forcetorque.analysis.corrections import corrections_of
 from forcetorque.analysis.estimate import IntervalEstimates, estimate_experiment
 from forcetorque.analysis.evaluate import CandidateErrors, Evaluation, evaluate
+from forcetorque.analysis.export import export_coefficients, export_icub_matrix, export_table, export_wholebodydynamics
+from forcetorque.analysis.export_rows import Export, ExportedCalibration
 from forcetorque.analysis.findings import doubtful_spans, inspect_experiment, inspect_recording
 from forcetorque.analysis.gains import Gains, SensorGains, select_gains, sensor_gains
 from forcetorque.analysis.inspect import FindingRow, Inspection, finding_rows, finding_table, inspect_log
@@ -35,6 +37,8 @@ __all__ = [
     "ContactForceComparison",
     "ContactForceVerdict",
     "Correction",
+    "Export",
+    "ExportedCalibration",
     "FindingRow",
     "Gains",
     "Inspection",
@@ -64,6 +68,10 @@ __all__ = [
     "corrections_of",
     "doubtful_spans",
     "estimate_experiment",
+    "export_coefficients",
+    "export_icub_matrix",
+    "export_table",
+    "export_wholebodydynamics",
     "finding_rows",
     "finding_table",
     "group_trials",

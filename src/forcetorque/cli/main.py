@@ -8,6 +8,7 @@ from typing import Annotated
 import typer
 
 from forcetorque.cli.evaluate import evaluate
+from forcetorque.cli.export import export
 from forcetorque.cli.gains import gains
 from forcetorque.cli.inspect import inspect
 from forcetorque.cli.output import report_error
@@ -15,7 +16,6 @@ from forcetorque.cli.parser.accept import accept
 from forcetorque.cli.parser.calibrate import calibrate
 from forcetorque.cli.parser.compare import compare
 from forcetorque.cli.parser.estimate import estimate
-from forcetorque.cli.parser.export import export
 from forcetorque.cli.parser.report import report
 from forcetorque.cli.parser.schema import schema
 from forcetorque.cli.parser.simulate import simulate

@@ -102,9 +102,9 @@ def _evaluate() -> dict[str, Any]:
 
 
 def _export() -> dict[str, Any]:
-    from forcetorque.cli.export import ExportResult
+    from forcetorque.analysis import Export
 
-    return ExportResult.model_json_schema()
+    return Export.described()
 
 
 def _gains() -> dict[str, Any]:
