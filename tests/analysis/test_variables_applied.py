@@ -205,18 +205,21 @@ def test_a_calibrated_stream_is_corrected_with_its_temperature(warm: Path) -> No
 def test_gains_take_the_matrix_of_a_calibration_with_temperature(warm: Path, with_temperature: Calibration) -> None:
     """What a count is worth is the matrix's business alone."""
     experiment = load_experiment(with_variables(warm / PARQUET, TEMPERATURE))
-    found = select_gains(experiment, experiment.sensors[0], calibration=("warm.json", with_temperature))
-    assert found.matrix_source == "warm.json"
-    assert found.resolution is not None
-    np.testing.assert_allclose(found.resolution.worst, np.abs(with_temperature.matrix).sum(axis=1))
-    assert not np.allclose(found.resolution.worst, np.abs(FACTORY).sum(axis=1), rtol=1e-3)
+    run = SensorRun(experiment, experiment.sensors[0])
+    (row,) = select_gains(run, calibration=("warm.json", with_temperature)).sensors
+    assert row.matrix == "warm.json"
+    worst = [axis.worst for axis in row.resolution]
+    np.testing.assert_allclose(worst, np.abs(with_temperature.matrix).sum(axis=1))
+    assert not np.allclose(worst, np.abs(FACTORY).sum(axis=1), rtol=1e-3)
 
 
 Use_ = Callable[[Experiment, Calibration], object]
 USES: dict[str, Use_] = {
     "evaluate": lambda experiment, made: evaluate(SensorRun(experiment, experiment.sensors[0]), {"warm.json": made}),
     "estimate": lambda experiment, made: corrections_of(experiment, {"warm.json": made}),
-    "gains": lambda experiment, made: select_gains(experiment, experiment.sensors[0], calibration=("warm.json", made)),
+    "gains": lambda experiment, made: select_gains(
+        SensorRun(experiment, experiment.sensors[0]), calibration=("warm.json", made)
+    ),
 }
 _VOLTS = SUPPLY.replace('name = "supply"', 'name = "temperature"')
 

@@ -14,11 +14,15 @@ from forcetorque.analysis.criterion import Bound, Criterion
 from forcetorque.analysis.estimate import IntervalEstimates, estimate_experiment
 from forcetorque.analysis.evaluate import CandidateErrors, Evaluation, evaluate
 from forcetorque.analysis.experiment_assessment import ExperimentAssessment, assess_experiment
-from forcetorque.analysis.gains import JointPosition, SensorGains, StrongestSample, select_gains
-from forcetorque.analysis.inspect import doubtful_spans, inspect_experiment, inspect_recording
+from forcetorque.analysis.export import export_coefficients, export_icub_matrix, export_table, export_wholebodydynamics
+from forcetorque.analysis.export_rows import Export, ExportedCalibration
+from forcetorque.analysis.findings import doubtful_spans, inspect_experiment, inspect_recording
+from forcetorque.analysis.gains import Gains, SensorGains, select_gains, sensor_gains
+from forcetorque.analysis.inspect import FindingRow, Inspection, finding_rows, finding_table, inspect_log
 from forcetorque.analysis.interval_quality import IntervalQuality
 from forcetorque.analysis.joint_torques import JointTorques, JointTorqueVerdict, compare_joint_torques
 from forcetorque.analysis.judged import JudgedWrenches
+from forcetorque.analysis.payload import WeighedLoad, weigh_load
 from forcetorque.analysis.population import read_population
 from forcetorque.analysis.reading import Correction
 from forcetorque.analysis.samples import IntervalSamples
@@ -50,11 +54,15 @@ __all__ = [
     "ContactForceVerdict",
     "Correction",
     "Criterion",
+    "Export",
+    "ExportedCalibration",
+    "FindingRow",
+    "Gains",
+    "Inspection",
     "IntervalEstimates",
     "IntervalOffset",
     "IntervalQuality",
     "IntervalSamples",
-    "JointPosition",
     "JointTorqueVerdict",
     "JointTorques",
     "JudgedCandidate",
@@ -63,12 +71,12 @@ __all__ = [
     "SensorSphere",
     "SensorStudy",
     "StaticChecks",
-    "StrongestSample",
     "StudyData",
     "TrialFailure",
     "TrialGroup",
     "TrialSphere",
     "accept",
+    "WeighedLoad",
     "analyse_sensor",
     "by_sensor",
     "one_per_sensor",
@@ -79,8 +87,15 @@ __all__ = [
     "corrections_of",
     "doubtful_spans",
     "estimate_experiment",
+    "export_coefficients",
+    "export_icub_matrix",
+    "export_table",
+    "export_wholebodydynamics",
+    "finding_rows",
+    "finding_table",
     "group_trials",
     "inspect_experiment",
+    "inspect_log",
     "inspect_recording",
     "read_acceptance",
     "read_population",
@@ -88,6 +103,8 @@ __all__ = [
     "read_trials",
     "SensorRun",
     "select_gains",
+    "sensor_gains",
     "sphere_intervals",
     "study_sensor",
+    "weigh_load",
 ]

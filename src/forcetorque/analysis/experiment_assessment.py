@@ -6,7 +6,8 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 
 from forcetorque.analysis.assessment import Assessment, Demands, assess
-from forcetorque.analysis.inspect import FindingRow, finding_rows, inspect_experiment
+from forcetorque.analysis.findings import inspect_experiment
+from forcetorque.analysis.inspect import FindingRow, finding_rows
 from forcetorque.analysis.overview import IntervalOverview, StreamOverview, interval_overviews, stream_overviews
 from forcetorque.analysis.sensor_run import SensorRun
 from forcetorque.calibration import Calibration

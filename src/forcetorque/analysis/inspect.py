@@ -1,124 +1,180 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Inspect the recording of an experiment: its streams by themselves, and its sensors against the model."""
+"""Inspect a log or the recording of an experiment: what is wrong with it, where and how much."""
 
 from __future__ import annotations
 
-from dataclasses import replace
+from collections import Counter
+from collections.abc import Iterable, Iterator, Sequence
+from pathlib import Path
+from typing import Literal
 
-import numpy as np
+from pydantic import Field
 
-from forcetorque.analysis.sensor_run import SensorRun
-from forcetorque.arrays import BoolArray, IntArray
-from forcetorque.calibration import recover_raw
-from forcetorque.errors import ForceTorqueError
-from forcetorque.evaluation import model_findings
-from forcetorque.experiment.content import Experiment, ExperimentSensor
-from forcetorque.recording import Finding, Interval, Recording, Use
-from forcetorque.recording.quality import saturation_findings, stream_findings
+from forcetorque.analysis.findings import inspect_experiment, inspect_recording
+from forcetorque.errors import MissingFileError
+from forcetorque.exchange.yarp import read_log_folder
+from forcetorque.experiment import load_experiment
+from forcetorque.recording import Finding, read_recording
+from forcetorque.result import Result, Row, Table
 
-_DOUBTFUL = {"contact", "light_contact", "off_level", "step", "saturation", "frozen", "stuck", "gap", "backward_stamp"}
-"""Kinds of findings that make the samples of their span doubtful."""
+_MOST_ALIKE = 8
+"""Lines of one kind and channel in the table; the rest is counted. JSON and CSV have them all."""
 
 
-def inspect_recording(recording: Recording) -> tuple[Finding, ...]:
-    """Look for what is wrong with a recording, without a robot.
+class FindingRow(Row):
+    """One finding."""
+
+    stream: str
+    """Stream in which it was found."""
+    kind: str
+    """Kind, such as `gap`, `saturation`, `step`, `contact`."""
+    channel: str | None
+    """Channel, where it is not the whole stream."""
+    start_s: float | None
+    """First sample concerned; s from the earliest stamp of the recording."""
+    end_s: float | None
+    """Last sample concerned; s from the earliest stamp of the recording."""
+    count: int
+    """Number of samples concerned."""
+    size: float | None
+    """How large it is, in `unit`."""
+    unit: str | None
+    """Unit of the size."""
+    message: str
+    """What was found."""
+
+    @property
+    def likeness(self) -> tuple[str, str, str]:
+        """What it has in common with others of its kind."""
+        return self.stream, self.kind, self.channel or ""
+
+
+class Inspection(Result):
+    """What is wrong with a log."""
+
+    schema_name: Literal["forcetorque/inspect/1"] = Field(default="forcetorque/inspect/1", alias="schema")
+    """Form of the result."""
+    source: str
+    """What was inspected."""
+    streams: dict[str, int]
+    """Samples per stream."""
+    duration_s: float
+    """Time from the earliest to the latest stamp."""
+    findings: tuple[FindingRow, ...]
+    """Findings in the order of time."""
+
+    def blocks(self) -> Iterator[Table | str]:
+        """Give a table, with a few lines of what comes again and again.
+
+        Yields:
+            The table and sentences.
+        """
+        yield finding_table(self.findings, self.source)
+        for (stream, kind, channel), count in Counter(row.likeness for row in self.findings).items():
+            if count > _MOST_ALIKE:
+                yield f"{count - _MOST_ALIKE} more of {stream}: {kind} {channel}".rstrip()
+        streams = ", ".join(f"{name} ({count})" for name, count in self.streams.items())
+        yield f"{len(self.findings)} finding(s) in {self.duration_s:.1f} s of {streams}"
+
+    def columns(self) -> list[str]:
+        """Name the columns of the CSV.
+
+        Returns:
+            The keys of a finding, also where there is none.
+        """
+        return list(FindingRow.model_fields)
+
+
+def inspect_log(path: Path | str) -> Inspection:
+    """Inspect an experiment file, a folder of the project's own form, or a YARP dumper folder.
 
     Args:
-        recording: The recording.
+        path: Experiment file or folder.
 
     Returns:
-        Findings of its readers and of every stream by itself.
+        What is wrong with it.
+
+    Raises:
+        MissingFileError: If there is nothing there.
     """
-    return (*recording.findings, *(f for stream in recording.streams.values() for f in stream_findings(stream)))
-
-
-def inspect_experiment(experiment: Experiment) -> tuple[Finding, ...]:
-    """Look for what is wrong with the recording of an experiment, with its robot and sensors.
-
-    The sensors are compared with the model over the whole log where all intervals have one support
-    frame, else inside each interval. Where the model cannot be evaluated the reason is a finding.
-
-    Args:
-        experiment: The experiment.
-
-    Returns:
-        Findings in the order of time, those without a time first.
-    """
-    found = list(inspect_recording(experiment.recording))
-    for sensor in experiment.sensors:
-        try:
-            found += _saturation(experiment, sensor)
-        except ForceTorqueError as error:
-            text = f"no look for saturation: {error}"
-            found.append(Finding(stream=sensor.stream, kind="not_compared", message=text, count=0))
-        for interval in _spans(experiment):
-            try:
-                found += _against_model(SensorRun(experiment, sensor), interval)
-            except ForceTorqueError as error:
-                text = f"no comparison with the model over {interval.label}: {error}"
-                found.append(Finding(stream=sensor.stream, kind="not_compared", message=text, count=0))
-    return tuple(sorted(found, key=lambda finding: finding.start_ns or 0))
-
-
-def doubtful_spans(experiment: Experiment, use: Use) -> tuple[tuple[Interval, Finding], ...]:
-    """Find what `inspect_experiment` sees inside the intervals of one use.
-
-    Args:
-        experiment: The experiment.
-        use: Use of the intervals.
-
-    Returns:
-        Interval and finding, for findings that make its samples doubtful.
-    """
-    findings = [finding for finding in inspect_experiment(experiment) if finding.kind in _DOUBTFUL]
-    return tuple(
-        (interval, finding)
-        for interval in experiment.recording.intervals
-        if interval.use is use
-        for finding in findings
-        if finding.start_ns is not None
-        and finding.end_ns is not None
-        and finding.start_ns < interval.end_ns
-        and finding.end_ns >= interval.start_ns
+    source = Path(path)
+    if source.is_dir():
+        recording = read_recording(source) if (source / "recording.json").is_file() else read_log_folder(source)
+        findings = inspect_recording(recording)
+    elif source.is_file():
+        experiment = load_experiment(source)
+        recording, findings = experiment.recording, inspect_experiment(experiment)
+    else:
+        raise MissingFileError(f"{source}: expected an experiment file or the folder of a log, there is none")
+    start, end = recording.span_ns
+    return Inspection(
+        source=str(source),
+        streams={name: len(stream) for name, stream in recording.streams.items()},
+        duration_s=(end - start) * 1e-9,
+        findings=finding_rows(start, findings),
     )
 
 
-def _saturation(experiment: Experiment, sensor: ExperimentSensor) -> tuple[Finding, ...]:
-    stream = experiment.recording.stream(sensor.stream)
-    counts = stream.signal(sensor.quantity).values
-    recovered = sensor.quantity == "wrench"
-    if recovered:
-        if sensor.prior is None:
-            return ()
-        counts = recover_raw(counts, sensor.prior)
-    return saturation_findings(stream, counts, limit_counts=sensor.limit_counts, recovered=recovered)
+def finding_rows(recording_start: int, findings: Iterable[Finding]) -> tuple[FindingRow, ...]:
+    """Put findings into rows.
+
+    Args:
+        recording_start: Earliest stamp of the recording, which is 0 s; ns.
+        findings: Findings about it.
+
+    Returns:
+        A row per finding, in their order.
+    """
+
+    def seconds(stamp_ns: int | None) -> float | None:
+        return None if stamp_ns is None else (stamp_ns - recording_start) * 1e-9
+
+    return tuple(
+        FindingRow(
+            stream=finding.stream,
+            kind=finding.kind,
+            channel=finding.channel,
+            start_s=seconds(finding.start_ns),
+            end_s=seconds(finding.end_ns),
+            count=finding.count,
+            size=finding.size,
+            unit=finding.unit,
+            message=finding.message,
+        )
+        for finding in findings
+    )
 
 
-def _spans(experiment: Experiment) -> tuple[Interval, ...]:
-    """One span of the whole log if there is one support, else the intervals that have one."""
-    supported = [interval for interval in experiment.recording.intervals if interval.support is not None]
-    if len({id(interval.support) for interval in supported}) != 1:
-        return tuple(supported)
-    start, end = experiment.recording.span_ns
-    return (replace(supported[0], label="the whole log", start_ns=start, end_ns=end + 1, use=Use.VALIDATION),)
+def finding_table(findings: Sequence[FindingRow], caption: str) -> Table:
+    """Put findings into a table.
+
+    Args:
+        findings: Findings, any number.
+        caption: What was inspected.
+
+    Returns:
+        A line per finding, of many alike the first few.
+    """
+    alike: Counter[tuple[str, str, str]] = Counter()
+    lines = []
+    for row in findings:
+        alike[row.likeness] += 1
+        if alike[row.likeness] <= _MOST_ALIKE:
+            lines.append(_line(row))
+    return Table(
+        caption=caption,
+        headings=("stream", "kind", "channel", "from, s", "to, s", "size", "finding"),
+        rows=tuple(lines),
+    )
 
 
-def _against_model(run: SensorRun, interval: Interval) -> tuple[Finding, ...]:
-    sensor, samples = run.sensor, run.interval_samples(interval, smoothed=False).samples
-    measured = samples.reading.values
-    if sensor.quantity == "raw":
-        if sensor.prior is None:
-            return ()
-        measured = measured @ sensor.prior.T
-    in_use = _in_use(run.experiment, samples.stamp_ns)
-    if not in_use.any():
-        return ()
-    return model_findings(sensor.stream, samples.stamp_ns, measured, samples.reference, in_use=in_use)
-
-
-def _in_use(experiment: Experiment, stamp_ns: IntArray) -> BoolArray:
-    used = np.zeros(len(stamp_ns), dtype=bool)
-    for interval in experiment.recording.intervals:
-        if interval.use is not Use.IGNORE:
-            used |= interval.holds(stamp_ns)
-    return used
+def _line(row: FindingRow) -> tuple[str, ...]:
+    return (
+        row.stream,
+        row.kind,
+        row.channel or "",
+        "" if row.start_s is None else f"{row.start_s:.2f}",
+        "" if row.end_s is None else f"{row.end_s:.2f}",
+        "" if row.size is None else f"{row.size:.3g} {row.unit}",
+        row.message,
+    )

@@ -10,7 +10,7 @@ import numpy as np
 from forcetorque.analysis.reading import Readings
 from forcetorque.analysis.sensor_run import SensorRun
 from forcetorque.arrays import BoolArray, IntArray
-from forcetorque.estimation.samples import pick_samples
+from forcetorque.estimation.picked import pick_samples
 from forcetorque.experiment.content import ExperimentSensor
 from forcetorque.recording import Interval, Stream
 from forcetorque.recording.quality import SATURATION_SHARE, stream_findings

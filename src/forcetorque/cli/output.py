@@ -36,15 +36,6 @@ class Format(StrEnum):
     CSV = "csv"
 
 
-class ExportFormat(StrEnum):
-    """Form of the file that an export writes."""
-
-    ICUB_MATRIX = "icub-matrix"
-    WHOLEBODYDYNAMICS = "wholebodydynamics"
-    CSV = "csv"
-    COEFFICIENTS = "coefficients"
-
-
 class TrialsChoice(StrEnum):
     """What one trial of a sensor is."""
 
@@ -104,9 +95,7 @@ def show(result: Result, output_format: Format) -> None:
         result: The result.
         output_format: Form.
     """
-    log = start_logging()
-    for sentence, count in Counter(result.warnings).items():
-        log.warning("%s", sentence if count == 1 else f"{sentence} ({count} times)")
+    show_warnings(result)
     if output_format is Format.JSON:
         sys.stdout.write(result.json_text() + "\n")
     elif output_format is Format.CSV:
@@ -116,6 +105,17 @@ def show(result: Result, output_format: Format) -> None:
         writer.writerows(result.records())
     else:
         sys.stdout.write(result.text(width()))
+
+
+def show_warnings(result: Result) -> None:
+    """Print the warnings of a result, each once, to standard error.
+
+    Args:
+        result: The result.
+    """
+    log = start_logging()
+    for sentence, count in Counter(result.warnings).items():
+        log.warning("%s", sentence if count == 1 else f"{sentence} ({count} times)")
 
 
 def say(sentence: str, output_format: Format) -> None:

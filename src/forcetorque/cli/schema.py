@@ -102,27 +102,27 @@ def _evaluate() -> dict[str, Any]:
 
 
 def _export() -> dict[str, Any]:
-    from forcetorque.cli.export import ExportResult
+    from forcetorque.analysis import Export
 
-    return ExportResult.model_json_schema()
+    return Export.described()
 
 
 def _gains() -> dict[str, Any]:
-    from forcetorque.cli.gains_result import GainsResult
+    from forcetorque.analysis import Gains
 
-    return GainsResult.model_json_schema()
+    return Gains.described()
 
 
 def _inspect() -> dict[str, Any]:
-    from forcetorque.cli.inspect_result import InspectResult
+    from forcetorque.analysis import Inspection
 
-    return InspectResult.model_json_schema()
+    return Inspection.described()
 
 
 def _payload() -> dict[str, Any]:
-    from forcetorque.cli.payload import PayloadResult
+    from forcetorque.analysis import WeighedLoad
 
-    return PayloadResult.model_json_schema()
+    return WeighedLoad.described()
 
 
 def _report() -> dict[str, Any]:

@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from forcetorque.analysis import SensorGains, select_gains
+from forcetorque.analysis import SensorGains, SensorRun, sensor_gains
 from forcetorque.errors import MissingExtraError
 from forcetorque.experiment import load_experiment
 from forcetorque.report.figures import gain_figure
@@ -32,7 +32,7 @@ def experiment(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def gains(experiment: Path) -> SensorGains:
     """Gains of its sensor."""
     loaded = load_experiment(experiment)
-    return select_gains(loaded, loaded.sensors[0])
+    return sensor_gains(SensorRun(loaded, loaded.sensors[0]))
 
 
 @pytest.mark.parametrize("rows", [1, 2])
@@ -48,7 +48,7 @@ def test_every_channel_is_drawn_before_and_after(gains: SensorGains) -> None:
     """Both halves hold the colour of each channel; one of the palette that no channel has is absent."""
     image = pixels(gain_figure([gains]))
     halves = np.array_split(image, 2, axis=1)
-    for colour in COLOURS[: len(gains.ranges)]:
+    for colour in COLOURS[: len(gains.advice)]:
         # the edges of a line are mixed with what is behind it, so that few of its pixels have the very colour
         assert all(count_of(half, colour) > 10 for half in halves), colour
     assert count_of(image, COLOURS[7]) == 0
@@ -57,7 +57,7 @@ def test_every_channel_is_drawn_before_and_after(gains: SensorGains) -> None:
 def test_what_is_drawn_depends_on_the_gains(gains: SensorGains) -> None:
     """Factors of one draw the same lines on both sides; the recommended ones do not."""
     assert gain_figure([gains]) == gain_figure([gains])
-    same = replace(gains, advice=tuple(replace(each, factor=1.0) for each in gains.advice))
+    same = replace(gains, advice=tuple(replace(advised, factor=1.0) for advised in gains.advice))
     assert gain_figure([same]) != gain_figure([gains])
 
 
@@ -80,16 +80,16 @@ def test_drawing_leaves_the_program_as_it_is(experiment: Path) -> None:
     """Matplotlib comes with the first figure and not before; pyplot, its windows and settings stay out of it."""
     code = f"""
 import sys
-from forcetorque.analysis import select_gains
+from forcetorque.analysis import SensorRun, sensor_gains
 from forcetorque.experiment import load_experiment
 from forcetorque.report.figures import gain_figure
 experiment = load_experiment({str(experiment)!r})
-found = select_gains(experiment, experiment.sensors[0])
+gains = sensor_gains(SensorRun(experiment, experiment.sensors[0]))
 assert "matplotlib" not in sys.modules
-gain_figure([found])
+gain_figure([gains])
 import matplotlib
 settings = matplotlib.rcParams.copy()
-gain_figure([found])
+gain_figure([gains])
 assert matplotlib.rcParams.copy() == settings
 assert "matplotlib.pyplot" not in sys.modules
 """

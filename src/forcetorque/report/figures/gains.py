@@ -21,7 +21,7 @@ def gain_figure(sensors: Sequence[SensorGains]) -> bytes:
     """Draw the raw channels against their limits, with the present and with the recommended gains [1].
 
     Args:
-        sensors: What was found for each sensor; one row each.
+        sensors: Samples and advice of each sensor; one row each.
 
     Returns:
         The figure as PNG, `ROW_INCHES` times the number of rows at `DOTS_PER_INCH`.
@@ -34,28 +34,28 @@ def gain_figure(sensors: Sequence[SensorGains]) -> bytes:
     """
     figure = new_figure(ROW_INCHES[1] * len(sensors))
     panels = figure.subplots(len(sensors), 2, squeeze=False, sharey="row")
-    for (before, after), found in zip(panels, sensors, strict=True):
-        known = all(each.recommended is not None for each in found.advice)
-        _draw(before, found, found.counts, title=f"{found.sensor} ({found.serial}), as recorded")
+    for (before, after), gains in zip(panels, sensors, strict=True):
+        known = all(advised.recommended is not None for advised in gains.advice)
+        _draw(before, gains, gains.counts, title=f"{gains.sensor} ({gains.serial}), as recorded")
         _draw(
-            after, found, found.counts * found.factors, title=f"with the recommended {'gains' if known else 'factors'}"
+            after, gains, gains.counts * gains.factors, title=f"with the recommended {'gains' if known else 'factors'}"
         )
         before.set_ylabel("raw, counts")
         after.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), frameon=False)
     return png_bytes(figure)
 
 
-def _draw(panel: Axes, found: SensorGains, counts: FloatArray, *, title: str) -> None:
-    limit = found.limit_counts
+def _draw(panel: Axes, gains: SensorGains, counts: FloatArray, *, title: str) -> None:
+    limit = gains.limit_counts
     for sign in (-1.0, 1.0):
         panel.axhline(sign * limit, color="black", linestyle="--", linewidth=1.0)
-        panel.axhspan(sign * (1.0 - found.margin) * limit, sign * limit, color="black", alpha=0.08, linewidth=0.0)
-    time, drawn = thinned_line(found.time_s, counts)
-    for k, each in enumerate(found.advice):
+        panel.axhspan(sign * (1.0 - gains.margin) * limit, sign * limit, color="black", alpha=0.08, linewidth=0.0)
+    time, drawn = thinned_line(gains.time_s, counts)
+    for k, advised in enumerate(gains.advice):
         # channels beyond the palette share a colour and differ in style
         style = ("-", ":", "-.")[k // len(COLOURS) % 3]
         colour = COLOURS[k % len(COLOURS)]
-        panel.plot(time, drawn[:, k], style, color=colour, linewidth=0.9, label=each.channel)
+        panel.plot(time, drawn[:, k], style, color=colour, linewidth=0.9, label=advised.channel)
     reach = max(1.1 * limit, float(np.abs(counts).max()))
     panel.set_ylim(-reach, reach)
     panel.set_title(title, fontsize=10)
