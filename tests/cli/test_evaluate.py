@@ -188,7 +188,7 @@ CORRUPT: dict[str, tuple[Callable[[dict[str, Any]], None], str]] = {
         "cut.json: matrix: Value error, array: expected an array of shape",
     ),
     "five channels": (
-        _set("matrix", [[0.0] * 5] * 6),
+        _set("matrix", [[0.01] * 5] * 6),
         "toml: sensor 'arm_ft': cut.json: matrix: expected an array of",
     ),
     "ragged": (_set("matrix", [[0.0] * 6] * 5 + [[0.0]]), "cut.json: matrix: Value error, "),
