@@ -7,12 +7,13 @@ from forcetorque.analysis.applicability import by_sensor, one_per_sensor
 from forcetorque.analysis.calibrate import calibrate_sensor
 from forcetorque.analysis.candidate import JudgedCandidate
 from forcetorque.analysis.compare import TrialFailure, TrialGroup, TrialSphere, group_trials, read_trials
+from forcetorque.analysis.contact_forces import BestCandidate, ContactForceErrors, ContactForces, contact_forces
 from forcetorque.analysis.corrections import corrections_of
 from forcetorque.analysis.estimate import IntervalEstimates, estimate_experiment
 from forcetorque.analysis.evaluate import CandidateErrors, Evaluation, evaluate
 from forcetorque.analysis.gains import JointPosition, SensorGains, StrongestSample, select_gains
 from forcetorque.analysis.inspect import doubtful_spans, inspect_experiment, inspect_recording
-from forcetorque.analysis.joint_torques import JointTorques, JointTorqueVerdict, compare_joint_torques
+from forcetorque.analysis.joint_torques import JointTorqueErrors, JointTorques, joint_torques
 from forcetorque.analysis.judged import JudgedWrenches
 from forcetorque.analysis.population import read_population
 from forcetorque.analysis.reading import Correction
@@ -22,7 +23,7 @@ from forcetorque.analysis.sphere import SensorSphere, analyse_sensor, sphere_int
 from forcetorque.analysis.static_checks import StaticChecks, check_sensor
 from forcetorque.analysis.study import SensorStudy, study_sensor
 from forcetorque.analysis.study_data import StudyData, read_study_data
-from forcetorque.analysis.validate import ContactForceComparison, ContactForceVerdict, compare_contact_forces
+from forcetorque.analysis.validate import Validation, validate
 
 __all__ = [
     "CandidateErrors",
@@ -30,13 +31,14 @@ __all__ = [
     "evaluate",
     "Acceptance",
     "AcceptanceFile",
-    "ContactForceComparison",
-    "ContactForceVerdict",
+    "BestCandidate",
+    "ContactForceErrors",
+    "ContactForces",
     "Correction",
     "IntervalEstimates",
     "IntervalSamples",
     "JointPosition",
-    "JointTorqueVerdict",
+    "JointTorqueErrors",
     "JointTorques",
     "JudgedCandidate",
     "JudgedWrenches",
@@ -49,20 +51,21 @@ __all__ = [
     "TrialFailure",
     "TrialGroup",
     "TrialSphere",
+    "Validation",
     "accept_sensor",
     "analyse_sensor",
     "by_sensor",
     "one_per_sensor",
     "calibrate_sensor",
     "check_sensor",
-    "compare_contact_forces",
-    "compare_joint_torques",
+    "contact_forces",
     "corrections_of",
     "doubtful_spans",
     "estimate_experiment",
     "group_trials",
     "inspect_experiment",
     "inspect_recording",
+    "joint_torques",
     "read_acceptance",
     "read_population",
     "read_study_data",
@@ -71,4 +74,5 @@ __all__ = [
     "select_gains",
     "sphere_intervals",
     "study_sensor",
+    "validate",
 ]

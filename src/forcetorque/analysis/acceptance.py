@@ -11,11 +11,11 @@ import numpy as np
 
 from forcetorque.analysis import acceptance_file as limits
 from forcetorque.analysis.candidate import PRIOR
+from forcetorque.analysis.contact_forces import contact_forces
 from forcetorque.analysis.criterion import Bound, Criterion, at_limit, at_limits
 from forcetorque.analysis.evaluate import CandidateErrors, evaluate
 from forcetorque.analysis.sensor_run import SensorRun
 from forcetorque.analysis.static_checks import IntervalQuality, StaticChecks, check_sensor
-from forcetorque.analysis.validate import compare_contact_forces
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration import Calibration
 from forcetorque.errors import ExperimentError, ForceTorqueError
@@ -135,19 +135,18 @@ def _ratio(new: float, prior: float) -> float:
 def _validate(subject: _Subject, stated: limits.Validate) -> Iterator[Criterion]:
     candidates = {} if subject.calibration is None else dict([subject.calibration])
     name = next(iter(candidates), PRIOR)
-    compared = compare_contact_forces(
+    forces = contact_forces(
         subject.run,
         candidates,
         others=subject.others,
         other_sensors=OtherSensors(stated.other_sensors),
     )
-    verdicts = {(each.candidate, each.offset.value): each.errors for each in compared.verdicts}
-    errors = verdicts.get((name, stated.offset))
+    errors = next((row for row in forces.verdicts if row.candidate == name and row.offset == stated.offset), None)
     if errors is None:
-        raise ExperimentError("; ".join(compared.left_out))
-    n = errors.count
-    yield from at_limit("validate.force_mean_N", errors.force_mean, stated.force_mean_N, "N", count=n)
-    yield from at_limit("validate.moment_mean_Nm", errors.moment_mean, stated.moment_mean_Nm, "N m", count=n)
+        raise ExperimentError("; ".join(forces.left_out))
+    n = errors.samples
+    yield from at_limit("validate.force_mean_N", errors.force_mean_N, stated.force_mean_N, "N", count=n)
+    yield from at_limit("validate.moment_mean_Nm", errors.moment_mean_Nm, stated.moment_mean_Nm, "N m", count=n)
     yield from at_limits("validate.mean_absolute", errors.mean_absolute, stated.mean_absolute, count=n)
 
 
