@@ -145,6 +145,20 @@ def test_it_is_said_where_no_offset_was_removed(arm: Path, run: Run) -> None:
     assert "no offset removed" not in run("validate", PARQUET, "-c", "fitted.json").out
 
 
+def test_accept_judges_the_prior_that_no_data_gave_an_offset(arm: Path, run: Run) -> None:
+    """With the limit on `fitted`: the numbers are those of the rows whose offset is `none`."""
+    edit(arm / PARQUET, 'use = "calibration"', 'use = "ignore"')
+    limits = '[validate]\nforce_mean_N = 1.0\nmoment_mean_Nm = 1.0\noffset = "fitted"\n'
+    (arm / "limits.toml").write_text(f'schema = "forcetorque/acceptance/1"\nname = "t"\n{limits}', encoding="utf-8")
+    rows = run("validate", PARQUET, "--format", "json").result()["contact_forces"]
+    (row,) = (row for row in rows if row["offset"] == "none")
+    accepted = run("accept", PARQUET, "--spec", "limits.toml", "--format", "csv")
+    assert accepted.code == 1, accepted.err
+    measured = {line["criterion"]: float(line["measured"]) for line in csv.DictReader(io.StringIO(accepted.out))}
+    assert measured["validate.force_mean_N"] == row["force_mean_N"]
+    assert measured["validate.moment_mean_Nm"] == row["moment_mean_Nm"]
+
+
 def test_the_prior_is_the_one_of_evaluate(arm: Path, run: Run) -> None:
     """In a file without an interval to fit, both give it the offset that the calibration carries; the numbers agree."""
     edit(arm / PARQUET, 'use = "calibration"', 'use = "ignore"')

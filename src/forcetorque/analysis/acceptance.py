@@ -19,7 +19,7 @@ from forcetorque.analysis.static_checks import IntervalQuality, StaticChecks, ch
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration import Calibration
 from forcetorque.errors import ExperimentError, ForceTorqueError
-from forcetorque.evaluation import OtherSensors
+from forcetorque.evaluation import Offset, OtherSensors
 from forcetorque.spatial import WRENCH_COMPONENTS
 
 _Checked = TypeVar("_Checked")
@@ -141,7 +141,9 @@ def _validate(subject: _Subject, stated: limits.Validate) -> Iterator[Criterion]
         others=subject.others,
         other_sensors=OtherSensors(stated.other_sensors),
     )
-    errors = next((row for row in forces.verdicts if row.candidate == name and row.offset == stated.offset), None)
+    # the prior of a file that fits nothing has no offset; `fitted` is then what it has
+    wanted = {stated.offset, Offset.NONE} if stated.offset == "fitted" else {stated.offset}
+    errors = next((row for row in forces.verdicts if row.candidate == name and row.offset in wanted), None)
     if errors is None:
         raise ExperimentError("; ".join(forces.left_out))
     n = errors.samples
