@@ -20,7 +20,7 @@ from forcetorque.analysis import (
     accept,
     calibrate_sensor,
     check,
-    compare_contact_forces,
+    contact_forces,
     evaluate,
     read_acceptance,
 )
@@ -162,8 +162,8 @@ def test_the_numbers_are_those_of_the_other_commands(drifting: Experiment) -> No
     assert found["improvement.force_error_ratio"] == new.force_error_mean_N / prior.force_error_mean_N
     assert counts["evaluate.rmse.tz"] == new.samples
     (contact,) = [
-        v.errors
-        for v in compare_contact_forces(run, {name: calibration}).verdicts
+        v
+        for v in contact_forces(run, {name: calibration}).verdicts
         if (v.candidate, v.offset) == ("new", Offset.FIRST_SECOND)
     ]
     assert found["validate.mean_absolute.fz"] == contact.mean_absolute[2]

@@ -11,14 +11,16 @@ import pytest
 
 from forcetorque.analysis import (
     Correction,
+    JointTorqueErrors,
     JointTorques,
-    JointTorqueVerdict,
+    SensorRun,
     calibrate_sensor,
-    compare_joint_torques,
     corrections_of,
     estimate_experiment,
-    samples_of,
+    joint_torques,
 )
+from forcetorque.analysis.free_sub_model import FreeSubModel
+from forcetorque.analysis.torque_samples import judged_torques
 from forcetorque.arrays import FloatArray, IntArray
 from forcetorque.calibration import Calibration, WrenchModel
 from forcetorque.errors import ExperimentError
@@ -57,10 +59,10 @@ def _with_branch(arm: Path, flap: str) -> Experiment:
 
 
 def _fitted(experiment: Experiment, index: int = 0) -> Calibration:
-    return calibrate_sensor(experiment, experiment.sensors[index], code_version="test", created="test")
+    return calibrate_sensor(SensorRun(experiment, experiment.sensors[index]), code_version="test", created="test")
 
 
-def _by_key(found: JointTorques) -> dict[Key, JointTorqueVerdict]:
+def _by_key(found: JointTorques) -> dict[Key, JointTorqueErrors]:
     return {(verdict.candidate, verdict.offset, verdict.joint): verdict for verdict in found.verdicts}
 
 
@@ -101,18 +103,18 @@ def test_with_measured_others_it_is_what_the_estimator_gives(arm: Path, branch: 
     experiment = _with_branch(arm, "fixed") if branch else load_experiment(arm / TWO)
     sensor, calibration = experiment.sensors[0], _fitted(experiment)
     found = _by_key(
-        compare_joint_torques(experiment, sensor, {"new": calibration}, other_sensors=OtherSensors.MEASURED)
+        joint_torques(SensorRun(experiment, sensor), {"new": calibration}, other_sensors=OtherSensors.MEASURED)
     )
     assert {joint for _, _, joint in found} == set(INBOARD)
     for candidate, calibrations in (("prior", {}), ("new", {"new": calibration})):
         wanted = _errors_of_the_estimator(experiment, corrections_of(experiment, calibrations))
         for joint in INBOARD:
-            errors = found[candidate, Offset.FITTED, joint].errors
-            assert errors.count == len(wanted[joint])
+            errors = found[candidate, Offset.FITTED, joint]
+            assert errors.samples == len(wanted[joint])
             assert errors.rmse == pytest.approx(np.sqrt((wanted[joint] ** 2).mean()), abs=EXACT)
             assert errors.mean == pytest.approx(wanted[joint].mean(), abs=EXACT)
             assert errors.largest == pytest.approx(np.abs(wanted[joint]).max(), abs=EXACT)
-            other = found["new" if candidate == "prior" else "prior", Offset.FITTED, joint].errors
+            other = found["new" if candidate == "prior" else "prior", Offset.FITTED, joint]
             assert abs(other.rmse - errors.rmse) > VISIBLE
         for joint in BEYOND:  # a contact at the arm's sensor takes its error up
             alone = corrections_of(experiment, {})
@@ -122,45 +124,45 @@ def test_with_measured_others_it_is_what_the_estimator_gives(arm: Path, branch: 
 
 
 def test_the_offset_is_that_of_the_first_second(arm: Path) -> None:
-    """Re-estimated, the errors are those of the estimator with an offset right in the first second."""
+    """From the first second, the errors are those of the estimator with an offset right in the first second."""
     experiment = load_experiment(arm / PARQUET)
     calibration = _fitted(experiment)
-    found = _by_key(compare_joint_torques(experiment, experiment.sensors[0], {"new": calibration}))
-    (part,) = samples_of(experiment, experiment.sensors[0], Use.VALIDATION)
+    found = _by_key(joint_torques(SensorRun(experiment, experiment.sensors[0]), {"new": calibration}))
+    (part,) = SensorRun(experiment, experiment.sensors[0]).samples(Use.VALIDATION)
     stamps, reference = part.samples.stamp_ns, part.samples.reference
     wrong = (calibration.model.wrench(part.raw) - reference)[stamps < stamps[0] + 1_000_000_000].mean(axis=0)
     model = WrenchModel(matrix=calibration.model.matrix, offset=calibration.model.offset - wrong)
     wanted = _errors_of_the_estimator(experiment, {"arm_ft": Correction(model=model, source="test")})
     for joint in INBOARD:
         rmse = np.sqrt((wanted[joint] ** 2).mean())
-        assert found["new", Offset.FIRST_SECOND, joint].errors.rmse == pytest.approx(rmse, abs=EXACT)
+        assert found["new", Offset.FIRST_SECOND, joint].rmse == pytest.approx(rmse, abs=EXACT)
 
 
 def test_the_new_calibration_makes_every_torque_better(arm: Path) -> None:
     """Known truth: with either offset a fifth of the prior's error is left, at most, at every joint."""
     experiment = load_experiment(arm / PARQUET)
-    found = compare_joint_torques(experiment, experiment.sensors[0], {"new": _fitted(experiment)})
+    found = joint_torques(SensorRun(experiment, experiment.sensors[0]), {"new": _fitted(experiment)})
     verdicts = _by_key(found)
     assert len(verdicts) == 2 * 2 * len(INBOARD)
     assert found.left_out == ()
     for source in KNOWN_BEFORE:
         for joint in INBOARD:
             new, prior = verdicts["new", source, joint], verdicts["prior", source, joint]
-            assert new.errors.rmse < 0.2 * prior.errors.rmse
+            assert new.rmse < 0.2 * prior.rmse
             assert new.unit == "N m"
-            assert new.from_logged is None
+            assert new.logged_rmse is None
 
 
 def test_where_the_contact_is_decides_which_joints_bear_the_error(arm: Path) -> None:
     """With the contact of the free part at the hand, the joints between sensor and hand bear it too."""
     experiment = load_experiment(arm / TWO)
     sensor = experiment.sensors[0]
-    at_hand = _by_key(compare_joint_torques(experiment, sensor, {}, contact="hand"))
-    at_sensor = _by_key(compare_joint_torques(experiment, sensor, {}))
+    at_hand = _by_key(joint_torques(SensorRun(experiment, sensor), {}, contact="hand"))
+    at_sensor = _by_key(joint_torques(SensorRun(experiment, sensor), {}))
     assert {joint for _, _, joint in at_hand} == {*INBOARD, *BEYOND}
     for key, verdict in at_sensor.items():
-        assert at_hand[key].errors.rmse == verdict.errors.rmse
-    tool = _by_key(compare_joint_torques(experiment, experiment.sensors[1], {}))
+        assert at_hand[key].rmse == verdict.rmse
+    tool = _by_key(joint_torques(SensorRun(experiment, experiment.sensors[1]), {}))
     assert {joint for _, _, joint in tool} == set(BEYOND)
 
 
@@ -168,11 +170,11 @@ def test_errors_of_other_sensors_count_only_as_measured(arm: Path) -> None:
     """Of the joint before a branch, by the sensor there; of those that depend on the judged sensor alone, never."""
     experiment = _with_branch(arm, "fixed")
     by_model, as_measured = (
-        _by_key(compare_joint_torques(experiment, experiment.sensors[0], {}, other_sensors=mode))
+        _by_key(joint_torques(SensorRun(experiment, experiment.sensors[0]), {}, other_sensors=mode))
         for mode in OtherSensors
     )
     for key, verdict in by_model.items():
-        change = as_measured[key].errors.rmse - verdict.errors.rmse
+        change = as_measured[key].rmse - verdict.rmse
         assert abs(change) > VISIBLE if key[2] == "shoulder_yaw" else abs(change) < EXACT
     assert {joint for _, _, joint in by_model} == set(INBOARD)
 
@@ -182,10 +184,10 @@ def test_torques_that_the_log_does_not_allow_are_named(arm: Path) -> None:
     edit(arm / TWO, 'use = "calibration"', 'use = "ignore"')  # nor can the prior's offset be found
     experiment = _with_branch(arm, "revolute")
     sensor = experiment.sensors[0]
-    by_model = compare_joint_torques(experiment, sensor, {})
+    by_model = joint_torques(SensorRun(experiment, sensor), {})
     assert by_model.left_out == ()
     assert {verdict.joint for verdict in by_model.verdicts} == set(INBOARD)
-    as_measured = compare_joint_torques(experiment, sensor, {}, other_sensors=OtherSensors.MEASURED)
+    as_measured = joint_torques(SensorRun(experiment, sensor), {}, other_sensors=OtherSensors.MEASURED)
     (words,) = as_measured.left_out
     assert words.startswith("torque of shoulder_yaw, from what is expected of arm_ft, tool_ft: ")
     assert "flap_joint" in words
@@ -205,25 +207,28 @@ def test_logged_torques_are_compared_too(arm: Path) -> None:
     stream = Stream(name="torques", clock=source.clock, stamp_ns=source.stamp_ns, signals={"torque": signal})
     streams = {**recording.streams, "torques": stream}
     with_log = replace(experiment, recording=replace(recording, streams=streams))
-    found = compare_joint_torques(with_log, sensor, {}).verdicts
-    without = compare_joint_torques(experiment, sensor, {}).verdicts
-    assert [v.errors for v in found] == [v.errors for v in without]
-    compared = [v for v in found if v.from_logged is not None]
+    found = joint_torques(SensorRun(with_log, sensor), {}).verdicts
+    without = joint_torques(SensorRun(experiment, sensor), {}).verdicts
+    logged_fields = ("logged_samples", "logged_rmse", "logged_rmse_error")
+    assert [v.model_copy(update=dict.fromkeys(logged_fields)) for v in found] == list(without)
+    compared = [v for v in found if v.logged_rmse is not None]
     assert [v.joint for v in compared] == ["shoulder_pitch"] * 2
-    for verdict in compared:
-        assert verdict.from_logged is not None
-        assert verdict.from_logged.count == verdict.errors.count
-        assert verdict.from_logged.mean == pytest.approx(verdict.errors.mean + 0.25, abs=EXACT)
+    assert all(v.logged_samples == v.samples for v in compared)
+    torques = judged_torques(FreeSubModel.of(SensorRun(with_log, sensor)), {})
+    samples = [errors for key, errors in torques.samples.items() if key.joint == "shoulder_pitch"]
+    for errors, verdict in zip(samples, compared, strict=True):
+        assert verdict.logged_rmse == pytest.approx(np.sqrt((errors.from_logged**2).mean()), abs=EXACT)
+        assert errors.from_logged.mean() == pytest.approx(verdict.mean + 0.25, abs=EXACT)
 
 
 def test_what_cannot_be_judged_is_refused(arm: Path) -> None:
     """Counts without a matrix; no interval to judge."""
     experiment = load_experiment(edit(arm / PARQUET, 'prior = "matrix_SIM001.txt"\n', ""))
     with pytest.raises(ExperimentError, match="raw counts become wrenches"):
-        compare_joint_torques(experiment, experiment.sensors[0], {})
+        joint_torques(SensorRun(experiment, experiment.sensors[0]), {})
     idle = replace(experiment, recording=replace(experiment.recording, intervals=()))
     with pytest.raises(ExperimentError, match="raw counts become wrenches"):
-        compare_joint_torques(idle, idle.sensors[0], {})
+        joint_torques(SensorRun(idle, idle.sensors[0]), {})
 
 
 def test_logged_torques_that_are_all_gaps_are_not_compared(arm: Path) -> None:
@@ -236,9 +241,9 @@ def test_logged_torques_that_are_all_gaps_are_not_compared(arm: Path) -> None:
     stream = Stream(name="torques", clock=source.clock, stamp_ns=source.stamp_ns, signals={"torque": signal})
     streams = {**recording.streams, "torques": stream}
     with_log = replace(experiment, recording=replace(recording, streams=streams))
-    found = compare_joint_torques(with_log, sensor, {}).verdicts
+    found = joint_torques(SensorRun(with_log, sensor), {}).verdicts
     assert len(found) == 2 * len(INBOARD)
-    assert all(verdict.from_logged is None for verdict in found)
+    assert all(verdict.logged_rmse is None for verdict in found)
 
 
 def test_a_sensor_without_a_judged_sample_is_named(arm: Path) -> None:
@@ -250,6 +255,6 @@ def test_a_sensor_without_a_judged_sample_is_named(arm: Path) -> None:
     raw[(stream.stamp_ns > interval.start_ns) & (stream.stamp_ns < interval.end_ns)] = np.nan
     broken = replace(stream, signals={"raw": replace(stream.signal("raw"), values=raw)})
     gap = replace(experiment, recording=replace(recording, streams={**recording.streams, other.stream: broken}))
-    found = compare_joint_torques(gap, gap.sensors[0], {}, other_sensors=OtherSensors.MEASURED)
+    found = joint_torques(SensorRun(gap, gap.sensors[0]), {}, other_sensors=OtherSensors.MEASURED)
     assert found.left_out == ("torque of shoulder_yaw by prior over 'judge': every judged sample has a gap",)
     assert {verdict.joint for verdict in found.verdicts} == set(INBOARD[1:])

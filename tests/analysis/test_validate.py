@@ -1,209 +1,97 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Contact-force validation of an experiment: the free part beyond a sensor, by the model or by the other sensors."""
+"""Contact forces and joint torques together: one answer, from one motion, that shows itself."""
 
 from __future__ import annotations
 
-from dataclasses import replace
 from pathlib import Path
 
-import numpy as np
 import pytest
 
 from forcetorque.analysis import (
-    ContactForceVerdict,
+    SensorRun,
+    Validation,
     calibrate_sensor,
-    compare_contact_forces,
-    compare_joint_torques,
-    evaluate_sensor,
-    samples_of,
+    contact_forces,
+    joint_torques,
+    sensor_run,
+    validate,
 )
 from forcetorque.calibration import Calibration
-from forcetorque.errors import EstimationError, ExperimentError, SerialNumberError
-from forcetorque.evaluation import OtherSensors, wrench_errors
-from forcetorque.evaluation.offset import KNOWN_BEFORE, Offset
-from forcetorque.experiment import Experiment, load_experiment
-from forcetorque.recording import Use
-from tests.experiments import PARQUET, TWO, add, edit, holed
+from forcetorque.estimation.samples import robot_motion_at
+from forcetorque.experiment import load_experiment
+from tests.experiments import PARQUET, TWO, add
 
-EXACT = 1e-9
-"""N, N m: wrenches of some 100 N through two evaluators of the same dynamics."""
+SHORT = '\n[[interval]]\nlabel = "blink"\nstart_s = 23.6\nend_s = 23.9\nuse = "validation"\nsupport = "base"\n'
+"""An interval that ends within its first second."""
 
 
-def _fitted(experiment: Experiment, index: int = 0) -> Calibration:
-    return calibrate_sensor(experiment, experiment.sensors[index], code_version="test", created="test")
+def _fitted(run: SensorRun) -> Calibration:
+    return calibrate_sensor(run, code_version="test", created="test")
 
 
-def _by_candidate(verdicts: list[ContactForceVerdict]) -> dict[tuple[str, Offset], ContactForceVerdict]:
-    return {(verdict.candidate, verdict.offset): verdict for verdict in verdicts}
+def test_it_joins_contact_forces_and_joint_torques(arm: Path) -> None:
+    """The rows of both, who is best, and what either leaves out, each once, under the name of the sensor."""
+    run = SensorRun(load_experiment(add(arm / PARQUET, SHORT)), "arm_ft")
+    calibrations = {"new": _fitted(run)}
+    validation = validate(run, calibrations)
+    forces, torques = contact_forces(run, calibrations), joint_torques(run, calibrations)
+    assert [row.flat() for row in validation.contact_forces] == [row.flat() for row in forces.verdicts]
+    assert [row.flat() for row in validation.joint_torques] == [row.flat() for row in torques.verdicts]
+    assert validation.best == forces.best
+    assert {best.by_magnitude for best in validation.best} == {"new"}
+    (words,) = forces.left_out
+    assert validation.left_out == (f"arm_ft: {words}",)
+    assert validation.warnings == (f"left out: arm_ft: {words}",)
+    assert forces.warnings == torques.warnings == (f"left out: {words}",)
 
 
-def test_by_the_model_it_is_reading_less_expected(arm: Path) -> None:
-    """In the mode `model` the wrench at the sensor is what `evaluate` calls the error, but for the first second."""
-    experiment = load_experiment(arm / PARQUET)
-    calibration = _fitted(experiment)
-    found = _by_candidate(compare_contact_forces(experiment, experiment.sensors[0], {"new": calibration}).verdicts)
-    (part,) = samples_of(experiment, experiment.sensors[0], Use.VALIDATION)
-    stamps = part.samples.stamp_ns
-    first = stamps < stamps[0] + 1_000_000_000
-    reading = calibration.model.wrench(part.raw)
-    by_hand = wrench_errors(reading[~first], part.samples.reference[~first])
-    errors = found["new", Offset.FITTED].errors
-    assert errors.count == by_hand.count
-    assert errors.force_mean == pytest.approx(by_hand.force_mean, abs=EXACT)
-    np.testing.assert_allclose(errors.bias, by_hand.bias, atol=EXACT)
-    moved = reading - (reading - part.samples.reference)[first].mean(axis=0)
-    by_hand = wrench_errors(moved[~first], part.samples.reference[~first])
-    errors = found["new", Offset.FIRST_SECOND].errors
-    np.testing.assert_allclose(errors.mean_absolute, by_hand.mean_absolute, atol=EXACT)
-
-
-def test_the_new_calibration_is_best_and_the_prior_is_not(arm: Path) -> None:
-    """Known truth: the fit reports a tenth of the force that the prior reports, with either offset."""
-    experiment = load_experiment(arm / PARQUET)
-    found = _by_candidate(
-        compare_contact_forces(experiment, experiment.sensors[0], {"new": _fitted(experiment)}).verdicts
-    )
-    assert len(found) == 4
-    for source in KNOWN_BEFORE:
-        new, prior = found["new", source].errors, found["prior", source].errors
-        assert new.force_mean < 0.1 * prior.force_mean
-
-
-def test_errors_of_other_sensors_count_only_as_measured(arm: Path) -> None:
-    """A wrong matrix of the outer sensor is in the result of the mode `measured` only, a right one in neither."""
+def test_the_motion_of_an_interval_is_computed_once(arm: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """However many candidates; negative control: another sensor has instants of its own, and its own motion."""
     experiment = load_experiment(arm / TWO)
-    sensor, calibrations = experiment.sensors[0], {"new": _fitted(experiment)}
-    right = {"tool": _fitted(experiment, 1)}
+    run = SensorRun(experiment, "arm_ft")
+    first = _fitted(run)
+    spans: list[int] = []
 
-    def force(**how: object) -> float:
-        verdicts = _by_candidate(compare_contact_forces(experiment, sensor, calibrations, **how).verdicts)  # type: ignore[arg-type]
-        return verdicts["new", Offset.FIRST_SECOND].errors.force_mean
+    def counted(*args: object, **how: object) -> object:
+        spans.append(1)
+        return robot_motion_at(*args, **how)  # type: ignore[arg-type]
 
-    model = force()
-    with_right = force(others=right, other_sensors=OtherSensors.MEASURED)
-    with_prior = force(other_sensors=OtherSensors.MEASURED)
-    assert force(others=right) == model
-    assert with_right < 2.0 * model
-    assert with_prior > 1.5 * with_right
-
-
-def test_the_outer_sensor_is_judged_by_either_side(arm: Path) -> None:
-    """The parts beyond it and before it see the same error by the model; only the sign of the wrench differs."""
-    experiment = load_experiment(arm / TWO)
-    tool = experiment.sensors[1]
-    beyond = _by_candidate(compare_contact_forces(experiment, tool, {}).verdicts)
-    before = _by_candidate(compare_contact_forces(experiment, tool, {}, sub_model="arm_ft").verdicts)
-    key = ("prior", Offset.FITTED)
-    assert beyond[key].sub_model == "tool_ft"
-    assert before[key].sub_model == "arm_ft"
-    np.testing.assert_allclose(beyond[key].errors.bias, -before[key].errors.bias, atol=EXACT)
-    assert beyond[key].errors.force_mean == pytest.approx(before[key].errors.force_mean, abs=EXACT)
+    monkeypatch.setattr(sensor_run, "robot_motion_at", counted)
+    validate(run, {"a": first, "b": first, "c": first, "d": first})
+    assert len(spans) == 1
+    validate(SensorRun(experiment, "tool_ft"), {})
+    assert len(spans) == 2
 
 
-def test_what_cannot_be_judged_is_refused(arm: Path) -> None:
-    """A part that the sensor does not bound or that bears the robot; a foreign calibration; counts without matrix."""
-    experiment = load_experiment(arm / TWO)
-    sensor = experiment.sensors[0]
-    with pytest.raises(EstimationError, match=r"interval 'judge': sub_model: expected one of the two"):
-        compare_contact_forces(experiment, sensor, {}, sub_model="tool_ft")
-    with pytest.raises(EstimationError, match="bears the support 'base'"):
-        compare_contact_forces(experiment, sensor, {}, sub_model="base")
-    foreign = _fitted(experiment, 1)
-    with pytest.raises(SerialNumberError, match="SIM/002"):
-        compare_contact_forces(experiment, sensor, {"new": foreign})
-    bare = load_experiment(edit(arm / PARQUET, 'prior = "matrix_SIM001.txt"\n', ""))
-    with pytest.raises(ExperimentError, match="raw counts become wrenches"):
-        compare_contact_forces(bare, bare.sensors[0], {})
-    idle = replace(experiment, recording=replace(experiment.recording, intervals=()))
-    with pytest.raises(ExperimentError, match='expected an interval with use = "validation"'):
-        compare_contact_forces(idle, idle.sensors[0], {})
+def test_several_sensors_are_put_together(arm: Path) -> None:
+    """Rows one after the other; what is left out names its sensor."""
+    experiment = load_experiment(add(arm / TWO, SHORT))
+    one, other = (validate(SensorRun(experiment, name), {}) for name in ("arm_ft", "tool_ft"))
+    both = Validation.together([one, other])
+    assert both.contact_forces == one.contact_forces + other.contact_forces
+    assert [row.sensor for row in both.best] == ["arm_ft"] * 2 + ["tool_ft"] * 2
+    assert [words.split(":")[0] for words in both.left_out] == ["arm_ft", "tool_ft"]
 
 
-def _only_judged(experiment: Experiment) -> Experiment:
-    """The same without an interval that could give a prior its offset."""
-    recording = experiment.recording.with_intervals(experiment.intervals(Use.VALIDATION))
-    return replace(experiment, recording=recording)
-
-
-def test_the_prior_has_the_offset_that_the_calibration_carries_for_it(arm: Path) -> None:
-    """As `evaluate` has it, also where the judged file has no interval to fit: the prior is not made worse than it is.
-
-    Negative control: by the experiment's own prior alone, without an offset, errors are far larger, which is said.
-    """
-    whole = load_experiment(arm / PARQUET)
-    calibration, experiment = _fitted(whole), _only_judged(whole)
-    prior, sensor = calibration.prior, experiment.sensors[0]
-    assert prior is not None
-    found = _by_candidate(compare_contact_forces(experiment, sensor, {"new": calibration}).verdicts)
-    (part,) = samples_of(experiment, sensor, Use.VALIDATION)
-    stamps = part.samples.stamp_ns
-    later = stamps >= stamps[0] + 1_000_000_000
-    by_hand = wrench_errors(part.raw[later] @ prior.matrix.T + prior.offset, part.samples.reference[later])
-    verdict = found["prior", Offset.FITTED]
-    assert verdict.errors.force_mean == pytest.approx(by_hand.force_mean, abs=EXACT)
-    assert verdict.offset_source.endswith("offset of the data that new was fitted on")
-    assert (verdict.prior, found["new", Offset.FITTED].prior) == (None, "prior")
-    alone = _by_candidate(compare_contact_forces(experiment, sensor, {}).verdicts)["prior", Offset.FITTED]
-    assert alone.offset_source == "the prior matrix_SIM001.txt, no offset removed"
-    assert alone.errors.force_mean > 2.0 * verdict.errors.force_mean
-    torques = {
-        (v.candidate, v.offset, v.joint): v
-        for v in compare_joint_torques(experiment, sensor, {"new": calibration}).verdicts
-    }
-    in_whole = {(v.candidate, v.offset, v.joint): v for v in compare_joint_torques(whole, sensor, {}).verdicts}
-    assert len(in_whole) == 6
-    for key, torque in in_whole.items():  # that file's own intervals are those that were fitted
-        assert torques[key].errors.rmse == pytest.approx(torque.errors.rmse, abs=EXACT)
-
-
-def test_priors_are_called_as_evaluate_calls_them(arm: Path) -> None:
-    """Two calibrations that share a prior, one with another, and one that is itself called `prior`."""
-    experiment = load_experiment(arm / PARQUET)
-    sensor, first = experiment.sensors[0], _fitted(experiment)
-    assert first.prior is not None
-    other = first.model_copy(update={"prior": first.prior.model_copy(update={"offset": first.prior.offset + 1.0})})
-    for given in ({"a": first, "b": first, "c": other}, {"prior": first}):
-        names = [(v.candidate, v.prior) for v in evaluate_sensor(experiment, sensor, given)]
-        assert [(v.candidate, v.prior) for v in compare_contact_forces(experiment, sensor, given).verdicts] == names
-        torques = compare_joint_torques(experiment, sensor, given).verdicts
-        assert list(dict.fromkeys((v.candidate, v.prior) for v in torques)) == list(dict.fromkeys(names))
-
-
-def test_an_interval_that_ends_within_its_first_second_is_named(arm: Path) -> None:
-    """It changes no number, and alone it leaves nothing to judge."""
-    experiment = load_experiment(edit(arm / PARQUET, "end_s = 23.5", "end_s = 20.0"))
-    expected = compare_contact_forces(experiment, experiment.sensors[0], {})
-    assert expected.left_out == ()
-    short = '\n[[interval]]\nlabel = "blink"\nstart_s = 21.0\nend_s = 21.9\nuse = "validation"\nsupport = "base"\n'
-    both = load_experiment(add(arm / PARQUET, short))
-    found = compare_contact_forces(both, both.sensors[0], {})
-    assert found.left_out == ("interval 'blink': it ends within its first 1 s, after which it would be judged",)
-    assert compare_joint_torques(both, both.sensors[0], {}).left_out == found.left_out
-    assert len(found.verdicts) == 2
-    for one, other in zip(found.verdicts, expected.verdicts, strict=True):
-        assert one.errors.count == other.errors.count
-        np.testing.assert_array_equal(one.errors.rmse, other.errors.rmse)
-    only = replace(both, recording=both.recording.with_intervals(both.recording.intervals[::2]))
-    with pytest.raises(ExperimentError, match="nothing can be judged: interval 'blink': it ends within its first 1 s"):
-        compare_contact_forces(only, only.sensors[0], {})
-
-
-def test_an_interval_whose_first_second_is_a_gap_is_named(arm: Path) -> None:
-    """Nothing is re-estimated from it, so it counts with the fitted offset only; torques say the same."""
-    edit(arm / PARQUET, "end_s = 23.5", "end_s = 17.0")
-    rest = '\n[[interval]]\nlabel = "rest"\nstart_s = 17.0\nend_s = 23.5\nuse = "validation"\nsupport = "base"\n'
-    experiment = load_experiment(add(arm / PARQUET, rest))
-    gap = replace(experiment, recording=holed(experiment.recording, "arm_ft", 17.0, 18.1))
-    found = compare_contact_forces(gap, gap.sensors[0], {})
-    words = "{} by prior over 'rest', offset re-estimated: every sample of its first second has a gap"
-    assert found.left_out == (words.format("contact force"),)
-    count = {verdict.offset: verdict.errors.count for verdict in found.verdicts}
-    assert count[Offset.FITTED] > count[Offset.FIRST_SECOND] + 200
-    torques = compare_joint_torques(gap, gap.sensors[0], {})
-    joints = ("shoulder_yaw", "shoulder_pitch", "shoulder_roll")
-    assert set(torques.left_out) == {words.format(f"torque of {joint}") for joint in joints}
-    assert {v.errors.count for v in torques.verdicts if v.offset is Offset.FITTED} == {count[Offset.FITTED]}
-    blind = replace(experiment, recording=holed(experiment.recording, "arm_ft", 17.1, 23.6))
-    assert compare_contact_forces(blind, blind.sensors[0], {}).left_out == (
-        "contact force by prior over 'rest': every judged sample has a gap",
-    )
+def test_it_shows_itself(arm: Path) -> None:
+    """On a narrow screen no number is folded; a page has the tables, and one line says what it is."""
+    run = SensorRun(load_experiment(arm / PARQUET), "arm_ft")
+    calibrations = {"new": _fitted(run)}
+    validation = validate(run, calibrations)
+    forces, torques = contact_forces(run, calibrations), joint_torques(run, calibrations)
+    shown = 0
+    for result in (validation, forces, torques):
+        text, page = result.text(60), result._repr_html_()
+        assert all(len(line) <= 60 for line in text.splitlines())
+        assert len(repr(result)) < 600
+        if result is not torques:
+            for row in validation.contact_forces:
+                assert f"{row.force_mean_N:.2f} ±{row.force_mean_error_N:.2f}" in text
+                assert f'<td style="text-align:right">{row.moment_mean_Nm:.3f}</td>' in page
+                shown += 1
+        if result is not forces:
+            for torque in validation.joint_torques:
+                assert f"{torque.rmse:.3f} ±{torque.rmse_error:.3f}" in text
+                assert f'<td style="text-align:right">{torque.largest:.3f}</td>' in page
+                shown += 1
+    assert shown == 2 * 4 + 2 * 12

@@ -9,6 +9,7 @@ from forcetorque.analysis.calibrate import calibrate_sensor
 from forcetorque.analysis.candidate import JudgedCandidate
 from forcetorque.analysis.compare import TrialFailure, TrialGroup, TrialSphere, group_trials, read_trials
 from forcetorque.analysis.comparison import Independence, PriorComparison, compare_with_prior
+from forcetorque.analysis.contact_forces import BestCandidate, ContactForceErrors, ContactForces, contact_forces
 from forcetorque.analysis.corrections import corrections_of
 from forcetorque.analysis.criterion import Bound, Criterion
 from forcetorque.analysis.estimate import IntervalEstimates, estimate_experiment
@@ -20,7 +21,7 @@ from forcetorque.analysis.findings import doubtful_spans, inspect_experiment, in
 from forcetorque.analysis.gains import Gains, SensorGains, select_gains, sensor_gains
 from forcetorque.analysis.inspect import FindingRow, Inspection, finding_rows, finding_table, inspect_log
 from forcetorque.analysis.interval_quality import IntervalQuality
-from forcetorque.analysis.joint_torques import JointTorques, JointTorqueVerdict, compare_joint_torques
+from forcetorque.analysis.joint_torques import JointTorqueErrors, JointTorques, joint_torques
 from forcetorque.analysis.judged import JudgedWrenches
 from forcetorque.analysis.payload import WeighedLoad, weigh_load
 from forcetorque.analysis.population import read_population
@@ -31,7 +32,7 @@ from forcetorque.analysis.sphere import SensorSphere, analyse_sensor, sphere_int
 from forcetorque.analysis.static_checks import IntervalOffset, StaticChecks, check
 from forcetorque.analysis.study import SensorStudy, study_sensor
 from forcetorque.analysis.study_data import StudyData, read_study_data
-from forcetorque.analysis.validate import ContactForceComparison, ContactForceVerdict, compare_contact_forces
+from forcetorque.analysis.validate import Validation, validate
 from forcetorque.analysis.verdict import VerdictLine
 
 __all__ = [
@@ -50,8 +51,9 @@ __all__ = [
     "Acceptance",
     "AcceptanceFile",
     "Bound",
-    "ContactForceComparison",
-    "ContactForceVerdict",
+    "BestCandidate",
+    "ContactForceErrors",
+    "ContactForces",
     "Correction",
     "Criterion",
     "Export",
@@ -63,7 +65,7 @@ __all__ = [
     "IntervalOffset",
     "IntervalQuality",
     "IntervalSamples",
-    "JointTorqueVerdict",
+    "JointTorqueErrors",
     "JointTorques",
     "JudgedCandidate",
     "JudgedWrenches",
@@ -77,13 +79,13 @@ __all__ = [
     "TrialSphere",
     "accept",
     "WeighedLoad",
+    "Validation",
     "analyse_sensor",
     "by_sensor",
     "one_per_sensor",
     "calibrate_sensor",
     "check",
-    "compare_contact_forces",
-    "compare_joint_torques",
+    "contact_forces",
     "corrections_of",
     "doubtful_spans",
     "estimate_experiment",
@@ -97,6 +99,7 @@ __all__ = [
     "inspect_experiment",
     "inspect_log",
     "inspect_recording",
+    "joint_torques",
     "read_acceptance",
     "read_population",
     "read_study_data",
@@ -107,4 +110,5 @@ __all__ = [
     "sphere_intervals",
     "study_sensor",
     "weigh_load",
+    "validate",
 ]

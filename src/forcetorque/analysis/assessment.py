@@ -14,10 +14,10 @@ from forcetorque.analysis.acceptance import accept
 from forcetorque.analysis.acceptance_file import AcceptanceFile
 from forcetorque.analysis.candidate import PRIOR
 from forcetorque.analysis.comparison import Independence, PriorComparison, compare_with_prior, independence
-from forcetorque.analysis.contact_forces import BestCandidates, ContactForceRow, contact_forces
+from forcetorque.analysis.contact_forces import BestCandidate, ContactForceErrors, contact_forces
 from forcetorque.analysis.criterion import Criterion
 from forcetorque.analysis.evaluate import CandidateErrors, doubts, evaluate, require_unseen
-from forcetorque.analysis.joint_torques import JointTorqueRow, joint_torques
+from forcetorque.analysis.joint_torques import JointTorqueErrors, joint_torques
 from forcetorque.analysis.judged import JudgedWrenches
 from forcetorque.analysis.sensor_run import SensorRun
 from forcetorque.analysis.sphere import SensorSphere, SphereRow, spheres
@@ -46,11 +46,11 @@ class Assessment(Row):
     """Calibrations against their priors."""
     independence: tuple[Independence, ...]
     """What these errors are worth."""
-    contact_forces: tuple[ContactForceRow, ...]
+    contact_forces: tuple[ContactForceErrors, ...]
     """Contact wrenches where nothing touches."""
-    best: tuple[BestCandidates, ...]
+    best: tuple[BestCandidate, ...]
     """Best candidates by these."""
-    joint_torques: tuple[JointTorqueRow, ...]
+    joint_torques: tuple[JointTorqueErrors, ...]
     """Errors of the joint torques that are estimated from the sensor."""
     spheres: tuple[SphereRow, ...]
     """Sphere analyses."""
@@ -142,9 +142,9 @@ def assess(
         evaluation=evaluation.verdicts if evaluation else (),
         comparisons=comparisons or (),
         independence=counts or (),
-        contact_forces=contacts.rows if contacts else (),
+        contact_forces=contacts.verdicts if contacts else (),
         best=contacts.best if contacts else (),
-        joint_torques=torques.rows if torques else (),
+        joint_torques=torques.verdicts if torques else (),
         spheres=clouds.rows if clouds else (),
         static=static,
         criteria=criteria,

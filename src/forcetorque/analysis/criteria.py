@@ -11,15 +11,15 @@ import numpy as np
 
 from forcetorque.analysis import acceptance_file as limits
 from forcetorque.analysis.candidate import PRIOR
+from forcetorque.analysis.contact_forces import ContactForceErrors, contact_forces
 from forcetorque.analysis.criterion import Bound, Criterion, Judge
 from forcetorque.analysis.evaluate import CandidateErrors, evaluate
 from forcetorque.analysis.interval_quality import IntervalQuality
 from forcetorque.analysis.sensor_run import SensorRun
 from forcetorque.analysis.static_checks import StaticChecks
-from forcetorque.analysis.validate import compare_contact_forces
 from forcetorque.calibration import Calibration
 from forcetorque.errors import ExperimentError, ForceTorqueError
-from forcetorque.evaluation import Offset, OtherSensors, PopulationPosition, WrenchErrors
+from forcetorque.evaluation import Offset, OtherSensors, PopulationPosition
 from forcetorque.spatial import WRENCH_COMPONENTS
 
 _Checked = TypeVar("_Checked")
@@ -138,26 +138,26 @@ def _ratio(new: float, prior: float) -> float:
     return new / prior if prior > 0.0 else float("inf")
 
 
-def _contact_errors(subject: Subject, stated: limits.Validate) -> WrenchErrors:
+def _contact_errors(subject: Subject, stated: limits.Validate) -> ContactForceErrors:
     """Contact wrench of what is judged, with the offset that is asked for, where nothing touches."""
     candidates = {} if subject.calibration is None else dict([subject.calibration])
-    compared = compare_contact_forces(
+    forces = contact_forces(
         subject.run, candidates, others=subject.others, other_sensors=OtherSensors(stated.other_sensors)
     )
     name = next(iter(candidates), PRIOR)
     # a prior that no data gave an offset is judged with what it has, none, where its own is asked for
     from_start = Offset(stated.offset) is Offset.FIRST_SECOND
-    for row in compared.verdicts[::-1]:  # the calibration comes last, and may be called `prior` too
+    for row in forces.verdicts[::-1]:  # the calibration comes last, and may be called `prior` too
         if row.candidate == name and (row.offset is Offset.FIRST_SECOND) is from_start:
-            return row.errors
-    raise ExperimentError("; ".join(compared.left_out))
+            return row
+    raise ExperimentError("; ".join(forces.left_out))
 
 
 def _validate(subject: Subject, stated: limits.Validate) -> Iterator[Criterion]:
     errors = _contact_errors(subject, stated)
-    judge, n = subject.judge, errors.count
-    yield from judge.at_limit("validate.force_mean_N", errors.force_mean, stated.force_mean_N, "N", count=n)
-    yield from judge.at_limit("validate.moment_mean_Nm", errors.moment_mean, stated.moment_mean_Nm, "N m", count=n)
+    judge, n = subject.judge, errors.samples
+    yield from judge.at_limit("validate.force_mean_N", errors.force_mean_N, stated.force_mean_N, "N", count=n)
+    yield from judge.at_limit("validate.moment_mean_Nm", errors.moment_mean_Nm, stated.moment_mean_Nm, "N m", count=n)
     yield from judge.at_limits("validate.mean_absolute", errors.mean_absolute, stated.mean_absolute, count=n)
 
 

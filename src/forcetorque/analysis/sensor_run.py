@@ -8,8 +8,8 @@ from typing import TypeVar, cast
 
 from forcetorque.analysis.applicability import require_fit
 from forcetorque.analysis.candidate import JudgedCandidate, judged_candidates, uncalibrated
-from forcetorque.analysis.first_second import OffsetClock
 from forcetorque.analysis.judged import JudgedWrenches, judged_wrenches
+from forcetorque.analysis.judged_instants import JudgedInstants
 from forcetorque.analysis.reading import Correction, wrench_at
 from forcetorque.analysis.samples import IntervalSamples, samples_over
 from forcetorque.arrays import FloatArray
@@ -38,6 +38,7 @@ class SensorRun:
         self.experiment = experiment
         self.sensor = experiment.sensor(sensor) if isinstance(sensor, str) else sensor
         self._known: dict[Hashable, object] = {}
+        self._motions: dict[Hashable, list[tuple[JointMotion, RootMotion]]] = {}
 
     def __repr__(self) -> str:
         return f"SensorRun({self.experiment.name!r}, {self.sensor.name!r}, serial={self.sensor.serial!r})"
@@ -89,7 +90,7 @@ class SensorRun:
         """
         return [self.interval_samples(interval, variables=variables) for interval in self.experiment.intervals(use)]
 
-    def clock(self, interval: Interval) -> OffsetClock:
+    def instants(self, interval: Interval) -> JudgedInstants:
         """Give the instants at which the sensor is judged in an interval.
 
         Args:
@@ -99,12 +100,12 @@ class SensorRun:
             Instants of all its samples, and those around it that the filter of the experiment takes.
         """
 
-        def instants() -> OffsetClock:
+        def padded_instants() -> JudgedInstants:
             recording, smoothing = self.experiment.recording, self.experiment.processing.smoothing
             apart = touched_otherwise(interval, recording, self.experiment.contacts)
-            return OffsetClock(samples=padded_samples(recording, self.stream, interval, smoothing, apart=apart))
+            return JudgedInstants(samples=padded_samples(recording, self.stream, interval, smoothing, apart=apart))
 
-        return self._once(("clock", _key(interval)), instants)
+        return self._once(("instants", _key(interval)), padded_instants)
 
     def motion(self, interval: Interval, joints: Sequence[str]) -> tuple[JointMotion, RootMotion]:
         """Give the motion of joints and support at the instants of an interval.
@@ -114,7 +115,7 @@ class SensorRun:
             joints: Joints whose motion is wanted.
 
         Returns:
-            Motion of the joints and of the support frame.
+            Motion of these joints, among others where a question before this one wanted more, and of the support frame.
 
         Raises:
             ExperimentError: If the interval has no support.
@@ -122,18 +123,22 @@ class SensorRun:
         support = interval.support
         if support is None:
             raise ExperimentError(f"interval {interval.label!r}: expected a support frame, got none")
-        return self._once(
-            ("motion", _key(interval), tuple(joints)),
-            lambda: robot_motion_at(
+        motions = self._motions.setdefault(_key(interval), [])
+        for motion in motions:
+            if set(joints) <= set(motion[0].names):
+                return motion
+        motions.append(
+            robot_motion_at(
                 self.experiment.recording,
                 self.experiment.model,
                 support,
                 joints,
                 self.stream,
-                self.clock(interval).at_ns,
+                self.instants(interval).at_ns,
                 processing=self.experiment.processing,
-            ),
+            )
         )
+        return motions[-1]
 
     def measured(self, interval: Interval, correction: Correction) -> FloatArray:
         """Give what the sensor measured at the instants of an interval.
@@ -145,7 +150,7 @@ class SensorRun:
         Returns:
             Wrenches; shape (n, 6); N, N m; NaN in gaps.
         """
-        return wrench_at(self.experiment, self.sensor, correction, self.clock(interval).at_ns)
+        return wrench_at(self.experiment, self.sensor, correction, self.instants(interval).at_ns)
 
     def uncalibrated(self) -> Correction:
         """Read the sensor by the prior of the experiment, or take the logged wrench.

@@ -1,70 +1,75 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Contact-force validation of the sensors of an experiment: what they report where nothing touches (thesis 4.1.3)."""
+"""Judge a sensor where nothing touches: by the contact force that it reports, and by joint torques from it."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping
+from typing import Literal
 
-import numpy as np
+from pydantic import Field
 
-from forcetorque.analysis.candidate import JudgedCandidate
-from forcetorque.analysis.corrections import corrections_of
-from forcetorque.analysis.first_second import OffsetClock, gap_words, nothing_left
-from forcetorque.analysis.reading import Correction, wrench_at
-from forcetorque.analysis.sensor_run import SensorRun
-from forcetorque.arrays import FloatArray
-from forcetorque.calibration import Calibration
-from forcetorque.errors import ExperimentError
-from forcetorque.estimation import Contact
-from forcetorque.evaluation import (
-    ContactForceValidation,
-    Offset,
-    OtherSensors,
-    WrenchErrors,
-    contact_forces,
-    errors_from_zero,
+from forcetorque.analysis.contact_forces import (
+    BestCandidate,
+    ContactForceErrors,
+    contact_force_blocks,
+    contact_forces_of,
 )
-from forcetorque.experiment.content import Experiment, ExperimentSensor
-from forcetorque.experiment.inputs import stated_in
-from forcetorque.recording import Interval, Use
-from forcetorque.recording.alignment import require_overlap
-from forcetorque.robot import Wrenches, build_tree
+from forcetorque.analysis.free_sub_model import FreeSubModel
+from forcetorque.analysis.joint_torques import JointTorqueErrors, joint_torque_table, joint_torques_of
+from forcetorque.analysis.sensor_run import SensorRun
+from forcetorque.calibration import Calibration
+from forcetorque.evaluation import Offset, OtherSensors
+from forcetorque.result import Result, Table
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class ContactForceVerdict:
-    """Contact wrenches that one candidate reports where nothing touches."""
+class Validation(Result):
+    """Contact forces and joint torques of sensors, by their calibrations and the priors that those came from."""
 
-    sensor: str
-    """Sensor."""
-    serial: str
-    """Its serial number."""
-    sub_model: str
-    """Sub-model that nothing touches, by the sensor at its base or the root link."""
-    candidate: str
-    """Name of the calibration, or of its prior: `prior`, and `prior of NAME` among several calibrations."""
-    offset: Offset
-    """Offset of the candidate, or from the first second of every judged interval."""
-    offset_source: str
-    """Where that offset comes from, in words."""
-    prior: str | None
-    """Name of the prior that a calibration is to be compared with; None for a prior, and where it has none."""
-    errors: WrenchErrors
-    """Statistics of the wrench carried to the sensor (4.1)."""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class ContactForceComparison:
-    """Contact wrenches of one sub-model that nothing touches, by all candidates of a sensor."""
-
-    verdicts: tuple[ContactForceVerdict, ...]
-    """One per candidate and offset."""
+    schema_name: Literal["forcetorque/validate/1"] = Field(default="forcetorque/validate/1", alias="schema")
+    """Form of the result."""
+    experiment: str
+    """Name of the experiment."""
+    other_sensors: Literal["model", "measured"]
+    """What the other sensors of the sub-model were taken to read."""
+    contact_forces: tuple[ContactForceErrors, ...]
+    """One per sensor, candidate and offset."""
+    best: tuple[BestCandidate, ...]
+    """One per sensor and offset."""
+    joint_torques: tuple[JointTorqueErrors, ...]
+    """One per sensor, candidate, offset and joint that depends on the sensor."""
     left_out: tuple[str, ...]
-    """What could not be judged of the intervals, in words."""
+    """Torques that the log does not allow to estimate, and what gaps and short intervals leave out, in words."""
+
+    def blocks(self) -> Iterator[Table | str]:
+        """Give tables of contact forces, who is best, and tables of joint torques.
+
+        Yields:
+            Tables and sentences.
+        """
+        yield from contact_force_blocks(self.contact_forces, self.best)
+        for sensor in dict.fromkeys(row.sensor for row in self.contact_forces):
+            yield from self._without_offset(sensor)
+            torques = [row for row in self.joint_torques if row.sensor == sensor]
+            yield joint_torque_table(torques) if torques else f"{sensor}: no joint torque is estimated from it"
+        yield f"other sensors: as {'the model expects' if self.other_sensors == 'model' else 'they measured'}"
+
+    def records(self) -> list[dict[str, object]]:
+        """Give contact forces and joint torques as flat lines.
+
+        Returns:
+            One line per row; `what` says which it is.
+        """
+        forces: list[dict[str, object]] = [{"what": "contact_force", **row.flat()} for row in self.contact_forces]
+        return forces + [{"what": "joint_torque", **row.flat()} for row in self.joint_torques]
+
+    def _without_offset(self, sensor: str) -> Iterator[str]:
+        """Say what candidates are read by whose wrenches have whatever offset the sensor has."""
+        for row in self.contact_forces:
+            if row.sensor == sensor and row.offset is Offset.NONE:
+                yield f"{sensor}, {row.candidate}, offset {row.offset}: read by {row.offset_source}"
 
 
-def compare_contact_forces(
+def validate(
     run: SensorRun,
     calibrations: Mapping[str, Calibration],
     *,
@@ -72,8 +77,8 @@ def compare_contact_forces(
     other_sensors: OtherSensors = OtherSensors.MODEL,
     sub_model: str | None = None,
     contact: str | None = None,
-) -> ContactForceComparison:
-    """Judge candidates of a sensor by the contact wrench of a sub-model that nothing touches.
+) -> Validation:
+    """Judge candidates of a sensor by contact force and joint torques where nothing touches.
 
     Args:
         run: The sensor; the validation intervals are judged.
@@ -81,112 +86,27 @@ def compare_contact_forces(
             there is none.
         others: Calibrations of the other sensors by name, for the mode `measured`; where there is none, their prior.
         other_sensors: Whether the other sensors read what the model expects or what they measured.
-        sub_model: The sub-model, by the sensor at its base or the root link; None for that outboard of the sensor.
-        contact: Link at whose origin the contact is estimated; None for that mounted on the sensor.
+        sub_model: The sub-model that nothing touches, by the sensor at its base or the root link; None for that
+            outboard of the sensor.
+        contact: Link of the sub-model at whose origin the contact is estimated; None for that mounted on the sensor.
 
     Returns:
-        For every candidate the errors with its own offset and with one from each interval's first second, and the
-        intervals that are not in them.
+        What `contact_forces` and `joint_torques` give, from one motion of the robot.
 
     Raises:
         ExperimentError: If there is nothing to judge, or an interval has no support.
     """
-    experiment, sensor = run.experiment, run.sensor
-    candidates = run.candidates(calibrations)
-    needed = corrections_of(experiment, others or {}) if other_sensors is OtherSensors.MEASURED else {}
-    found: dict[tuple[int, Offset], list[FloatArray]] = {}
-    left_out: dict[str, None] = {}
-    part = ""
-    for interval in run.intervals(Use.VALIDATION):
-        with stated_in(f"interval {interval.label!r}"):
-            validation = free_part(experiment, sensor, interval, other_sensors, sub_model, contact)
-            part = validation.part.name
-            clock = run.clock(interval)
-            short = nothing_left(clock, interval)
-            if short is not None:
-                left_out[short] = None
-                continue
-            wrenches = _over(run, interval, clock, validation, candidates, needed)
-        for index, wrench in enumerate(wrenches):
-            judged = clock.judged_with_both(wrench)
-            words = gap_words(f"contact force by {candidates[index].name}", interval, judged)
-            left_out |= {} if words is None else {words: None}
-            for source, errors in judged.items():
-                found.setdefault((index, source), []).append(errors)
-    pooled = {key: np.concatenate(parts) for key, parts in found.items()}
-    verdicts = tuple(
-        ContactForceVerdict(
-            sensor=sensor.name,
-            serial=sensor.serial,
-            sub_model=part,
-            candidate=candidates[index].name,
-            offset=candidates[index].offset(source),
-            offset_source=candidates[index].offset_source(source),
-            prior=candidates[index].prior,
-            errors=errors_from_zero(errors),
-        )
-        for (index, source), errors in pooled.items()
-        if not np.isnan(errors).any(axis=1).all()
+    free = FreeSubModel.of(run, others=others, other_sensors=other_sensors, sub_model=sub_model, contact=contact)
+    # torques need the motion of more joints, in which that of the contact force is found
+    torques = joint_torques_of(free, calibrations)
+    forces = contact_forces_of(free, calibrations)
+    left_out = tuple(dict.fromkeys(f"{run.sensor.name}: {words}" for words in (*forces.left_out, *torques.left_out)))
+    return Validation(
+        experiment=run.experiment.name,
+        other_sensors=other_sensors.value,
+        contact_forces=forces.verdicts,
+        best=forces.best,
+        joint_torques=torques.verdicts,
+        left_out=left_out,
+        warnings=tuple(f"left out: {words}" for words in left_out),
     )
-    if not verdicts:
-        raise ExperimentError(f"nothing can be judged: {'; '.join(left_out)}")
-    return ContactForceComparison(verdicts=verdicts, left_out=tuple(left_out))
-
-
-def free_part(
-    experiment: Experiment,
-    sensor: ExperimentSensor,
-    interval: Interval,
-    other_sensors: OtherSensors,
-    sub_model: str | None,
-    contact: str | None,
-) -> ContactForceValidation:
-    """Find the sub-model that nothing touches in an interval.
-
-    Args:
-        experiment: The experiment.
-        sensor: The judged sensor.
-        interval: One of the intervals, with a support.
-        other_sensors: Whether the other sensors read what the model expects or what they measured.
-        sub_model: The sub-model, by the sensor at its base or the root link; None for that outboard of the sensor.
-        contact: Link at whose origin the contact is estimated; None for that mounted on the sensor.
-
-    Returns:
-        The sub-model, seen from the support.
-
-    Raises:
-        ExperimentError: If the interval has no support.
-    """
-    if interval.support is None:
-        raise ExperimentError("expected a support frame, got none")
-    return ContactForceValidation(
-        tree=build_tree(experiment.model, interval.support.frame),
-        sensor=sensor.name,
-        sub_model=sub_model,
-        contact=None if contact is None else Contact(link=contact, name="contact"),
-        other_sensors=other_sensors,
-        support=interval.support.frame,
-        cut_at=tuple(each.name for each in experiment.sensors),
-    )
-
-
-def _over(
-    run: SensorRun,
-    interval: Interval,
-    clock: OffsetClock,
-    validation: ContactForceValidation,
-    candidates: Sequence[JudgedCandidate],
-    needed: Mapping[str, Correction],
-) -> list[FloatArray]:
-    """Contact wrench at the sensor by candidate, with its own offset and not filtered; shape (n, 6), n of the clock."""
-    experiment, source = run.experiment, run.stream
-    joints, root = run.motion(interval, validation.required_joints)
-    measured = {}
-    for name in validation.others if needed else ():
-        other = experiment.sensor(name)
-        require_overlap(source, experiment.recording.stream(other.stream))
-        measured[name] = wrench_at(experiment, other, needed[name], clock.at_ns)
-    # by their places, because a calibration may be called `prior` too
-    readings = {str(k): run.measured(interval, each.correction) for k, each in enumerate(candidates)}
-    forces = contact_forces(validation, joints, root, readings, measured=Wrenches.of(measured) if measured else None)
-    return [forces.of(place) for place in readings]

@@ -21,10 +21,10 @@ from forcetorque.cli.parser.schema import schema
 from forcetorque.cli.parser.simulate import simulate
 from forcetorque.cli.parser.sphere import sphere
 from forcetorque.cli.parser.study import study
-from forcetorque.cli.parser.validate import validate
 from forcetorque.cli.parser.view import view
 from forcetorque.cli.payload import payload
 from forcetorque.cli.report import report
+from forcetorque.cli.validate import validate
 from forcetorque.errors import ForceTorqueError
 
 app = typer.Typer(

@@ -156,9 +156,9 @@ def _study() -> dict[str, Any]:
 
 
 def _validate() -> dict[str, Any]:
-    from forcetorque.cli.validate_result import ValidateResult
+    from forcetorque.analysis import Validation
 
-    return ValidateResult.model_json_schema()
+    return Validation.described()
 
 
 def _view() -> dict[str, Any]:

@@ -16,7 +16,7 @@ from forcetorque.study import OFFSET_S
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class OffsetClock:
+class JudgedInstants:
     """Instants of one interval: filters, and tells its first second from what is judged."""
 
     samples: PaddedSamples
@@ -29,13 +29,13 @@ class OffsetClock:
 
     @property
     def first(self) -> BoolArray:
-        """Samples of the first second of the interval, where offsets are re-estimated; shape (m,)."""
+        """Samples of the first second of the interval, which give an offset and are not judged; shape (m,)."""
         stamps = self.at_ns[self.samples.inside]
         first: BoolArray = stamps < stamps[0] + round(OFFSET_S * 1e9)
         return first
 
     def with_offset(self, error: FloatArray, source: Offset) -> FloatArray:
-        """Take off the mean error of the first second where offsets are re-estimated.
+        """Take off the mean error of the first second where the offset is to come from there.
 
         Args:
             error: Errors, not filtered; shape (n, k); NaN in gaps.
@@ -81,23 +81,23 @@ class OffsetClock:
         return mean
 
 
-def nothing_left(clock: OffsetClock, interval: Interval) -> str | None:
+def nothing_left(instants: JudgedInstants, interval: Interval) -> str | None:
     """Tell whether an interval is too short to be judged.
 
     Args:
-        clock: Its instants.
+        instants: Its instants.
         interval: The interval.
 
     Returns:
         What is left out, in words; None where there are samples to judge.
     """
-    if not clock.first.all():
+    if not instants.first.all():
         return None
     return f"interval {interval.label!r}: it ends within its first {OFFSET_S:g} s, after which it would be judged"
 
 
 def gap_words(what: str, interval: Interval, judged: Mapping[Offset, FloatArray]) -> str | None:
-    """Tell whether gaps leave nothing to judge in an interval, with either offset or with the re-estimated one.
+    """Tell whether gaps leave nothing to judge in an interval, with either offset or with that of the first second.
 
     Args:
         what: What is judged, in words.
@@ -107,9 +107,12 @@ def gap_words(what: str, interval: Interval, judged: Mapping[Offset, FloatArray]
     Returns:
         What is left out, in words; None where both can be judged.
     """
-    gone = [source for source, errors in judged.items() if np.isnan(errors.reshape(len(errors), -1)).any(axis=1).all()]
-    if Offset.FITTED in gone:
+    unknown = [
+        offset for offset, errors in judged.items() if np.isnan(errors.reshape(len(errors), -1)).any(axis=1).all()
+    ]
+    if Offset.FITTED in unknown:
         return f"{what} over {interval.label!r}: every judged sample has a gap"
-    if gone:
-        return f"{what} over {interval.label!r}, offset re-estimated: every sample of its first second has a gap"
+    if unknown:
+        offset = Offset.FIRST_SECOND.value
+        return f"{what} over {interval.label!r}, offset {offset}: every sample of its first second has a gap"
     return None
