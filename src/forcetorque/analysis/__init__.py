@@ -8,7 +8,7 @@ from forcetorque.analysis.assessment import Assessment, Demands, assess
 from forcetorque.analysis.calibrate import calibrate_sensor
 from forcetorque.analysis.candidate import JudgedCandidate
 from forcetorque.analysis.compare import TrialFailure, TrialGroup, TrialSphere, group_trials, read_trials
-from forcetorque.analysis.comparison import Independence, PriorComparison, compare_with_prior
+from forcetorque.analysis.prior_comparison import Independence, PriorComparison, compare_with_prior
 from forcetorque.analysis.contact_forces import BestCandidate, ContactForceErrors, ContactForces, contact_forces
 from forcetorque.analysis.corrections import corrections_of
 from forcetorque.analysis.criterion import Bound, Criterion

@@ -13,7 +13,7 @@ from pydantic import Field
 from forcetorque.analysis.acceptance import accept
 from forcetorque.analysis.acceptance_file import AcceptanceFile
 from forcetorque.analysis.candidate import PRIOR
-from forcetorque.analysis.comparison import Independence, PriorComparison, compare_with_prior, independence
+from forcetorque.analysis.prior_comparison import Independence, PriorComparison, compare_with_prior, independence
 from forcetorque.analysis.contact_forces import BestCandidate, ContactForceErrors, contact_forces
 from forcetorque.analysis.criterion import Criterion
 from forcetorque.analysis.evaluate import CandidateErrors, doubts, evaluate, require_unseen

@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Annotated, Literal
 
-from forcetorque.analysis.comparison import FEWEST_INDEPENDENT, PriorComparison
+from forcetorque.analysis.prior_comparison import FEWEST_INDEPENDENT, PriorComparison
 from forcetorque.analysis.evaluate import CandidateErrors
 from forcetorque.evaluation import Offset
 from forcetorque.result import Row, Shown, short_names, with_error
