@@ -9,7 +9,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from forcetorque.analysis import calibrate_sensor, samples_of
+from forcetorque.analysis import (
+    SensorRun,
+    calibrate_sensor,
+)
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration import Calibration
 from forcetorque.errors import ExperimentError, FitError
@@ -25,7 +28,10 @@ DIGITS = 1e-9
 
 def _calibrated(experiment: Experiment, *, regularisation: float | None = None) -> Calibration:
     return calibrate_sensor(
-        experiment, experiment.sensors[0], code_version="1.2.3", created="today", regularisation=regularisation
+        SensorRun(experiment, experiment.sensors[0]),
+        code_version="1.2.3",
+        created="today",
+        regularisation=regularisation,
     )
 
 
@@ -70,13 +76,13 @@ def test_the_artefact_says_what_it_was_made_from(intact: Path, form: str) -> Non
 def test_the_priors_offset_is_the_mean_on_the_fitted_data(intact: Path) -> None:
     """The prior gets the offset that leaves no mean error where the new matrix was fitted."""
     experiment = load_experiment(intact / PARQUET)
-    (part,) = samples_of(experiment, experiment.sensors[0], Use.CALIBRATION)
+    (part,) = SensorRun(experiment, experiment.sensors[0]).samples(Use.CALIBRATION)
     made = _calibrated(experiment)
     assert made.prior is not None
     by_hand = np.mean(part.samples.reference - part.raw @ made.prior.matrix.T, axis=0)
     rounding = 1e-12 * np.abs(part.raw @ made.prior.matrix.T).max()
     assert np.abs(made.prior.offset - by_hand).max() < rounding
-    (judged,) = samples_of(experiment, experiment.sensors[0], Use.VALIDATION)
+    (judged,) = SensorRun(experiment, experiment.sensors[0]).samples(Use.VALIDATION)
     elsewhere = np.mean(judged.samples.reference - judged.raw @ made.prior.matrix.T, axis=0)
     assert np.abs(made.prior.offset - elsewhere).max() > 1e6 * rounding
 
@@ -94,7 +100,7 @@ def test_how_lambda_came_about_is_recorded(intact: Path) -> None:
 def test_raw_readings_are_those_of_the_log(intact: Path) -> None:
     """Samples of a raw stream are the logged counts, those of a calibrated one the same up to its digits."""
     own, yarp = (load_experiment(intact / form) for form in (PARQUET, YARP))
-    (counts,), (recovered,) = (samples_of(e, e.sensors[0], Use.VALIDATION) for e in (own, yarp))
+    (counts,), (recovered,) = (SensorRun(e, e.sensors[0]).samples(Use.VALIDATION) for e in (own, yarp))
     logged = own.recording.stream("arm_ft")
     inside = np.isin(logged.stamp_ns, counts.samples.stamp_ns)
     assert np.array_equal(counts.raw, logged.signal("raw").values[inside])
@@ -126,7 +132,7 @@ def test_samples_that_cannot_be_used_are_left_out_and_counted(arm: Path) -> None
 def test_the_other_direction_turns_the_sign(arm: Path) -> None:
     """Who acts on whom decides the sign of the reference, and nothing else."""
     one, other = load_experiment(arm / TWO), load_experiment(edit(arm / TWO, "parent_to_child", "child_to_parent"))
-    references = [samples_of(e, e.sensors[1], Use.CALIBRATION)[0].samples.reference for e in (one, other)]
+    references = [SensorRun(e, e.sensors[1]).samples(Use.CALIBRATION)[0].samples.reference for e in (one, other)]
     assert np.abs(references[0] + references[1]).max() < 1e-12  # N, N m; rounding
     assert np.abs(references[0]).max() > 1.0
 

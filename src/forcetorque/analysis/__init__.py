@@ -21,6 +21,12 @@ from forcetorque.analysis.payload import WeighedLoad, weigh_load
 from forcetorque.analysis.population import read_population
 from forcetorque.analysis.reading import Correction
 from forcetorque.analysis.samples import IntervalSamples
+from forcetorque.analysis.sensor_calibration import (
+    SensorCalibration,
+    SensorCalibrations,
+    calibrate_for_file,
+    data_doubts,
+)
 from forcetorque.analysis.sensor_run import SensorRun
 from forcetorque.analysis.sphere import SensorSphere, analyse_sensor, sphere_intervals
 from forcetorque.analysis.static_checks import StaticChecks, check_sensor
@@ -48,6 +54,8 @@ __all__ = [
     "JointTorques",
     "JudgedCandidate",
     "JudgedWrenches",
+    "SensorCalibration",
+    "SensorCalibrations",
     "SensorGains",
     "SensorSphere",
     "SensorStudy",
@@ -61,11 +69,13 @@ __all__ = [
     "analyse_sensor",
     "by_sensor",
     "one_per_sensor",
+    "calibrate_for_file",
     "calibrate_sensor",
     "check_sensor",
     "compare_contact_forces",
     "compare_joint_torques",
     "corrections_of",
+    "data_doubts",
     "doubtful_spans",
     "estimate_experiment",
     "export_coefficients",
