@@ -8,7 +8,6 @@ from forcetorque.analysis.assessment import Assessment, Demands, assess
 from forcetorque.analysis.calibrate import calibrate_sensor
 from forcetorque.analysis.candidate import JudgedCandidate
 from forcetorque.analysis.compare import TrialFailure, TrialGroup, TrialSphere, group_trials, read_trials
-from forcetorque.analysis.prior_comparison import Independence, PriorComparison, compare_with_prior
 from forcetorque.analysis.contact_forces import BestCandidate, ContactForceErrors, ContactForces, contact_forces
 from forcetorque.analysis.corrections import corrections_of
 from forcetorque.analysis.criterion import Bound, Criterion
@@ -25,8 +24,15 @@ from forcetorque.analysis.joint_torques import JointTorqueErrors, JointTorques, 
 from forcetorque.analysis.judged import JudgedWrenches
 from forcetorque.analysis.payload import WeighedLoad, weigh_load
 from forcetorque.analysis.population import read_population
+from forcetorque.analysis.prior_comparison import Independence, PriorComparison, compare_with_prior
 from forcetorque.analysis.reading import Correction
 from forcetorque.analysis.samples import IntervalSamples
+from forcetorque.analysis.sensor_calibration import (
+    SensorCalibration,
+    SensorCalibrations,
+    calibrate_for_file,
+    data_doubts,
+)
 from forcetorque.analysis.sensor_run import SensorRun
 from forcetorque.analysis.sphere import SensorSphere, analyse_sensor, sphere_intervals
 from forcetorque.analysis.static_checks import IntervalOffset, StaticChecks, check
@@ -69,6 +75,8 @@ __all__ = [
     "JointTorques",
     "JudgedCandidate",
     "JudgedWrenches",
+    "SensorCalibration",
+    "SensorCalibrations",
     "SensorGains",
     "SensorSphere",
     "SensorStudy",
@@ -83,10 +91,12 @@ __all__ = [
     "analyse_sensor",
     "by_sensor",
     "one_per_sensor",
+    "calibrate_for_file",
     "calibrate_sensor",
     "check",
     "contact_forces",
     "corrections_of",
+    "data_doubts",
     "doubtful_spans",
     "estimate_experiment",
     "export_coefficients",

@@ -13,12 +13,12 @@ from pydantic import Field
 from forcetorque.analysis.acceptance import accept
 from forcetorque.analysis.acceptance_file import AcceptanceFile
 from forcetorque.analysis.candidate import PRIOR
-from forcetorque.analysis.prior_comparison import Independence, PriorComparison, compare_with_prior, independence
 from forcetorque.analysis.contact_forces import BestCandidate, ContactForceErrors, contact_forces
 from forcetorque.analysis.criterion import Criterion
 from forcetorque.analysis.evaluate import CandidateErrors, doubts, evaluate, require_unseen
 from forcetorque.analysis.joint_torques import JointTorqueErrors, joint_torques
 from forcetorque.analysis.judged import JudgedWrenches
+from forcetorque.analysis.prior_comparison import Independence, PriorComparison, compare_with_prior, independence
 from forcetorque.analysis.sensor_run import SensorRun
 from forcetorque.analysis.sphere import SensorSphere, SphereRow, spheres
 from forcetorque.analysis.static_checks import StaticChecks, check

@@ -6,8 +6,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Annotated, Literal
 
-from forcetorque.analysis.prior_comparison import FEWEST_INDEPENDENT, PriorComparison
 from forcetorque.analysis.evaluate import CandidateErrors
+from forcetorque.analysis.prior_comparison import FEWEST_INDEPENDENT, PriorComparison
 from forcetorque.evaluation import Offset
 from forcetorque.result import Row, Shown, short_names, with_error
 

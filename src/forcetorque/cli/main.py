@@ -8,13 +8,13 @@ from typing import Annotated
 import typer
 
 from forcetorque.cli.accept import accept
+from forcetorque.cli.calibrate import calibrate
 from forcetorque.cli.encoding import spell_missing_letters
 from forcetorque.cli.evaluate import evaluate
 from forcetorque.cli.export import export
 from forcetorque.cli.gains import gains
 from forcetorque.cli.inspect import inspect
 from forcetorque.cli.output import report_error
-from forcetorque.cli.parser.calibrate import calibrate
 from forcetorque.cli.parser.compare import compare
 from forcetorque.cli.parser.estimate import estimate
 from forcetorque.cli.parser.schema import schema

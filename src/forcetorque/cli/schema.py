@@ -78,9 +78,9 @@ def _accept() -> dict[str, Any]:
 
 
 def _calibrate() -> dict[str, Any]:
-    from forcetorque.cli.calibrate import CalibrateResult
+    from forcetorque.analysis import SensorCalibrations
 
-    return CalibrateResult.model_json_schema()
+    return SensorCalibrations.described()
 
 
 def _compare() -> dict[str, Any]:
