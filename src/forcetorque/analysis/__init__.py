@@ -4,7 +4,7 @@
 from forcetorque.analysis.acceptance import Acceptance, accept_sensor
 from forcetorque.analysis.acceptance_file import AcceptanceFile, read_acceptance
 from forcetorque.analysis.applicability import by_sensor, one_per_sensor
-from forcetorque.analysis.assessment import Assessment, Demands, assess
+# TEMP from forcetorque.analysis.assessment import Assessment, Demands, assess
 from forcetorque.analysis.calibrate import calibrate_sensor
 from forcetorque.analysis.candidate import JudgedCandidate
 from forcetorque.analysis.compare import TrialFailure, TrialGroup, TrialSphere, group_trials, read_trials
@@ -12,7 +12,7 @@ from forcetorque.analysis.comparison import Independence, PriorComparison, compa
 from forcetorque.analysis.corrections import corrections_of
 from forcetorque.analysis.estimate import IntervalEstimates, estimate_experiment
 from forcetorque.analysis.evaluate import CandidateErrors, Evaluation, evaluate
-from forcetorque.analysis.experiment_assessment import ExperimentAssessment, assess_experiment
+# TEMP from forcetorque.analysis.experiment_assessment import ExperimentAssessment, assess_experiment
 from forcetorque.analysis.gains import JointPosition, SensorGains, StrongestSample, select_gains
 from forcetorque.analysis.inspect import doubtful_spans, inspect_experiment, inspect_recording
 from forcetorque.analysis.joint_torques import JointTorques, JointTorqueVerdict, compare_joint_torques
@@ -29,14 +29,14 @@ from forcetorque.analysis.validate import ContactForceComparison, ContactForceVe
 from forcetorque.analysis.verdict import VerdictLine
 
 __all__ = [
-    "Assessment",
-    "Demands",
-    "ExperimentAssessment",
+# TEMP     "Assessment",
+# TEMP     "Demands",
+# TEMP     "ExperimentAssessment",
     "Independence",
     "PriorComparison",
     "VerdictLine",
-    "assess",
-    "assess_experiment",
+# TEMP     "assess",
+# TEMP     "assess_experiment",
     "compare_with_prior",
     "CandidateErrors",
     "Evaluation",
