@@ -11,7 +11,10 @@ from pathlib import Path
 
 import pytest
 
-from forcetorque.analysis import calibrate_sensor
+from forcetorque.analysis import (
+    SensorRun,
+    calibrate_sensor,
+)
 from forcetorque.calibration import write_calibration
 from forcetorque.cli.main import main
 from forcetorque.experiment import load_experiment
@@ -28,7 +31,7 @@ def intact(tmp_path_factory: pytest.TempPathFactory) -> Path:
     write_experiments(folder)
     experiment = load_experiment(folder / PARQUET)
     created = datetime(2020, 1, 1, tzinfo=UTC).isoformat()
-    fitted = calibrate_sensor(experiment, experiment.sensors[0], code_version="1", created=created)
+    fitted = calibrate_sensor(SensorRun(experiment, experiment.sensors[0]), code_version="1", created=created)
     write_calibration(folder / "fitted.json", fitted)
     return folder
 
@@ -50,7 +53,10 @@ def intact_warm(intact: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = warm_up(intact, tmp_path_factory.mktemp("warm") / "arm")
     experiment = load_experiment(with_variables(folder / PARQUET, TEMPERATURE))
     fitted = calibrate_sensor(
-        experiment, experiment.sensors[0], code_version="1", created="2020-01-01T00:00:00+00:00", regularisation=0.0
+        SensorRun(experiment, experiment.sensors[0]),
+        code_version="1",
+        created="2020-01-01T00:00:00+00:00",
+        regularisation=0.0,
     )
     write_calibration(folder / "warm.json", fitted)
     return folder
