@@ -82,18 +82,18 @@ def samples_over(
 
 
 def readings_over(
-    experiment: Experiment, sensor: ExperimentSensor, interval: Interval
-) -> tuple[FloatArray, FloatArray]:
+    experiment: Experiment, sensor: ExperimentSensor, interval: Interval, *, variables: Sequence[str] = ()
+) -> Readings:
     """Take the readings of a sensor over one interval, for which no reference is wanted.
 
     Args:
         experiment: The experiment.
         sensor: One of its sensors.
         interval: An interval of its recording.
+        variables: Names of linear variables of the sensor that are wanted; samples that lack one are left out.
 
     Returns:
-        Readings, smoothed as the experiment has it, and the sensor's linear variables; samples that lack any are left
-        out; shapes (n, c), (n, v).
+        Readings and variables, smoothed as the experiment has it.
 
     Raises:
         ExperimentError: If no sample is left.
@@ -102,14 +102,15 @@ def readings_over(
     stream = recording.stream(sensor.stream)
     picked, _ = pick_samples(recording, stream, interval)
     at_ns = stream.stamp_ns[picked]
-    values = np.where(stream.held[picked, None], np.nan, stream.signal(sensor.quantity).values[picked])
-    columns = [variable.source.at(recording, at_ns)[:, None] for variable in sensor.variables]
-    both = np.hstack([values, *columns])
+    logged = np.where(stream.held[picked, None], np.nan, stream.signal(sensor.quantity).values[picked])
+    columns = [sensor.variable(name).source.at(recording, at_ns)[:, None] for name in variables]
+    values = np.hstack([logged, *columns])
     if experiment.processing.smoothing is not None:
-        both = smooth(at_ns, both, experiment.processing.smoothing)
-    complete = both[np.isfinite(both).all(axis=1)]
+        values = smooth(at_ns, values, experiment.processing.smoothing)
+    complete = values[np.isfinite(values).all(axis=1)]
     if not len(complete):
         raise ExperimentError(
             f"interval {interval.label!r}: none of {len(picked)} samples of {sensor.stream!r} is complete"
         )
-    return complete[:, : values.shape[1]], complete[:, values.shape[1] :]
+    channels = logged.shape[1]
+    return Readings.of(sensor, complete[:, :channels], dict(zip(variables, complete[:, channels:].T, strict=True)))

@@ -8,10 +8,10 @@ from typing import Annotated
 
 import typer
 
+from forcetorque.cli.compare import compare
 from forcetorque.cli.evaluate import evaluate
 from forcetorque.cli.parser.accept import accept
 from forcetorque.cli.parser.calibrate import calibrate
-from forcetorque.cli.parser.compare import compare
 from forcetorque.cli.parser.estimate import estimate
 from forcetorque.cli.parser.export import export
 from forcetorque.cli.parser.gains import gains
@@ -19,11 +19,11 @@ from forcetorque.cli.parser.inspect import inspect
 from forcetorque.cli.parser.payload import payload
 from forcetorque.cli.parser.schema import schema
 from forcetorque.cli.parser.simulate import simulate
-from forcetorque.cli.parser.sphere import sphere
 from forcetorque.cli.parser.study import study
 from forcetorque.cli.parser.validate import validate
 from forcetorque.cli.parser.view import view
 from forcetorque.cli.report import report
+from forcetorque.cli.sphere import sphere
 from forcetorque.errors import ForceTorqueError
 
 app = typer.Typer(
