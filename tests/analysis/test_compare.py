@@ -10,13 +10,15 @@ import numpy as np
 import pytest
 
 from forcetorque.analysis import (
+    Comparison,
+    SensorRun,
     TrialGroup,
     TrialSphere,
-    analyse_sensor,
     calibrate_sensor,
+    compare,
     group_trials,
     read_trials,
-    sphere_intervals,
+    spheres,
 )
 from forcetorque.calibration import Calibration
 from forcetorque.errors import ExperimentError, FormatError, MissingFileError
@@ -202,8 +204,7 @@ def test_trials_are_what_the_analysis_gives(arm: Path) -> None:
     (whole,), failures = read_trials([arm / PARQUET])
     assert failures == []
     experiment = load_experiment(arm / PARQUET)
-    spans = sphere_intervals(experiment, None)
-    (expected,) = analyse_sensor(experiment, experiment.sensors[0], spans, {})
+    (expected,) = spheres(SensorRun(experiment, "arm_ft"), {}).analyses
     np.testing.assert_array_equal(whole.sphere.force, expected.force)
     parts, _ = read_trials([arm / PARQUET], by_interval=True)
     assert [part.sphere.intervals for part in parts] == [("fit",), ("judge",)]
@@ -215,10 +216,12 @@ def test_trials_are_what_the_analysis_gives(arm: Path) -> None:
 def test_a_calibration_goes_where_its_serial_number_is(arm: Path) -> None:
     """To every file with that sensor, to no other sensor of it; one that fits nowhere is a failure."""
     experiment = load_experiment(arm / PARQUET)
-    fitted: Calibration = calibrate_sensor(experiment, experiment.sensors[0], code_version="1", created="today")
+    fitted: Calibration = calibrate_sensor(
+        SensorRun(experiment, experiment.sensors[0]), code_version="1", created="today"
+    )
     trials, failures = read_trials([arm / PARQUET, arm / TWO], calibrations={"new.json": fitted})
     assert failures == []
-    assert [(each.sphere.sensor, each.sphere.candidate) for each in trials] == [
+    assert [(trial.sphere.sensor, trial.sphere.candidate) for trial in trials] == [
         ("arm_ft", "prior"),
         ("arm_ft", "new.json"),
         ("arm_ft", "prior"),
@@ -242,11 +245,14 @@ def test_a_bad_file_costs_only_itself(arm: Path) -> None:
     counts.write_text(text.replace('prior = "matrix_SIM001.txt"', 'prior = "identity"'))
     lines: list[str] = []
     trials, failures = read_trials([bad, counts, arm / PARQUET], progress=lines.append)
-    assert [(Path(each.file).name, each.sphere.sensor) for each in trials] == [
+    assert [(Path(trial.file).name, trial.sphere.sensor) for trial in trials] == [
         ("counts.toml", "tool_ft"),
         (PARQUET, "arm_ft"),
     ]
-    assert [(Path(each.file).name, each.sensor) for each in failures] == [("bad.toml", None), ("counts.toml", "arm_ft")]
+    assert [(Path(failure.file).name, failure.sensor) for failure in failures] == [
+        ("bad.toml", None),
+        ("counts.toml", "arm_ft"),
+    ]
     for failure in failures:
         assert failure.file in failure.message
         assert "\n" not in failure.message
@@ -263,5 +269,38 @@ def test_names_are_checked_first(arm: Path) -> None:
         read_trials([arm / PARQUET, arm / ".." / arm.name / PARQUET], progress=lines.append)
     assert lines == []
     trials, (failure,) = read_trials([arm / PARQUET, arm / TWO], sensors=["tool_ft", "arm_tf"])
-    assert [each.sphere.sensor for each in trials] == ["tool_ft"]
+    assert [trial.sphere.sensor for trial in trials] == ["tool_ft"]
     assert failure.message.startswith("--sensor: no file has a sensor 'arm_tf'; did you mean \"arm_ft\"?")
+
+
+def test_the_comparison_shows_itself(arm: Path) -> None:
+    """Every number whole in a narrow terminal, tables in a notebook, few words for `repr`; arrays in none."""
+    result = compare([arm / PARQUET], by_interval=True)
+    text = result.text(60)
+    assert [row.intervals for row in result.trials] == [("fit",), ("judge",)]
+    (group,) = result.groups
+    assert group.with_reference is not None
+    fits = [row.with_reference for row in result.trials] + [group.with_reference.pooled]
+    for fit in fits:
+        assert fit is not None
+        assert f"{fit.index_kg:.4f}" in text
+    assert group.with_reference.drift is not None
+    assert " ".join(f"{change:+.2f}" for change in group.with_reference.drift.mass_kg) in text
+    assert max(map(len, text.splitlines())) <= 60
+    assert result._repr_html_().count("<table>") == 4
+    assert len(repr(result)) < 600
+    assert "analyses" not in result.json_text()
+    assert "analyses" not in Comparison.described()["properties"]
+
+
+def test_what_failed_and_what_flatters_are_warnings_of_the_result(arm: Path) -> None:
+    """A notebook gets both as the terminal does; where nothing is wrong there are none."""
+    experiment = load_experiment(arm / PARQUET)
+    fitted = calibrate_sensor(SensorRun(experiment, "arm_ft"), code_version="1", created="today")
+    result = compare([arm / PARQUET], sensors=["arm_ft", "leg_ft"], calibrations={"new.json": fitted})
+    (failure,) = result.failures
+    assert result.warnings == (
+        f"failed: {failure.message}",
+        f"new.json was fitted on 'fit' of {arm / PARQUET}, so the verdict on it flatters",
+    )
+    assert compare([arm / PARQUET]).warnings == ()

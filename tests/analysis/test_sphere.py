@@ -11,9 +11,10 @@ import pytest
 from forcetorque.analysis import (
     SensorRun,
     SensorSphere,
-    analyse_sensor,
+    Spheres,
     calibrate_sensor,
     sphere_intervals,
+    spheres,
 )
 from forcetorque.calibration import Calibration
 from forcetorque.errors import ExperimentError, SerialNumberError, UnitError
@@ -39,14 +40,18 @@ def fitted(experiment: Experiment) -> Calibration:
     return calibrate_sensor(SensorRun(experiment, experiment.sensors[0]), code_version="1", created="today")
 
 
-def _analysed(experiment: Experiment, names: list[str] | None, **calibrations: Calibration) -> list[SensorSphere]:
-    return analyse_sensor(experiment, experiment.sensors[0], sphere_intervals(experiment, names), calibrations)
+def _answered(experiment: Experiment, names: list[str] | None, **calibrations: Calibration) -> Spheres:
+    return spheres(SensorRun(experiment, experiment.sensors[0]), calibrations, names)
+
+
+def _analysed(experiment: Experiment, names: list[str] | None, **calibrations: Calibration) -> tuple[SensorSphere, ...]:
+    return _answered(experiment, names, **calibrations).analyses
 
 
 def test_every_candidate_is_analysed_on_the_same_samples(experiment: Experiment, fitted: Calibration) -> None:
     """The prior comes first; its analysis is that of the samples read with the prior matrix."""
     prior, new = _analysed(experiment, ["judge"], new=fitted)
-    assert [each.candidate for each in (prior, new)] == ["prior", "new"]
+    assert [sphere.candidate for sphere in (prior, new)] == ["prior", "new"]
     assert prior.sensor == new.sensor == "arm_ft"
     (part,) = SensorRun(experiment, experiment.sensors[0]).samples(Use.VALIDATION)
     matrix = experiment.sensors[0].prior
@@ -63,11 +68,11 @@ def test_every_candidate_is_analysed_on_the_same_samples(experiment: Experiment,
 
 def test_calibration_mends_the_index(experiment: Experiment, fitted: Calibration) -> None:
     """Before it axes differ by a kilogram, after it by ten grams; the mass is that of the model."""
-    before, after = (found.analysis for found in _analysed(experiment, ["judge"], new=fitted))
-    for found in (before, after):
-        assert found.mass == pytest.approx(ARM_MASS, rel=1e-9)
-        assert found.mapped is not None
-        assert found.mapped.fit.identifiable
+    before, after = (sphere.analysis for sphere in _analysed(experiment, ["judge"], new=fitted))
+    for analysis in (before, after):
+        assert analysis.mass == pytest.approx(ARM_MASS, rel=1e-9)
+        assert analysis.mapped is not None
+        assert analysis.mapped.fit.identifiable
     assert before.mapped is not None
     assert after.mapped is not None
     assert before.mapped.fit.index / GRAVITY > 0.5
@@ -78,8 +83,51 @@ def test_calibration_mends_the_index(experiment: Experiment, fitted: Calibration
 
 def test_what_a_calibration_was_fitted_on_is_named(experiment: Experiment, fitted: Calibration) -> None:
     """It is not refused, since a grid is often all there is, but said."""
-    assert [each.fitted_on for each in _analysed(experiment, None, new=fitted)] == [(), ("fit",)]
-    assert [each.fitted_on for each in _analysed(experiment, ["judge"], new=fitted)] == [(), ()]
+    assert [sphere.fitted_on for sphere in _analysed(experiment, None, new=fitted)] == [(), ("fit",)]
+    assert [sphere.fitted_on for sphere in _analysed(experiment, ["judge"], new=fitted)] == [(), ()]
+
+
+def test_what_flatters_is_a_warning_of_the_result(experiment: Experiment, fitted: Calibration) -> None:
+    """A notebook gets it as the terminal does, once for all sensors that share it; nothing flatters, no warning."""
+    result = _answered(experiment, None, new=fitted)
+    assert result.warnings == ("new was fitted on 'fit', so the verdict on it flatters",)
+    assert Spheres.together([result, result]).warnings == result.warnings
+    assert _answered(experiment, ["judge"], new=fitted).warnings == ()
+
+
+def test_the_result_shows_itself(experiment: Experiment, fitted: Calibration) -> None:
+    """Every number whole in a narrow terminal, a table in a notebook, few words for `repr`; arrays in none."""
+    result = _answered(experiment, ["judge"], new=fitted)
+    text = result.text(60)
+    for row in result.rows:
+        for fit in (row.with_reference, row.without_reference):
+            assert fit is not None
+            assert fit.mass_kg is not None
+            for mass, low, high in zip(fit.mass_kg, fit.mass_low_kg, fit.mass_high_kg, strict=True):
+                assert f" {mass:.3f}" in text
+                assert f"{low:.3f} to {'any' if high is None else f'{high:.3f}'}" in text
+    assert max(map(len, text.splitlines())) <= 60
+    assert result._repr_html_().count("<table>") == 3
+    assert len(repr(result)) < 600
+    assert result.analyses[0].analysis.samples == result.rows[0].samples
+    assert "analyses" not in result.json_text()
+    assert "analyses" not in Spheres.described()["properties"]
+
+
+def test_masses_that_have_no_upper_end_are_empty_columns(experiment: Experiment) -> None:
+    """Not words: three columns of a table of numbers, as where they have one."""
+    (row,) = _answered(experiment, ["judge"]).rows
+    assert row.without_reference.mass_high_kg == (None, None, None)
+    flat = row.flat()
+    assert [flat[f"without_reference_mass_high_{axis}_kg"] for axis in "xyz"] == [None] * 3
+    assert "without_reference_mass_high_kg" not in flat
+
+
+def test_an_error_names_the_sensor_once(arm: Path, fitted: Calibration) -> None:
+    """Whatever is wrong with it, wherever it was noticed: several sensors are analysed in one go."""
+    experiment = load_experiment(edit(arm / PARQUET, 'serial = "SIM001"', 'serial = "SIM777"'))
+    with pytest.raises(SerialNumberError, match=r"^sensor 'arm_ft': new: "):
+        _analysed(experiment, None, new=fitted)
 
 
 def test_intervals_are_chosen_by_label_or_kind_or_by_the_file(arm: Path) -> None:
@@ -169,8 +217,8 @@ def test_raw_counts_need_a_matrix(arm: Path, fitted: Calibration) -> None:
     experiment = load_experiment(edit(arm / PARQUET, 'prior = "matrix_SIM001.txt"\n', ""))
     with pytest.raises(ExperimentError, match="raw counts become forces by --calibration or a prior matrix"):
         _analysed(experiment, None)
-    (found,) = _analysed(experiment, ["judge"], new=fitted)
-    assert found.candidate == "new"
+    (sphere,) = _analysed(experiment, ["judge"], new=fitted)
+    assert sphere.candidate == "new"
 
 
 def test_a_calibration_of_another_sensor_is_refused(arm: Path, fitted: Calibration) -> None:

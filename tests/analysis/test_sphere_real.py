@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from forcetorque.analysis import SensorSphere, analyse_sensor, sphere_intervals
+from forcetorque.analysis import SensorRun, SensorSphere, spheres
 from forcetorque.errors import FitError
 from forcetorque.evaluation.sphere import CloudForm
 from forcetorque.experiment import Experiment, load_experiment
@@ -44,8 +44,8 @@ def _experiment(data_dir: Path, folder: Path, *, run: str, start_s: float, end_s
 
 
 def _analysed(experiment: Experiment, sensor: str) -> SensorSphere:
-    (found,) = analyse_sensor(experiment, experiment.sensor(sensor), sphere_intervals(experiment, None), {})
-    return found
+    (sphere,) = spheres(SensorRun(experiment, sensor), {}).analyses
+    return sphere
 
 
 WINDOWS = [(25.0, 58.0), (25.0, 41.5), (15.0, 62.0), (0.0, 70.0)]
@@ -59,9 +59,9 @@ def test_arms_are_caps_and_not_identifiable(
     """Whatever the window, the mass of the model lies in the interval, and neither radius nor ellipsoid is believed."""
     experiment = _experiment(data_dir, tmp_path, run=run, start_s=start_s, end_s=end_s)
     for name in ARMS:
-        found = _analysed(experiment, name)
-        analysis, one = found.analysis, found.analysis.radius
-        assert found.no_reference is not None
+        sphere = _analysed(experiment, name)
+        analysis, one = sphere.analysis, sphere.analysis.radius
+        assert sphere.no_reference is not None
         assert analysis.mass == pytest.approx(ARM_KG, abs=0.01)
         assert analysis.form is not CloudForm.SURFACE
         assert not one.identifiable
@@ -101,9 +101,9 @@ def test_windows_and_methods_do_scatter(data_dir: Path, tmp_path: Path) -> None:
 def test_the_free_leg_is_nearly_a_plane(data_dir: Path, tmp_path: Path, start_s: float, end_s: float) -> None:
     """Its radius has no upper end; the weight of the model is not excluded; with the model it is not known either."""
     experiment = _experiment(data_dir, tmp_path, run="dumperLeftLegNoIMU", start_s=start_s, end_s=end_s)
-    found = _analysed(experiment, "r_leg_ft_sensor")
-    analysis = found.analysis
-    assert found.no_reference is None
+    sphere = _analysed(experiment, "r_leg_ft_sensor")
+    analysis = sphere.analysis
+    assert sphere.no_reference is None
     assert analysis.mass == pytest.approx(LEG_KG, abs=0.01)
     assert analysis.form is CloudForm.PLANE
     assert not analysis.radius.identifiable

@@ -20,7 +20,9 @@ from forcetorque.analysis.joint_torques import JointTorqueErrors, joint_torques
 from forcetorque.analysis.judged import JudgedWrenches
 from forcetorque.analysis.prior_comparison import Independence, PriorComparison, compare_with_prior, independence
 from forcetorque.analysis.sensor_run import SensorRun
-from forcetorque.analysis.sphere import SensorSphere, SphereRow, spheres
+from forcetorque.analysis.sensor_sphere import SensorSphere
+from forcetorque.analysis.sphere import spheres
+from forcetorque.analysis.sphere_rows import SphereRow
 from forcetorque.analysis.static_checks import StaticChecks, check
 from forcetorque.analysis.verdict import VerdictLine, verdict
 from forcetorque.arrays import FloatArray

@@ -1,198 +1,88 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Sphere analyses of many sensors and recordings, read one after the other and sorted by sensor and condition."""
+"""The spheres of many sensors, mounting conditions and trials: which sensor, mounted how, weighs alike in all axes."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Any, Literal
 
-import numpy as np
+from pydantic import Field
 
-from forcetorque.analysis.applicability import calibrations_of
-from forcetorque.analysis.sphere import SensorSphere, analyse_sensor, sphere_intervals
-from forcetorque.arrays import FloatArray
+from forcetorque.analysis.compare_rows import GroupFitRow, GroupRow, TrialRow, group_rows
+from forcetorque.analysis.compare_tables import FITS, comparison_blocks
+from forcetorque.analysis.sphere_rows import EllipsoidRow, FailureRow
+from forcetorque.analysis.trial_group import TrialGroup, group_trials
+from forcetorque.analysis.trials import read_trials
 from forcetorque.calibration import Calibration
-from forcetorque.errors import ExperimentError, FitError, ForceTorqueError, MissingFileError, known_names
-from forcetorque.evaluation.sphere import (
-    Drift,
-    EllipsoidFit,
-    PooledSphere,
-    TrialMean,
-    drift_between,
-    mean_of_trials,
-    pool_trials,
+from forcetorque.evaluation.sphere import RULE, TOLERANCE
+from forcetorque.result import Result, Table
+
+_COMMON = ("sensor", "serial", "condition", "candidate")
+"""What tells groups apart, in every line of the CSV."""
+_OF_A_FIT = (
+    *("identifiable", "index_kg", "index_low_kg", "index_high_kg"),
+    *(f"{name}_{axis}_{unit}" for name, unit in (("mass", "kg"), ("error", "N"), ("centre", "N")) for axis in "xyz"),
+    "why",
 )
-from forcetorque.experiment.content import Experiment, ExperimentSensor
-from forcetorque.experiment.load import load_experiment
-from forcetorque.recording import Interval
-
-_SAME_WEIGHT = 0.01
-"""Difference of the weights of trials, relative to their mean, up to which they are of one limb."""
+"""Columns of an ellipsoid in the CSV; the JSON has the others too."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class TrialSphere:
-    """Sphere analysis of one trial: a sensor in one recording, read in one way."""
+class Comparison(Result):
+    """Spheres of trials, and of the sensors and conditions that they are trials of."""
 
-    file: str
-    """Experiment file."""
-    experiment: str
-    """Name of the experiment."""
-    condition: str | None
-    """What was done to the sensor; None if the file does not say."""
-    number: int | None
-    """Which trial of its condition the file says it is."""
-    prior: FloatArray | None
-    """Matrix that the prior's forces are read with; shape (6, c); N/count, N m/count."""
-    sphere: SensorSphere
-    """The analysis."""
+    schema_name: Literal["forcetorque/compare/1"] = Field(default="forcetorque/compare/1", alias="schema")
+    """Form of the result."""
+    tolerance: float
+    """Half width of an interval, relative to the mean radius, up to which a number is identifiable."""
+    rule: str = Field(repr=False)
+    """How it is decided what is identifiable."""
+    figure: str | None
+    """File of the figure; none where none was drawn."""
+    trials: tuple[TrialRow, ...]
+    """One per sensor, trial and way to read it, in the order of the groups."""
+    groups: tuple[GroupRow, ...]
+    """One per sensor, condition and way to read it."""
+    failures: tuple[FailureRow, ...]
+    """What could not be analysed; the exit code is 1 if there is any."""
+    analyses: tuple[TrialGroup, ...] = Field(default=(), exclude=True, repr=False)
+    """The trials and pooled fits behind every group, for figures."""
 
-    @property
-    def gravity(self) -> float:
-        """Magnitude of gravity that the file states; m/s2."""
-        return self.sphere.analysis.gravity
+    def blocks(self) -> Iterator[Table | str]:
+        """Give every trial, conditions side by side, drift and ranks.
 
-    def fit(self, *, with_reference: bool) -> EllipsoidFit | None:
-        """Give one of the two ellipsoids of forces.
+        Yields:
+            Tables and sentences.
+        """
+        if self.trials:
+            yield from comparison_blocks(self.trials, self.groups)
+        yield from (f"FAILED: {failure.message}" for failure in self.failures)
+        if self.figure is not None:
+            yield f"drawn to {self.figure}"
 
-        Args:
-            with_reference: Whether it is that with the model.
+    def records(self) -> list[dict[str, object]]:
+        """Give lines of numbers: those of trials, then means, pooled fits and drifts of groups, then failures.
 
         Returns:
-            The fit; None where there is none with the model.
+            Lines by column; `row` says what each is, and `fit` by which ellipsoid.
         """
-        if not with_reference:
-            return self.sphere.analysis.free
-        mapped = self.sphere.analysis.mapped
-        return None if mapped is None else mapped.fit
+        lines: list[dict[str, object]] = []
+        for trial in self.trials:
+            head = _picked(trial, *_COMMON, "trial", "file", "model_mass_kg", "samples")
+            for name, _ in FITS:
+                fit: EllipsoidRow | None = getattr(trial, name)
+                if fit is not None:
+                    lines.append({"row": "trial", "fit": name, **head, **_fit_values(fit)})
+        for group in self.groups:
+            for name, _ in FITS:
+                by: GroupFitRow | None = getattr(group, name)
+                if by is not None:
+                    head = {"fit": name, **_picked(group, *_COMMON, "trials")}
+                    lines += [{"row": kind, **head, **values} for kind, values in _group_values(by)]
+        return lines + [{"row": "failure", **failure.flat()} for failure in self.failures]
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class TrialFailure:
-    """What could not be analysed."""
-
-    file: str
-    """Experiment file, or the option that named something."""
-    sensor: str | None
-    """Sensor; None for the whole file."""
-    message: str
-    """What was wrong, in one line that names the file."""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class TrialGroup:
-    """All trials of one sensor under one condition, read in one way."""
-
-    trials: tuple[TrialSphere, ...]
-    """In their order, at least one."""
-    pooled: PooledSphere | None
-    """One analysis over all; None with one trial, or where there is none."""
-    not_pooled: str | None
-    """Why several trials were not pooled."""
-
-    @property
-    def first(self) -> TrialSphere:
-        """The first trial, which says what all have in common."""
-        return self.trials[0]
-
-    def pooled_fit(self, *, with_reference: bool) -> EllipsoidFit | None:
-        """Give one of the two pooled ellipsoids.
-
-        Args:
-            with_reference: Whether it is that with the model.
-
-        Returns:
-            The fit; None where there is none.
-        """
-        if self.pooled is None:
-            return None
-        return self.pooled.mapped if with_reference else self.pooled.free
-
-    def mean(self, *, with_reference: bool) -> TrialMean | None:
-        """Average the indices of the trials that are identifiable.
-
-        Args:
-            with_reference: Whether they are those with the model.
-
-        Returns:
-            Plain mean; kg; None where no trial is identifiable.
-        """
-        fits = [(trial.gravity, trial.fit(with_reference=with_reference)) for trial in self.trials]
-        known = [fit.index / gravity for gravity, fit in fits if fit is not None and fit.identifiable]
-        return mean_of_trials(known) if known else None
-
-    def drift(self, *, with_reference: bool) -> Drift | None:
-        """Compare the first trial with the last.
-
-        Args:
-            with_reference: Whether by the fits with the model.
-
-        Returns:
-            Last minus first; None with one trial, where one has no ellipsoid, or where the files state different
-            gravity, which no sensor is to blame for.
-        """
-        if self.trials[0].gravity != self.trials[-1].gravity:
-            return None
-        ends = [trial.fit(with_reference=with_reference) for trial in (self.trials[0], self.trials[-1])]
-        if len(self.trials) < 2 or ends[0] is None or ends[1] is None:
-            return None
-        return drift_between(ends[0], ends[1])
-
-    def index(self, *, with_reference: bool) -> float | None:
-        """Give the index by which the group may be compared with others.
-
-        Args:
-            with_reference: Whether it is that with the model.
-
-        Returns:
-            That of the pooled fit, or of the only trial; kg; None where it is not identifiable.
-        """
-        fit = self._known_fit(with_reference=with_reference)
-        return None if fit is None else fit.index / self.first.gravity
-
-    def index_interval(self, *, with_reference: bool) -> tuple[float, float] | None:
-        """Give the 95 % interval of that index.
-
-        Args:
-            with_reference: Whether it is that with the model.
-
-        Returns:
-            Its ends; kg; None where the index is not identifiable.
-        """
-        fit, gravity = self._known_fit(with_reference=with_reference), self.first.gravity
-        return None if fit is None else (fit.index_low / gravity, fit.index_high / gravity)
-
-    def _known_fit(self, *, with_reference: bool) -> EllipsoidFit | None:
-        """The pooled fit, all of whose trials have one gravity, or that of the only trial, if it is identifiable."""
-        fit = self.pooled_fit(with_reference=with_reference)
-        if len(self.trials) == 1:
-            fit = self.first.fit(with_reference=with_reference)
-        return fit if fit is not None and fit.identifiable else None
-
-
-@dataclass(slots=True, kw_only=True)
-class _Reading:
-    """What has been read so far."""
-
-    sensors: Sequence[str] | None
-    calibrations: Mapping[str, Calibration]
-    intervals: Sequence[str] | None
-    by_interval: bool
-    trials: list[TrialSphere] = field(default_factory=list)
-    failures: list[TrialFailure] = field(default_factory=list)
-    used: set[str] = field(default_factory=set)
-    """Names of sensors and calibrations that were found in a file."""
-    known: dict[str, None] = field(default_factory=dict)
-    """All sensors of all files."""
-
-    def fail(self, file: str, sensor: str | None, error: Exception) -> None:
-        message = " ".join(str(error).split())
-        told = message if file in message else f"{file}: {message}"
-        self.failures.append(TrialFailure(file=file, sensor=sensor, message=told))
-
-
-def read_trials(
+def compare(
     paths: Sequence[Path],
     *,
     sensors: Sequence[str] | None = None,
@@ -200,176 +90,70 @@ def read_trials(
     intervals: Sequence[str] | None = None,
     by_interval: bool = False,
     progress: Callable[[str], None] | None = None,
-) -> tuple[list[TrialSphere], list[TrialFailure]]:
-    """Read experiment files one after the other and analyse their spheres; what fails does not stop the others.
+) -> Comparison:
+    """Compare the spheres of sensors over experiments; what fails does not stop the others.
 
     Args:
-        paths: Experiment files.
+        paths: Experiment files, in the order of the trials.
         sensors: Names of sensors, each in one file at least; None for all.
         calibrations: Calibrations by name, each for the sensor of its name and serial number in whatever file.
         intervals: Labels or kinds of the intervals whose motion draws the sphere; None for what each file says.
         by_interval: Whether each interval is a trial of its own; else all of a file are taken together.
-        progress: Called with a line for people at every file.
+        progress: Called with a line for people at every file, and at every group that is pooled.
 
     Returns:
-        Trials in the order of the files, and what failed.
+        Trials sorted by sensor, condition and way of reading, and what failed.
 
     Raises:
         MissingFileError: If a file is not there; nothing has been read then.
         ExperimentError: If a file is named twice.
     """
-    _refuse_wrong_names(paths)
-    reading = _Reading(sensors=sensors, calibrations=calibrations or {}, intervals=intervals, by_interval=by_interval)
-    for count, path in enumerate(paths, 1):
-        if progress is not None:
-            progress(f"reading {path} ({count} of {len(paths)})")
-        try:
-            experiment = load_experiment(path)
-            spans = sphere_intervals(experiment, intervals)
-        except (ForceTorqueError, OSError, np.linalg.LinAlgError) as error:
-            reading.fail(str(path), None, error)
-            continue
-        # only forces are kept: the recording goes before the next one comes
-        _read_sensors(reading, path, experiment, spans)
-    _require_all_used(reading)
-    return reading.trials, reading.failures
+    trials, failures = read_trials(
+        paths, sensors=sensors, calibrations=calibrations, intervals=intervals, by_interval=by_interval,
+        progress=progress,
+    )  # fmt: skip
+    groups, warnings = group_trials(trials, progress=progress)
+    flattered = (
+        f"{trial.sphere.candidate} was fitted on {', '.join(map(repr, trial.sphere.fitted_on))} of {trial.file}, so "
+        "the verdict on it flatters"
+        for trial in trials
+        if trial.sphere.fitted_on
+    )
+    return Comparison(
+        tolerance=TOLERANCE,
+        rule=RULE,
+        figure=None,
+        trials=tuple(TrialRow.of(trial, k) for group in groups for k, trial in enumerate(group.trials, 1)),
+        groups=group_rows(groups),
+        failures=tuple(failures),
+        analyses=tuple(groups),
+        warnings=(*(f"failed: {failure.message}" for failure in failures), *warnings, *flattered),
+    )
 
 
-def group_trials(
-    trials: Sequence[TrialSphere], *, progress: Callable[[str], None] | None = None
-) -> tuple[list[TrialGroup], list[str]]:
-    """Sort trials by sensor, serial number, condition and way of reading, and pool those of each group.
-
-    Args:
-        trials: Trials in the order of their files.
-        progress: Called with a line for people at every group that is pooled.
-
-    Returns:
-        Groups in the order of their first trials, and warnings.
-    """
-    found: dict[tuple[str, str, str | None, str], list[TrialSphere]] = {}
-    for trial in trials:
-        sphere = trial.sphere
-        found.setdefault((sphere.sensor, sphere.serial, trial.condition, sphere.candidate), []).append(trial)
-    groups, warnings = [], []
-    for (sensor, serial, condition, candidate), members in found.items():
-        where = f"{sensor} ({serial}), {condition or 'no condition'}, {candidate}"
-        ordered, warning = _ordered(members)
-        if warning is not None:
-            warnings.append(f"{where}: {warning}")
-        if progress is not None and len(ordered) > 1:
-            progress(f"pooling {len(ordered)} trials of {where}")
-        pooled, reason = _pooled(ordered)
-        groups.append(TrialGroup(trials=tuple(ordered), pooled=pooled, not_pooled=reason))
-    return groups, warnings
+def _picked(row: TrialRow | GroupRow, *names: str) -> dict[str, Any]:
+    return {name: getattr(row, name) for name in names}
 
 
-def _refuse_wrong_names(paths: Sequence[Path]) -> None:
-    """What is wrong with the names is said before hours are spent on the files."""
-    seen: set[Path] = set()
-    for path in paths:
-        if not path.is_file():
-            raise MissingFileError(f"{path}: expected an experiment file, there is none")
-        if path.resolve() in seen:
-            raise ExperimentError(f"{path}: is named twice, and a trial does not count twice; name it once")
-        seen.add(path.resolve())
+def _fit_values(fit: EllipsoidRow) -> dict[str, object]:
+    values = fit.flat()
+    return {name: values.get(name) for name in _OF_A_FIT}
 
 
-def _read_sensors(reading: _Reading, path: Path, experiment: Experiment, spans: Sequence[Interval]) -> None:
-    reading.known.update(dict.fromkeys(sensor.name for sensor in experiment.sensors))
-    for sensor in _chosen(reading, experiment):
-        own = calibrations_of(experiment, sensor, reading.calibrations)
-        reading.used.update(own)
-        for together in ([span] for span in spans) if reading.by_interval else [list(spans)]:
-            try:
-                spheres = analyse_sensor(experiment, sensor, together, own)
-            except (ForceTorqueError, OSError, np.linalg.LinAlgError) as error:
-                reading.fail(str(path), sensor.name, error)
-                continue
-            reading.trials += [
-                TrialSphere(
-                    file=str(path),
-                    experiment=experiment.name,
-                    condition=experiment.condition,
-                    # a file with several trials numbers none of them
-                    number=None if reading.by_interval and len(spans) > 1 else experiment.trial,
-                    prior=sensor.prior,
-                    sphere=sphere,
-                )
-                for sphere in spheres
-            ]
-
-
-def _chosen(reading: _Reading, experiment: Experiment) -> Iterator[ExperimentSensor]:
-    """Sensors of a file that were asked for, each once."""
-    if reading.sensors is None:
-        yield from experiment.sensors
-        return
-    for sensor in experiment.sensors:
-        names = {sensor.name, *experiment.model.sensor(sensor.name).aliases}
-        asked = names & set(reading.sensors)
-        if asked:
-            reading.used |= asked
-            yield sensor
-
-
-def _require_all_used(reading: _Reading) -> None:
-    """What the user named and no file has is a failure too."""
-    for name in dict.fromkeys(reading.sensors or ()):
-        if name not in reading.used:
-            error = ExperimentError(f"no file has a sensor {name!r}; {known_names(name, reading.known)}")
-            reading.fail("--sensor", name, error)
-    for name, calibration in reading.calibrations.items():
-        if name not in reading.used:
-            of = f"{calibration.sensor.name!r} with the serial number {calibration.sensor.serial!r}"
-            reading.fail(name, calibration.sensor.name, ExperimentError(f"is of {of}, which was read from no file"))
-
-
-def _ordered(trials: list[TrialSphere]) -> tuple[list[TrialSphere], str | None]:
-    """Trials by their numbers, where all have one; else as they came."""
-    numbers = [trial.number for trial in trials]
-    stated = [number for number in numbers if number is not None]
-    if len(stated) == len(trials) == len(set(stated)):
-        return sorted(trials, key=lambda trial: trial.number or 0), None
-    if not stated:
-        return trials, None
-    return trials, "[trial] number is missing or double in some files; the order is that of the files"
-
-
-def _pooled(trials: Sequence[TrialSphere]) -> tuple[PooledSphere | None, str | None]:
-    """One analysis over trials, or why there is none; neither for one trial."""
-    if len(trials) < 2:
-        return None, None
-    spheres = [trial.sphere for trial in trials]
-    priors = [trial.prior for trial in trials]
-    if spheres[0].candidate == "prior" and not all(_same(priors[0], prior) for prior in priors[1:]):
-        return None, "the trials are read with different prior matrices"
-    gravities = list(dict.fromkeys(trial.gravity for trial in trials))
-    if len(gravities) > 1:
-        return None, f"the files state different gravity ({', '.join(f'{each:g}' for each in gravities)} m/s2)"
-    weights = np.array([_weight(sphere) for sphere in spheres])
-    known = weights[np.isfinite(weights)]
-    if len(known) and float(np.ptp(known)) > _SAME_WEIGHT * float(known.mean()):
-        masses = ", ".join(f"{weight / spheres[0].analysis.gravity:.3g}" for weight in known)
-        return None, f"by the models the trials carry different weights ({masses} kg)"
-    references = [sphere.reference for sphere in spheres]
-    whole = [reference for reference in references if reference is not None]
-    complete = len(whole) == len(spheres)
-    forces, weight = [sphere.force for sphere in spheres], float(known.mean()) if complete else None
-    try:
-        return pool_trials(forces, whole if complete else None, weight=weight), None
-    except (FitError, np.linalg.LinAlgError) as error:
-        return None, str(error)
-
-
-def _same(first: FloatArray | None, other: FloatArray | None) -> bool:
-    return first is other or (first is not None and other is not None and np.array_equal(first, other))
-
-
-def _weight(sphere: SensorSphere) -> float:
-    """Weight on the sensor by the model, N; NaN if it is not known."""
-    if sphere.analysis.mass is not None:
-        return sphere.analysis.mass * sphere.analysis.gravity
-    if sphere.reference is None:
-        return np.nan
-    return float(np.linalg.norm(sphere.reference, axis=1).mean())
+def _group_values(by: GroupFitRow) -> Iterator[tuple[str, dict[str, object]]]:
+    """Mean, pooled fit and drift of a group, as far as it has them."""
+    yield (
+        "mean",
+        {
+            "trials": by.known,
+            "identifiable": by.known > 0,
+            "index_kg": by.mean_index_kg,
+            "index_low_kg": by.mean_low_kg,
+            "index_high_kg": by.mean_high_kg,
+            "rank": by.rank if by.pooled is None else None,
+        },
+    )
+    if by.pooled is not None:
+        yield "pooled", {**_fit_values(by.pooled), "rank": by.rank}
+    if by.drift is not None:
+        yield "drift", by.drift.flat()

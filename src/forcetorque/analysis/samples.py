@@ -83,18 +83,18 @@ def samples_over(
 
 
 def readings_over(
-    experiment: Experiment, sensor: ExperimentSensor, interval: Interval
-) -> tuple[FloatArray, FloatArray]:
+    experiment: Experiment, sensor: ExperimentSensor, interval: Interval, *, variables: Sequence[str] = ()
+) -> Readings:
     """Take the readings of a sensor over one interval, for which no reference is wanted.
 
     Args:
         experiment: The experiment.
         sensor: One of its sensors.
         interval: An interval of its recording.
+        variables: Names of linear variables of the sensor that are wanted; samples that lack one are left out.
 
     Returns:
-        Readings, smoothed as the experiment has it, and the sensor's linear variables; samples that lack any are left
-        out; shapes (n, c), (n, v).
+        Readings and variables, smoothed as the experiment has it.
 
     Raises:
         ExperimentError: If no sample is left.
@@ -104,12 +104,13 @@ def readings_over(
     apart = touched_otherwise(interval, recording, experiment.contacts)
     padded = padded_samples(recording, stream, interval, experiment.processing.smoothing, apart=apart)
     rows, at_ns = padded.rows, padded.stamp_ns
-    values = np.where(stream.held[rows, None], np.nan, stream.signal(sensor.quantity).values[rows])
-    columns = [variable.source.at(recording, at_ns)[:, None] for variable in sensor.variables]
-    both = padded.smoothed(np.hstack([values, *columns]))
-    complete = both[np.isfinite(both).all(axis=1)]
+    logged = np.where(stream.held[rows, None], np.nan, stream.signal(sensor.quantity).values[rows])
+    columns = [sensor.variable(name).source.at(recording, at_ns)[:, None] for name in variables]
+    values = padded.smoothed(np.hstack([logged, *columns]))
+    complete = values[np.isfinite(values).all(axis=1)]
     if not len(complete):
         raise ExperimentError(
-            f"interval {interval.label!r}: none of {len(both)} samples of {sensor.stream!r} is complete"
+            f"interval {interval.label!r}: none of {len(values)} samples of {sensor.stream!r} is complete"
         )
-    return complete[:, : values.shape[1]], complete[:, values.shape[1] :]
+    channels = logged.shape[1]
+    return Readings.of(sensor, complete[:, :channels], dict(zip(variables, complete[:, channels:].T, strict=True)))

@@ -10,8 +10,8 @@ from forcetorque.analysis.applicability import require_fit
 from forcetorque.analysis.candidate import JudgedCandidate, judged_candidates, uncalibrated
 from forcetorque.analysis.judged import JudgedWrenches, judged_wrenches
 from forcetorque.analysis.judged_instants import JudgedInstants
-from forcetorque.analysis.reading import Correction, wrench_at
-from forcetorque.analysis.samples import IntervalSamples, samples_over
+from forcetorque.analysis.reading import Correction, Readings, wrench_at
+from forcetorque.analysis.samples import IntervalSamples, readings_over, samples_over
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration import Calibration
 from forcetorque.errors import ExperimentError
@@ -72,10 +72,26 @@ class SensorRun:
         Returns:
             The samples.
         """
-        names = tuple(v.linear.name for v in self.sensor.variables if v.linear.name in variables)
+        names = self._in_order(variables)
         return self._once(
             ("samples", _key(interval), names, smoothed),
             lambda: samples_over(self.experiment, self.sensor, interval, variables=names, smoothed=smoothed),
+        )
+
+    def interval_readings(self, interval: Interval, *, variables: Collection[str] = ()) -> Readings:
+        """Take the readings over an interval, for which no reference is wanted.
+
+        Args:
+            interval: The interval.
+            variables: Names of the linear variables that are wanted; samples that lack one are left out.
+
+        Returns:
+            The readings, through the filter of the experiment.
+        """
+        names = self._in_order(variables)
+        return self._once(
+            ("readings", _key(interval), names),
+            lambda: readings_over(self.experiment, self.sensor, interval, variables=names),
         )
 
     def samples(self, use: Use, *, variables: Collection[str] = ()) -> list[IntervalSamples]:
@@ -190,6 +206,9 @@ class SensorRun:
             calibration: The calibration.
         """
         require_fit(name, calibration, self.experiment, self.sensor)
+
+    def _in_order(self, variables: Collection[str]) -> tuple[str, ...]:
+        return tuple(v.linear.name for v in self.sensor.variables if v.linear.name in variables)
 
     def _once(self, key: Hashable, compute: Callable[[], _Answer]) -> _Answer:
         if key not in self._known:

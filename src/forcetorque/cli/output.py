@@ -131,6 +131,21 @@ def say(sentence: str, output_format: Format) -> None:
         sys.stdout.write(wrapped(sentence, width()) + "\n")
 
 
+def stop_at_failures(failures: Sequence[object]) -> None:
+    """End a command whose result is shown, but lacks something.
+
+    Args:
+        failures: What failed; none where nothing did.
+
+    Raises:
+        typer.Exit: With code 1 if there is any.
+    """
+    import typer
+
+    if failures:
+        raise typer.Exit(1)
+
+
 def width() -> int:
     """Tell how wide a line may be.
 

@@ -84,9 +84,9 @@ def _calibrate() -> dict[str, Any]:
 
 
 def _compare() -> dict[str, Any]:
-    from forcetorque.cli.compare_result import CompareResult
+    from forcetorque.analysis import Comparison
 
-    return CompareResult.model_json_schema()
+    return Comparison.described()
 
 
 def _estimate() -> dict[str, Any]:
@@ -144,9 +144,9 @@ def _simulate() -> dict[str, Any]:
 
 
 def _sphere() -> dict[str, Any]:
-    from forcetorque.cli.sphere_result import SphereResult
+    from forcetorque.analysis import Spheres
 
-    return SphereResult.model_json_schema()
+    return Spheres.described()
 
 
 def _study() -> dict[str, Any]:

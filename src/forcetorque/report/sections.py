@@ -9,8 +9,9 @@ from typing import Any
 import numpy as np
 
 from forcetorque.analysis import Assessment, ExperimentAssessment
+from forcetorque.analysis.sphere_tables import interval_table, mass_table, moment_table
 from forcetorque.errors import ForceTorqueError
-from forcetorque.report import figures, sphere_tables, tables
+from forcetorque.report import figures, tables
 from forcetorque.report.document import Block, Document, Figure, List, Section, Text, Tone, Verdict
 from forcetorque.result import Table, short_names, table_of
 from forcetorque.spatial import WRENCH_COMPONENTS
@@ -155,10 +156,15 @@ def _errors(sensor: Assessment) -> Iterator[Block]:
 
 def _space(sensor: Assessment) -> Iterator[Block]:
     if sensor.spheres:
-        yield sphere_tables.sphere_table(sensor.spheres)
-        yield sphere_tables.mass_table(sensor.spheres)
-        if any(row.moment_with_reference is not None for row in sensor.spheres):
-            yield sphere_tables.moment_table(sensor.spheres)
+        yield mass_table(
+            sensor.spheres,
+            "Apparent mass per axis, its error as a force, and the performance index; what is not known cannot be "
+            "compared",
+        )
+        yield interval_table(sensor.spheres)
+        moments = moment_table(sensor.spheres)
+        if moments is not None:
+            yield moments
         names = short_names([row.candidate for row in sensor.spheres])
         reasons = {
             f"{names[row.candidate]}, {label}: not identifiable: {'; '.join(fit.why)}"

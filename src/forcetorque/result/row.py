@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from types import NoneType
 from typing import Annotated, Any
 
 import numpy as np
@@ -77,7 +78,7 @@ def _flat(values: dict[str, Any], before: str = "") -> Iterator[tuple[str, objec
         key = before + name
         if isinstance(value, dict):
             yield from _flat(value, f"{key}_")
-        elif isinstance(value, list) and any(isinstance(entry, (int, float)) for entry in value):
+        elif isinstance(value, list) and value and all(isinstance(entry, (int, float, NoneType)) for entry in value):
             yield from zip(_keys(key, len(value)), value, strict=True)
         elif isinstance(value, list):
             yield key, "; ".join(str(entry) for entry in value)

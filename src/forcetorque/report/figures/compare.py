@@ -130,8 +130,8 @@ def _reach(lines: Sequence[_Line]) -> float:
     """Right end of a panel: what is known decides, else what is there; intervals may go beyond it."""
     known = [line.index for line in lines if line.known]
     known += [line.high for line in lines if line.known and line.kind != "mean" and np.isfinite(line.high)]
-    found = known or [line.index for line in lines if np.isfinite(line.index)]
-    return _MARGIN * max([*found, 0.05])
+    shown = known or [line.index for line in lines if np.isfinite(line.index)]
+    return _MARGIN * max([*shown, 0.05])
 
 
 def _draw(panel: Axes, lines: Sequence[_Line], top: float) -> None:
@@ -165,12 +165,12 @@ def _names(groups: Sequence[TrialGroup]) -> list[str]:
     names = []
     for group in groups:
         sphere = group.first.sphere
-        parts = [f"{sphere.sensor} ({sphere.serial})" if len(sensors) > 1 else sphere.serial]
+        words = [f"{sphere.sensor} ({sphere.serial})" if len(sensors) > 1 else sphere.serial]
         if group.first.condition is not None:
-            parts.append(group.first.condition)
+            words.append(group.first.condition)
         if len(candidates) > 1:
-            parts.append(candidates[sphere.candidate])
-        names.append(shown_name(", ".join(parts)))
+            words.append(candidates[sphere.candidate])
+        names.append(shown_name(", ".join(words)))
     return names
 
 

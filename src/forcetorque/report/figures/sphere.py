@@ -38,7 +38,7 @@ _FAR = 2.5
 """An outline that is so many times larger than the cloud would hide it and is not drawn."""
 
 
-def sphere_figure(found: Sequence[SensorSphere]) -> bytes:
+def sphere_figure(spheres: Sequence[SensorSphere]) -> bytes:
     """Draw the clouds, ellipsoids and spheres of sensors as seen along the axes [1].
 
     Everything is moved so that the offset of the sensor is zero, as well as it is known: the centre of the ellipsoid
@@ -48,7 +48,7 @@ def sphere_figure(found: Sequence[SensorSphere]) -> bytes:
     that is not identifiable is dotted, and left out where it is far larger than the cloud.
 
     Args:
-        found: Analyses, a row each.
+        spheres: Analyses, a row each.
 
     Returns:
         The figure as PNG, three views per row.
@@ -60,65 +60,67 @@ def sphere_figure(found: Sequence[SensorSphere]) -> bytes:
     References:
         [1] F. J. Andrade Chavez, Force-torque sensing in robotics, thesis (2019), figures 4.2 to 4.4.
     """
-    if not found:
+    if not spheres:
         raise ShapeError("spheres: expected at least one to draw, got none")
-    names = short_names([each.candidate for each in found])
-    figure = new_figure(ROW_INCHES[1] * len(found))
-    rows = figure.subplots(len(found), 3, squeeze=False)
-    for panels, each in zip(rows, found, strict=True):
-        centre = _centre(each)
+    names = short_names([sphere.candidate for sphere in spheres])
+    figure = new_figure(ROW_INCHES[1] * len(spheres))
+    rows = figure.subplots(len(spheres), 3, squeeze=False)
+    for panels, sphere in zip(rows, spheres, strict=True):
+        centre = _centre(sphere)
         for panel, plane in zip(panels, _PLANES, strict=True):
-            _draw_plane(panel, each, centre, plane)
+            _draw_plane(panel, sphere, centre, plane)
         panels[0].set_title(
-            shown_name(f"{each.sensor} ({each.serial}), {names[each.candidate]}"), loc="left", fontsize=TITLE_POINTS
+            shown_name(f"{sphere.sensor} ({sphere.serial}), {names[sphere.candidate]}"),
+            loc="left",
+            fontsize=TITLE_POINTS,
         )
-    legend_below(figure, _keys(found))
+    legend_below(figure, _keys(spheres))
     return png_bytes(figure)
 
 
-def _keys(found: Sequence[SensorSphere]) -> list[tuple[str, dict[str, Any]]]:
+def _keys(spheres: Sequence[SensorSphere]) -> list[tuple[str, dict[str, Any]]]:
     keys: list[tuple[str, dict[str, Any]]] = [("forces read", {**look(0).key, "linestyle": "none"})]
-    if any(each.analysis.mapped is not None for each in found):
+    if any(sphere.analysis.mapped is not None for sphere in spheres):
         keys.append(("ellipsoid with the model", {"color": _MAPPED.colour, "linestyle": _MAPPED.dashes}))
     keys.append(("ellipsoid without the model", {"color": _FREE.colour, "linestyle": _FREE.dashes}))
-    if any(not fit.tilt_identifiable for each in found for fit in _fits(each)):
+    if any(not fit.tilt_identifiable for sphere in spheres for fit in _fits(sphere)):
         keys.append(("not identifiable", {"color": "0.5", "linestyle": ":"}))
-    if any(each.analysis.mass is not None for each in found):
+    if any(sphere.analysis.mass is not None for sphere in spheres):
         keys.append(("weight by the model", {"color": REFERENCE_COLOUR, "linestyle": "-"}))
     return keys
 
 
-def _fits(each: SensorSphere) -> list[Any]:
-    mapped = each.analysis.mapped
-    return [each.analysis.free] if mapped is None else [mapped.fit, each.analysis.free]
+def _fits(sphere: SensorSphere) -> list[Any]:
+    mapped = sphere.analysis.mapped
+    return [sphere.analysis.free] if mapped is None else [mapped.fit, sphere.analysis.free]
 
 
-def _centre(each: SensorSphere) -> FloatArray:
+def _centre(sphere: SensorSphere) -> FloatArray:
     """What the sensor reads without force, as well as it is known; shape (3,)."""
-    analysis = each.analysis
+    analysis = sphere.analysis
     if analysis.mapped is not None and analysis.mapped.fit.identifiable:
         return analysis.mapped.centre
     if analysis.free.identifiable and analysis.free.ellipsoid is not None:
         return analysis.free.ellipsoid.centre
-    if each.reference is not None:
-        shift: FloatArray = (each.force - each.reference).mean(axis=0)
+    if sphere.reference is not None:
+        shift: FloatArray = (sphere.force - sphere.reference).mean(axis=0)
         return shift
     if analysis.radius.centre is not None:
         return analysis.radius.centre
-    middle: FloatArray = each.force.mean(axis=0)
+    middle: FloatArray = sphere.force.mean(axis=0)
     return middle
 
 
-def _draw_plane(panel: Axes, each: SensorSphere, centre: FloatArray, plane: tuple[int, int]) -> None:
-    force = thinned_cloud(each.force - centre)[:, plane]
+def _draw_plane(panel: Axes, sphere: SensorSphere, centre: FloatArray, plane: tuple[int, int]) -> None:
+    force = thinned_cloud(sphere.force - centre)[:, plane]
     cloud = look(0)
     size_points = 5.0 if len(force) < _FEW else 1.8
     panel.plot(*force.T, cloud.marker, color=cloud.colour, markersize=size_points, markeredgewidth=0.0, alpha=0.5)
-    analysis = each.analysis
+    analysis = sphere.analysis
     if analysis.mass is not None:
         circle = analysis.mass * analysis.gravity * _circle()
         panel.plot(*circle.T, color=REFERENCE_COLOUR, linewidth=1.0)
-    size = max(float(np.ptp(each.force, axis=0).max()), (analysis.mass or 0.0) * analysis.gravity)
+    size = max(float(np.ptp(sphere.force, axis=0).max()), (analysis.mass or 0.0) * analysis.gravity)
     drawn = [(analysis.free, _FREE)]
     if analysis.mapped is not None:
         drawn.append((analysis.mapped.fit, _MAPPED))
