@@ -120,9 +120,7 @@ def test_expected_wrenches_are_those_of_the_fit_inside_intervals_only(intact: Pa
     stamps = stream.stamp_ns[_shown(built, stream)]
     shown, inside = _values(built, "expected"), np.zeros(len(stamps), dtype=bool)
     for interval in experiment.recording.intervals:
-        samples = samples_over(
-            experiment, experiment.sensors[0], interval, replace(experiment.processing, smoothing=None)
-        )
+        samples = samples_over(experiment, experiment.sensors[0], interval, smoothed=False).samples
         chosen = np.isin(stamps, samples.stamp_ns)
         np.testing.assert_allclose(shown[chosen], samples.reference, rtol=FLOAT32, atol=1e-5)
         inside |= chosen
