@@ -84,6 +84,7 @@ def days(recorded: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Pat
 def run(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> Run:
     """Run `forcetorque` with words as typed in a shell."""
     logger = logging.getLogger("forcetorque")
+    monkeypatch.setenv("COLUMNS", "120")
 
     def call(*words: object) -> Outcome:
         # the handler of an earlier run writes to what standard error was then

@@ -89,9 +89,9 @@ def test_the_json_fits_the_printed_schema(arm: Path, run: Run) -> None:
     assert (result["schema"], result["experiment"]) == ("forcetorque/evaluate/1", "small arm")
     assert faults(result, schema) == []
     for key in ("samples", "rmse", "offset"):
-        row = {**result["verdicts"][0], key: "none"}
+        row = {**result["verdicts"][0], key: "no such word"}
         assert faults({**result, "verdicts": [row]}, schema) != []
-    assert {key for row in result["verdicts"] for key in row} == set(schema["$defs"]["VerdictRow"]["properties"])
+    assert {key for row in result["verdicts"] for key in row} == set(schema["$defs"]["CandidateErrors"]["properties"])
 
 
 def test_the_csv_holds_the_same_numbers(arm: Path, run: Run) -> None:

@@ -270,7 +270,7 @@ def test_other_kinds_of_files_are_refused_before_anything_is_read(arm: Path, run
     ("outputs", "message"),
     [
         (["limits.html"], "limits.numbers.json: this is a file to read; choose another --output"),
-        (["none/report.html"], "none/report.html: expected an existing folder to write to, there is none"),
+        (["none/report.html"], "none/report.html: expected an existing folder to write to, got none"),
     ],
 )
 def test_no_file_to_read_is_written_over(arm: Path, run: Run, outputs: list[str], message: str) -> None:

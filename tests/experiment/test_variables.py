@@ -132,9 +132,9 @@ def test_a_missing_temperature_leaves_its_sample_out(warm: Path) -> None:
     put(warm, replace(stream, signals={**stream.signals, "temperature": replace(temperature, values=values)}))
     experiment = load_experiment(with_variables(warm / PARQUET, TEMPERATURE))
     assert _fitted(experiment).provenance.dropped == 2
+    without = replace(experiment, fit_options=replace(experiment.fit_options, with_variables=False))
     plain = calibrate_sensor(
-        replace(experiment, fit_options=replace(experiment.fit_options, with_variables=False)),
-        experiment.sensors[0],
+        SensorRun(without, without.sensors[0]),
         code_version="1",
         created="now",
         regularisation=1.0,

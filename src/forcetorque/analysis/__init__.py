@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Questions to the sensors of experiments: one file per question, each a function and its result."""
 
-from forcetorque.analysis.acceptance import Acceptance, accept
+from forcetorque.analysis.acceptance import Acceptance, accept, criteria_table
 from forcetorque.analysis.acceptance_file import AcceptanceFile, read_acceptance
 from forcetorque.analysis.applicability import by_sensor, one_per_sensor
 from forcetorque.analysis.assessment import Assessment, Demands, assess
@@ -122,6 +122,7 @@ __all__ = [
     "compare",
     "compare_with_prior",
     "contact_forces",
+    "criteria_table",
     "corrections_of",
     "data_doubts",
     "doubtful_spans",

@@ -60,18 +60,29 @@ class Acceptance(Result):
             Tables and a sentence.
         """
         for sensor in dict.fromkeys(criterion.sensor for criterion in self.criteria):
-            yield self._table([criterion for criterion in self.criteria if criterion.sensor == sensor])
+            criteria = [criterion for criterion in self.criteria if criterion.sensor == sensor]
+            first = criteria[0]
+            yield criteria_table(criteria, f"{self.experiment}: {first.sensor} ({first.serial}), {first.candidate}")
         passed = sum(criterion.passed for criterion in self.criteria)
         verdict = "accepted" if self.accepted else "NOT accepted"
         yield f"{verdict} by {self.specification!r}: {passed} of {len(self.criteria)} criteria hold"
 
-    def _table(self, criteria: Sequence[Criterion]) -> Table:
-        first = criteria[0]
-        return Table(
-            caption=f"{self.experiment}: {first.sensor} ({first.serial}), {first.candidate}",
-            headings=("criterion", "measured", "bound", "limit", "unit", "n", "verdict", "where"),
-            rows=tuple(_cells(criterion) for criterion in criteria),
-        )
+
+def criteria_table(criteria: Sequence[Criterion], caption: str) -> Table:
+    """Put criteria of one candidate into a table.
+
+    Args:
+        criteria: The criteria.
+        caption: What they are of.
+
+    Returns:
+        A line per criterion.
+    """
+    return Table(
+        caption=caption,
+        headings=("criterion", "measured", "bound", "limit", "unit", "n", "verdict", "where"),
+        rows=tuple(_cells(criterion) for criterion in criteria),
+    )
 
 
 def _cells(criterion: Criterion) -> tuple[str, ...]:

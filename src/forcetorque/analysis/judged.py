@@ -11,7 +11,7 @@ import numpy as np
 
 from forcetorque.analysis.candidate import JudgedCandidate
 from forcetorque.analysis.reading import Readings
-from forcetorque.arrays import FloatArray
+from forcetorque.arrays import FloatArray, require_shape
 from forcetorque.calibration import Calibration
 from forcetorque.evaluation import Offset, offset_removed
 from forcetorque.recording import Use
@@ -76,6 +76,9 @@ def judged_wrenches(run: SensorRun, calibrations: Mapping[str, Calibration]) -> 
     needed = {name for candidate in candidates for name in candidate.correction.variables}
     parts = [run.interval_samples(interval, variables=needed) for interval in run.intervals(Use.VALIDATION)]
     readings = Readings.joined([part.readings for part in parts])
+    for candidate in candidates:
+        matrix = candidate.correction.model.matrix
+        require_shape(matrix, name=f"{candidate.name}: matrix", shape=(6, readings.raw.shape[1]))
     stamps = np.concatenate([part.samples.stamp_ns for part in parts])
     return JudgedWrenches(
         time_s=seconds_since(stamps, run.experiment.recording.start_ns),

@@ -13,7 +13,7 @@ from forcetorque.analysis.sensor_run import SensorRun
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration import Calibration
 from forcetorque.evaluation import Offset, PairedMean, autocorrelation, paired_difference
-from forcetorque.result import Row, Shown, finite_or_none
+from forcetorque.result import Row, Shown, ShownWrench, finite_or_none
 
 FEWEST_INDEPENDENT = 6.0
 """Independent samples below which an interval of a difference is not worth its name: at 3 it misses in 8 to 12 %,
@@ -33,7 +33,7 @@ class Independence(Row):
     """The calibration file, or the prior."""
     samples: Annotated[int, Shown("samples")]
     """Number of judged samples."""
-    independent: tuple[float | None, ...]
+    independent: Annotated[tuple[float | None, ...], ShownWrench(digits=0, counts=True)]
     """Effective number of independent samples per component; none where the error does not change."""
 
 

@@ -8,16 +8,13 @@ from typing import Any
 
 import numpy as np
 
-from forcetorque.analysis import Assessment, ExperimentAssessment
+from forcetorque.analysis import Assessment, ExperimentAssessment, criteria_table, finding_table
 from forcetorque.analysis.sphere_tables import interval_table, mass_table, moment_table
 from forcetorque.errors import ForceTorqueError
 from forcetorque.report import figures, tables
 from forcetorque.report.document import Block, Document, Figure, List, Section, Text, Tone, Verdict
 from forcetorque.result import Table, short_names, table_of
 from forcetorque.spatial import WRENCH_COMPONENTS
-
-_MOST_ROWS = 200
-"""Rows of a table that are shown; the JSON has them all."""
 
 
 def report_document(
@@ -88,10 +85,9 @@ def _recording(experiment: ExperimentAssessment) -> Section:
 
 
 def _findings(experiment: ExperimentAssessment) -> Section:
-    shown = experiment.findings[:_MOST_ROWS]
-    more = len(experiment.findings) - len(shown)
-    caption = "Findings about the recording" + (f"; {more} more are in the JSON" if more > 0 else "")
-    block = table_of(shown, caption) if shown else Text(text="Nothing was found wrong.")
+    caption = "Findings about the recording; of many alike the first few, the JSON has them all"
+    findings = experiment.findings
+    block = finding_table(findings, caption) if findings else Text(text="Nothing was found wrong.")
     return Section(title=f"Findings: {experiment.experiment}", blocks=(block,))
 
 
@@ -271,7 +267,10 @@ def _static(sensor: Assessment) -> Iterator[Block]:
 
 def _acceptance(sensor: Assessment) -> Iterator[Block]:
     if sensor.criteria:
-        yield table_of(sensor.criteria, "Criteria of the acceptance file")
+        names = short_names([criterion.candidate for criterion in sensor.criteria])
+        for candidate, name in names.items():
+            criteria = [criterion for criterion in sensor.criteria if criterion.candidate == candidate]
+            yield criteria_table(criteria, f"Criteria of the acceptance file: {name}")
 
 
 def _provenance(experiments: Sequence[ExperimentAssessment]) -> Section:

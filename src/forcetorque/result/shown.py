@@ -59,10 +59,13 @@ class Shown:
 class ShownWrench(Shown):
     """Annotation of six numbers fx fy fz tx ty tz, a column for each."""
 
+    counts: bool = False
+    """Whether the numbers are counts for each component, without its unit."""
+
     @property
     def headings(self) -> tuple[str, ...]:
         """One heading per component, with its unit."""
-        return COMPONENTS
+        return WRENCH_COMPONENTS if self.counts else COMPONENTS
 
     def cells(self, value: Sequence[float] | None, values: Mapping[str, Any]) -> tuple[str, ...]:
         """Write six numbers.

@@ -47,11 +47,13 @@ def table_of(rows: Sequence[Row], caption: str, *, leave_out: Collection[str] = 
         A line per row and a column, or six, per field with an annotation.
 
     Raises:
-        ShapeError: If there are no rows.
+        ShapeError: If there are no rows, or no field to show.
     """
     if not rows:
         raise ShapeError(f"table {caption!r}: expected at least one row, got none")
     fields = [(name, shown) for name, shown in shown_fields(type(rows[0])) if name not in leave_out]
+    if not fields:
+        raise ShapeError(f"table {caption!r}: expected a field of {type(rows[0]).__name__} with a Shown, got none")
     columns = []
     for name, shown in fields:
         values = [getattr(row, name) for row in rows]
