@@ -17,6 +17,7 @@ from forcetorque.analysis.contact_forces import (
 from forcetorque.analysis.corrections import corrections_of
 from forcetorque.analysis.criterion import Bound, Criterion
 from forcetorque.analysis.estimate import IntervalEstimates, estimate_experiment
+from forcetorque.analysis.estimate_summary import EstimateSummary, summarise_estimates
 from forcetorque.analysis.evaluate import CandidateErrors, Evaluation, evaluate
 from forcetorque.analysis.experiment_assessment import ExperimentAssessment, assess_experiment
 from forcetorque.analysis.export import (
@@ -81,6 +82,7 @@ __all__ = [
     "Demands",
     "Evaluation",
     "ExperimentAssessment",
+    "EstimateSummary",
     "Export",
     "ExportedCalibration",
     "FailureRow",
@@ -151,5 +153,6 @@ __all__ = [
     "spheres_of_sensors",
     "study_sensor",
     "validate",
+    "summarise_estimates",
     "weigh_load",
 ]

@@ -11,12 +11,12 @@ from forcetorque.cli.accept import accept
 from forcetorque.cli.calibrate import calibrate
 from forcetorque.cli.compare import compare
 from forcetorque.cli.encoding import spell_missing_letters
+from forcetorque.cli.estimate import estimate
 from forcetorque.cli.evaluate import evaluate
 from forcetorque.cli.export import export
 from forcetorque.cli.gains import gains
 from forcetorque.cli.inspect import inspect
 from forcetorque.cli.output import report_error
-from forcetorque.cli.parser.estimate import estimate
 from forcetorque.cli.parser.schema import schema
 from forcetorque.cli.parser.simulate import simulate
 from forcetorque.cli.parser.study import study

@@ -90,9 +90,9 @@ def _compare() -> dict[str, Any]:
 
 
 def _estimate() -> dict[str, Any]:
-    from forcetorque.cli.estimate import EstimateResult
+    from forcetorque.analysis import EstimateSummary
 
-    return EstimateResult.model_json_schema()
+    return EstimateSummary.described()
 
 
 def _evaluate() -> dict[str, Any]:
