@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Any
 
 from forcetorque.atomic import STANDARD_OUTPUT
 from forcetorque.errors import ForceTorqueError
+from forcetorque.new_folder import refuse_existing
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -198,6 +199,19 @@ def refuse_standard_output(option: str, path: Path | None) -> None:
     """
     if path == STANDARD_OUTPUT:
         raise ForceTorqueError(f"{option} -: expected a name, standard output takes the result only; see --format")
+
+
+def refuse_output_folder(output: Path) -> None:
+    """Refuse a folder of results that cannot be made anew, before any work is done.
+
+    Args:
+        output: Folder to make.
+
+    Raises:
+        ForceTorqueError: If it is there already, or is `-`.
+    """
+    refuse_standard_output("--output", output)
+    refuse_existing(output, where="--output ")
 
 
 def refuse_two_on_standard_output(output: Path | None, output_format: Format) -> None:

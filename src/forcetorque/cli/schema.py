@@ -138,9 +138,9 @@ def _scenario() -> dict[str, Any]:
 
 
 def _simulate() -> dict[str, Any]:
-    from forcetorque.cli.simulate import SimulateResult
+    from forcetorque.experiment.simulated import WrittenScenario
 
-    return SimulateResult.model_json_schema()
+    return WrittenScenario.described()
 
 
 def _sphere() -> dict[str, Any]:

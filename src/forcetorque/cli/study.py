@@ -13,12 +13,12 @@ from urllib.parse import quote
 
 from forcetorque.analysis import SensorStudy, read_study_data, study_sensor
 from forcetorque.calibration import ESTIMATION_TYPES, estimation_type
-from forcetorque.cli.new_folder import new_folder, refuse_existing
-from forcetorque.cli.output import Format, console, print_result, start_logging, table
+from forcetorque.cli.output import Format, console, print_result, refuse_output_folder, start_logging, table
 from forcetorque.cli.study_files import write_calibrations, write_figures, write_tables
 from forcetorque.cli.study_result import ModeResult, SensorStudyResult, StudyResult, sensor_result
 from forcetorque.errors import FitError, ForceTorqueError, MissingExtraError
 from forcetorque.experiment.inputs import stated_in
+from forcetorque.new_folder import new_folder
 from forcetorque.spatial import WRENCH_COMPONENTS, WRENCH_UNITS
 from forcetorque.study import SWEEP_LAMBDAS, tables
 
@@ -50,7 +50,7 @@ def run(
         output_format: Form of the result.
     """
     log = start_logging()
-    refuse_existing(output)
+    refuse_output_folder(output)
     combinations = None if data_sets is None else _data_sets(data_sets)
     chosen_kinds = [estimation_type(name) for name in kinds or ESTIMATION_TYPES]
     chosen_lambdas = _lambdas(lambdas)
