@@ -19,12 +19,12 @@ from forcetorque.cli.inspect import inspect
 from forcetorque.cli.output import report_error
 from forcetorque.cli.parser.schema import schema
 from forcetorque.cli.parser.study import study
-from forcetorque.cli.parser.view import view
 from forcetorque.cli.payload import payload
 from forcetorque.cli.report import report
 from forcetorque.cli.sphere import sphere
 from forcetorque.cli.validate import validate
 from forcetorque.cli.simulate import simulate
+from forcetorque.cli.view import view
 from forcetorque.errors import ForceTorqueError
 
 app = typer.Typer(

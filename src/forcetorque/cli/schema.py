@@ -162,6 +162,6 @@ def _validate() -> dict[str, Any]:
 
 
 def _view() -> dict[str, Any]:
-    from forcetorque.cli.view import ViewResult
+    from forcetorque.viewer import View
 
-    return ViewResult.model_json_schema()
+    return View.described()
