@@ -62,6 +62,7 @@ from forcetorque.analysis.sphere_rows import FailureRow, SphereRow
 from forcetorque.analysis.static_checks import IntervalOffset, StaticChecks, check
 from forcetorque.analysis.study import SensorStudy, study_sensor
 from forcetorque.analysis.study_data import StudyData, read_study_data
+from forcetorque.analysis.study_result import StudiedSensor, Studies, studied_sensor, study_warnings
 from forcetorque.analysis.trial_group import TrialGroup, group_trials
 from forcetorque.analysis.trials import TrialSphere, read_trials
 from forcetorque.analysis.validate import Validation, validate
@@ -108,6 +109,8 @@ __all__ = [
     "SphereRow",
     "Spheres",
     "StaticChecks",
+    "StudiedSensor",
+    "Studies",
     "StudyData",
     "TrialGroup",
     "TrialSphere",
@@ -153,6 +156,8 @@ __all__ = [
     "spheres_of_sensors",
     "study_sensor",
     "validate",
+    "studied_sensor",
+    "study_warnings",
     "summarise_estimates",
     "weigh_load",
 ]

@@ -150,9 +150,9 @@ def _sphere() -> dict[str, Any]:
 
 
 def _study() -> dict[str, Any]:
-    from forcetorque.cli.study_result import StudyResult
+    from forcetorque.analysis import Studies
 
-    return StudyResult.model_json_schema()
+    return Studies.described()
 
 
 def _validate() -> dict[str, Any]:
