@@ -17,13 +17,13 @@ from forcetorque.cli.export import export
 from forcetorque.cli.gains import gains
 from forcetorque.cli.inspect import inspect
 from forcetorque.cli.output import report_error
-from forcetorque.cli.parser.schema import schema
 from forcetorque.cli.payload import payload
 from forcetorque.cli.report import report
-from forcetorque.cli.sphere import sphere
-from forcetorque.cli.validate import validate
+from forcetorque.cli.schema import schema
 from forcetorque.cli.simulate import simulate
+from forcetorque.cli.sphere import sphere
 from forcetorque.cli.study import study
+from forcetorque.cli.validate import validate
 from forcetorque.cli.view import view
 from forcetorque.errors import ForceTorqueError
 
