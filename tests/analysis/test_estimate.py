@@ -14,6 +14,7 @@ from forcetorque.analysis import (
     calibrate_sensor,
     corrections_of,
     estimate_experiment,
+    summarise_estimates,
 )
 from forcetorque.calibration import Calibration
 from forcetorque.errors import EstimationError, ExperimentError, RecordingError
@@ -21,6 +22,7 @@ from forcetorque.experiment import Experiment, load_experiment
 from forcetorque.experiment.contacts import contact_in_words
 from forcetorque.recording import Recording, Signal, Stream, Use, read_recording, write_recording
 from tests.experiments import MOUNTED, PARQUET, TWO, add, edit
+from tests.result.showing import require_shown
 
 PUSH = np.array([5.0, -3.0, 8.0, 0.1, 0.2, -0.15])
 """What the environment does to the link beyond the sensor, in the sensor's frame; N, N m."""
@@ -237,3 +239,38 @@ def test_sensors_on_another_clock_are_not_combined(arm: Path) -> None:
     corrections["tool_ft"] = corrections["arm_ft"]
     with pytest.raises(RecordingError, match=r"'arm_ft' and 'tool_ft' were stamped by the clocks .*'another machine'"):
         estimate_experiment(experiment, corrections)
+
+
+def test_the_summary_shows_itself(arm: Path, fitted: Calibration) -> None:
+    """Without a file none is named; with one it holds every sample."""
+    experiment = load_experiment(arm / TWO)
+    corrections = corrections_of(experiment, {"fitted": fitted})
+    spans = estimate_experiment(experiment, corrections)
+    summary = summarise_estimates(experiment, corrections, spans)
+    assert summary.rows == sum(len(span.stamp_ns) for span in spans)
+    require_shown(summary)
+    assert "written" not in summary.text()
+    assert not (arm / "out.csv").exists()
+    written = summarise_estimates(experiment, corrections, spans, file=arm / "out.csv")
+    assert (arm / "out.csv").read_bytes().count(b"\n") == written.rows + 1
+    assert f"{written.rows} rows written to" in written.text()
+
+
+def test_what_cannot_be_estimated_is_a_warning_of_the_summary(arm: Path) -> None:
+    """Who asks from Python is told, as who asks from a terminal is."""
+    joints = read_recording(arm / "recording").stream("joints")
+    position = joints.signal("position")
+    kept = [k for k, name in enumerate(position.columns) if name != "wrist"]
+    thinned = Signal(
+        quantity="position",
+        values=position.values[:, kept],
+        columns=tuple(position.columns[k] for k in kept),
+        units=tuple(position.units[k] for k in kept),
+    )
+    _with_stream(arm, replace(joints, signals={"position": thinned}))
+    experiment = load_experiment(arm / PARQUET)
+    corrections = corrections_of_nothing(experiment)
+    summary = summarise_estimates(experiment, corrections, estimate_experiment(experiment, corrections))
+    assert len(summary.left_out) > 0
+    assert summary.warnings == tuple(f"left out: {sentence}" for sentence in summary.left_out)
+    assert "warnings" not in summary.json_text()

@@ -12,11 +12,15 @@ import numpy as np
 import pytest
 
 from forcetorque.analysis import (
+    SensorRun,
     SensorStudy,
+    Studies,
     StudyData,
-    evaluate_sensor,
+    evaluate,
     read_study_data,
+    studied_sensor,
     study_sensor,
+    study_warnings,
 )
 from forcetorque.analysis.study import combinations_of
 from forcetorque.analysis.study_data import StudyInterval
@@ -33,6 +37,7 @@ from forcetorque.experiment import load_experiment
 from forcetorque.spatial import WRENCH_COMPONENTS
 from forcetorque.study import Candidate
 from tests.experiments import PARQUET, edit
+from tests.result.showing import require_shown
 from tests.studies import CALIBRATION, FILES, SERIAL, VALIDATION, scenario
 
 SAME = 1e-8
@@ -270,15 +275,37 @@ def test_every_calibration_is_read_back_as_it_was(made: SensorStudy, tmp_path: P
 def test_every_calibration_can_be_evaluated(days: Path, made: SensorStudy) -> None:
     """All give verdicts on a day that was not fitted, where the best beat the prior; a fitted day is refused."""
     experiment = load_experiment(days / VALIDATION[0])
-    verdicts = evaluate_sensor(experiment, experiment.sensors[0], made.calibrations)
-    force = {(v.candidate, v.offset): v.errors.force_mean for v in verdicts}
-    assert all((name, offset) in force for name in made.calibrations for offset in ("fitted", "re-estimated"))
-    prior = min(value for (name, offset), value in force.items() if "prior" in name and offset == "re-estimated")
+    verdicts = evaluate(SensorRun(experiment, experiment.sensors[0]), made.calibrations).verdicts
+    force = {(row.candidate, row.offset): row.force_error_mean_N for row in verdicts}
+    assert all((name, offset) in force for name in made.calibrations for offset in ("fitted", "judged-mean"))
+    prior = min(value for (name, offset), value in force.items() if "prior" in name and offset == "judged-mean")
     for by in ("best", "best_by_axis"):
-        assert force[NAMES[Offset.FIRST_SECOND, by], "re-estimated"] < 0.1 * prior
+        assert force[NAMES[Offset.FIRST_SECOND, by], Offset.JUDGED_MEAN] < 0.1 * prior
     fitted = load_experiment(edit(days / "grid_cold.toml", '"calibration"', '"validation"'))
     with pytest.raises(ExperimentError, match="was fitted on the interval 'grid_cold', which overlaps"):
-        evaluate_sensor(fitted, fitted.sensors[0], {"best": made.calibrations["best_by_axis_offset_fitted"]})
+        evaluate(SensorRun(fitted, fitted.sensors[0]), {"best": made.calibrations["best_by_axis_offset_fitted"]})
+
+
+def test_what_a_study_comes_to_shows_itself(made: SensorStudy) -> None:
+    """Numbers stay whole, CSV has every candidate and the workbench, JSON none of them, and no folder is named."""
+    row = studied_sensor(made)
+    studies = Studies(experiments=("days",), folder=None, sensors=(row,))
+    require_shown(studies)
+    assert "are in" not in studies.text()
+    assert len(studies.records()) == row.candidates + 1
+    assert "candidate_rows" not in studies.json_text()
+    assert [mode.offset for mode in row.modes] == ["first-second", "fitted"]
+    chosen = made.study.choices[Offset.FIRST_SECOND].by_magnitude
+    assert row.modes[0].best.force_mean_N == made.study.judgements[Offset.FIRST_SECOND].over().force_mean[chosen]
+
+
+def test_a_session_that_is_fitted_and_judged_is_a_warning(data: StudyData, made: SensorStudy) -> None:
+    """By its name; sessions that are only judged are none."""
+    assert not [sentence for sentence in study_warnings(made) if "is fitted and judged" in sentence]
+    session = data.validation[0].session
+    both = replace(data, calibration=tuple(replace(interval, session=session) for interval in data.calibration))
+    (sentence,) = [s for s in study_warnings(replace(made, data=both)) if "is fitted and judged" in s]
+    assert sentence == f"session {session!r} is fitted and judged: its score is not what another session gives"
 
 
 def test_a_sensor_without_variables_is_studied_without_the_types_that_need_them(intact: Path) -> None:
@@ -334,7 +361,7 @@ def test_progress_tells_every_step(data: StudyData) -> None:
     _study(data, kinds=[ESTIMATION_TYPES["OwTrTO"]], progress=said.append)
     assert said == [
         "fitting 3 combinations of data sets, 1 types, 3 lambdas",
-        "judging 10 matrices on 2 intervals, offset re-estimated",
+        "judging 10 matrices on 2 intervals, offset first-second",
         "day_1",
         "day_2",
         "judging 10 matrices on 2 intervals, offset fitted",

@@ -173,7 +173,7 @@ def test_the_rows_of_all_candidates_say_what_they_are_and_how_they_do() -> None:
         assert row["relative_lambda"] == candidate.relative_lambda
     assert "table_lambda_counts2" not in rows[-1]
     for index in (0, 100, 350, 351):
-        for source, mode in ((Offset.FIRST_SECOND, "re_estimated"), (Offset.FITTED, "fitted")):
+        for source, mode in ((Offset.FIRST_SECOND, "first_second"), (Offset.FITTED, "fitted")):
             judged_with = Offset.FIRST_SECOND if index == 351 else source
             errors = np.concatenate([errors_by_samples(study().models[index], one, judged_with) for one in JUDGED])
             force, moment = (np.linalg.norm(errors[:, part], axis=1) for part in (slice(0, 3), slice(3, 6)))

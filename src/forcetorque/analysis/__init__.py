@@ -17,6 +17,7 @@ from forcetorque.analysis.contact_forces import (
 from forcetorque.analysis.corrections import corrections_of
 from forcetorque.analysis.criterion import Bound, Criterion
 from forcetorque.analysis.estimate import IntervalEstimates, estimate_experiment
+from forcetorque.analysis.estimate_summary import EstimateSummary, summarise_estimates
 from forcetorque.analysis.evaluate import CandidateErrors, Evaluation, evaluate
 from forcetorque.analysis.experiment_assessment import ExperimentAssessment, assess_experiment
 from forcetorque.analysis.export import (
@@ -61,6 +62,7 @@ from forcetorque.analysis.sphere_rows import FailureRow, SphereRow
 from forcetorque.analysis.static_checks import IntervalOffset, StaticChecks, check
 from forcetorque.analysis.study import SensorStudy, study_sensor
 from forcetorque.analysis.study_data import StudyData, read_study_data
+from forcetorque.analysis.study_result import StudiedSensor, Studies, studied_sensor, study_warnings
 from forcetorque.analysis.trial_group import TrialGroup, group_trials
 from forcetorque.analysis.trials import TrialSphere, read_trials
 from forcetorque.analysis.validate import Validation, validate
@@ -81,6 +83,7 @@ __all__ = [
     "Demands",
     "Evaluation",
     "ExperimentAssessment",
+    "EstimateSummary",
     "Export",
     "ExportedCalibration",
     "FailureRow",
@@ -106,6 +109,8 @@ __all__ = [
     "SphereRow",
     "Spheres",
     "StaticChecks",
+    "StudiedSensor",
+    "Studies",
     "StudyData",
     "TrialGroup",
     "TrialSphere",
@@ -152,5 +157,8 @@ __all__ = [
     "spheres_of_sensors",
     "study_sensor",
     "validate",
+    "studied_sensor",
+    "study_warnings",
+    "summarise_estimates",
     "weigh_load",
 ]

@@ -4,31 +4,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from itertools import combinations
-from typing import Any
 
-import numpy as np
-
-from forcetorque.analysis.calibrate import artefact
+from forcetorque.analysis.study_calibrations import CalibrationMaker
 from forcetorque.analysis.study_data import StudyData, StudyInterval
-from forcetorque.arrays import FloatArray
-from forcetorque.calibration import (
-    Calibration,
-    EstimationType,
-    FittedInterval,
-    Selection,
-    calibrate,
-)
+from forcetorque.calibration import Calibration, EstimationType
 from forcetorque.errors import ExperimentError, known_names
-from forcetorque.evaluation import KNOWN_BEFORE, Offset
-from forcetorque.spatial import WRENCH_COMPONENTS
-from forcetorque.study import (
-    Candidate,
-    Study,
-    assembled,
-    run_study,
-)
+from forcetorque.evaluation import KNOWN_BEFORE
+from forcetorque.study import Study, run_study
 
 _MOST_KINDS = 6
 """Kinds of data whose combinations are all tried; 63 of them."""
@@ -43,7 +27,7 @@ class SensorStudy:
     study: Study
     """The study."""
     calibrations: Mapping[str, Calibration]
-    """Best candidates: by magnitude and by axis, with the offset re-estimated and with the fitted one."""
+    """Best candidates: by magnitude and by axis, with the offset from the first second and with the fitted one."""
 
 
 def study_sensor(
@@ -96,12 +80,12 @@ def study_sensor(
         sphere=drawing,
         progress=progress,
     )
-    maker = _Maker(data=data, study=study, sphere=drawing, code_version=code_version, created=created)
-    made = {}
-    for source in KNOWN_BEFORE:
-        made[f"best_offset_{source.replace('-', '_')}"] = maker.by_magnitude(source)
-        made[f"best_by_axis_offset_{source.replace('-', '_')}"] = maker.by_axis(source)
-    return SensorStudy(data=data, study=study, calibrations=made)
+    maker = CalibrationMaker(data=data, study=study, sphere=drawing, code_version=code_version, created=created)
+    calibrations = {}
+    for offset in KNOWN_BEFORE:
+        calibrations[f"best_offset_{offset.replace('-', '_')}"] = maker.by_magnitude(offset)
+        calibrations[f"best_by_axis_offset_{offset.replace('-', '_')}"] = maker.by_axis(offset)
+    return SensorStudy(data=data, study=study, calibrations=calibrations)
 
 
 def combinations_of(intervals: Sequence[StudyInterval]) -> dict[str, tuple[str, ...]]:
@@ -143,119 +127,3 @@ def _resolved(intervals: Sequence[StudyInterval], data_sets: Mapping[str, Sequen
         name: tuple(interval.label for interval in intervals if interval.label in words or interval.kind in words)
         for name, words in data_sets.items()
     }
-
-
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class _Maker:
-    """Makes calibrations of candidates."""
-
-    data: StudyData
-    study: Study
-    sphere: tuple[str, ...] | None
-    code_version: str
-    created: str
-
-    def by_magnitude(self, source: Offset) -> Calibration:
-        best = self.study.choices[source].by_magnitude
-        value = self.study.judgements[source].over().force_mean[best]
-        rule = f"smallest mean contact force, offset {source}: {value:.4g} N by {self.study.name(best)}"
-        return self._of(self.study.fits.candidates[best], rule)
-
-    def by_axis(self, source: Offset) -> Calibration:
-        rows = self.study.choices[source].by_axis
-        words = "; ".join(f"{c} by {self.study.name(k)}" for c, k in zip(WRENCH_COMPONENTS, rows, strict=True))
-        rule = f"smallest mean absolute value of every axis, offset {source}: {words}"
-        made = {index: self._of(self.study.fits.candidates[index], rule) for index in dict.fromkeys(rows)}
-        joined = joined_by_axis([made[index] for index in rows])
-        fitted = {interval.label for interval in joined.provenance.intervals}
-        parts = [interval.part for interval in self.data.calibration if interval.label in fitted]
-        counted = {"samples": sum(len(p.samples) for p in parts), "dropped": sum(p.samples.dropped for p in parts)}
-        return joined.model_copy(update={"provenance": joined.provenance.model_copy(update=counted)})
-
-    def _of(self, candidate: Candidate, rule: str) -> Calibration:
-        """Fit the candidate again, with everything that an artefact tells."""
-        combination = next(c for c in self.study.fits.combinations if c.name == candidate.data_set)
-        intervals = [interval for interval in self.data.calibration if interval.label in combination.labels]
-        linear = [variable.linear for variable in self.data.sensor.variables]
-        drawing = None if self.sphere is None else [label for label in self.sphere if label in combination.labels]
-        without = not candidate.kind.with_variables
-        result = calibrate(
-            [replace(i.data_set, variables=None) if without else i.data_set for i in intervals],
-            self.data.sensor.prior,
-            regularisation=candidate.lambda_counts2,
-            kind=candidate.kind,
-            variables=() if without else linear,
-            sphere=drawing,
-        )
-        made = artefact(
-            result,
-            [replace(i.part, interval=replace(i.part.interval, label=i.label)) for i in intervals],
-            sensor=self.data.sensor,
-            identity=self.data.identity,
-            code_version=self.code_version,
-            created=self.created,
-            experiment="; ".join(self.data.experiments),
-            inputs_sha256=self.data.inputs_sha256,
-        )
-        judged = tuple(
-            FittedInterval(label=i.label, start_ns=i.part.interval.start_ns, end_ns=i.part.interval.end_ns)
-            for i in self.data.validation
-        )
-        return made.model_copy(update={"selection": Selection(rule=rule, chosen_on=judged)})
-
-
-def joined_by_axis(rows: Sequence[Calibration]) -> Calibration:
-    """Put a calibration together from rows of others of the same sensor.
-
-    Args:
-        rows: Calibration that gives each of the six rows; all name the same selection.
-
-    Returns:
-        The calibration. Its validity is that of the one among them whose data excite the fewest directions. The
-        offsets have no standard errors where one was moved to another reference value.
-    """
-    models = [one.model for one in rows]
-    reference = next((m.reference_values for m in models if len(m.reference_values)), np.zeros(0))
-    model = assembled(models, range(6), reference)
-    weakest = min(rows, key=lambda one: sum(one.validity.excited))
-    intervals = {(i.label, i.start_ns): i for one in rows for i in one.provenance.intervals}
-    described = next((one.variables for one in rows if one.variables), ())
-    update: dict[str, Any] = {
-        "matrix": model.matrix,
-        "offset": model.offset,
-        "variables": tuple(
-            variable.model_copy(
-                update={
-                    "coefficients": model.coefficients[:, k],
-                    "standard_error": _diagonal([_error_of(one, k) for one in rows]),
-                }
-            )
-            for k, variable in enumerate(described if len(model.reference_values) else ())
-        ),
-        "estimation_type": "by axis",
-        "raw_offset_counts": None,
-        "matrix_standard_error": _diagonal([one.matrix_standard_error for one in rows]),
-        "offset_standard_error": _diagonal([_offset_error(one, reference) for one in rows]),
-        "residual_rms": _diagonal([one.residual_rms for one in rows]),
-        "lambda_counts2": None,
-        "provenance": weakest.provenance.model_copy(update={"intervals": tuple(intervals.values())}),
-    }
-    return weakest.model_copy(update=update)
-
-
-def _error_of(calibration: Calibration, variable: int) -> FloatArray | None:
-    """Standard error of a variable's coefficients; zero where the row has none, which is not estimated."""
-    return calibration.variables[variable].standard_error if calibration.variables else np.zeros(6)
-
-
-def _offset_error(calibration: Calibration, reference: FloatArray) -> FloatArray | None:
-    """Standard error of an offset; None for an offset elsewhere, which moves with the coefficients."""
-    values = calibration.model.reference_values
-    return calibration.offset_standard_error if not len(values) or np.array_equal(values, reference) else None
-
-
-def _diagonal(rows: Sequence[FloatArray | None]) -> FloatArray | None:
-    """Row k of the k-th array; None where one is missing."""
-    if any(row is None for row in rows):
-        return None
-    return np.stack([row[k] for k, row in enumerate(rows) if row is not None])

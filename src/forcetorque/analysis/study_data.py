@@ -187,7 +187,7 @@ def _names_of(paths: Sequence[Path]) -> dict[Path, str]:
     """Name every file by its stem, with as many folders in front as tell all of them apart."""
     parts = [real_path(path).with_suffix("").parts for path in paths]
     for count in range(1, max(map(len, parts))):
-        names = ["/".join(each[-count:]) for each in parts]
+        names = ["/".join(folders[-count:]) for folders in parts]
         if len(set(names)) == len(names):
             return dict(zip(paths, names, strict=True))
     return {path: path.as_posix() for path in paths}

@@ -4,24 +4,20 @@
 from __future__ import annotations
 
 import csv
-import json
 import logging
-import math
 import sys
 from collections import Counter
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Sequence
 from enum import StrEnum
 from pathlib import Path
 from shutil import get_terminal_size
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from forcetorque.atomic import STANDARD_OUTPUT
 from forcetorque.errors import ForceTorqueError
+from forcetorque.new_folder import refuse_existing
 
 if TYPE_CHECKING:
-    from rich.console import Console
-    from rich.table import Table
-
     from forcetorque.result import Result
 
 _PIPE_WIDTH = 120
@@ -72,20 +68,6 @@ def report_error(error: Exception) -> None:
         error: A known error.
     """
     sys.stderr.write("error: " + " ".join(str(error).split()) + "\n")
-
-
-def console() -> Console:
-    """Give the console for tables: as wide as the terminal, or as the widest table where there is none.
-
-    Returns:
-        A console on standard output.
-    """
-    from rich.console import Console
-
-    # no markup: names and labels of the user's may hold brackets
-    return Console(
-        highlight=False, markup=False, emoji=False, soft_wrap=False, width=None if sys.stdout.isatty() else _PIPE_WIDTH
-    )
 
 
 def show(result: Result, output_format: Format) -> None:
@@ -155,37 +137,6 @@ def width() -> int:
     return get_terminal_size((_PIPE_WIDTH, 24)).columns
 
 
-def finite_or_none(value: float) -> float | None:
-    """Give a number that JSON can hold.
-
-    Args:
-        value: The number; NaN or infinite where there is none.
-
-    Returns:
-        The same, or None.
-    """
-    return value if math.isfinite(value) else None
-
-
-def table(*headings: str, title: str | None = None) -> Table:
-    """Start a table: text on the left, numbers to the right of it.
-
-    Args:
-        headings: Headings of the columns; the first holds text.
-        title: Line above it.
-
-    Returns:
-        A table without rows.
-    """
-    from rich import box
-    from rich.table import Table
-
-    made = Table(box=box.SIMPLE_HEAD, pad_edge=False, title=title, title_justify="left")
-    for k, heading in enumerate(headings):
-        made.add_column(heading, justify="left" if k == 0 else "right", overflow="fold")
-    return made
-
-
 def refuse_standard_output(option: str, path: Path | None) -> None:
     """Refuse `-` in place of a file or folder that does not go to standard output, which is for the result.
 
@@ -198,6 +149,19 @@ def refuse_standard_output(option: str, path: Path | None) -> None:
     """
     if path == STANDARD_OUTPUT:
         raise ForceTorqueError(f"{option} -: expected a name, standard output takes the result only; see --format")
+
+
+def refuse_output_folder(output: Path) -> None:
+    """Refuse a folder of results that cannot be made anew, before any work is done.
+
+    Args:
+        output: Folder to make.
+
+    Raises:
+        ForceTorqueError: If it is there already, or is `-`.
+    """
+    refuse_standard_output("--output", output)
+    refuse_existing(output, where="--output ")
 
 
 def refuse_two_on_standard_output(output: Path | None, output_format: Format) -> None:
@@ -215,31 +179,3 @@ def refuse_two_on_standard_output(output: Path | None, output_format: Format) ->
             f"--output -: expected a file name beside --format {output_format}, got standard output for both; name a "
             "file, or leave out --format"
         )
-
-
-def print_result(
-    result: Mapping[str, Any],
-    rows: Sequence[Mapping[str, Any]],
-    output_format: Format,
-    *,
-    show: Callable[[], None],
-    columns: Sequence[str] = (),
-) -> None:
-    """Print a result in the form that was asked for.
-
-    Args:
-        result: The whole result, with its schema.
-        rows: The same as flat rows, for CSV; a key that a row does not have is left empty.
-        output_format: Form.
-        show: Prints the result for people.
-        columns: Columns of the CSV that are there also without rows.
-    """
-    if output_format is Format.JSON:
-        sys.stdout.write(json.dumps(result, indent=2, allow_nan=False) + "\n")
-    elif output_format is Format.CSV:
-        names = list(dict.fromkeys([*columns, *(name for row in rows for name in row)]))
-        writer = csv.DictWriter(sys.stdout, fieldnames=names, lineterminator="\n")
-        writer.writeheader()
-        writer.writerows(rows)
-    else:
-        show()

@@ -3,6 +3,7 @@
 
 from forcetorque.report.result import Report, report, require_writable
 from forcetorque.report.sources import ReportSources, assign_calibrations, sort_sources
+from forcetorque.report.study_folder import write_study_folder
 from forcetorque.report.viewer_section import viewer_section
 
 __all__ = [
@@ -13,4 +14,5 @@ __all__ = [
     "require_writable",
     "sort_sources",
     "viewer_section",
+    "write_study_folder",
 ]

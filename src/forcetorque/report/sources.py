@@ -10,17 +10,14 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+import forcetorque.analysis
+import forcetorque.experiment
 from forcetorque.analysis import AcceptanceFile, read_acceptance
 from forcetorque.analysis.applicability import calibrations_of
 from forcetorque.calibration import Calibration, read_calibration
 from forcetorque.errors import ExperimentError, FormatError, MissingFileError
 from forcetorque.experiment import Experiment
-
-RESULTS = {
-    "accept", "calibrate", "compare", "estimate", "evaluate", "export", "gains", "inspect", "payload", "simulate",
-    "sphere", "study", "validate",
-}  # fmt: skip
-"""Commands whose results are shown."""
+from forcetorque.result import result_classes
 
 _KINDS = "an experiment file, a calibration, an acceptance file or the JSON result of a command"
 
@@ -66,7 +63,7 @@ def sort_sources(paths: Sequence[Path]) -> ReportSources:
                 acceptance.append(read_acceptance(path))
             case ["forcetorque", "calibration"]:
                 calibrations[str(path)] = read_calibration(path)
-            case ["forcetorque", kind] if kind in RESULTS:
+            case ["forcetorque", kind] if kind in result_classes(forcetorque.analysis, forcetorque.experiment):
                 results[str(path)] = content
             case _:
                 raise FormatError(f"{path}: expected {_KINDS}, got the schema {content.get('schema')!r}")

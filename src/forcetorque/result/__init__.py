@@ -3,6 +3,7 @@
 
 from forcetorque.result.cells import finite_or_none, interval, number, with_error
 from forcetorque.result.names import short_names
+from forcetorque.result.registry import result_classes
 from forcetorque.result.result import Result
 from forcetorque.result.row import AxisValues, FloatOrNull, Row, Values, WrenchValues
 from forcetorque.result.shown import COMPONENTS, Shown, ShownWrench
@@ -23,6 +24,7 @@ __all__ = [
     "finite_or_none",
     "interval",
     "number",
+    "result_classes",
     "short_names",
     "table_of",
     "table_text",

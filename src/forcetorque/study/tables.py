@@ -71,7 +71,7 @@ def mean_forces(study: Study, source: Offset) -> list[Row]:
 
     Args:
         study: The study.
-        source: Offset re-estimated (5.5) or fitted (5.6).
+        source: Offset from the first second (5.5) or fitted (5.6).
 
     Returns:
         One row per combination and type, a column per lambda, headed in both ways, then their mean; N. Workbench last.

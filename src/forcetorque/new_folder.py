@@ -10,22 +10,7 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from uuid import uuid4
 
-from forcetorque.cli.output import refuse_standard_output
 from forcetorque.errors import ForceTorqueError
-
-
-def refuse_existing(output: Path) -> None:
-    """Refuse a folder that is there already, before any work is done.
-
-    Args:
-        output: Folder to make.
-
-    Raises:
-        ForceTorqueError: If it is there, or is `-`.
-    """
-    refuse_standard_output("--output", output)
-    if os.path.lexists(output):  # a link that leads nowhere is in the way too
-        raise ForceTorqueError(f"--output {output}: expected a new folder, it is there already")
 
 
 @contextmanager
@@ -37,10 +22,13 @@ def new_folder(output: Path) -> Iterator[Path]:
 
     Yields:
         Folder to write to; it is removed on any error, with the parents that it needed.
+
+    Raises:
+        ForceTorqueError: If the folder is there already.
     """
     refuse_existing(output)
     fresh = output.with_name(f".{uuid4().hex}.tmp")
-    made = [parent for parent in output.parents if not parent.exists()]
+    parents = [parent for parent in output.parents if not parent.exists()]
     fresh.mkdir(parents=True)
     try:
         yield fresh
@@ -48,5 +36,19 @@ def new_folder(output: Path) -> Iterator[Path]:
     finally:
         shutil.rmtree(fresh, ignore_errors=True)
         with suppress(OSError):  # not empty: the folder is in it, or somebody else's
-            for parent in made:
+            for parent in parents:
                 parent.rmdir()
+
+
+def refuse_existing(output: Path, *, where: str = "") -> None:
+    """Refuse a folder that is there already, before any work is done.
+
+    Args:
+        output: Folder to make.
+        where: What the message says in front of its name, such as the option that names it.
+
+    Raises:
+        ForceTorqueError: If it is there.
+    """
+    if os.path.lexists(output):  # a link that leads nowhere is in the way too
+        raise ForceTorqueError(f"{where}{output}: expected a new folder, it is there already")
