@@ -41,7 +41,8 @@ def write_study_folder(
         ForceTorqueError: If the folder is there already.
     """
     output = Path(folder)
-    sensors, warnings = [], []
+    sensors = []
+    warnings: list[str] = []
     with new_folder(output) as fresh:
         for study in studies:
             name = quote(f"{study.data.identity.name}_{study.data.identity.serial}", safe=" ")
