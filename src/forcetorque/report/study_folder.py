@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 from urllib.parse import quote
 
-from forcetorque.analysis import SensorStudy, Studies, studied_sensor, study_warnings
+from forcetorque.analysis import SensorStudy, StudiedSensor, Studies, studied_sensor, study_warnings
 from forcetorque.atomic import write_bytes_atomically
 from forcetorque.calibration import write_calibration
 from forcetorque.errors import MissingExtraError
@@ -41,7 +41,7 @@ def write_study_folder(
         ForceTorqueError: If the folder is there already.
     """
     output = Path(folder)
-    sensors = []
+    sensors: list[StudiedSensor] = []
     warnings: list[str] = []
     with new_folder(output) as fresh:
         for study in studies:
