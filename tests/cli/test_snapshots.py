@@ -22,7 +22,7 @@ FOLDER = Path(__file__).parent / "snapshots"
 LIMITS = (
     'schema = "forcetorque/acceptance/1"\nname = "leg"\n\n[evaluate]\nforce_error_mean_N = 1.0\nrmse = { fz = 0.5 }\n'
 )
-SHORT = ("--type", "OnTO", "--type", "CnTO", "--lambda", "0", "--lambda", "100")
+SHORT = ("--type", "OnTdTO", "--type", "CnTdTO", "--lambda", "0", "--lambda", "100")
 COMMANDS = {
     "accept": ("accept", PARQUET, "--spec", "limits.toml", "-c", "fitted.json"),
     "calibrate": ("calibrate", PARQUET, "-o", "new.json", "--lambda", "5"),
