@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Annotated
 
 import numpy as np
 
@@ -13,6 +13,7 @@ from forcetorque.analysis.reading import Correction
 from forcetorque.calibration import Calibration, Prior, WrenchModel
 from forcetorque.evaluation import Offset
 from forcetorque.recording import Use
+from forcetorque.result import Row, Shown
 
 if TYPE_CHECKING:
     from forcetorque.analysis.sensor_run import SensorRun
@@ -59,6 +60,23 @@ class JudgedCandidate:
             Offset.FIRST_SECOND: "the first second of every judged interval",
             Offset.JUDGED_MEAN: "the judged samples themselves",
         }.get(offset, self.correction.source)
+
+
+class JudgedRow(Row):
+    """What every line about a judged candidate says first: of which sensor, which candidate, with which offset."""
+
+    sensor: str
+    """Sensor."""
+    serial: str
+    """Its serial number."""
+    candidate: Annotated[str, Shown("candidate", file=True)]
+    """The calibration file, or its prior: `prior`, and `prior of FILE` among several files."""
+    offset: Annotated[Offset, Shown("offset")]
+    """Which offset it is judged with."""
+    offset_source: str
+    """Where that offset comes from, in words."""
+    prior: str | None
+    """Candidate that is the prior of a calibration file; null for a prior, and where the file has none."""
 
 
 def judged_candidates(run: SensorRun, calibrations: Mapping[str, Calibration]) -> tuple[JudgedCandidate, ...]:

@@ -9,32 +9,21 @@ from typing import Annotated, Literal
 import numpy as np
 from pydantic import Field
 
+from forcetorque.analysis.candidate import JudgedRow
 from forcetorque.analysis.sensor_run import SensorRun
 from forcetorque.calibration import Calibration, FittedInterval
 from forcetorque.errors import ExperimentError
-from forcetorque.evaluation import Offset, wrench_errors
+from forcetorque.evaluation import wrench_errors
 from forcetorque.recording import Use
-from forcetorque.result import Result, Row, Shown, ShownWrench, Table, WrenchValues, finite_or_none, table_of
+from forcetorque.result import Result, Shown, ShownWrench, Table, WrenchValues, finite_or_none, table_of
 
 _BEYOND = 0.1
 """Share of the fitted range of a variable by which it may be left before that is worth a word."""
 
 
-class CandidateErrors(Row):
+class CandidateErrors(JudgedRow):
     """Errors of one candidate with one offset; per axis in the order fx fy fz (N) tx ty tz (N m)."""
 
-    sensor: str
-    """Sensor."""
-    serial: str
-    """Its serial number."""
-    candidate: Annotated[str, Shown("candidate", file=True)]
-    """The calibration file, or its prior: `prior`, and `prior of FILE` among several files."""
-    offset: Annotated[Offset, Shown("offset")]
-    """Offset of the fitted data, or mean of the judged samples."""
-    offset_source: str
-    """Where that offset comes from, in words."""
-    prior: str | None
-    """Candidate that is the prior of a calibration file; null for a prior, and where the file has none."""
     samples: int
     """Number of judged samples."""
     rmse: Annotated[WrenchValues, ShownWrench(digits=3)]

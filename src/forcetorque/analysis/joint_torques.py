@@ -8,30 +8,19 @@ from typing import Annotated, Literal
 
 import numpy as np
 
+from forcetorque.analysis.candidate import JudgedRow
 from forcetorque.analysis.free_sub_model import FreeSubModel
 from forcetorque.analysis.sensor_run import SensorRun
 from forcetorque.analysis.torque_samples import JudgedTorques, judged_torques
 from forcetorque.calibration import Calibration
-from forcetorque.evaluation import Offset, OtherSensors, torque_errors
-from forcetorque.result import Result, Row, Shown, Table, finite_or_none, table_of
+from forcetorque.evaluation import OtherSensors, torque_errors
+from forcetorque.result import Result, Shown, Table, finite_or_none, table_of
 from forcetorque.robot import JointType
 
 
-class JointTorqueErrors(Row):
+class JointTorqueErrors(JudgedRow):
     """Error of the torque that is estimated for one joint, where one candidate reads the sensor."""
 
-    sensor: str
-    """Sensor."""
-    serial: str
-    """Its serial number."""
-    candidate: Annotated[str, Shown("candidate", file=True)]
-    """The calibration file, or its prior: `prior`, and `prior of FILE` among several files."""
-    offset: Annotated[Offset, Shown("offset")]
-    """Offset from the first second of every judged interval, or that of the candidate."""
-    offset_source: str
-    """Where that offset comes from, in words."""
-    prior: str | None
-    """Candidate that is the prior of a calibration file; null for a prior, and where the file has none."""
     joint: Annotated[str, Shown("joint")]
     """A joint whose torque depends on the sensor."""
     unit: Annotated[Literal["N m", "N"], Shown("unit")]
