@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import json
+import logging
 import os
 import subprocess
 import sys
@@ -11,7 +12,8 @@ from pathlib import Path
 
 import pytest
 
-from forcetorque.cli.output import Format, print_result
+from forcetorque.cli.output import Format, show
+from forcetorque.result import Result
 from tests.cli.outcome import Outcome
 from tests.experiments import PARQUET, YARP, edit, snapshot
 
@@ -77,8 +79,24 @@ def test_a_name_that_is_no_text_is_one_line(arm: Path) -> None:
     assert ended.stderr.decode("utf-8").splitlines()[-1].startswith("error: caf\\xdce9.toml: ")
 
 
+def test_a_warning_is_said_once(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
+    """However often it comes; how often is said."""
+    monkeypatch.setattr(logging.getLogger("forcetorque"), "handlers", [])
+    show(Result(warnings=("left out: torque of knee",) * 222 + ("it flatters",)), Format.TABLE)
+    assert capsys.readouterr().err.splitlines() == [
+        "WARNING: left out: torque of knee (222 times)",
+        "WARNING: it flatters",
+    ]
+
+
 def test_rows_of_different_length_make_one_csv(capsys: pytest.CaptureFixture[str]) -> None:
     """Sensors with six and with eight channels share a header; what a row does not have is empty."""
-    rows: list[dict[str, object]] = [{"sensor": "a", "c0": 1.5}, {"sensor": "b", "c0": 2, "c1": 3}]
-    print_result({}, rows, Format.CSV, show=lambda: None)
+
+    class Channels(Result):
+        """Channels of two sensors."""
+
+        def records(self) -> list[dict[str, object]]:
+            return [{"sensor": "a", "c0": 1.5}, {"sensor": "b", "c0": 2, "c1": 3}]
+
+    show(Channels(), Format.CSV)
     assert capsys.readouterr().out == "sensor,c0,c1\na,1.5,\nb,2,3\n"
