@@ -13,24 +13,25 @@ from pathlib import Path
 
 import numpy as np
 
+from forcetorque.analysis import SensorRun
 from forcetorque.calibration import calibrate
 from forcetorque.evaluation import offset_removed, wrench_errors
-from forcetorque.experiment import Experiment, ExperimentSensor, load_experiment, samples_of
+from forcetorque.experiment import load_experiment
 from forcetorque.recording import Use
 
 
-def show_curve(experiment: Experiment, sensor: ExperimentSensor) -> None:
+def show_curve(run: SensorRun) -> None:
     """Print the held-out and the judged error of every candidate lambda of one sensor."""
-    fitted = [part.data_set for part in samples_of(experiment, sensor, Use.CALIBRATION)]
-    judged = samples_of(experiment, sensor, Use.VALIDATION)
-    raw = np.concatenate([part.raw for part in judged])
-    reference = np.concatenate([part.samples.reference for part in judged])
+    sensor, judged = run.sensor, run.samples(Use.VALIDATION)
+    fitted = [interval.data_set for interval in run.samples(Use.CALIBRATION)]
+    raw = np.concatenate([interval.raw for interval in judged])
+    reference = np.concatenate([interval.samples.reference for interval in judged])
     curve = calibrate(fitted, sensor.prior).curve
     if curve is None:
         raise SystemExit(f"{sensor.name}: no prior, so there is no lambda to choose")
-    print(f"{experiment.name}: {sensor.name} ({sensor.serial}), {len(raw)} judged samples")
+    print(f"{run.experiment.name}: {sensor.name} ({sensor.serial}), {len(raw)} judged samples")
     print("    lambda  held-out   worst /     judged force error, N  judged moment error, N m")
-    print("   counts2      RMSE     prior    offset as fitted, re-estimated on the judged samples")
+    print("   counts2      RMSE     prior    offset as fitted, mean of the judged samples off")
     for regularisation, held_out, ratio in zip(
         curve.regularisations, curve.held_out_error, curve.worst_ratio, strict=True
     ):
@@ -48,7 +49,7 @@ def main(path: Path) -> None:
     """Show the curve of every sensor of an experiment."""
     experiment = load_experiment(path)
     for sensor in experiment.sensors:
-        show_curve(experiment, sensor)
+        show_curve(SensorRun(experiment, sensor))
 
 
 if __name__ == "__main__":

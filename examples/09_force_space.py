@@ -15,8 +15,8 @@ from pathlib import Path
 import numpy as np
 
 from forcetorque import load_experiment
-from forcetorque.experiment import corrections_of, estimate_experiment
-from forcetorque.report import force_space_figure
+from forcetorque.analysis import corrections_of, estimate_experiment
+from forcetorque.report.figures import force_space_figure
 
 
 def main() -> None:

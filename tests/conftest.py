@@ -16,8 +16,9 @@ _DEFAULT_DATA = Path(__file__).resolve().parents[2] / "shared" / "data"
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
-    """Let the caller say where the measured data are."""
+    """Let the caller say where the measured data are, and renew pictures of what commands show."""
     parser.addoption("--data", type=Path, default=_DEFAULT_DATA, help="folder of measured data")
+    parser.addoption("--write-snapshots", action="store_true", help="take what commands show now as the pictures")
 
 
 @pytest.fixture(scope="session")

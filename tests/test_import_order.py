@@ -17,6 +17,7 @@ import forcetorque
 
 ORDER = (
     "spatial",
+    "result",
     "robot",
     "recording",
     "sensor",
@@ -29,6 +30,7 @@ ORDER = (
     "exsitu",
     "exchange",
     "experiment",
+    "analysis",
     "viewer",
     "report",
     "live",
@@ -85,6 +87,34 @@ def test_the_top_imports_nothing_heavy() -> None:
         "assert not heavy, heavy; assert all(hasattr(forcetorque, name) for name in forcetorque.__all__)"
     )
     subprocess.run([sys.executable, "-c", code], check=True)
+
+
+COMPUTING = {"numpy", "scipy", "pyarrow", "pydantic"}
+"""What the command line has no use for: numbers and forms are made below it."""
+
+
+def _outside(path: Path) -> set[str]:
+    """Names of what a file imports from elsewhere, wherever in it."""
+    names = set()
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.ImportFrom) and node.module:
+            names.add(node.module.split(".")[0])
+        elif isinstance(node, ast.Import):
+            names |= {alias.name.split(".")[0] for alias in node.names}
+    return names
+
+
+@pytest.mark.parametrize("path", sorted((ROOT / "cli").rglob("*.py")), ids=lambda path: path.name)
+def test_the_command_line_computes_nothing(path: Path) -> None:
+    """Commands parse, call and show: they import no library that computes or describes results."""
+    assert not _outside(path) & COMPUTING
+
+
+def test_a_number_in_the_command_line_is_noticed(tmp_path: Path) -> None:
+    """Negative control: an import inside a function counts."""
+    file = tmp_path / "command.py"
+    file.write_text("def run():\n    import numpy.linalg\n", encoding="utf-8")
+    assert _outside(file) & COMPUTING == {"numpy"}
 
 
 def test_a_later_package_is_noticed() -> None:

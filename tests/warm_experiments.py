@@ -13,9 +13,9 @@ from pathlib import Path
 
 import numpy as np
 
+from forcetorque.analysis.samples import samples_over
 from forcetorque.arrays import FloatArray, IntArray
 from forcetorque.experiment import load_experiment
-from forcetorque.experiment.samples import samples_over
 from forcetorque.recording import QUANTITIES, Recording, Signal, Stream, read_recording, write_recording
 from tests.experiments import MOUNTED, OFFSET, PARQUET, edit
 
@@ -60,7 +60,7 @@ def warm_up(cold: Path, folder: Path, *, drift: FloatArray = PER_DEGREE, per_vol
     (interval, *_), recording = experiment.recording.intervals, experiment.recording
     start, end = recording.span_ns
     whole = replace(interval, start_ns=start, end_ns=end + 1)
-    samples = samples_over(experiment, experiment.sensors[0], whole, experiment.processing)
+    samples = samples_over(experiment, experiment.sensors[0], whole).samples
     stream = recording.stream("arm_ft")
     seconds = seconds_of(recording, stream.stamp_ns)
     change = np.outer(true_temperature(seconds) - WARM_DEGC, drift)

@@ -10,18 +10,20 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from forcetorque.analysis import SensorRun, calibrate_sensor, evaluate
     from forcetorque.calibration import Calibration, DataSet, calibrate, read_calibration, write_calibration
     from forcetorque.errors import ForceTorqueError
     from forcetorque.evaluation.wrench_errors import wrench_errors  # of the package, mypy may take it for the module
-    from forcetorque.experiment import Experiment, calibrate_sensor, evaluate_sensor, load_experiment, samples_of
+    from forcetorque.experiment import Experiment, load_experiment
     from forcetorque.recording import Recording, read_recording, write_recording
     from forcetorque.robot import RobotModel, expected_wrenches, read_urdf
 
 _HOMES = {
+    "analysis": ("SensorRun", "calibrate_sensor", "evaluate"),
     "calibration": ("Calibration", "DataSet", "calibrate", "read_calibration", "write_calibration"),
     "errors": ("ForceTorqueError",),
     "evaluation": ("wrench_errors",),
-    "experiment": ("Experiment", "calibrate_sensor", "evaluate_sensor", "load_experiment", "samples_of"),
+    "experiment": ("Experiment", "load_experiment"),
     "recording": ("Recording", "read_recording", "write_recording"),
     "robot": ("RobotModel", "expected_wrenches", "read_urdf"),
 }
@@ -33,15 +35,15 @@ __all__ = [
     "ForceTorqueError",
     "Recording",
     "RobotModel",
+    "SensorRun",
     "calibrate",
     "calibrate_sensor",
-    "evaluate_sensor",
+    "evaluate",
     "expected_wrenches",
     "load_experiment",
     "read_calibration",
     "read_recording",
     "read_urdf",
-    "samples_of",
     "wrench_errors",
     "write_calibration",
     "write_recording",

@@ -76,5 +76,5 @@ def test_an_offset_alone_needs_no_motion() -> None:
 def test_a_deviation_that_is_rounded_below_zero_is_zero() -> None:
     """Constant columns far from zero leave a second moment of either sign; its root is a number nevertheless."""
     second = np.diag([4.0] * 6 + [0.0, -1e-32, 0.0, -1e-30, 0.0, 0.0])
-    still = Moments(count=100, channels=6, variables=0, mean=np.zeros(12), second=second)
+    still = Moments(count=100, channels=6, variables=0, origin=np.zeros(12), step=np.zeros(12), second=second)
     assert excitation_of(still).reference_deviation.tolist() == [0.0] * 6

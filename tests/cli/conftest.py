@@ -11,9 +11,10 @@ from pathlib import Path
 
 import pytest
 
+from forcetorque.analysis import SensorRun, calibrate_sensor
 from forcetorque.calibration import write_calibration
 from forcetorque.cli.main import main
-from forcetorque.experiment import calibrate_sensor, load_experiment
+from forcetorque.experiment import load_experiment
 from tests.cli.outcome import Outcome, Run
 from tests.experiments import PARQUET, write_experiments
 from tests.studies import write_days
@@ -27,7 +28,7 @@ def intact(tmp_path_factory: pytest.TempPathFactory) -> Path:
     write_experiments(folder)
     experiment = load_experiment(folder / PARQUET)
     created = datetime(2020, 1, 1, tzinfo=UTC).isoformat()
-    fitted = calibrate_sensor(experiment, experiment.sensors[0], code_version="1", created=created)
+    fitted = calibrate_sensor(SensorRun(experiment, "arm_ft"), code_version="1", created=created)
     write_calibration(folder / "fitted.json", fitted)
     return folder
 
@@ -49,7 +50,7 @@ def intact_warm(intact: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = warm_up(intact, tmp_path_factory.mktemp("warm") / "arm")
     experiment = load_experiment(with_variables(folder / PARQUET, TEMPERATURE))
     fitted = calibrate_sensor(
-        experiment, experiment.sensors[0], code_version="1", created="2020-01-01T00:00:00+00:00", regularisation=0.0
+        SensorRun(experiment, "arm_ft"), code_version="1", created="2020-01-01T00:00:00+00:00", regularisation=0.0
     )
     write_calibration(folder / "warm.json", fitted)
     return folder
@@ -83,6 +84,7 @@ def days(recorded: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Pat
 def run(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> Run:
     """Run `forcetorque` with words as typed in a shell."""
     logger = logging.getLogger("forcetorque")
+    monkeypatch.setenv("COLUMNS", "120")
 
     def call(*words: object) -> Outcome:
         # the handler of an earlier run writes to what standard error was then

@@ -14,7 +14,7 @@ _TYPES: dict[str, type | tuple[type, ...]] = {
     "boolean": bool,
     "null": type(None),
 }
-_SILENT = {"title", "description", "default", "$defs", "format", "discriminator"}
+_SILENT = {"title", "description", "default", "$defs", "format", "discriminator", "readOnly"}
 """Words that demand nothing of the value."""
 
 

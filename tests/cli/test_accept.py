@@ -13,8 +13,10 @@ from typing import Any
 import numpy as np
 import pytest
 
-from forcetorque.cli.accept_result import CriterionRow
+from forcetorque.analysis import Criterion
 from forcetorque.exchange.icub import encode_matrix, write_matrix_file
+from forcetorque.experiment import load_experiment
+from forcetorque.recording import Use
 from forcetorque.simulation import distorted_by_mounting
 from tests.cli.json_schema import faults
 from tests.cli.outcome import Outcome, Run
@@ -99,7 +101,7 @@ def test_the_forms_hold_the_same_and_fit_the_schema(arm: Path, run: Run) -> None
     assert faults({**result, "accepted": "yes"}, schema) != []
     assert (result["schema"], result["specification"]) == ("forcetorque/accept/1", "limits")
     rows = run(*words, "csv").rows()
-    assert list(rows[0]) == list(CriterionRow.model_fields)
+    assert list(rows[0]) == [*Criterion.model_fields, "passed"]
     assert [(row["criterion"], float(row["measured"])) for row in rows] == [
         (row["criterion"], row["measured"]) for row in result["criteria"]
     ]
@@ -168,6 +170,20 @@ def test_what_cannot_be_judged_is_one_line_with_the_file(arm: Path, run: Run) ->
     assert "nowhere: expected a matrix file, a calibration or a folder of them, there is none" in missing
 
 
+def test_a_choice_on_the_judged_interval_is_a_warning_on_standard_error(arm: Path, run: Run) -> None:
+    """Once, and only where errors on that interval are judged."""
+    words = ("accept", PARQUET, "-c", "fitted.json", "--spec")
+    assert not [line for line in run(*words, _write()).log if "flatters" in line]
+    content = json.loads((arm / "fitted.json").read_text(encoding="utf-8"))
+    (judged,) = load_experiment(arm / PARQUET).intervals(Use.VALIDATION)
+    span = {"label": "day", "start_ns": judged.start_ns, "end_ns": judged.end_ns}
+    content["selection"]["chosen_on"] = [span]
+    (arm / "fitted.json").write_text(json.dumps(content), encoding="utf-8")
+    (line,) = [line for line in run(*words, _write()).log if "flatters" in line]
+    assert line == "WARNING: fitted.json was chosen among others on 'judge' too, so the verdict on it flatters"
+    assert not [line for line in run(*words, _write("[matrix]\ncondition = 5.0\n")).log if "flatters" in line]
+
+
 def test_files_fit_the_printed_schema(run: Run) -> None:
     """The example fits `forcetorque schema acceptance`, damaged ones do not."""
     schema = run("schema", "acceptance").result()
@@ -180,7 +196,9 @@ def test_files_fit_the_printed_schema(run: Run) -> None:
         {"evaluate": {"rmse": {"fq": 1.0}}},
         {"evaluate": {"rmse": {}}},
         {"population": {"quantiles": [0.1, 1.1]}},
-        {"evaluate": {"offset": "none"}},
+        {"evaluate": {"offset": "none", "bias": {"fz": 1.0}}},
+        {"evaluate": {"offset": "re-estimated", "bias": {"fz": 1.0}}},
+        {"validate": {"offset": "re-estimated", "force_mean_N": 1.0}},
         {"recording": {"saturated_share": 2.0}},
         {"schema": "forcetorque/acceptance/9"},
         {"extra": {}},

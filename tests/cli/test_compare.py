@@ -14,8 +14,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from forcetorque import report
 from forcetorque.evaluation.sphere import RULE, TOLERANCE
+from forcetorque.report import figures
 from tests.axia import write_axia
 from tests.cli.json_schema import faults
 from tests.cli.outcome import Outcome, Run
@@ -194,7 +194,7 @@ def test_a_bad_file_does_not_cost_the_table(trials: Path, run: Run) -> None:
     assert any(line == "INFO: reading loose.toml (3 of 3)" for line in ended.log)
     shown = run(*words)
     assert shown.code == 1
-    assert f"FAILED: {failure['message']}" in shown.out
+    assert f"FAILED: {failure['message']}" in " ".join(shown.out.split())
     rows = list(csv.DictReader(io.StringIO(run(*words, "--format", "csv").out)))
     assert [row["file"] for row in rows if row["row"] == "failure"] == [SECOND]
     assert sum(row["row"] == "trial" for row in rows) == 4
@@ -241,7 +241,7 @@ def test_a_figure_that_could_not_be_drawn_is_not_named(trials: Path, run: Run, m
         raise OSError("no room")
 
     (trials / "compare.png").write_bytes(b"of another day")
-    monkeypatch.setattr(report, "index_figure", refuse)
+    monkeypatch.setattr(figures, "index_figure", refuse)
     words = ("compare", FIRST, SECOND, "--figure", "compare.png")
     result = _ended_with_failures(run(*words, "--format", "json"))
     assert (result["figure"], len(result["trials"])) == (None, 2)

@@ -12,8 +12,9 @@ import numpy as np
 import pyarrow.parquet as pq
 import pytest
 
+from forcetorque.analysis import corrections_of, estimate_experiment
 from forcetorque.calibration import read_calibration
-from forcetorque.experiment import corrections_of, estimate_experiment, load_experiment
+from forcetorque.experiment import load_experiment
 from forcetorque.recording import read_recording, write_recording
 from tests.cli.json_schema import faults
 from tests.cli.outcome import Run

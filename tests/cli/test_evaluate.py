@@ -13,7 +13,10 @@ import numpy as np
 import numpy.typing as npt
 import pytest
 
-from forcetorque.experiment import load_experiment, samples_of
+from forcetorque.analysis import (
+    SensorRun,
+)
+from forcetorque.experiment import load_experiment
 from forcetorque.recording import Use
 from tests.cli.json_schema import faults
 from tests.cli.outcome import Run
@@ -22,7 +25,7 @@ from tests.warm_experiments import TEMPERATURE
 
 ROUNDING = 1e-9
 """N, N m: sums of 1e3 products of counts up to 2e4 and coefficients up to 0.03, in another order."""
-OFFSETS = ("fitted", "re-estimated")
+OFFSETS = ("fitted", "judged-mean")
 
 
 def _verdicts(result: Any) -> dict[tuple[str, str], Any]:
@@ -31,7 +34,7 @@ def _verdicts(result: Any) -> dict[tuple[str, str], Any]:
 
 def _samples(form: str, use: Use) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:
     experiment = load_experiment(form)
-    (part,) = samples_of(experiment, experiment.sensors[0], use)
+    (part,) = SensorRun(experiment, experiment.sensors[0]).samples(use)
     return part.raw, part.samples.reference
 
 
@@ -74,7 +77,7 @@ def test_the_numbers_are_those_of_plain_numpy(arm: Path, run: Run, form: str) ->
             offset = (reference_fitted - raw_fitted @ matrix.T).mean(axis=0)
         error = raw @ matrix.T + offset - reference
         assert _differs(rows[candidate, "fitted"], _by_hand(error)) == []
-        assert _differs(rows[candidate, "re-estimated"], _by_hand(error - error.mean(axis=0))) == []
+        assert _differs(rows[candidate, "judged-mean"], _by_hand(error - error.mean(axis=0))) == []
         wrong = _by_hand(raw @ matrix.T - offset - reference)
         assert _differs(rows[candidate, "fitted"], wrong) == [key for key in wrong if key != "samples"]
 
@@ -86,9 +89,9 @@ def test_the_json_fits_the_printed_schema(arm: Path, run: Run) -> None:
     assert (result["schema"], result["experiment"]) == ("forcetorque/evaluate/1", "small arm")
     assert faults(result, schema) == []
     for key in ("samples", "rmse", "offset"):
-        row = {**result["verdicts"][0], key: "none"}
+        row = {**result["verdicts"][0], key: "no such word"}
         assert faults({**result, "verdicts": [row]}, schema) != []
-    assert {key for row in result["verdicts"] for key in row} == set(schema["$defs"]["VerdictRow"]["properties"])
+    assert {key for row in result["verdicts"] for key in row} == set(schema["$defs"]["CandidateErrors"]["properties"])
 
 
 def test_the_csv_holds_the_same_numbers(arm: Path, run: Run) -> None:

@@ -17,13 +17,14 @@ from typing import Any
 import numpy as np
 import pytest
 
+from forcetorque.analysis import Export, export_icub_matrix, export_wholebodydynamics
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration import Calibration, write_calibration
 from forcetorque.cli import main
-from forcetorque.cli.export import ExportResult
 from forcetorque.exchange.icub import read_matrix_file
 from forcetorque.exchange.wholebodydynamics import corrected, read_groups
 from tests.calibrations import COEFFICIENTS, FACTORY, MOUNTED, OFFSET, make_calibration, make_variable
+from tests.result.showing import require_shown
 
 SOLVE_ROUNDING = 1e-10
 """Relative to the largest wrench: eps times the condition number of the prior, about 1e4 with rows in N and N m."""
@@ -295,7 +296,7 @@ def test_the_result_has_three_forms(
     leg: Path = request.getfixturevalue(name)
     output = tmp_path / "out.file"
     result = run(leg, "--to", to, "-o", output, "--format", "json").result()
-    ExportResult.model_validate(result)
+    assert json.loads(Export.model_validate(result).json_text()) == result
     assert result["schema"] == "forcetorque/export/1"
     assert (result["format"], result["file"]) == (to, str(output))
     rows = list(csv.DictReader(io.StringIO(run(leg, "--to", to, "-o", output, "--format", "csv").out)))
@@ -305,10 +306,23 @@ def test_the_result_has_three_forms(
     assert ("full_scale" in rows[0]) is (to == "icub-matrix")
     coefficients = [float(row["temperature_coefficient"]) for row in rows] if name == "warm" else None
     assert coefficients == entry["variables"].get("temperature")
-    table = run(leg, "--to", to, "-o", output).out
+    table = " ".join(run(leg, "--to", to, "-o", output).out.split())  # sentences are broken at spaces
     assert f"written to {output}" in table
     assert f"offset: {result['offset_handling']}" in table
     assert "leg_ft (SN001)" in table
+
+
+def test_exports_show_themselves(tmp_path: Path) -> None:
+    """From Python too: what is not stored is a warning of the result, and both kinds of matrix keep their numbers."""
+    leg = make_calibration(variables=(make_variable(),))
+    matrix = export_icub_matrix("leg", leg, tmp_path / "matrix.txt")
+    require_shown(matrix)
+    offset, coefficients = matrix.warnings
+    assert offset.startswith("leg: offset (8, -5, 20) N, (0.3, -0.2, 0.1) N m: not stored")
+    assert coefficients == "leg: the coefficients of temperature are not in this file: --to coefficients"
+    groups = export_wholebodydynamics({"leg": leg}, tmp_path / "ft.xml")
+    require_shown(groups)
+    assert groups.warnings == ()
 
 
 def test_the_result_has_a_schema(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:

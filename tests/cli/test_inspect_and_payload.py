@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import json
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -10,10 +11,14 @@ from typing import Any
 import numpy as np
 import pytest
 
+from forcetorque.analysis import SensorRun, weigh_load
 from forcetorque.exchange.icub import encode_matrix, write_matrix_file
+from forcetorque.experiment import load_experiment
 from forcetorque.recording import read_recording, write_recording
+from tests.cli.json_schema import faults
 from tests.cli.outcome import Run
 from tests.experiments import FT_LOG, MOUNTED, PARQUET, RATE_HZ, YARP, edit_lines
+from tests.result.showing import require_shown
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 
@@ -170,7 +175,14 @@ def test_the_wrist_payload(run: Run, data_dir: Path, tmp_path: Path) -> None:
     assert result["centre_of_mass_m"][2] == pytest.approx(0.0439, abs=0.0005)
     (row,) = run("payload", path, "--format", "csv").rows()
     assert float(row["mass_kg"]) == result["mass_kg"]
+    assert float(row["bias_tz_Nm"]) == result["bias"][5]
+    assert float(row["centre_of_mass_z_m"]) == result["centre_of_mass_m"][2]
     assert "kg at (" in run("payload", path).out
+    assert faults(result, run("schema", "payload").result()) == []
+    experiment = load_experiment(path)
+    load = weigh_load(SensorRun(experiment, experiment.sensors[0]))
+    require_shown(load)
+    assert json.loads(load.json_text()) == result
 
 
 def test_a_robot_has_no_payload_to_estimate(arm: Path, run: Run) -> None:

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from forcetorque.cli.output import ExportFormat
+from forcetorque.exchange.export_format import ExportFormat
 from tests.cli.outcome import Outcome, Run
 from tests.experiments import PARQUET, YARP
 

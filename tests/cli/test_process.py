@@ -4,15 +4,21 @@
 from __future__ import annotations
 
 import json
+import logging
+import os
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
 
-from forcetorque.cli.output import Format, print_result
+from forcetorque.cli.output import Format, show
+from forcetorque.result import Result
 from tests.cli.outcome import Outcome
 from tests.experiments import PARQUET, YARP, edit, snapshot
+
+_PATHS = {name: os.environ[name] for name in ("PYTHONPATH", "HOME") if name in os.environ}
+"""Where an interpreter finds the library and its compiled code."""
 
 
 def _start(*words: str) -> Outcome:
@@ -46,8 +52,51 @@ def test_the_parser_needs_nothing_scientific() -> None:
     assert _start("-c", code) == Outcome(code=0, out="[]\n", err="")
 
 
+@pytest.mark.parametrize("form", ["table", "csv", "json"])
+def test_a_terminal_without_letters_gets_them_spelled(arm: Path, form: str) -> None:
+    """Under `LC_ALL=C` without UTF-8 mode: numbers with their errors in plain letters, as many as elsewhere."""
+    plain = {"LC_ALL": "C", "PYTHONCOERCECLOCALE": "0", "PYTHONUTF8": "0", "PATH": os.environ["PATH"]}
+    rich = {**plain, "PYTHONUTF8": "1"}
+    words = ("-m", "forcetorque", "evaluate", PARQUET, "-c", "fitted.json", "--format", form)
+    shown, whole = (
+        subprocess.run([sys.executable, *words], capture_output=True, check=False, env={**extra, **_PATHS})
+        for extra in (plain, rich)
+    )
+    assert (shown.returncode, b"Traceback" in shown.stderr) == (0, False)
+    text = whole.stdout.decode("utf-8").replace("±", "+-").replace("─", "-")
+    assert shown.stdout.decode("ascii") == text
+    assert (b"+-" in shown.stdout) is (form == "table")
+
+
+def test_a_name_that_is_no_text_is_one_line(arm: Path) -> None:
+    """The name of a file may hold bytes of another encoding; the error still says it."""
+    ended = subprocess.run(
+        [sys.executable.encode(), b"-m", b"forcetorque", b"evaluate", b"caf\xe9.toml", b"-c", b"fitted.json"],
+        capture_output=True,
+        check=False,
+    )
+    assert ended.returncode == 2
+    assert ended.stderr.decode("utf-8").splitlines()[-1].startswith("error: caf\\xdce9.toml: ")
+
+
+def test_a_warning_is_said_once(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
+    """However often it comes; how often is said."""
+    monkeypatch.setattr(logging.getLogger("forcetorque"), "handlers", [])
+    show(Result(warnings=("left out: torque of knee",) * 222 + ("it flatters",)), Format.TABLE)
+    assert capsys.readouterr().err.splitlines() == [
+        "WARNING: left out: torque of knee (222 times)",
+        "WARNING: it flatters",
+    ]
+
+
 def test_rows_of_different_length_make_one_csv(capsys: pytest.CaptureFixture[str]) -> None:
     """Sensors with six and with eight channels share a header; what a row does not have is empty."""
-    rows: list[dict[str, object]] = [{"sensor": "a", "c0": 1.5}, {"sensor": "b", "c0": 2, "c1": 3}]
-    print_result({}, rows, Format.CSV, show=lambda: None)
+
+    class Channels(Result):
+        """Channels of two sensors."""
+
+        def records(self) -> list[dict[str, object]]:
+            return [{"sensor": "a", "c0": 1.5}, {"sensor": "b", "c0": 2, "c1": 3}]
+
+    show(Channels(), Format.CSV)
     assert capsys.readouterr().out == "sensor,c0,c1\na,1.5,\nb,2,3\n"

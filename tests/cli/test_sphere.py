@@ -14,8 +14,9 @@ from typing import Any
 import numpy as np
 import pytest
 
+from forcetorque.analysis import SensorRun, spheres
 from forcetorque.evaluation.sphere import RULE, TOLERANCE
-from forcetorque.experiment import analyse_sensor, load_experiment, sphere_intervals
+from forcetorque.experiment import load_experiment
 from tests.cli.json_schema import faults
 from tests.cli.outcome import Run
 from tests.experiments import PARQUET, TWO, edit, snapshot
@@ -37,8 +38,8 @@ def test_the_result_is_what_the_library_finds(arm: Path, run: Run) -> None:
     assert (result["schema"], result["experiment"]) == ("forcetorque/sphere/1", "small arm")
     assert (result["rule"], result["tolerance"], result["gravity_m_s2"]) == (RULE, TOLERANCE, GRAVITY)
     experiment = load_experiment(PARQUET)
-    (found,) = analyse_sensor(experiment, experiment.sensors[0], sphere_intervals(experiment, ["judge"]), {})
-    row, analysis = _row(result, "prior"), found.analysis
+    (sphere,) = spheres(SensorRun(experiment, "arm_ft"), {}, ["judge"]).analyses
+    row, analysis = _row(result, "prior"), sphere.analysis
     assert (row["sensor"], row["serial"], row["samples"]) == ("arm_ft", "SIM001", analysis.samples)
     assert row["model_mass_kg"] == analysis.mass
     assert (row["form"], row["intervals"], row["no_reference"]) == (analysis.form, ["judge"], None)
@@ -210,7 +211,7 @@ def test_a_sensor_that_fails_is_named_and_does_not_take_the_others_with_it(arm: 
     assert (arm / "spheres.png").is_file()
     shown, rows = run("sphere", TWO), run("sphere", TWO, "--format", "csv")
     assert (shown.code, rows.code) == (1, 1)
-    assert f"FAILED: {failure['message']}" in shown.out.splitlines()
+    assert f"FAILED: {failure['message']}" in " ".join(shown.out.split())
     assert [row["sensor"] for row in csv.DictReader(io.StringIO(rows.out))] == ["arm_ft"]
 
 

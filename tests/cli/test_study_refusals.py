@@ -7,8 +7,8 @@ from pathlib import Path
 
 import pytest
 
+from forcetorque.analysis import SensorStudy
 from forcetorque.errors import ForceTorqueError
-from forcetorque.experiment import SensorStudy
 from tests.cli.outcome import Run
 from tests.experiments import PARQUET, edit, snapshot
 from tests.studies import CALIBRATION, FILES, SERIAL, VALIDATION
@@ -97,7 +97,7 @@ def test_an_error_at_the_very_end_leaves_nothing_behind(days: Path, run: Run, mo
         assert len(list(folder.iterdir())) == TABLES_AND_CALIBRATIONS
         raise ForceTorqueError("the figures cannot be drawn")
 
-    monkeypatch.setattr("forcetorque.cli.study.write_figures", broken)
+    monkeypatch.setattr("forcetorque.report.study_folder.write_figures", broken)
     Path("mine").mkdir()
     before = snapshot(days)
     for output in ("out", "new/er/out", "mine/out"):

@@ -11,10 +11,16 @@ import numpy as np
 
 from forcetorque.experiment import load_experiment
 from forcetorque.recording import write_recording
-from forcetorque.spatial import WRENCH_COMPONENTS
+from forcetorque.spatial import WRENCH_COMPONENTS, WRENCH_UNITS
 from tests.cli.json_schema import faults
 from tests.cli.outcome import Run
 from tests.experiments import PARQUET, TWO, add, edit, holed, snapshot
+
+AXES = [
+    f"mean_absolute_{component}_{unit.replace(' ', '')}"
+    for component, unit in zip(WRENCH_COMPONENTS, WRENCH_UNITS, strict=True)
+]
+"""Columns of the mean absolute values in CSV."""
 
 INBOARD = ("shoulder_yaw", "shoulder_pitch", "shoulder_roll")
 """Joints between the support and the arm's sensor."""
@@ -26,7 +32,7 @@ def test_the_best_candidate_is_named_in_every_form(arm: Path, run: Run) -> None:
     result = run("validate", PARQUET, "-c", "fitted.json", "--format", "json").result()
     assert faults(result, run("schema", "validate").result()) == []
     rows = {(row["candidate"], row["offset"]): row for row in result["contact_forces"]}
-    assert set(rows) == {(c, o) for c in ("prior", "fitted.json") for o in ("fitted", "re-estimated")}
+    assert set(rows) == {(c, o) for c in ("prior", "fitted.json") for o in ("fitted", "first-second")}
     for best in result["best"]:
         assert best["by_magnitude"] == "fitted.json"
         forces = {c: rows[c, best["offset"]]["force_mean_N"] for c in ("prior", "fitted.json")}
@@ -39,7 +45,7 @@ def test_the_best_candidate_is_named_in_every_form(arm: Path, run: Run) -> None:
     assert len(flat) == 4
     for line in flat:
         row = rows[line["candidate"], line["offset"]]
-        np.testing.assert_allclose([float(line[c]) for c in WRENCH_COMPONENTS], row["mean_absolute"], rtol=1e-12)
+        np.testing.assert_allclose([float(line[c]) for c in AXES], row["mean_absolute"], rtol=1e-12)
     shown = run("validate", PARQUET, "-c", "fitted.json")
     assert shown.code == 0
     assert "free sub-model arm_ft" in shown.out
@@ -65,7 +71,7 @@ def test_joint_torques_are_in_every_form(arm: Path, run: Run) -> None:
     assert len(flat) == len(rows)
     for line in flat:
         row = rows[line["candidate"], line["offset"], line["joint"]]
-        assert {line["force_mean_N"], line["fx"], line["logged_rmse"]} == {""}
+        assert {line["force_mean_N"], line[AXES[0]], line["logged_rmse"]} == {""}
         for key in ("samples", "rmse", "rmse_error", "mean", "mean_error", "largest"):
             assert float(line[key]) == row[key]
     shown = run("validate", PARQUET, "-c", "fitted.json").out
@@ -113,7 +119,7 @@ def test_what_is_left_out_is_warned_of_and_every_row_counts_its_own_samples(arm:
     left_out = done.result()["left_out"]
     assert "arm_ft: interval 'blink': it ends within its first 1 s, after which it would be judged" in left_out
     for name in ("prior", "fitted.json"):
-        words = f"arm_ft: contact force by {name} over 'rest', offset re-estimated: every sample of its first second"
+        words = f"arm_ft: contact force by {name} over 'rest', offset first-second: every sample of its first second"
         assert [line for line in left_out if line.startswith(words)]
     for line in left_out:
         assert f"WARNING: left out: {line}" in done.log
@@ -123,7 +129,8 @@ def test_what_is_left_out_is_warned_of_and_every_row_counts_its_own_samples(arm:
     assert "free sub-model arm_ft; per axis" in shown
     table = shown[: shown.index("joint torques")].splitlines()
     rows = [line.split() for line in table if line.startswith((" prior", " fitted.json"))]
-    assert [int(row[-1]) for row in rows] == list(counts.values())
+    (headings,) = (line.split() for line in table if line.startswith(" candidate"))
+    assert [int(row[headings.index("samples")]) for row in rows] == list(counts.values())
 
 
 def test_it_is_said_where_no_offset_was_removed(arm: Path, run: Run) -> None:
@@ -131,11 +138,25 @@ def test_it_is_said_where_no_offset_was_removed(arm: Path, run: Run) -> None:
     assert "no offset removed" not in run("validate", PARQUET).out
     edit(arm / PARQUET, 'use = "calibration"', 'use = "ignore"')
     alone = run("validate", PARQUET)
-    assert "arm_ft, prior, offset fitted: read by the prior matrix_SIM001.txt, no offset removed" in alone.out
+    assert "arm_ft, prior, offset none: read by the prior matrix_SIM001.txt, no offset removed" in alone.out
     rows = run("validate", PARQUET, "--format", "json").result()
     for row in (*rows["contact_forces"], *rows["joint_torques"]):
-        assert row["offset_source"].endswith("no offset removed") == (row["offset"] == "fitted")
+        assert row["offset_source"].endswith("no offset removed") == (row["offset"] == "none")
     assert "no offset removed" not in run("validate", PARQUET, "-c", "fitted.json").out
+
+
+def test_accept_judges_the_prior_that_no_data_gave_an_offset(arm: Path, run: Run) -> None:
+    """With the limit on `fitted`: the numbers are those of the rows whose offset is `none`."""
+    edit(arm / PARQUET, 'use = "calibration"', 'use = "ignore"')
+    limits = '[validate]\nforce_mean_N = 1.0\nmoment_mean_Nm = 1.0\noffset = "fitted"\n'
+    (arm / "limits.toml").write_text(f'schema = "forcetorque/acceptance/1"\nname = "t"\n{limits}', encoding="utf-8")
+    rows = run("validate", PARQUET, "--format", "json").result()["contact_forces"]
+    (row,) = (row for row in rows if row["offset"] == "none")
+    accepted = run("accept", PARQUET, "--spec", "limits.toml", "--format", "csv")
+    assert accepted.code == 1, accepted.err
+    measured = {line["criterion"]: float(line["measured"]) for line in csv.DictReader(io.StringIO(accepted.out))}
+    assert measured["validate.force_mean_N"] == row["force_mean_N"]
+    assert measured["validate.moment_mean_Nm"] == row["moment_mean_Nm"]
 
 
 def test_the_prior_is_the_one_of_evaluate(arm: Path, run: Run) -> None:

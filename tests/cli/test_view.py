@@ -197,7 +197,7 @@ def test_a_video_is_written(run: Run, arm: Path, monkeypatch: pytest.MonkeyPatch
             filmed.append((film, len(answer.read())))
         return b"film"
 
-    monkeypatch.setattr("forcetorque.cli.view.film_page", film_page)
+    monkeypatch.setattr("forcetorque.viewer.filming.film_page", film_page)
     words = ("--start", "2", "--end", "12", "--speed", "2", "--fps", "10", "--size", "320", "200")
     browser = ("--browser", sys.executable)
     result = run("view", PARQUET, "--video", "a.mp4", *words, *browser, "--format", "json").result()

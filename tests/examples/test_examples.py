@@ -35,7 +35,7 @@ def demo(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, str]:
     done = subprocess.run(
         [sys.executable, str(script), "build/demo"],
         cwd=folder.parents[1],
-        env={**os.environ, "PYTHONPATH": str(ROOT / "src")},
+        env={**os.environ, "PYTHONPATH": str(ROOT / "src"), "COLUMNS": "120"},
         capture_output=True,
         text=True,
         check=True,
@@ -79,7 +79,11 @@ def test_the_readmes_script_runs(demo: tuple[Path, str]) -> None:
     done = subprocess.run(
         [sys.executable, "-c", _block("example")], cwd=folder.parents[1], capture_output=True, text=True, check=True
     )
-    assert "excited directions: (True, True, True, True, True, True)" in done.stdout
+    assert "arm with known truth: arm_ft (SIM001), 5800 samples that were not fitted" in done.stdout
+    *_, numbers = done.stdout.splitlines()
+    rmse, _, warnings = numbers.strip("[").partition("] ")
+    assert max(float(value) for value in rmse.split()) < 0.1
+    assert warnings == "()"
 
 
 def test_the_readme_is_short() -> None:

@@ -12,18 +12,17 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from forcetorque.arrays import FloatArray
-from forcetorque.estimation import SensorSamples
-from forcetorque.experiment import (
-    Experiment,
-    Verdict,
+from forcetorque.analysis import (
+    CandidateErrors,
+    SensorRun,
     calibrate_sensor,
     corrections_of,
     estimate_experiment,
-    evaluate_sensor,
-    load_experiment,
+    evaluate,
 )
-from forcetorque.experiment.samples import samples_over
+from forcetorque.arrays import FloatArray
+from forcetorque.estimation import SensorSamples
+from forcetorque.experiment import Experiment, load_experiment
 from forcetorque.recording import Use
 from forcetorque.recording.smoothing import smooth
 
@@ -40,10 +39,10 @@ def _load(path: Path, data_dir: Path, tmp_path: Path) -> Experiment:
     return load_experiment(copy)
 
 
-def _verdicts(experiment: Experiment) -> tuple[dict[tuple[str, str], Verdict], float]:
+def _verdicts(experiment: Experiment) -> tuple[dict[tuple[str, str], CandidateErrors], float]:
     sensor = experiment.sensors[0]
-    calibration = calibrate_sensor(experiment, sensor, code_version="test", created="test")
-    verdicts = evaluate_sensor(experiment, sensor, {"new": calibration})
+    calibration = calibrate_sensor(SensorRun(experiment, sensor), code_version="test", created="test")
+    verdicts = evaluate(SensorRun(experiment, sensor), {"new": calibration}).verdicts
     return {(v.candidate, v.offset): v for v in verdicts}, calibration.lambda_counts2
 
 
@@ -51,22 +50,22 @@ def _verdicts(experiment: Experiment) -> tuple[dict[tuple[str, str], Verdict], f
 def test_no_worse_than_the_prior(path: Path, data_dir: Path, tmp_path: Path) -> None:
     """On judged data the force error with the chosen lambda is at most that of the prior, offset as fitted."""
     verdicts, _ = _verdicts(_load(path, data_dir, tmp_path))
-    prior, new = verdicts["prior", "fitted"].errors, verdicts["new", "fitted"].errors
-    assert new.count > 1000
-    assert new.force_mean <= prior.force_mean
-    assert new.moment_mean <= prior.moment_mean
+    prior, new = verdicts["prior", "fitted"], verdicts["new", "fitted"]
+    assert new.samples > 1000
+    assert new.force_error_mean_N <= prior.force_error_mean_N
+    assert new.moment_error_mean_Nm <= prior.moment_error_mean_Nm
 
 
 def test_a_quiet_half_may_give_a_force_a_little_worse_than_the_prior(data_dir: Path, tmp_path: Path) -> None:
     """Quiet data excite little: the force error rises by 0.02 N, an eighth of its standard error; moments gain."""
     verdicts, regularisation = _verdicts(_load(YOGA[2], data_dir, tmp_path))
-    prior, new = verdicts["prior", "fitted"].errors, verdicts["new", "fitted"].errors
+    prior, new = verdicts["prior", "fitted"], verdicts["new", "fitted"]
     assert regularisation == pytest.approx(8.41e4, rel=0.01)
-    assert (prior.force_mean, new.force_mean) == pytest.approx((0.861, 0.881), abs=0.002)
-    assert new.force_mean - prior.force_mean < 0.3 * new.force_mean_error
-    assert new.moment_mean < 0.7 * prior.moment_mean
-    prior, new = verdicts["prior", "re-estimated"].errors, verdicts["new", "re-estimated"].errors
-    assert new.force_mean < 0.85 * prior.force_mean
+    assert (prior.force_error_mean_N, new.force_error_mean_N) == pytest.approx((0.861, 0.881), abs=0.002)
+    assert new.force_error_mean_N - prior.force_error_mean_N < 0.3 * new.force_error_standard_error_N
+    assert new.moment_error_mean_Nm < 0.7 * prior.moment_error_mean_Nm
+    prior, new = verdicts["prior", "judged-mean"], verdicts["new", "judged-mean"]
+    assert new.force_error_mean_N < 0.85 * prior.force_error_mean_N
 
 
 def test_the_edges_of_a_judged_interval_are_smoothed_as_its_middle_is(data_dir: Path, tmp_path: Path) -> None:
@@ -91,7 +90,7 @@ def _over(experiment: Experiment, first_s: float, last_s: float) -> SensorSample
     start, end = (experiment.recording.start_ns + round(t * 1e9) for t in (first_s, last_s))
     like = experiment.intervals(Use.VALIDATION)[0]
     span = replace(like, label="span", start_ns=start, end_ns=end)
-    return samples_over(experiment, experiment.sensors[0], span, experiment.processing)
+    return SensorRun(experiment, experiment.sensors[0]).interval_samples(span).samples
 
 
 def _columns(samples: SensorSamples) -> FloatArray:
@@ -102,7 +101,7 @@ def test_half_the_error_where_the_fitted_part_moves(data_dir: Path, tmp_path: Pa
     """Fitted on the moving half, the force error on the other is less than half of the prior's."""
     verdicts, regularisation = _verdicts(_load(YOGA[0], data_dir, tmp_path))
     assert math.isfinite(regularisation)
-    assert verdicts["new", "fitted"].errors.force_mean < 0.5 * verdicts["prior", "fitted"].errors.force_mean
+    assert verdicts["new", "fitted"].force_error_mean_N < 0.5 * verdicts["prior", "fitted"].force_error_mean_N
 
 
 def test_the_prior_reproduces_the_known_error(data_dir: Path, tmp_path: Path) -> None:
@@ -112,7 +111,7 @@ def test_the_prior_reproduces_the_known_error(data_dir: Path, tmp_path: Path) ->
         plain = tmp_path / "plain.toml"
         plain.write_text(text.replace("smoothing = ", "# smoothing = "))
         verdicts, _ = _verdicts(_load(plain, data_dir, tmp_path))
-        assert verdicts["prior", "fitted"].errors.force_mean == pytest.approx(seen, abs=0.15)
+        assert verdicts["prior", "fitted"].force_error_mean_N == pytest.approx(seen, abs=0.15)
 
 
 def test_joints_that_the_sensor_does_not_need_may_be_absent(data_dir: Path, tmp_path: Path) -> None:

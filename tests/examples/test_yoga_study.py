@@ -7,9 +7,10 @@ from pathlib import Path
 
 import pytest
 
+from forcetorque.analysis import read_study_data, study_sensor
 from forcetorque.calibration import ESTIMATION_TYPES
-from forcetorque.experiment import read_study_data, study_sensor
-from forcetorque.study import SWEEP_LAMBDAS, OffsetSource
+from forcetorque.evaluation import Offset
+from forcetorque.study import SWEEP_LAMBDAS
 
 EXAMPLE = Path(__file__).resolve().parents[2] / "examples" / "10_icub_yoga_study.toml"
 
@@ -36,7 +37,7 @@ def test_a_choice_on_one_block_halves_the_force_on_the_other(data_dir: Path, tmp
         assert [combination.name for combination in study.fits.combinations][-1] == "early + moving + quiet"
         assert len(study.fits.candidates) == (7 * 2 + 4) * 13
         assert len(study.fits.left_out) == 3
-        scores = study.choices[OffsetSource.RE_ESTIMATED].across_sessions
+        scores = study.choices[Offset.FIRST_SECOND].across_sessions
         assert [score.session for score in scores] == ["later", "last"]
         assert all(score.force_mean < 0.5 * (score.workbench_force_mean or 0.0) for score in scores)
         # a block alone leaves directions unexcited, so its fits without the prior may not be chosen

@@ -7,8 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from forcetorque.experiment import JointTorqueVerdict, calibrate_sensor, compare_joint_torques, load_experiment
-from forcetorque.study import OffsetSource
+from forcetorque.analysis import JointTorqueErrors, SensorRun, calibrate_sensor, joint_torques
+from forcetorque.evaluation.offset import Offset
+from forcetorque.experiment import load_experiment
 
 EXAMPLE = Path(__file__).resolve().parents[2] / "examples" / "02_icub_yoga_forward.toml"
 
@@ -19,55 +20,55 @@ SHOWN = 0.005
 
 pytestmark = pytest.mark.real_data
 
-Key = tuple[str, OffsetSource, str]
+Key = tuple[str, Offset, str]
 
 
 @pytest.fixture(scope="module")
-def verdicts(data_dir: Path, tmp_path_factory: pytest.TempPathFactory) -> dict[Key, JointTorqueVerdict]:
+def verdicts(data_dir: Path, tmp_path_factory: pytest.TempPathFactory) -> dict[Key, JointTorqueErrors]:
     """Verdicts on the prior and on a calibration of the other half."""
     copy = tmp_path_factory.mktemp("yoga") / EXAMPLE.name
     copy.write_text(EXAMPLE.read_text(encoding="utf-8").replace("../../shared/data", data_dir.as_posix()))
     experiment = load_experiment(copy)
-    sensor = experiment.sensors[0]
-    new = calibrate_sensor(experiment, sensor, code_version="test", created="test")
-    found = compare_joint_torques(experiment, sensor, {"new": new})
+    run = SensorRun(experiment, experiment.sensors[0])
+    new = calibrate_sensor(run, code_version="test", created="test")
+    found = joint_torques(run, {"new": new})
     assert found.left_out == ()
     return {(verdict.candidate, verdict.offset, verdict.joint): verdict for verdict in found.verdicts}
 
 
-def test_joints_between_the_sensor_and_the_standing_foot_are_judged(verdicts: dict[Key, JointTorqueVerdict]) -> None:
+def test_joints_between_the_sensor_and_the_standing_foot_are_judged(verdicts: dict[Key, JointTorqueErrors]) -> None:
     """Eight joints of two legs; beyond the sensor none, and no torso, which is not even logged."""
     assert {joint for _, _, joint in verdicts} == STANDING | {"r_hip_pitch", "r_hip_roll"}
     assert len(verdicts) == 2 * 2 * 8
-    assert {verdict.errors.count for verdict in verdicts.values()} == {1534}
+    assert {verdict.samples for verdict in verdicts.values()} == {1534}
 
 
-def test_the_largest_error_is_halved(verdicts: dict[Key, JointTorqueVerdict]) -> None:
+def test_the_largest_error_is_halved(verdicts: dict[Key, JointTorqueErrors]) -> None:
     """With its own offset the worst joint of the calibration is nearly twice as good as that of the prior."""
     worst = {
-        name: max(v.errors.rmse for (who, source, _), v in verdicts.items() if (who, source) == (name, "fitted"))
+        name: max(v.rmse for (who, source, _), v in verdicts.items() if (who, source) == (name, "fitted"))
         for name in ("prior", "new")
     }
     assert worst["new"] < 0.55 * worst["prior"]
 
 
-def test_it_is_as_the_page_says(verdicts: dict[Key, JointTorqueVerdict]) -> None:
+def test_it_is_as_the_page_says(verdicts: dict[Key, JointTorqueErrors]) -> None:
     """Better and worse joints alike."""
     for source, joint, prior, new in (
-        (OffsetSource.FITTED, "l_ankle_roll", 0.45, 0.22),
-        (OffsetSource.RE_ESTIMATED, "l_ankle_roll", 0.23, 0.07),
-        (OffsetSource.FITTED, "l_hip_roll", 0.44, 0.13),
-        (OffsetSource.FITTED, "l_ankle_pitch", 0.09, 0.12),
-        (OffsetSource.RE_ESTIMATED, "l_hip_roll", 0.11, 0.18),
+        (Offset.FITTED, "l_ankle_roll", 0.45, 0.22),
+        (Offset.FIRST_SECOND, "l_ankle_roll", 0.23, 0.07),
+        (Offset.FITTED, "l_hip_roll", 0.44, 0.13),
+        (Offset.FITTED, "l_ankle_pitch", 0.09, 0.12),
+        (Offset.FIRST_SECOND, "l_hip_roll", 0.11, 0.18),
     ):
-        assert verdicts["prior", source, joint].errors.rmse == pytest.approx(prior, abs=SHOWN)
-        assert verdicts["new", source, joint].errors.rmse == pytest.approx(new, abs=SHOWN)
+        assert verdicts["prior", source, joint].rmse == pytest.approx(prior, abs=SHOWN)
+        assert verdicts["new", source, joint].rmse == pytest.approx(new, abs=SHOWN)
 
 
-def test_hips_about_one_axis_bear_opposite_errors(verdicts: dict[Key, JointTorqueVerdict]) -> None:
+def test_hips_about_one_axis_bear_opposite_errors(verdicts: dict[Key, JointTorqueErrors]) -> None:
     """Both pitch axes are one line through the pelvis, and turn the other way seen from the standing foot."""
     for (who, source, joint), verdict in verdicts.items():
         if joint == "l_hip_pitch":
-            other = verdicts[who, source, "r_hip_pitch"].errors
-            assert verdict.errors.mean == pytest.approx(-other.mean, abs=1e-4)  # axes of the URDF in six digits
-            assert verdict.errors.rmse == pytest.approx(other.rmse, abs=1e-4)
+            other = verdicts[who, source, "r_hip_pitch"]
+            assert verdict.mean == pytest.approx(-other.mean, abs=1e-4)  # axes of the URDF in six digits
+            assert verdict.rmse == pytest.approx(other.rmse, abs=1e-4)

@@ -9,10 +9,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from forcetorque.analysis import (
+    SensorRun,
+    calibrate_sensor,
+)
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration import Calibration
 from forcetorque.errors import ExperimentError, FitError, ForceTorqueError, FormatError, RecordingError
-from forcetorque.experiment import Experiment, calibrate_sensor, load_experiment, samples_of
+from forcetorque.experiment import Experiment, load_experiment
 from forcetorque.recording import SavitzkyGolay, Use, read_recording
 from forcetorque.recording.smoothing import EvenGrid, smooth
 from tests.experiments import MOUNTED, OFFSET, PARQUET, TWO, add, edit
@@ -40,7 +44,10 @@ INTERPOLATED = 1e-9
 
 def _fitted(experiment: Experiment, *, sensor: int = 0, regularisation: float | None = 0.0) -> Calibration:
     return calibrate_sensor(
-        experiment, experiment.sensors[sensor], code_version="1", created="now", regularisation=regularisation
+        SensorRun(experiment, experiment.sensors[sensor]),
+        code_version="1",
+        created="now",
+        regularisation=regularisation,
     )
 
 
@@ -58,7 +65,9 @@ def test_the_truth_is_found_with_the_temperature(warm: Path, place: str) -> None
     (variable,) = made.variables
     assert (variable.name, variable.unit, variable.prior) == ("temperature", "degC", None)
     assert _close(variable.coefficients, PER_DEGREE)
-    (part,) = samples_of(experiment, experiment.sensors[0], Use.CALIBRATION, with_variables=True)
+    (part,) = SensorRun(experiment, experiment.sensors[0]).samples(
+        Use.CALIBRATION, variables=[v.linear.name for v in experiment.sensors[0].variables]
+    )
     first = true_temperature(seconds_of(experiment.recording, part.samples.stamp_ns[:1]))[0]
     assert abs(variable.reference_value - first) < INTERPOLATED
     assert _close(made.offset, OFFSET + PER_DEGREE * (first - WARM_DEGC))
@@ -79,7 +88,9 @@ def test_without_the_temperature_the_drift_stays(warm: Path) -> None:
 def test_values_are_those_at_the_instants_of_the_sensor(warm: Path, place: str) -> None:
     """Interpolated over time: a temperature that comes back to a value has that value both times."""
     experiment = load_experiment(with_variables(warm / PARQUET, place))
-    (part,) = samples_of(experiment, experiment.sensors[0], Use.CALIBRATION, with_variables=True)
+    (part,) = SensorRun(experiment, experiment.sensors[0]).samples(
+        Use.CALIBRATION, variables=[v.linear.name for v in experiment.sensors[0].variables]
+    )
     seconds = seconds_of(experiment.recording, part.samples.stamp_ns)
     values = part.samples.variables[:, 0]
     assert np.abs(values - true_temperature(seconds)).max() < INTERPOLATED
@@ -108,7 +119,7 @@ def test_samples_in_a_gap_of_the_thermometer_are_left_out(warm: Path) -> None:
     assert made.provenance.samples == np.count_nonzero(inside & ~silent)
     assert _close(made.matrix, MOUNTED)
     assert _close(made.variables[0].coefficients, PER_DEGREE)
-    (without,) = samples_of(experiment, experiment.sensors[0], Use.CALIBRATION)
+    (without,) = SensorRun(experiment, experiment.sensors[0]).samples(Use.CALIBRATION)
     assert without.samples.dropped == 0
 
 
@@ -121,9 +132,9 @@ def test_a_missing_temperature_leaves_its_sample_out(warm: Path) -> None:
     put(warm, replace(stream, signals={**stream.signals, "temperature": replace(temperature, values=values)}))
     experiment = load_experiment(with_variables(warm / PARQUET, TEMPERATURE))
     assert _fitted(experiment).provenance.dropped == 2
+    without = replace(experiment, fit_options=replace(experiment.fit_options, with_variables=False))
     plain = calibrate_sensor(
-        replace(experiment, fit_options=replace(experiment.fit_options, with_variables=False)),
-        experiment.sensors[0],
+        SensorRun(without, without.sensors[0]),
         code_version="1",
         created="now",
         regularisation=1.0,
@@ -159,7 +170,9 @@ def test_a_missing_current_is_nothing_to_the_voltage(warm: Path) -> None:
     values[:, 1] = np.nan
     put(warm, replace(board, signals={**board.signals, "scalar": replace(scalar, values=values)}))
     experiment = load_experiment(with_variables(warm / PARQUET, SUPPLY))
-    (part,) = samples_of(experiment, experiment.sensors[0], Use.CALIBRATION, with_variables=True)
+    (part,) = SensorRun(experiment, experiment.sensors[0]).samples(
+        Use.CALIBRATION, variables=[v.linear.name for v in experiment.sensors[0].variables]
+    )
     assert part.samples.dropped == 0
     seconds = seconds_of(experiment.recording, part.samples.stamp_ns)
     assert np.abs(part.samples.variables[:, 0] - true_supply(seconds)).max() < INTERPOLATED
@@ -192,7 +205,9 @@ def test_smoothing_takes_the_temperature_along(warm: Path) -> None:
     made = _fitted(experiment)
     assert _close(made.matrix, MOUNTED)
     assert _close(made.variables[0].coefficients, PER_DEGREE)
-    (part,) = samples_of(experiment, experiment.sensors[0], Use.CALIBRATION, with_variables=True)
+    (part,) = SensorRun(experiment, experiment.sensors[0]).samples(
+        Use.CALIBRATION, variables=[v.linear.name for v in experiment.sensors[0].variables]
+    )
     whole = np.isfinite(raw.values).all(axis=1)[:, None]
     window, grid = SavitzkyGolay(window_s=0.5, order=2), EvenGrid.of(stream.stamp_ns)
     alone = smooth(stream.stamp_ns, np.where(whole, jumping.values, np.nan), window, grid=grid)

@@ -8,8 +8,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from forcetorque.analysis import (
+    SensorRun,
+    calibrate_sensor,
+    evaluate,
+)
 from forcetorque.errors import ForceTorqueError
-from forcetorque.experiment import calibrate_sensor, evaluate_sensor, load_experiment, samples_of
+from forcetorque.experiment import load_experiment
 from forcetorque.recording import Use
 
 MASS, CENTRE = 1.1, np.array([0.01, -0.005, 0.07])
@@ -98,7 +103,7 @@ def test_a_given_load_is_taken(tmp_path: Path) -> None:
     given = f"mass_kg = {MASS}\ncentre_of_mass_m = {CENTRE.tolist()}\n"
     experiment = load_experiment(_write(tmp_path, text=TEXT.replace("\n[recording]", f"{given}\n[recording]")))
     assert experiment.payload is None
-    (part,) = samples_of(experiment, experiment.sensors[0], Use.VALIDATION)
+    (part,) = SensorRun(experiment, experiment.sensors[0]).samples(Use.VALIDATION)
     assert len(part.samples) == POSES - 40
     force = np.linalg.norm(part.samples.reference[:, :3], axis=1)
     np.testing.assert_allclose(force, MASS * 9.80665, rtol=1e-8)
@@ -111,9 +116,11 @@ def test_a_distorted_wrist_sensor_is_mended_by_a_known_load(tmp_path: Path) -> N
     path = _write(tmp_path, text=TEXT.replace("\n[recording]", f"{given}\n[recording]"), matrix=distorted)
     experiment = load_experiment(path)
     sensor = experiment.sensors[0]
-    calibration = calibrate_sensor(experiment, sensor, code_version="1", created="now")
-    verdicts = {(v.candidate, v.offset): v.errors for v in evaluate_sensor(experiment, sensor, {"new": calibration})}
-    assert verdicts["new", "fitted"].force_mean < 0.5 * verdicts["prior", "fitted"].force_mean
+    calibration = calibrate_sensor(SensorRun(experiment, sensor), code_version="1", created="now")
+    verdicts = {
+        (v.candidate, v.offset): v for v in evaluate(SensorRun(experiment, sensor), {"new": calibration}).verdicts
+    }
+    assert verdicts["new", "fitted"].force_error_mean_N < 0.5 * verdicts["prior", "fitted"].force_error_mean_N
 
 
 PER_VOLT = np.array([0.8, -0.5, 1.5, 0.02, 0.03, -0.01])
@@ -174,15 +181,20 @@ def test_columns_of_tables_are_variables(tmp_path: Path) -> None:
     experiment = load_experiment(_write_with_supply(tmp_path, column="supply"))
     (sensor,) = experiment.sensors
     assert [(v.linear.name, v.linear.unit) for v in sensor.variables] == [("supply", "V"), ("room", "degC")]
-    made = calibrate_sensor(experiment, sensor, code_version="1", created="now", regularisation=1e9)
+    made = calibrate_sensor(SensorRun(experiment, sensor), code_version="1", created="now", regularisation=1e9)
     supply, room = made.variables
     for variable, truth, deviation in ((supply, PER_VOLT, 0.28), (room, PER_DEGREE, 2.0)):
         noise = 5.0 * NOISE / np.sqrt(40) / deviation  # of a slope over forty poses
         assert (np.abs(variable.coefficients + truth) < noise).all()
         assert not (np.abs(variable.coefficients - truth) < noise).any()
-    errors = evaluate_sensor(experiment, sensor, {"new": made})
-    by_key = {(v.candidate, v.offset): v.errors for v in errors}
-    assert by_key["new", "fitted"].force_mean < 2.0 * NOISE[0] < 4.0 * NOISE[0] < by_key["prior", "fitted"].force_mean
+    errors = evaluate(SensorRun(experiment, sensor), {"new": made}).verdicts
+    by_key = {(v.candidate, v.offset): v for v in errors}
+    assert (
+        by_key["new", "fitted"].force_error_mean_N
+        < 2.0 * NOISE[0]
+        < 4.0 * NOISE[0]
+        < by_key["prior", "fitted"].force_error_mean_N
+    )
 
 
 def test_the_column_of_a_variable_is_that_of_the_stream(tmp_path: Path) -> None:
@@ -225,8 +237,8 @@ def test_the_real_wrist_example(data_dir: Path, tmp_path: Path) -> None:
     assert experiment.payload.mass == pytest.approx(0.932, abs=0.003)
     sensor = experiment.sensors[0]
     calibration = calibrate_sensor(
-        experiment, sensor, code_version="1", created="now", regularisation=experiment.regularisation
+        SensorRun(experiment, sensor), code_version="1", created="now", regularisation=experiment.regularisation
     )
-    errors = evaluate_sensor(experiment, sensor, {"new": calibration})
-    assert errors[0].errors.count == 8
-    assert all(verdict.errors.force_mean < 0.2 for verdict in errors)
+    errors = evaluate(SensorRun(experiment, sensor), {"new": calibration}).verdicts
+    assert errors[0].samples == 8
+    assert all(verdict.force_error_mean_N < 0.2 for verdict in errors)

@@ -10,9 +10,14 @@ from typing import Any
 import numpy as np
 import pytest
 
+from forcetorque.analysis import (
+    SensorRun,
+    calibrate_sensor,
+    inspect_experiment,
+)
 from forcetorque.exchange.icub import read_matrix_file
 from forcetorque.exchange.yarp import PortKind, StreamPort, write_ports
-from forcetorque.experiment import calibrate_sensor, inspect_experiment, load_experiment
+from forcetorque.experiment import load_experiment
 from forcetorque.recording import Recording, read_recording
 from forcetorque.simulation import calibrated_by_board, fail_groups, lose_messages
 from tests.experiments import PARQUET, YARP, edit
@@ -54,7 +59,9 @@ def test_a_written_log_calibrates_as_the_recording_itself(arm: Path) -> None:
     fits = []
     for form in (PARQUET, YARP):
         experiment = load_experiment(arm / form)
-        fits.append(calibrate_sensor(experiment, experiment.sensors[0], code_version="1", created="now").matrix)
+        fits.append(
+            calibrate_sensor(SensorRun(experiment, experiment.sensors[0]), code_version="1", created="now").matrix
+        )
     np.testing.assert_allclose(fits[1], fits[0], rtol=1e-6, atol=1e-9)
 
 

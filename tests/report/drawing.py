@@ -17,9 +17,14 @@ from matplotlib.figure import Figure
 from matplotlib.image import imread
 from matplotlib.text import Text
 
+from forcetorque.analysis import (
+    SensorSphere,
+    TrialGroup,
+    TrialSphere,
+    group_trials,
+)
 from forcetorque.evaluation.sphere import analyse_sphere
-from forcetorque.experiment import SensorSphere, TrialGroup, TrialSphere, group_trials
-from forcetorque.report import (
+from forcetorque.report.figures import (
     comparison_figure,
     contact_figure,
     difference_figure,
@@ -139,7 +144,7 @@ def trial_groups(
     rng: np.random.Generator, *, sensors: int, trials: int = 3, caps: int = 0, with_reference: bool = True
 ) -> list[TrialGroup]:
     """Groups of trials of sensors, the last of which covered a small part of the sphere only."""
-    found = []
+    spheres = []
     for k in range(sensors):
         matrix = np.eye(3) + 0.15 * rng.normal(size=(3, 3))
         for _ in range(trials):
@@ -149,10 +154,10 @@ def trial_groups(
             reference = 46.0 * directions / np.linalg.norm(directions, axis=1, keepdims=True)
             force = reference @ matrix.T + 5.0 * rng.normal(size=3) + 0.5 * rng.normal(size=(300, 3))
             sphere = replace(sphere_of(force, reference if with_reference else None, mass=4.7), serial=f"SN{k}")
-            found.append(
+            spheres.append(
                 TrialSphere(file="a.toml", experiment="a", condition=None, number=None, prior=None, sphere=sphere)
             )
-    return group_trials(found)[0]
+    return group_trials(spheres)[0]
 
 
 def _index(rng: np.random.Generator) -> bytes:

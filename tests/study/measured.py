@@ -9,7 +9,12 @@ import numpy as np
 
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration import DataSet, LinearVariable, WrenchModel
-from forcetorque.study import OffsetSource, Study, ValidationSet, run_study
+from forcetorque.evaluation.offset import Offset
+from forcetorque.study import (
+    Study,
+    ValidationSet,
+    run_study,
+)
 
 RATE_HZ = 100.0
 NOISE = np.array([0.3, 0.3, 0.3, 0.01, 0.01, 0.01])
@@ -90,12 +95,12 @@ def study() -> Study:
     return run_study(FITTED, COMBINATIONS, JUDGED, prior=PRIOR, variables=[TEMPERATURE], sphere=("grid", "grid_2"))
 
 
-def errors_by_samples(model: WrenchModel, one: ValidationSet, source: OffsetSource) -> FloatArray:
+def errors_by_samples(model: WrenchModel, one: ValidationSet, source: Offset) -> FloatArray:
     """What a model reads less what it should, sample by sample, after the first second; shape (n, 6)."""
     wrench = model.wrench(one.raw, one.variables if model.coefficients.shape[1] else None)
     error = wrench - one.reference
     first = one.time_s < one.time_s[0] + 1.0
-    if source is OffsetSource.RE_ESTIMATED:
+    if source is Offset.FIRST_SECOND:
         error = error - error[first].mean(axis=0)
     rest: FloatArray = error[~first]
     return rest

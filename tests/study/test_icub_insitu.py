@@ -12,6 +12,7 @@ import numpy as np
 from forcetorque.arrays import FloatArray, IntArray
 from forcetorque.calibration import ESTIMATION_TYPES, DataSet, LinearVariable, WrenchModel, calibrate
 from forcetorque.estimation import Processing, sensor_samples
+from forcetorque.evaluation.offset import Offset
 from forcetorque.recording import Interval, Support, Use
 from forcetorque.simulation.scenario import (
     INTERVAL_MARGIN_S,
@@ -23,7 +24,12 @@ from forcetorque.simulation.scenario import (
     simulate,
     trace_recordings,
 )
-from forcetorque.study import OffsetSource, Study, ValidationSet, judge, run_study
+from forcetorque.study import (
+    Study,
+    ValidationSet,
+    judge,
+    run_study,
+)
 
 LEG = "l_leg_ft"
 SEEDS = range(1, 21)
@@ -155,7 +161,7 @@ def _study(sensor: Sensor, kinds: Sequence[str] = tuple(ESTIMATION_TYPES)) -> St
     )
 
 
-def _shares(study: Study, source: OffsetSource) -> list[float]:
+def _shares(study: Study, source: Offset) -> list[float]:
     """Mean contact force of the choice made on the other day, over that of the workbench matrix, on each day."""
     scores = study.choices[source].across_sessions
     assert [score.session for score in scores] == ["day 1", "day 2"]
@@ -168,8 +174,8 @@ def test_a_choice_on_one_day_leaves_a_third_of_the_force_on_the_other() -> None:
     for sensor in sensors():
         study = _study(sensor)
         assert len(study.fits.candidates) == 351
-        shares += _shares(study, OffsetSource.RE_ESTIMATED)
-        workbench.append(study.judgements[OffsetSource.RE_ESTIMATED].over().force_mean[-1])
+        shares += _shares(study, Offset.FIRST_SECOND)
+        workbench.append(study.judgements[Offset.FIRST_SECOND].over().force_mean[-1])
     assert len(workbench) == 20
     # the error is set to 14 to 20 N on the true loads; other effects, and what boards hold, move it
     assert WORKBENCH_N[0] < min(workbench) < max(workbench) < WORKBENCH_N[1]
@@ -184,8 +190,8 @@ def test_linear_effects_are_taken_out_to_the_noise() -> None:
     distinct = [kind for kind in ESTIMATION_TYPES if not kind.startswith("C")]  # the C types equal the O types
     for sensor in sensors(**LINEAR_ONLY):
         study = _study(sensor, distinct)
-        floor = judge([sensor.truth], [OffsetSource.RE_ESTIMATED], sensor.validation)
-        for score in study.choices[OffsetSource.RE_ESTIMATED].across_sessions:
+        floor = judge([sensor.truth], [Offset.FIRST_SECOND], sensor.validation)
+        for score in study.choices[Offset.FIRST_SECOND].across_sessions:
             ratios.append(score.force_mean / floor.over([score.session]).force_mean[0])
         fit = calibrate(sensor.calibration, None, regularisation=0.0, variables=[TEMPERATURE])
         assert fit.standard_errors is not None
@@ -202,5 +208,5 @@ def test_the_true_error_of_a_workbench_matrix_is_no_noise() -> None:
     """Negative control of the floor: the workbench matrix is far above it, with linear effects only."""
     sensor = next(sensors(**LINEAR_ONLY))
     prior = WrenchModel(matrix=sensor.prior, offset=np.zeros(6))
-    judged = judge([sensor.truth, prior], [OffsetSource.RE_ESTIMATED] * 2, sensor.validation).over().force_mean
+    judged = judge([sensor.truth, prior], [Offset.FIRST_SECOND] * 2, sensor.validation).over().force_mean
     assert judged[1] > 30.0 * judged[0]

@@ -13,7 +13,14 @@ from forcetorque.arrays import FloatArray
 from forcetorque.calibration import WrenchModel
 from forcetorque.errors import FitError, ShapeError
 from forcetorque.evaluation import PooledErrors, wrench_errors
-from forcetorque.study import OFFSET_S, Judgement, OffsetSource, ValidationSet, judge, with_offset
+from forcetorque.evaluation.offset import KNOWN_BEFORE, Offset
+from forcetorque.study import (
+    OFFSET_S,
+    Judgement,
+    ValidationSet,
+    judge,
+    with_offset,
+)
 from tests.study.measured import JUDGED, NOISE, TRUTH, errors_by_samples, judged, study
 
 EXACT = 1e-10
@@ -21,11 +28,11 @@ EXACT = 1e-10
 SAME_FIT = 1e-6
 """N, N m: two ways to the same fit differ by rounding times its condition; the errors are some 1 N."""
 
-RE_ESTIMATED, FITTED_OFFSET = OffsetSource.RE_ESTIMATED, OffsetSource.FITTED
-BOTH = pytest.mark.parametrize("source", list(OffsetSource))
+RE_ESTIMATED, FITTED_OFFSET = Offset.FIRST_SECOND, Offset.FITTED
+BOTH = pytest.mark.parametrize("source", list(KNOWN_BEFORE))
 
 
-def _by_samples(models: Sequence[WrenchModel], sets: Sequence[ValidationSet], source: OffsetSource) -> PooledErrors:
+def _by_samples(models: Sequence[WrenchModel], sets: Sequence[ValidationSet], source: Offset) -> PooledErrors:
     verdicts = []
     for model in models:
         errors = np.concatenate([errors_by_samples(model, one, source) for one in sets])
@@ -42,12 +49,12 @@ def _difference(one: PooledErrors, other: PooledErrors) -> float:
     return max(float(np.abs(getattr(one, field) - getattr(other, field)).max()) for field in fields)
 
 
-def _judge(models: Sequence[WrenchModel], sets: Sequence[ValidationSet], source: OffsetSource) -> Judgement:
+def _judge(models: Sequence[WrenchModel], sets: Sequence[ValidationSet], source: Offset) -> Judgement:
     return judge(models, [source] * len(models), sets)
 
 
 @BOTH
-def test_the_errors_are_those_of_the_samples_after_the_first_second(source: OffsetSource) -> None:
+def test_the_errors_are_those_of_the_samples_after_the_first_second(source: Offset) -> None:
     """All 351 candidates, over everything, over one day and over one set; other samples give other numbers."""
     judgement, models = study().judgements[source], study().models[:-1]
     part = slice(None, None, 7)
@@ -69,7 +76,7 @@ def test_the_errors_are_those_of_the_samples_after_the_first_second(source: Offs
 
 
 @BOTH
-def test_the_first_second_itself_is_not_judged(source: OffsetSource) -> None:
+def test_the_first_second_itself_is_not_judged(source: Offset) -> None:
     """A blow in the first second changes the offset that is taken from it, and no error of a fitted offset."""
     blow = JUDGED[0].reference.copy()
     blow[3] += [500.0, 0, 0, 0, 0, 0]
@@ -82,7 +89,7 @@ def test_the_first_second_itself_is_not_judged(source: OffsetSource) -> None:
 
 
 @BOTH
-def test_centralised_equals_one_shot_and_its_reference_temperature_does_not_matter(source: OffsetSource) -> None:
+def test_centralised_equals_one_shot_and_its_reference_temperature_does_not_matter(source: Offset) -> None:
     """Theorem 5.1 as Tables 5.5 and 5.6 show it: four types with temperature judge alike, two without; S does not."""
     pooled = study().judgements[source].over()
     by_type: dict[str, list[int]] = {}
@@ -106,7 +113,7 @@ def test_centralised_equals_one_shot_and_its_reference_temperature_does_not_matt
 
 def test_the_workbench_is_judged_alike_in_both_modes() -> None:
     """It has no offset of a fit; its errors are those of its matrix with the offset of the first second."""
-    both = [study().judgements[source].over() for source in OffsetSource]
+    both = [study().judgements[source].over() for source in KNOWN_BEFORE]
     assert np.array_equal(both[0].mean_absolute[-1], both[1].mean_absolute[-1])
     assert both[0].force_mean[-1] == both[1].force_mean[-1]
     assert both[0].moment_mean[-1] == both[1].moment_mean[-1]
@@ -121,7 +128,7 @@ def test_the_true_model_leaves_noise_only() -> None:
     The size of three equal normal errors has the mean 2 sqrt(2 / pi) of a standard deviation.
     """
     long = judged("long", "day", 27.0, 40.0, seed=30, n=20_000)
-    for source in OffsetSource:
+    for source in KNOWN_BEFORE:
         pooled = _judge([TRUTH], [long], source).over()
         # the offset of 100 samples is off by a tenth of the noise, or three, whose square half counts
         slack = 0.05 if source is RE_ESTIMATED else 0.02
@@ -129,7 +136,7 @@ def test_the_true_model_leaves_noise_only() -> None:
         assert pooled.moment_mean[0] == pytest.approx(2.0 * np.sqrt(2.0 / np.pi) * NOISE[3], rel=slack)
         np.testing.assert_allclose(pooled.mean_absolute[0], np.sqrt(2.0 / np.pi) * NOISE, rtol=slack)
     exact = judged("exact", "day", 27.0, 40.0, seed=30, noise=0.0)
-    for source in OffsetSource:
+    for source in KNOWN_BEFORE:
         assert _judge([TRUTH], [exact], source).over().force_mean[0] < EXACT
         without = replace(TRUTH, coefficients=np.zeros((6, 1)))
         assert _judge([without], [exact], source).over().force_mean[0] > 1.0
@@ -145,14 +152,14 @@ def test_an_offset_of_the_counts_matters_to_the_fitted_offset_alone() -> None:
     sets = [JUDGED[0], _shifted(JUDGED[1], power_up), JUDGED[2]]
     models = study().models[:351:50]
     assert len(models) == 8
-    for source in OffsetSource:
+    for source in KNOWN_BEFORE:
         plain, shifted = ([_judge(models, [one], source).over() for one in judged] for judged in (JUDGED, sets))
         elsewhere, there, after = (_difference(*pair) for pair in zip(plain, shifted, strict=True))
         assert (elsewhere, after) == (0.0, 0.0)
         assert there < EXACT if source is RE_ESTIMATED else there > 0.1
     # control the other way: a change of slope is no offset, and both modes see it
     bent = replace(JUDGED[1], raw=1.05 * JUDGED[1].raw)
-    for source in OffsetSource:
+    for source in KNOWN_BEFORE:
         changed = _judge(models, [bent], source)
         assert _difference(_judge(models, [JUDGED[1]], source).over(), changed.over()) > 0.1
 
@@ -169,7 +176,7 @@ def test_a_mixture_of_offsets_keeps_every_model_its_own() -> None:
 
 
 @BOTH
-def test_the_wrenches_of_figures_are_those_that_were_judged(source: OffsetSource) -> None:
+def test_the_wrenches_of_figures_are_those_that_were_judged(source: Offset) -> None:
     """`with_offset` gives all samples; those after the first second have the errors of the judgement."""
     assert JUDGED
     for model in study().models[:351:70]:
@@ -186,7 +193,7 @@ def test_a_sensor_without_variables_is_judged_too() -> None:
     """Sets without columns of variables, models without coefficients."""
     bare = [replace(one, variables=np.empty((len(one.time_s), 0))) for one in JUDGED]
     model = WrenchModel(matrix=TRUTH.matrix, offset=TRUTH.offset)
-    for source in OffsetSource:
+    for source in KNOWN_BEFORE:
         assert _difference(_judge([model], bare, source).over(), _by_samples([model], bare, source)) < EXACT
 
 

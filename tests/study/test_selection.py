@@ -12,9 +12,9 @@ import pytest
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration import WrenchModel
 from forcetorque.evaluation import CandidateErrors, PooledErrors
+from forcetorque.evaluation.offset import KNOWN_BEFORE, Offset
 from forcetorque.study import (
     Judgement,
-    OffsetSource,
     assembled,
     best_by_axis,
     best_by_magnitude,
@@ -29,7 +29,7 @@ EXACT = 1e-10
 LESS = 1.0 - 1e-6
 """What is smaller by less than this is the same fit, reached in another way."""
 
-BOTH = pytest.mark.parametrize("source", list(OffsetSource))
+BOTH = pytest.mark.parametrize("source", list(KNOWN_BEFORE))
 
 
 def _errors(k: int, *, seed: int) -> PooledErrors:
@@ -71,7 +71,7 @@ def test_rounding_does_not_choose() -> None:
 
 
 @BOTH
-def test_the_choice_of_a_study_is_the_smallest_of_all_351(source: OffsetSource) -> None:
+def test_the_choice_of_a_study_is_the_smallest_of_all_351(source: Offset) -> None:
     """Its errors are no larger than those of any candidate, and the workbench is never among them."""
     choice, pooled = study().choices[source], study().judgements[source].over()
     assert pooled.force_mean.shape == (352,)
@@ -131,10 +131,10 @@ def test_rows_of_models_with_two_variables() -> None:
 
 
 @BOTH
-def test_scores_are_of_a_choice_made_without_the_scored_session(source: OffsetSource) -> None:
+def test_scores_are_of_a_choice_made_without_the_scored_session(source: Offset) -> None:
     """Against judging the days apart: the best of one day, and what it does on the other."""
     scores, models = study().choices[source].across_sessions, study().models
-    sources = [source] * 351 + [OffsetSource.RE_ESTIMATED]
+    sources = [source] * 351 + [Offset.FIRST_SECOND]
     days = {"day 1": JUDGED[:2], "day 2": JUDGED[2:]}
     assert [score.session for score in scores] == ["day 1", "day 2"]
     for score, other in zip(scores, ("day 2", "day 1"), strict=True):
@@ -217,7 +217,7 @@ def test_poisoned_samples_of_a_session_do_not_reach_its_choice() -> None:
     """The same with samples: on one day the workbench is right, and the choice that is scored there stays."""
     spoilt = replace(JUDGED[2], reference=JUDGED[2].raw @ PRIOR.T)
     models = study().models[:351]
-    source = OffsetSource.RE_ESTIMATED
+    source = Offset.FIRST_SECOND
     determined = np.ones(351, dtype=bool)
     plain, poisoned = (
         {score.session: score for score in scored_across_sessions(judge(models, [source] * 351, sets), determined)}

@@ -12,8 +12,15 @@ import pytest
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration import ESTIMATION_TYPES, WrenchModel
 from forcetorque.errors import FitError
+from forcetorque.evaluation.offset import KNOWN_BEFORE, Offset
 from forcetorque.spatial import WRENCH_COMPONENTS
-from forcetorque.study import TABLE_LAMBDAS, Candidate, OffsetSource, Study, run_study, tables
+from forcetorque.study import (
+    TABLE_LAMBDAS,
+    Candidate,
+    Study,
+    run_study,
+    tables,
+)
 from tests.study.measured import COMBINATIONS, FITTED, JUDGED, PRIOR, TEMPERATURE, errors_by_samples, study
 
 EXACT = 1e-9
@@ -21,7 +28,7 @@ EXACT = 1e-9
 SAME_FIT = 1e-6
 """Relative: two ways to the same fit differ by rounding times its condition."""
 
-BOTH = pytest.mark.parametrize("source", list(OffsetSource))
+BOTH = pytest.mark.parametrize("source", list(KNOWN_BEFORE))
 
 
 @cache
@@ -38,7 +45,7 @@ def _candidate(data_set: str, kind: str, table_lambda: float) -> Candidate:
     return next(c for c in study().fits.candidates if (c.data_set, c.kind.name, c.table_lambda) == wanted)
 
 
-def _force_mean(model: WrenchModel, source: OffsetSource) -> float:
+def _force_mean(model: WrenchModel, source: Offset) -> float:
     errors = np.concatenate([errors_by_samples(model, one, source) for one in JUDGED])
     return float(np.linalg.norm(errors[:, :3], axis=1).mean())
 
@@ -102,7 +109,7 @@ def test_table_5_4_offsets_of_the_two_reference_temperatures_differ_by_what_the_
 
 
 @BOTH
-def test_tables_5_5_and_5_6_have_the_form_of_the_thesis(source: OffsetSource) -> None:
+def test_tables_5_5_and_5_6_have_the_form_of_the_thesis(source: Offset) -> None:
     """A row per combination and type, a column per lambda as printed, their mean, and the workbench below."""
     *rows, workbench = tables.mean_forces(study(), source)
     printed = [0, 1, 5, 10, 50, 100, 1000, 5000, 10000, 50000, 100000, 500000, 1000000]
@@ -119,7 +126,7 @@ def test_tables_5_5_and_5_6_have_the_form_of_the_thesis(source: OffsetSource) ->
         "data_set": "workbench",
         "type": "",
         "mean": pytest.approx(
-            _force_mean(WrenchModel(matrix=PRIOR, offset=np.zeros(6)), OffsetSource.RE_ESTIMATED), rel=EXACT
+            _force_mean(WrenchModel(matrix=PRIOR, offset=np.zeros(6)), Offset.FIRST_SECOND), rel=EXACT
         ),
     }
 
@@ -130,7 +137,7 @@ def test_lambdas_that_differ_little_keep_their_columns() -> None:
         FITTED, {"a": ("cold",)}, JUDGED, prior=PRIOR, variables=[TEMPERATURE],
         kinds=[ESTIMATION_TYPES["OnTdTO"]], lambdas=[0.75, 1234566.0, 1234572.0],
     )  # fmt: skip
-    row, _ = tables.mean_forces(found, OffsetSource.RE_ESTIMATED)
+    row, _ = tables.mean_forces(found, Offset.FIRST_SECOND)
     assert list(row) == [
         "data_set", "type", "lambda 0.75 (table 0.125)", "lambda 1234566 (table 205761)",
         "lambda 1234572 (table 205762)", "mean",
@@ -145,14 +152,14 @@ def test_table_5_7_is_the_best_of_every_axis() -> None:
     assert [row["axis"] for row in rows] == list(WRENCH_COMPONENTS)
     prior = WrenchModel(matrix=PRIOR, offset=np.zeros(6))
     for axis, row in enumerate(rows):
-        for source in OffsetSource:
+        for source in KNOWN_BEFORE:
             values = study().judgements[source].over().mean_absolute[:351, axis]
             best = [c.name for c in study().fits.candidates].index(str(row[f"best, offset {source}"]))
             assert (values > (1.0 - SAME_FIT) * values[best]).all()
             model = study().models[best]
             errors = np.concatenate([errors_by_samples(model, one, source) for one in JUDGED])
             assert row[f"value, offset {source}"] == pytest.approx(np.abs(errors[:, axis]).mean(), rel=EXACT)
-        errors = np.concatenate([errors_by_samples(prior, one, OffsetSource.RE_ESTIMATED) for one in JUDGED])
+        errors = np.concatenate([errors_by_samples(prior, one, Offset.FIRST_SECOND) for one in JUDGED])
         assert row["workbench"] == pytest.approx(np.abs(errors[:, axis]).mean(), rel=EXACT)
 
 
@@ -166,8 +173,8 @@ def test_the_rows_of_all_candidates_say_what_they_are_and_how_they_do() -> None:
         assert row["relative_lambda"] == candidate.relative_lambda
     assert "table_lambda_counts2" not in rows[-1]
     for index in (0, 100, 350, 351):
-        for source, mode in ((OffsetSource.RE_ESTIMATED, "re_estimated"), (OffsetSource.FITTED, "fitted")):
-            judged_with = OffsetSource.RE_ESTIMATED if index == 351 else source
+        for source, mode in ((Offset.FIRST_SECOND, "first_second"), (Offset.FITTED, "fitted")):
+            judged_with = Offset.FIRST_SECOND if index == 351 else source
             errors = np.concatenate([errors_by_samples(study().models[index], one, judged_with) for one in JUDGED])
             force, moment = (np.linalg.norm(errors[:, part], axis=1) for part in (slice(0, 3), slice(3, 6)))
             assert rows[index][f"force_mean_{mode}"] == pytest.approx(force.mean(), rel=EXACT)
@@ -211,7 +218,7 @@ def test_without_a_prior_the_tables_do_without_the_workbench() -> None:
     names, values = tables.matrix_differences(found, "all")
     assert names == tuple(ESTIMATION_TYPES)
     assert values.shape == (9, 9)
-    rows = tables.mean_forces(found, OffsetSource.FITTED)
+    rows = tables.mean_forces(found, Offset.FITTED)
     assert len(rows) == 27
     assert {tuple(row) for row in rows} == {("data_set", "type", "lambda 0 (table 0)", "mean")}
     assert all("workbench" not in row for row in tables.best_by_axis_table(found))
@@ -241,7 +248,7 @@ def test_the_relative_lambda_does_not_depend_on_the_unit_of_counts() -> None:
     for one, other in zip(whole.fits.candidates, halved.fits.candidates, strict=True):
         assert one.relative_lambda == pytest.approx(other.relative_lambda, rel=EXACT)
         np.testing.assert_allclose(half * other.model.matrix, one.model.matrix, rtol=SAME_FIT, atol=1e-10)
-    for source in OffsetSource:
+    for source in KNOWN_BEFORE:
         errors = [each.judgements[source].over().force_mean for each in (whole, halved, unscaled)]
         np.testing.assert_allclose(errors[1], errors[0], rtol=SAME_FIT)
         assert np.abs(errors[2] / errors[0] - 1.0).max() > 0.01  # negative control: lambda has the unit counts2

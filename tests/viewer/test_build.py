@@ -11,11 +11,15 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from forcetorque.analysis import (
+    SensorRun,
+    calibrate_sensor,
+)
+from forcetorque.analysis.samples import samples_over
 from forcetorque.arrays import BoolArray, FloatArray
 from forcetorque.calibration import Calibration
 from forcetorque.errors import ExperimentError, RecordingError, SerialNumberError
-from forcetorque.experiment import Experiment, calibrate_sensor, load_experiment
-from forcetorque.experiment.samples import samples_over
+from forcetorque.experiment import Experiment, load_experiment
 from forcetorque.recording import Stream, Use
 from forcetorque.recording.alignment import interpolate
 from forcetorque.spatial import MeasureDirection
@@ -35,7 +39,10 @@ def _view(file: Path, calibrations: dict[str, Calibration] | None = None, **opti
 
 def _fitted(experiment: Experiment, *, regularisation: float) -> Calibration:
     return calibrate_sensor(
-        experiment, experiment.sensors[0], code_version="1", created="2020-01-01", regularisation=regularisation
+        SensorRun(experiment, experiment.sensors[0]),
+        code_version="1",
+        created="2020-01-01",
+        regularisation=regularisation,
     )
 
 
@@ -113,9 +120,7 @@ def test_expected_wrenches_are_those_of_the_fit_inside_intervals_only(intact: Pa
     stamps = stream.stamp_ns[_shown(built, stream)]
     shown, inside = _values(built, "expected"), np.zeros(len(stamps), dtype=bool)
     for interval in experiment.recording.intervals:
-        samples = samples_over(
-            experiment, experiment.sensors[0], interval, replace(experiment.processing, smoothing=None)
-        )
+        samples = samples_over(experiment, experiment.sensors[0], interval, smoothed=False).samples
         chosen = np.isin(stamps, samples.stamp_ns)
         np.testing.assert_allclose(shown[chosen], samples.reference, rtol=FLOAT32, atol=1e-5)
         inside |= chosen

@@ -3,111 +3,49 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import sys
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import Annotated
 
 import typer
 
-from forcetorque.cli.accept_result import AcceptResult, CriterionRow, criterion_rows, measured_row
-from forcetorque.cli.output import Format, console, print_result, start_logging, table
-from forcetorque.cli.reading import read_calibrations, read_experiment
-from forcetorque.experiment import (
-    accept_sensor,
-    judged_where_chosen,
-    read_acceptance,
-    read_population,
-)
-from forcetorque.experiment.fitness import one_per_sensor
-from forcetorque.experiment.inputs import stated_in
-
-if TYPE_CHECKING:
-    from rich.table import Table
+from forcetorque.cli.options import CalibrationsOption, ExperimentArgument, FormatOption, PopulationOption
+from forcetorque.cli.output import Format, show, start_logging
 
 
-def run(
-    path: Path,
-    *,
-    spec: Path,
-    calibrations: Sequence[Path] | None,
-    population: Sequence[Path] | None,
-    output_format: Format,
+def accept(
+    experiment: ExperimentArgument,
+    spec: Annotated[
+        Path, typer.Option("--spec", help="Acceptance file (TOML) with the limits; see docs/acceptance.md.")
+    ],
+    calibration: CalibrationsOption = None,
+    population: PopulationOption = None,
+    output_format: FormatOption = Format.TABLE,
 ) -> None:
-    """Judge the calibrated sensors of an experiment, or all by their priors, by an acceptance file.
+    """Accept or reject sensors by limits; exit code 1 if one fails.
 
-    Args:
-        path: Experiment file.
-        spec: Acceptance file.
-        calibrations: Calibration files, one per sensor; the priors of all sensors if None.
-        population: Matrix files, calibrations or folders of them, of other sensors.
-        output_format: Form of the result.
-
-    Raises:
-        Exit: With code 1 if a criterion fails.
+    Example: forcetorque accept experiment.toml --spec limits.toml -c leg.json
     """
+    from forcetorque import analysis
+    from forcetorque.cli.reading import read_calibrations, read_experiment
+    from forcetorque.experiment.inputs import stated_in
+
     log = start_logging()
-    stated = read_acceptance(spec)
-    loaded = read_calibrations(calibrations)
-    others = read_population(population) if population else None
-    experiment = read_experiment(path, log)
-    chosen = one_per_sensor(experiment, loaded)
-    found = []
-    for sensor in experiment.sensors:
+    stated = analysis.read_acceptance(spec)
+    calibrations = read_calibrations(calibration)
+    matrices = analysis.read_population(population) if population else None
+    content = read_experiment(experiment, log)
+    chosen = analysis.one_per_sensor(content, calibrations)
+    results = []
+    for sensor in content.sensors:
         if chosen and sensor.name not in chosen:
             continue
         log.info("judging %s", sensor.name)
-        mine = chosen.get(sensor.name)
-        rest = {file: one for name, (file, one) in chosen.items() if name != sensor.name}
+        others = {name: other for place, (name, other) in chosen.items() if place != sensor.name}
         with stated_in(str(spec)):
-            found.append(accept_sensor(experiment, sensor, stated, mine, others=rest, population=others))
-        if mine is not None and (stated.evaluate or stated.improvement or stated.validate_):
-            for label in judged_where_chosen(experiment, mine[1]):
-                log.warning("%s was chosen among others on %r too, so the verdict on it flatters", mine[0], label)
-    criteria = [row for each in found for row in criterion_rows(each)]
-    result = AcceptResult(
-        experiment=experiment.name,
-        specification=stated.name,
-        accepted=all(row.passed for row in criteria),
-        criteria=criteria,
-        measured=[measured_row(each.checks) for each in found],
-    )
-    rows = [row.model_dump(mode="json") for row in criteria]
-    print_result(
-        result.model_dump(mode="json", by_alias=True),
-        rows,
-        output_format,
-        show=lambda: _show(result),
-        columns=list(CriterionRow.model_fields),
-    )
+            run, judged = analysis.SensorRun(content, sensor), chosen.get(sensor.name)
+            results.append(analysis.accept(run, stated, judged, others=others, population=matrices))
+    result = analysis.Acceptance.together(results)
+    show(result, output_format)
     if not result.accepted:
-        raise typer.Exit(1)
-
-
-def _show(result: AcceptResult) -> None:
-    screen = console()
-    for sensor in dict.fromkeys(row.sensor for row in result.criteria):
-        screen.print(_table(result, [row for row in result.criteria if row.sensor == sensor]))
-    failed = sum(not row.passed for row in result.criteria)
-    verdict = "accepted" if result.accepted else "NOT accepted"
-    kept = f"{len(result.criteria) - failed} of {len(result.criteria)} criteria hold"
-    screen.print(f"{verdict} by {result.specification!r}: {kept}", soft_wrap=True)
-
-
-def _table(result: AcceptResult, rows: Sequence[CriterionRow]) -> Table:
-    first = rows[0]
-    made = table(
-        "criterion", "measured", "", "limit", "unit", "n", "", "where",
-        title=f"{result.experiment}: {first.sensor} ({first.serial}), {first.candidate}",
-    )  # fmt: skip
-    for row in rows:
-        made.add_row(
-            row.criterion,
-            "infinite" if row.measured is None else f"{row.measured:.4g}",
-            "<=" if row.bound == "at most" else ">=",
-            f"{row.limit:.4g}",
-            row.unit,
-            "" if row.count is None else str(row.count),
-            "pass" if row.passed else "FAIL",
-            row.note,
-        )
-    return made
+        sys.exit(1)

@@ -20,7 +20,7 @@ def refuse_figure(figure: Path | None) -> None:
     """
     if figure is None:
         return
-    from forcetorque.report.canvas import new_figure
+    from forcetorque.report.figures.canvas import new_figure
 
     if figure.suffix.lower() != ".png":
         raise ForceTorqueError(f"--figure {figure}: expected a name that ends in .png")

@@ -7,23 +7,24 @@ from typing import Annotated
 
 import typer
 
+from forcetorque.cli.accept import accept
+from forcetorque.cli.calibrate import calibrate
+from forcetorque.cli.compare import compare
+from forcetorque.cli.encoding import spell_missing_letters
+from forcetorque.cli.estimate import estimate
+from forcetorque.cli.evaluate import evaluate
+from forcetorque.cli.export import export
+from forcetorque.cli.gains import gains
+from forcetorque.cli.inspect import inspect
 from forcetorque.cli.output import report_error
-from forcetorque.cli.parser.accept import accept
-from forcetorque.cli.parser.calibrate import calibrate
-from forcetorque.cli.parser.compare import compare
-from forcetorque.cli.parser.estimate import estimate
-from forcetorque.cli.parser.evaluate import evaluate
-from forcetorque.cli.parser.export import export
-from forcetorque.cli.parser.gains import gains
-from forcetorque.cli.parser.inspect import inspect
-from forcetorque.cli.parser.payload import payload
-from forcetorque.cli.parser.report import report
-from forcetorque.cli.parser.schema import schema
-from forcetorque.cli.parser.simulate import simulate
-from forcetorque.cli.parser.sphere import sphere
-from forcetorque.cli.parser.study import study
-from forcetorque.cli.parser.validate import validate
-from forcetorque.cli.parser.view import view
+from forcetorque.cli.payload import payload
+from forcetorque.cli.report import report
+from forcetorque.cli.schema import schema
+from forcetorque.cli.simulate import simulate
+from forcetorque.cli.sphere import sphere
+from forcetorque.cli.study import study
+from forcetorque.cli.validate import validate
+from forcetorque.cli.view import view
 from forcetorque.errors import ForceTorqueError
 
 app = typer.Typer(
@@ -37,6 +38,7 @@ app = typer.Typer(
 
 def main() -> None:
     """Run the command line; a known error is one line on standard error and exit code 2."""
+    spell_missing_letters()
     try:
         app()
     except (ForceTorqueError, OSError) as error:

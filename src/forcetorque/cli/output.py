@@ -4,21 +4,21 @@
 from __future__ import annotations
 
 import csv
-import json
 import logging
-import math
 import sys
-from collections.abc import Callable, Mapping, Sequence
+from collections import Counter
+from collections.abc import Sequence
 from enum import StrEnum
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from shutil import get_terminal_size
+from typing import TYPE_CHECKING
 
 from forcetorque.atomic import STANDARD_OUTPUT
 from forcetorque.errors import ForceTorqueError
+from forcetorque.new_folder import refuse_existing
 
 if TYPE_CHECKING:
-    from rich.console import Console
-    from rich.table import Table
+    from forcetorque.result import Result
 
 _PIPE_WIDTH = 120
 """Columns of a table that goes to a file or a pipe."""
@@ -30,15 +30,6 @@ class Format(StrEnum):
     TABLE = "table"
     JSON = "json"
     CSV = "csv"
-
-
-class ExportFormat(StrEnum):
-    """Form of the file that an export writes."""
-
-    ICUB_MATRIX = "icub-matrix"
-    WHOLEBODYDYNAMICS = "wholebodydynamics"
-    CSV = "csv"
-    COEFFICIENTS = "coefficients"
 
 
 class TrialsChoice(StrEnum):
@@ -79,49 +70,71 @@ def report_error(error: Exception) -> None:
     sys.stderr.write("error: " + " ".join(str(error).split()) + "\n")
 
 
-def console() -> Console:
-    """Give the console for tables: as wide as the terminal, or as the widest table where there is none.
-
-    Returns:
-        A console on standard output.
-    """
-    from rich.console import Console
-
-    # no markup: names and labels of the user's may hold brackets
-    return Console(
-        highlight=False, markup=False, emoji=False, soft_wrap=False, width=None if sys.stdout.isatty() else _PIPE_WIDTH
-    )
-
-
-def finite_or_none(value: float) -> float | None:
-    """Give a number that JSON can hold.
+def show(result: Result, output_format: Format) -> None:
+    """Print a result in the form that was asked for, and its warnings, each once, to standard error.
 
     Args:
-        value: The number; NaN or infinite where there is none.
-
-    Returns:
-        The same, or None.
+        result: The result.
+        output_format: Form.
     """
-    return value if math.isfinite(value) else None
+    show_warnings(result)
+    if output_format is Format.JSON:
+        sys.stdout.write(result.json_text() + "\n")
+    elif output_format is Format.CSV:
+        columns = result.columns()
+        writer = csv.DictWriter(sys.stdout, fieldnames=columns, lineterminator="\n")
+        writer.writeheader()
+        writer.writerows(result.records())
+    else:
+        sys.stdout.write(result.text(width()))
 
 
-def table(*headings: str, title: str | None = None) -> Table:
-    """Start a table: text on the left, numbers to the right of it.
+def show_warnings(result: Result) -> None:
+    """Print the warnings of a result, each once, to standard error.
 
     Args:
-        headings: Headings of the columns; the first holds text.
-        title: Line above it.
+        result: The result.
+    """
+    log = start_logging()
+    for sentence, count in Counter(result.warnings).items():
+        log.warning("%s", sentence if count == 1 else f"{sentence} ({count} times)")
+
+
+def say(sentence: str, output_format: Format) -> None:
+    """Print a sentence below a result for people; the other forms hold the result alone.
+
+    Args:
+        sentence: The sentence.
+        output_format: Form of the result.
+    """
+    from forcetorque.result import wrapped
+
+    if output_format is Format.TABLE:
+        sys.stdout.write(wrapped(sentence, width()) + "\n")
+
+
+def stop_at_failures(failures: Sequence[object]) -> None:
+    """End a command whose result is shown, but lacks something.
+
+    Args:
+        failures: What failed; none where nothing did.
+
+    Raises:
+        typer.Exit: With code 1 if there is any.
+    """
+    import typer
+
+    if failures:
+        raise typer.Exit(1)
+
+
+def width() -> int:
+    """Tell how wide a line may be.
 
     Returns:
-        A table without rows.
+        Characters of the terminal, or of the variable COLUMNS; of the widest table where there is neither.
     """
-    from rich import box
-    from rich.table import Table
-
-    made = Table(box=box.SIMPLE_HEAD, pad_edge=False, title=title, title_justify="left")
-    for k, heading in enumerate(headings):
-        made.add_column(heading, justify="left" if k == 0 else "right", overflow="fold")
-    return made
+    return get_terminal_size((_PIPE_WIDTH, 24)).columns
 
 
 def refuse_standard_output(option: str, path: Path | None) -> None:
@@ -136,6 +149,19 @@ def refuse_standard_output(option: str, path: Path | None) -> None:
     """
     if path == STANDARD_OUTPUT:
         raise ForceTorqueError(f"{option} -: expected a name, standard output takes the result only; see --format")
+
+
+def refuse_output_folder(output: Path) -> None:
+    """Refuse a folder of results that cannot be made anew, before any work is done.
+
+    Args:
+        output: Folder to make.
+
+    Raises:
+        ForceTorqueError: If it is there already, or is `-`.
+    """
+    refuse_standard_output("--output", output)
+    refuse_existing(output, where="--output ")
 
 
 def refuse_two_on_standard_output(output: Path | None, output_format: Format) -> None:
@@ -153,31 +179,3 @@ def refuse_two_on_standard_output(output: Path | None, output_format: Format) ->
             f"--output -: expected a file name beside --format {output_format}, got standard output for both; name a "
             "file, or leave out --format"
         )
-
-
-def print_result(
-    result: Mapping[str, Any],
-    rows: Sequence[Mapping[str, Any]],
-    output_format: Format,
-    *,
-    show: Callable[[], None],
-    columns: Sequence[str] = (),
-) -> None:
-    """Print a result in the form that was asked for.
-
-    Args:
-        result: The whole result, with its schema.
-        rows: The same as flat rows, for CSV; a key that a row does not have is left empty.
-        output_format: Form.
-        show: Prints the result for people.
-        columns: Columns of the CSV that are there also without rows.
-    """
-    if output_format is Format.JSON:
-        sys.stdout.write(json.dumps(result, indent=2, allow_nan=False) + "\n")
-    elif output_format is Format.CSV:
-        names = list(dict.fromkeys([*columns, *(name for row in rows for name in row)]))
-        writer = csv.DictWriter(sys.stdout, fieldnames=names, lineterminator="\n")
-        writer.writeheader()
-        writer.writerows(rows)
-    else:
-        show()

@@ -8,8 +8,9 @@ from collections.abc import Collection, Iterable
 from pathlib import Path
 
 from forcetorque.calibration import Calibration, read_calibration
-from forcetorque.errors import ExperimentError
+from forcetorque.errors import ExperimentError, ForceTorqueError
 from forcetorque.experiment import Experiment, ExperimentSensor, load_experiment
+from forcetorque.paths import real_path
 
 
 def read_experiment(path: Path, log: logging.Logger) -> Experiment:
@@ -72,3 +73,19 @@ def refuse_left_out(
         name = experiment.sensor(calibration.sensor.name).name
         if name not in names:
             raise ExperimentError(f"{file}: calibrates {name!r}, which --sensor leaves out")
+
+
+def refuse_inputs(outputs: Iterable[Path], inputs: Iterable[Path]) -> None:
+    """Refuse to write over a file that is read.
+
+    Args:
+        outputs: Files to write.
+        inputs: Files that are read.
+
+    Raises:
+        ForceTorqueError: If one is both.
+    """
+    read = {real_path(path) for path in inputs}
+    for path in outputs:
+        if real_path(path) in read:
+            raise ForceTorqueError(f"{path}: this is a file to read; choose another --output")

@@ -6,162 +6,54 @@ from __future__ import annotations
 import json
 import sys
 from collections.abc import Callable
-from typing import Any
+from typing import Annotated, Any
+
+import typer
 
 from forcetorque.errors import ForceTorqueError, known_names
 
 
-def run(name: str) -> None:
-    """Print the schema of a file or a result.
+def schema(
+    name: Annotated[
+        str,
+        typer.Argument(
+            help="experiment, acceptance, scenario, recording or calibration for a file; a command for its result."
+        ),
+    ],
+) -> None:
+    """Print the JSON schema of a file or of a command's result.
 
-    Args:
-        name: What to describe.
-
-    Raises:
-        ForceTorqueError: If nothing is called so.
+    Example: forcetorque schema experiment
     """
-    known: dict[str, Callable[[], dict[str, Any]]] = {
-        "experiment": _experiment,
-        "acceptance": _acceptance,
-        "recording": _recording,
-        "calibration": _calibration,
-        "accept": _accept,
-        "calibrate": _calibrate,
-        "compare": _compare,
-        "estimate": _estimate,
-        "evaluate": _evaluate,
-        "export": _export,
-        "gains": _gains,
-        "inspect": _inspect,
-        "payload": _payload,
-        "report": _report,
-        "scenario": _scenario,
-        "simulate": _simulate,
-        "sphere": _sphere,
-        "study": _study,
-        "validate": _validate,
-        "view": _view,
-    }
-    if name not in known:
-        raise ForceTorqueError(f"no schema is called {name!r}; {known_names(name, known)}")
+    known = {**_files(), **_results()}
+    _require(name, known)
     sys.stdout.write(json.dumps(known[name](), indent=2) + "\n")
 
 
-def _experiment() -> dict[str, Any]:
-    from forcetorque.experiment import ExperimentFile
-
-    return ExperimentFile.model_json_schema()
-
-
-def _acceptance() -> dict[str, Any]:
-    from forcetorque.experiment import AcceptanceFile
-
-    return AcceptanceFile.model_json_schema()
+def _require(name: str, known: dict[str, Callable[[], dict[str, Any]]]) -> None:
+    if name not in known:
+        raise ForceTorqueError(f"no schema is called {name!r}; {known_names(name, known)}")
 
 
-def _recording() -> dict[str, Any]:
-    from forcetorque.recording import recording_schema
-
-    return recording_schema()
-
-
-def _calibration() -> dict[str, Any]:
+def _files() -> dict[str, Callable[[], dict[str, Any]]]:
+    from forcetorque.analysis import AcceptanceFile
     from forcetorque.calibration import Calibration
-
-    return Calibration.model_json_schema()
-
-
-def _accept() -> dict[str, Any]:
-    from forcetorque.cli.accept_result import AcceptResult
-
-    return AcceptResult.model_json_schema()
-
-
-def _calibrate() -> dict[str, Any]:
-    from forcetorque.cli.calibrate import CalibrateResult
-
-    return CalibrateResult.model_json_schema()
-
-
-def _compare() -> dict[str, Any]:
-    from forcetorque.cli.compare_result import CompareResult
-
-    return CompareResult.model_json_schema()
-
-
-def _estimate() -> dict[str, Any]:
-    from forcetorque.cli.estimate import EstimateResult
-
-    return EstimateResult.model_json_schema()
-
-
-def _evaluate() -> dict[str, Any]:
-    from forcetorque.cli.evaluate_result import EvaluateResult
-
-    return EvaluateResult.model_json_schema()
-
-
-def _export() -> dict[str, Any]:
-    from forcetorque.cli.export import ExportResult
-
-    return ExportResult.model_json_schema()
-
-
-def _gains() -> dict[str, Any]:
-    from forcetorque.cli.gains_result import GainsResult
-
-    return GainsResult.model_json_schema()
-
-
-def _inspect() -> dict[str, Any]:
-    from forcetorque.cli.inspect_result import InspectResult
-
-    return InspectResult.model_json_schema()
-
-
-def _payload() -> dict[str, Any]:
-    from forcetorque.cli.payload import PayloadResult
-
-    return PayloadResult.model_json_schema()
-
-
-def _report() -> dict[str, Any]:
-    from forcetorque.cli.report.result import ReportResult
-
-    return ReportResult.model_json_schema()
-
-
-def _scenario() -> dict[str, Any]:
+    from forcetorque.experiment import ExperimentFile
+    from forcetorque.recording import recording_schema
     from forcetorque.simulation.scenario import ScenarioFile
 
-    return ScenarioFile.model_json_schema()
+    return {
+        "experiment": ExperimentFile.model_json_schema,
+        "acceptance": AcceptanceFile.model_json_schema,
+        "scenario": ScenarioFile.model_json_schema,
+        "recording": recording_schema,
+        "calibration": Calibration.model_json_schema,
+    }
 
 
-def _simulate() -> dict[str, Any]:
-    from forcetorque.cli.simulate import SimulateResult
+def _results() -> dict[str, Callable[[], dict[str, Any]]]:
+    from forcetorque import analysis, experiment, report, viewer
+    from forcetorque.result import result_classes
 
-    return SimulateResult.model_json_schema()
-
-
-def _sphere() -> dict[str, Any]:
-    from forcetorque.cli.sphere_result import SphereResult
-
-    return SphereResult.model_json_schema()
-
-
-def _study() -> dict[str, Any]:
-    from forcetorque.cli.study_result import StudyResult
-
-    return StudyResult.model_json_schema()
-
-
-def _validate() -> dict[str, Any]:
-    from forcetorque.cli.validate_result import ValidateResult
-
-    return ValidateResult.model_json_schema()
-
-
-def _view() -> dict[str, Any]:
-    from forcetorque.cli.view import ViewResult
-
-    return ViewResult.model_json_schema()
+    results = result_classes(analysis, experiment, report, viewer)
+    return {name: kind.described for name, kind in results.items()}

@@ -22,12 +22,14 @@ from forcetorque.evaluation.gains import (
 )
 from forcetorque.evaluation.joint_torques import TorqueErrors, TorqueMap, joints_of_sensor, torque_errors, torque_map
 from forcetorque.evaluation.model_findings import model_findings
+from forcetorque.evaluation.offset import KNOWN_BEFORE, Offset
 from forcetorque.evaluation.paired import PairedDifference, PairedMean, paired_difference
-from forcetorque.evaluation.population import PopulationPosition, position_in_population
+from forcetorque.evaluation.population import FeaturePosition, PopulationPosition, position_in_population
 from forcetorque.evaluation.static_checks import MatrixChecks, OffsetChange, matrix_checks, offset_change
 from forcetorque.evaluation.wrench_errors import WrenchErrors, errors_from_zero, offset_removed, wrench_errors
 
 __all__ = [
+    "KNOWN_BEFORE",
     "MARGIN",
     "Autocorrelation",
     "AxisResolution",
@@ -35,9 +37,11 @@ __all__ = [
     "ChannelRange",
     "ContactForceValidation",
     "ContactForces",
+    "FeaturePosition",
     "GainAdvice",
     "GainChange",
     "MatrixChecks",
+    "Offset",
     "OffsetChange",
     "OtherSensors",
     "PairedDifference",

@@ -11,6 +11,7 @@ import numpy as np
 from forcetorque.arrays import FloatArray, require_shape
 from forcetorque.errors import SensorError, ShapeError
 from forcetorque.evaluation.static_checks import matrix_condition
+from forcetorque.result import FloatOrNull, Row
 from forcetorque.spatial import WRENCH_COMPONENTS
 
 LEAST_POPULATION = 5
@@ -19,19 +20,18 @@ _MAD_TO_DEVIATION = 1.4826
 """Standard deviation over median absolute deviation of a normal distribution."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class FeaturePosition:
+class FeaturePosition(Row):
     """Where one number of a matrix stands among those of other sensors."""
 
     feature: str
     """Such as `row_norm.fx`; see `matrix_features`."""
-    value: float
+    value: FloatOrNull
     """Value of the matrix."""
-    median: float
+    median: FloatOrNull
     """Median of the others."""
     quantile: float
     """Share of the others below it, those that are equal counted half."""
-    robust_z: float
+    robust_z: FloatOrNull
     """Distance from the median over 1.4826 times the median absolute deviation; NaN if half the others are equal."""
 
 

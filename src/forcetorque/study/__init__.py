@@ -4,7 +4,7 @@
 from forcetorque.study import tables
 from forcetorque.study.candidate import Candidate
 from forcetorque.study.fitting import Combination, Fits, fit_candidates
-from forcetorque.study.judging import Judgement, OffsetSource, judge, with_offset
+from forcetorque.study.judging import Judgement, judge, with_offset
 from forcetorque.study.lambdas import CONVENTION, SWEEP_LAMBDAS, TABLE_FACTOR, TABLE_LAMBDAS, relative_lambda
 from forcetorque.study.selection import (
     SessionScore,
@@ -28,7 +28,6 @@ __all__ = [
     "Combination",
     "Fits",
     "Judgement",
-    "OffsetSource",
     "SessionScore",
     "Study",
     "ValidationSet",

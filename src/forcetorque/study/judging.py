@@ -9,23 +9,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, replace
-from enum import StrEnum
 
 import numpy as np
 
 from forcetorque.arrays import BoolArray, FloatArray
 from forcetorque.calibration import WrenchModel
-from forcetorque.evaluation import CandidateErrors, PooledErrors, candidate_errors
+from forcetorque.evaluation import CandidateErrors, Offset, PooledErrors, candidate_errors
 from forcetorque.study.validation_set import ValidationSet
-
-
-class OffsetSource(StrEnum):
-    """Which offset a candidate is judged with."""
-
-    RE_ESTIMATED = "re-estimated"
-    """From the first second of the judged interval, temperature included: the matrix is judged (Table 5.5)."""
-    FITTED = "fitted"
-    """That of the fitted data: matrix and offset are judged (Table 5.6)."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -68,7 +58,7 @@ class Judgement:
 
 def judge(
     models: Sequence[WrenchModel],
-    sources: Sequence[OffsetSource],
+    sources: Sequence[Offset],
     sets: Sequence[ValidationSet],
     *,
     progress: Callable[[str], None] | None = None,
@@ -111,7 +101,7 @@ def judge(
     )
 
 
-def with_offset(model: WrenchModel, one: ValidationSet, source: OffsetSource) -> FloatArray:
+def with_offset(model: WrenchModel, one: ValidationSet, source: Offset) -> FloatArray:
     """Give the wrenches of a model on a validation set.
 
     Args:
@@ -125,10 +115,10 @@ def with_offset(model: WrenchModel, one: ValidationSet, source: OffsetSource) ->
     return _with_offset(model, one, one.for_offset(), source).wrench(one.raw, one.variables)
 
 
-def _with_offset(model: WrenchModel, one: ValidationSet, first: BoolArray, source: OffsetSource) -> WrenchModel:
+def _with_offset(model: WrenchModel, one: ValidationSet, first: BoolArray, source: Offset) -> WrenchModel:
     """The model with that offset, counted from zero in every variable of the set."""
     same = model.counted_from_zero(one.variables.shape[1])
-    if source is OffsetSource.FITTED:
+    if source is Offset.FITTED:
         return same
     error = one.reference[first] - same.wrench(one.raw[first], one.variables[first])
     return replace(same, offset=same.offset + error.mean(axis=0))

@@ -17,8 +17,9 @@ from forcetorque.calibration import (
     WrenchModel,
 )
 from forcetorque.errors import FitError
+from forcetorque.evaluation import KNOWN_BEFORE, Offset
 from forcetorque.study.fitting import Fits, fit_candidates
-from forcetorque.study.judging import Judgement, OffsetSource, judge
+from forcetorque.study.judging import Judgement, judge
 from forcetorque.study.lambdas import SWEEP_LAMBDAS
 from forcetorque.study.selection import SessionScore, best_by_axis, best_by_magnitude, choosable, scored_across_sessions
 from forcetorque.study.validation_set import ValidationSet
@@ -47,9 +48,9 @@ class Study:
     """What was fitted."""
     workbench: WrenchModel | None
     """The prior matrix, judged with an offset from the judged interval in both modes; None for a new sensor."""
-    judgements: Mapping[OffsetSource, Judgement]
+    judgements: Mapping[Offset, Judgement]
     """Errors by offset mode, of the candidates in their order, then of the workbench matrix."""
-    choices: Mapping[OffsetSource, Choice]
+    choices: Mapping[Offset, Choice]
     """The best by offset mode."""
 
     @property
@@ -126,9 +127,9 @@ def run_study(
         workbench = WrenchModel(matrix=prior, offset=np.zeros(6))
         models.append(workbench)
     judgements, choices = {}, {}
-    for source in OffsetSource:
+    for source in KNOWN_BEFORE:
         say(f"judging {len(models)} matrices on {len(validation)} intervals, offset {source}")
-        sources = [source] * len(fits.candidates) + [OffsetSource.RE_ESTIMATED] * (workbench is not None)
+        sources = [source] * len(fits.candidates) + [Offset.FIRST_SECOND] * (workbench is not None)
         judgements[source] = judge(models, sources, validation, progress=say)
         choices[source] = _choice(judgements[source], fits)
     return Study(fits=fits, workbench=workbench, judgements=judgements, choices=choices)

@@ -9,9 +9,9 @@ import numpy as np
 
 from forcetorque.arrays import FloatArray
 from forcetorque.errors import FitError
+from forcetorque.evaluation import KNOWN_BEFORE, Offset
 from forcetorque.spatial import WRENCH_COMPONENTS
 from forcetorque.study.candidate import Candidate
-from forcetorque.study.judging import OffsetSource
 from forcetorque.study.lambdas import lambda_text
 from forcetorque.study.study import WORKBENCH, Study
 
@@ -66,12 +66,12 @@ def offsets(study: Study) -> list[Row]:
     return [_labelled(candidate) | _axes(candidate.model.offset) for candidate in unregularised(study)]
 
 
-def mean_forces(study: Study, source: OffsetSource) -> list[Row]:
+def mean_forces(study: Study, source: Offset) -> list[Row]:
     """Tables 5.5 and 5.6: mean magnitude of the contact force by combination, type and lambda.
 
     Args:
         study: The study.
-        source: Offset re-estimated (5.5) or fitted (5.6).
+        source: Offset from the first second (5.5) or fitted (5.6).
 
     Returns:
         One row per combination and type, a column per lambda, headed in both ways, then their mean; N. Workbench last.
@@ -99,15 +99,15 @@ def best_by_axis_table(study: Study) -> list[Row]:
         One row per component; mean absolute value in N, N m.
     """
     table = []
-    pooled = {source: study.judgements[source].over().mean_absolute for source in OffsetSource}
+    pooled = {source: study.judgements[source].over().mean_absolute for source in KNOWN_BEFORE}
     for axis, component in enumerate(WRENCH_COMPONENTS):
         row: Row = {"axis": component}
-        for source in OffsetSource:
+        for source in KNOWN_BEFORE:
             best = study.choices[source].by_axis[axis]
             row[f"best, offset {source}"] = study.name(best)
             row[f"value, offset {source}"] = float(pooled[source][best, axis])
         if study.workbench is not None:
-            row[WORKBENCH] = float(pooled[OffsetSource.RE_ESTIMATED][-1, axis])
+            row[WORKBENCH] = float(pooled[Offset.FIRST_SECOND][-1, axis])
         table.append(row)
     return table
 
@@ -121,8 +121,8 @@ def candidate_rows(study: Study) -> list[Row]:
     Returns:
         One row each: data set, type, lambda in three conventions, mean errors in both modes; N, N m.
     """
-    pooled = {source: study.judgements[source].over() for source in OffsetSource}
-    spread = {source: study.judgements[source].part().standard_error() for source in OffsetSource}
+    pooled = {source: study.judgements[source].over() for source in KNOWN_BEFORE}
+    spread = {source: study.judgements[source].part().standard_error() for source in KNOWN_BEFORE}
     table = []
     for index in range(len(study.models)):
         row: Row = {"data_set": WORKBENCH}
@@ -133,7 +133,7 @@ def candidate_rows(study: Study) -> list[Row]:
                 "table_lambda_counts2": candidate.table_lambda,
                 "relative_lambda": candidate.relative_lambda,
             }
-        for source in OffsetSource:
+        for source in KNOWN_BEFORE:
             mode = source.replace("-", "_")
             row[f"force_mean_{mode}"] = float(pooled[source].force_mean[index])
             row[f"force_mean_error_{mode}"] = float(spread[source].force_mean[index])

@@ -8,13 +8,10 @@ from dataclasses import dataclass, replace
 from importlib.metadata import version
 from pathlib import Path
 
+from forcetorque.analysis import inspect_experiment
+from forcetorque.analysis.applicability import by_sensor
 from forcetorque.calibration import Calibration
-from forcetorque.experiment import (
-    Experiment,
-    ExperimentSensor,
-    inspect_experiment,
-)
-from forcetorque.experiment.fitness import by_sensor
+from forcetorque.experiment import Experiment, ExperimentSensor
 from forcetorque.experiment.wrist_load import is_wrist_load
 from forcetorque.recording import Finding, Interval
 from forcetorque.recording.alignment import seconds_since

@@ -8,11 +8,17 @@ from dataclasses import replace
 
 import numpy as np
 
+from forcetorque.analysis import (
+    Correction,
+    IntervalEstimates,
+    corrections_of,
+    estimate_experiment,
+)
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration import Calibration
 from forcetorque.errors import ForceTorqueError
 from forcetorque.estimation import Contact
-from forcetorque.experiment import Correction, Experiment, IntervalEstimates, corrections_of, estimate_experiment
+from forcetorque.experiment import Experiment
 from forcetorque.experiment.contacts import contacts_at_sensors
 from forcetorque.recording.alignment import gap_limit_ns
 from forcetorque.robot import build_tree

@@ -7,8 +7,9 @@ from dataclasses import replace
 
 import numpy as np
 
+from forcetorque.analysis import Correction, corrections_of
 from forcetorque.errors import ForceTorqueError
-from forcetorque.experiment import Correction, Experiment, ExperimentSensor, corrections_of
+from forcetorque.experiment import Experiment, ExperimentSensor
 from forcetorque.recording import Signal, Stream
 from forcetorque.recording.smoothing import smooth
 

@@ -8,21 +8,15 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from forcetorque.analysis import Correction, SensorRun, SensorSphere, spheres
+from forcetorque.analysis.applicability import require_fit
+from forcetorque.analysis.candidate import PRIOR
+from forcetorque.analysis.reading import wrench_at
 from forcetorque.arrays import FloatArray, IntArray
 from forcetorque.calibration import Calibration
 from forcetorque.errors import ForceTorqueError
 from forcetorque.evaluation.sphere import EllipsoidFit
-from forcetorque.experiment import (
-    Correction,
-    Experiment,
-    ExperimentSensor,
-    SensorSphere,
-    analyse_sensor,
-    sphere_intervals,
-)
-from forcetorque.experiment.candidates import PRIOR
-from forcetorque.experiment.fitness import require_fit
-from forcetorque.experiment.readings import without_offset, wrench_at
+from forcetorque.experiment import Experiment, ExperimentSensor
 from forcetorque.recording.alignment import require_overlap
 from forcetorque.robot import SensorFrame
 from forcetorque.spatial import MeasureDirection
@@ -74,14 +68,14 @@ def scene_sensor(
         The sensor with its series; none is expected where the model gives nothing.
     """
     readings = _readings(experiment, sensor, calibrations, priors, notes, sources)
-    spheres = _spheres(experiment, sensor, calibrations, notes, sources)
+    by_candidate = _spheres(experiment, sensor, calibrations, notes, sources)
     series = []
     if np.isfinite(expected).any():
-        series.append(_series("expected", "expected", block, expected, sphere=_weight(spheres)))
+        series.append(_series("expected", "expected", block, expected, sphere=_weight(by_candidate)))
     for reading in readings:
         values = _values(experiment, sensor, reading.correction, posture.stamp_ns, notes)
         offset = reading.correction.model.offset if reading.candidate == PRIOR else np.zeros(6)
-        fits = _ellipsoids(spheres.get(reading.candidate), offset)
+        fits = _ellipsoids(by_candidate.get(reading.candidate), offset)
         series.append(_series(reading.name, "measured", block, values, force=fits[0], moment=fits[1]))
     tag = experiment.model.sensor(sensor.name)
     joint = experiment.model.joints[tag.joint]
@@ -126,7 +120,7 @@ def _prior_correction(sensor: ExperimentSensor, priors: Priors, notes: list[str]
         return priors.of(sensor)
     except ForceTorqueError as error:
         notes.append(f"sensor {sensor.name!r}: no offset is removed from the prior reading: {error}")
-    return without_offset(sensor)
+    return Correction.without_offset(sensor)
 
 
 def _values(
@@ -152,22 +146,21 @@ def _spheres(
     sources: list[str],
 ) -> dict[str, SensorSphere]:
     try:
-        intervals = sphere_intervals(experiment, None)
         thinned, every = _thinned(experiment, sensor)
-        found = analyse_sensor(thinned, sensor, intervals, calibrations)
+        analyses = spheres(SensorRun(thinned, sensor), calibrations).analyses
     except ForceTorqueError as error:
         notes.append(f"sensor {sensor.name!r}: no sphere and no ellipsoid: {error}")
         return {}
-    for sphere in found:
+    for sphere in analyses:
         if _force_fit(sphere) is None:
             fit = sphere.analysis.free if sphere.analysis.mapped is None else sphere.analysis.mapped.fit
             reason = "; ".join(fit.why)
             notes.append(f"sensor {sensor.name!r}, {sphere.candidate}: no ellipsoid of forces: {reason}")
-    labels = ", ".join(repr(interval.label) for interval in intervals)
+    labels = ", ".join(map(repr, analyses[0].intervals))
     sources.append(
         f"{sensor.name}: sphere of the weight and ellipsoids as by `forcetorque sphere` over {labels}{every}"
     )
-    return {sphere.candidate: sphere for sphere in found}
+    return {sphere.candidate: sphere for sphere in analyses}
 
 
 def _thinned(experiment: Experiment, sensor: ExperimentSensor) -> tuple[Experiment, str]:
@@ -182,9 +175,9 @@ def _thinned(experiment: Experiment, sensor: ExperimentSensor) -> tuple[Experime
     return replace(experiment, recording=replace(experiment.recording, streams=streams)), f", from one sample in {step}"
 
 
-def _weight(spheres: Mapping[str, SensorSphere]) -> Sphere | None:
+def _weight(by_candidate: Mapping[str, SensorSphere]) -> Sphere | None:
     """Sphere that the weight beyond the sensor draws."""
-    for sphere in spheres.values():
+    for sphere in by_candidate.values():
         if sphere.analysis.mass is not None:
             return Sphere(centre=(0.0, 0.0, 0.0), radius=sphere.analysis.mass * sphere.analysis.gravity)
     return None

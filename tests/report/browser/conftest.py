@@ -11,8 +11,12 @@ from pathlib import Path
 
 import pytest
 
+from forcetorque.analysis import (
+    SensorRun,
+    calibrate_sensor,
+)
 from forcetorque.calibration import write_calibration
-from forcetorque.experiment import calibrate_sensor, load_experiment
+from forcetorque.experiment import load_experiment
 from tests.browser import _closed_at_the_end, chromium, close_after_folder, visit
 from tests.experiments import PARQUET, write_experiments
 
@@ -35,7 +39,7 @@ def report(tmp_path_factory: pytest.TempPathFactory) -> Path:
     write_experiments(folder)
     experiment = load_experiment(folder / PARQUET)
     created = datetime(2020, 1, 1, tzinfo=UTC).isoformat()
-    fitted = calibrate_sensor(experiment, experiment.sensors[0], code_version="1", created=created)
+    fitted = calibrate_sensor(SensorRun(experiment, experiment.sensors[0]), code_version="1", created=created)
     write_calibration(folder / "fitted.json", fitted)
     words = ["report", PARQUET, "fitted.json", "--viewer", "-o", "report.html"]
     subprocess.run([sys.executable, "-m", "forcetorque", *words], cwd=folder, check=True, capture_output=True)

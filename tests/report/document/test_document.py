@@ -17,7 +17,6 @@ from PIL import Image, UnidentifiedImageError
 from pypdf import PdfReader
 
 from forcetorque.errors import FormatError, ShapeError
-from forcetorque.report.canvas import new_figure, png_bytes
 from forcetorque.report.document import (
     Document,
     Figure,
@@ -35,6 +34,7 @@ from forcetorque.report.document.letters import spelled
 from forcetorque.report.document.lines import lines_of
 from forcetorque.report.document.pdf import MISSING_LETTERS
 from forcetorque.report.document.small_png import small_png
+from forcetorque.report.figures.canvas import new_figure, png_bytes
 
 NASTY = '<script>alert("1")</script> & {{ 7 * 7 }} ±λ²'
 """Markup, a template and signs beyond Latin letters, as the name of a file may have."""

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 import pytest
 
-from forcetorque.cli.view import _frames
+from forcetorque.viewer.filming import frame_count
 from forcetorque.viewer.video import Film
 from tests.viewer.browser.arm_scene import Arm
 
@@ -78,7 +78,7 @@ def test_the_command_counts_the_frames_of_the_page(page: Page, arm: Arm) -> None
     (start, end), frames = spans[short[0]], round(shares[short[0]]) + 1
     wanted = {**WANTED, "start": start, "end": end, "speed": 1, "fps": fps}
     film = base64.b64decode(page.evaluate("wanted => window.ft.video(wanted)", wanted))
-    assert len(sizes_of_frames(film)) == frames == _frames(arm.built, Film(**wanted))  # type: ignore[arg-type]
+    assert len(sizes_of_frames(film)) == frames == frame_count(Film(**wanted), arm.built)  # type: ignore[arg-type]
 
 
 def test_same_film_again_is_the_same_file(page: Page) -> None:

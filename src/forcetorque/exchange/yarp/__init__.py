@@ -4,6 +4,7 @@
 from forcetorque.exchange.yarp.analog import read_analog
 from forcetorque.exchange.yarp.discover import FoundPort, PortKind, discover_ports, read_port
 from forcetorque.exchange.yarp.inertial import read_inertial
+from forcetorque.exchange.yarp.log_folder import read_log_folder
 from forcetorque.exchange.yarp.measures import MeasuresList, MeasuresSensor, read_measures
 from forcetorque.exchange.yarp.reading import PortReading
 from forcetorque.exchange.yarp.state import read_state
@@ -23,6 +24,7 @@ __all__ = [
     "discover_ports",
     "read_analog",
     "read_inertial",
+    "read_log_folder",
     "read_measures",
     "read_port",
     "read_state",

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 from datetime import datetime
 from enum import StrEnum
 
-from forcetorque.errors import FormatError, ShapeError
+from forcetorque.errors import FormatError
+from forcetorque.result import Table
 
 NO_ROWS = "no rows"
 """What stands below the headings of a table without rows."""
@@ -52,30 +53,6 @@ class List:
 
     points: tuple[str, ...]
     """The points."""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Table:
-    """A table; cells are text that is already rounded."""
-
-    caption: str
-    """What it shows, with units where the headings have none."""
-    headings: tuple[str, ...]
-    """Headings of the columns."""
-    rows: tuple[tuple[str, ...], ...]
-    """Rows of as many cells."""
-
-    def __post_init__(self) -> None:
-        for row in self.rows:
-            if len(row) != len(self.headings):
-                raise ShapeError(f"table {self.caption!r}: expected {len(self.headings)} cells, got {len(row)}")
-
-    @property
-    def numeric(self) -> tuple[bool, ...]:
-        """Which columns hold numbers, and are set to the right."""
-        return tuple(
-            bool(self.rows) and all(_is_number(row[k]) for row in self.rows) for k in range(len(self.headings))
-        )
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -143,17 +120,3 @@ class Document:
     def instant(self) -> datetime:
         """When it was made."""
         return datetime.fromisoformat(self.created)
-
-
-def _is_number(cell: str) -> bool:
-    # cells such as "0.38 ±0.02" are numbers to the reader, and an empty one does not speak against it
-    words = cell.replace("±", " ").split()
-    return all(_is_float(word) or word in {"-", "to", "any"} for word in words)
-
-
-def _is_float(word: str) -> bool:
-    try:
-        float(word)
-    except ValueError:
-        return False
-    return True

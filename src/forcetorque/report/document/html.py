@@ -7,8 +7,18 @@ import base64
 from importlib import resources
 
 from forcetorque.errors import MissingExtraError
-from forcetorque.report.document.content import NO_ROWS, Block, Document, Figure, List, Page, Table, Text, Verdict
+from forcetorque.report.document.content import (
+    NO_ROWS,
+    Block,
+    Document,
+    Figure,
+    List,
+    Page,
+    Text,
+    Verdict,
+)
 from forcetorque.report.document.small_png import small_png
+from forcetorque.result import Table
 
 _KINDS = {Verdict: "verdict", Text: "text", List: "list", Table: "table", Figure: "figure", Page: "page"}
 

@@ -6,7 +6,17 @@ from __future__ import annotations
 from collections.abc import Callable, Container
 from dataclasses import replace
 
-from forcetorque.report.document.content import Block, Document, Figure, List, Page, Section, Table, Text, Verdict
+from forcetorque.report.document.content import (
+    Block,
+    Document,
+    Figure,
+    List,
+    Page,
+    Section,
+    Text,
+    Verdict,
+)
+from forcetorque.result import Table
 
 _Speller = Callable[[str], str]
 

@@ -17,7 +17,6 @@ from forcetorque.report.document.content import (
     List,
     Page,
     Section,
-    Table,
     Text,
     Tone,
     Verdict,
@@ -26,6 +25,7 @@ from forcetorque.report.document.letters import spelled_document
 from forcetorque.report.document.lines import lines_of
 from forcetorque.report.document.pdf_table import draw_table, first_rows_mm
 from forcetorque.report.document.small_png import small_png
+from forcetorque.result import Table
 
 if TYPE_CHECKING:
     from fpdf import FPDF

@@ -7,8 +7,8 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from forcetorque.report.document.content import Table
 from forcetorque.report.document.lines import lines_of, pieces_of
+from forcetorque.result import Table
 
 if TYPE_CHECKING:
     from fpdf import FPDF

@@ -1,0 +1,164 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Questions to the sensors of experiments: one file per question, each a function and its result."""
+
+from forcetorque.analysis.acceptance import Acceptance, accept, criteria_table
+from forcetorque.analysis.acceptance_file import AcceptanceFile, read_acceptance
+from forcetorque.analysis.applicability import by_sensor, one_per_sensor
+from forcetorque.analysis.assessment import Assessment, Demands, assess
+from forcetorque.analysis.calibrate import calibrate_sensor
+from forcetorque.analysis.candidate import JudgedCandidate
+from forcetorque.analysis.compare import Comparison, compare
+from forcetorque.analysis.contact_forces import (
+    BestCandidate,
+    ContactForceErrors,
+    ContactForces,
+    contact_forces,
+)
+from forcetorque.analysis.corrections import corrections_of
+from forcetorque.analysis.criterion import Bound, Criterion
+from forcetorque.analysis.estimate import IntervalEstimates, estimate_experiment
+from forcetorque.analysis.estimate_summary import EstimateSummary, summarise_estimates
+from forcetorque.analysis.evaluate import CandidateErrors, Evaluation, evaluate
+from forcetorque.analysis.experiment_assessment import ExperimentAssessment, assess_experiment
+from forcetorque.analysis.export import (
+    export_coefficients,
+    export_icub_matrix,
+    export_table,
+    export_wholebodydynamics,
+)
+from forcetorque.analysis.export_rows import Export, ExportedCalibration
+from forcetorque.analysis.findings import doubtful_spans, inspect_experiment, inspect_recording
+from forcetorque.analysis.gains import (
+    Gains,
+    SensorGains,
+    select_gains,
+    sensor_gains,
+)
+from forcetorque.analysis.inspect import (
+    FindingRow,
+    Inspection,
+    finding_rows,
+    finding_table,
+    inspect_log,
+)
+from forcetorque.analysis.interval_quality import IntervalQuality
+from forcetorque.analysis.joint_torques import JointTorqueErrors, JointTorques, joint_torques
+from forcetorque.analysis.judged import JudgedWrenches
+from forcetorque.analysis.payload import WeighedLoad, weigh_load
+from forcetorque.analysis.population import read_population
+from forcetorque.analysis.prior_comparison import Independence, PriorComparison, compare_with_prior
+from forcetorque.analysis.reading import Correction
+from forcetorque.analysis.samples import IntervalSamples
+from forcetorque.analysis.sensor_calibration import (
+    SensorCalibration,
+    SensorCalibrations,
+    calibrate_for_file,
+    data_doubts,
+)
+from forcetorque.analysis.sensor_run import SensorRun
+from forcetorque.analysis.sensor_sphere import SensorSphere, sensor_spheres, sphere_intervals
+from forcetorque.analysis.sphere import Spheres, spheres, spheres_of_sensors
+from forcetorque.analysis.sphere_rows import FailureRow, SphereRow
+from forcetorque.analysis.static_checks import IntervalOffset, StaticChecks, check
+from forcetorque.analysis.study import SensorStudy, study_sensor
+from forcetorque.analysis.study_data import StudyData, read_study_data
+from forcetorque.analysis.study_result import StudiedSensor, Studies, studied_sensor, study_warnings
+from forcetorque.analysis.trial_group import TrialGroup, group_trials
+from forcetorque.analysis.trials import TrialSphere, read_trials
+from forcetorque.analysis.validate import Validation, validate
+from forcetorque.analysis.verdict import VerdictLine
+
+__all__ = [
+    "Acceptance",
+    "AcceptanceFile",
+    "Assessment",
+    "BestCandidate",
+    "Bound",
+    "CandidateErrors",
+    "Comparison",
+    "ContactForceErrors",
+    "ContactForces",
+    "Correction",
+    "Criterion",
+    "Demands",
+    "Evaluation",
+    "ExperimentAssessment",
+    "EstimateSummary",
+    "Export",
+    "ExportedCalibration",
+    "FailureRow",
+    "FindingRow",
+    "Gains",
+    "Independence",
+    "Inspection",
+    "IntervalEstimates",
+    "IntervalOffset",
+    "IntervalQuality",
+    "IntervalSamples",
+    "JointTorqueErrors",
+    "JointTorques",
+    "JudgedCandidate",
+    "JudgedWrenches",
+    "PriorComparison",
+    "SensorCalibration",
+    "SensorCalibrations",
+    "SensorGains",
+    "SensorRun",
+    "SensorSphere",
+    "SensorStudy",
+    "SphereRow",
+    "Spheres",
+    "StaticChecks",
+    "StudiedSensor",
+    "Studies",
+    "StudyData",
+    "TrialGroup",
+    "TrialSphere",
+    "Validation",
+    "VerdictLine",
+    "WeighedLoad",
+    "accept",
+    "assess",
+    "assess_experiment",
+    "by_sensor",
+    "calibrate_for_file",
+    "calibrate_sensor",
+    "check",
+    "compare",
+    "compare_with_prior",
+    "contact_forces",
+    "criteria_table",
+    "corrections_of",
+    "data_doubts",
+    "doubtful_spans",
+    "estimate_experiment",
+    "evaluate",
+    "export_coefficients",
+    "export_icub_matrix",
+    "export_table",
+    "export_wholebodydynamics",
+    "finding_rows",
+    "finding_table",
+    "group_trials",
+    "inspect_experiment",
+    "inspect_log",
+    "inspect_recording",
+    "joint_torques",
+    "one_per_sensor",
+    "read_acceptance",
+    "read_population",
+    "read_study_data",
+    "read_trials",
+    "select_gains",
+    "sensor_gains",
+    "sensor_spheres",
+    "sphere_intervals",
+    "spheres",
+    "spheres_of_sensors",
+    "study_sensor",
+    "validate",
+    "studied_sensor",
+    "study_warnings",
+    "summarise_estimates",
+    "weigh_load",
+]

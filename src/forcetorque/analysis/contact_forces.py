@@ -1,0 +1,210 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Contact forces: what the candidates of a sensor report where nothing touches (thesis 4.1.3)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Annotated
+
+import numpy as np
+
+from forcetorque.analysis.contact_wrenches import ContactWrenches, contact_wrenches
+from forcetorque.analysis.free_sub_model import FreeSubModel
+from forcetorque.analysis.sensor_run import SensorRun
+from forcetorque.calibration import Calibration
+from forcetorque.errors import ExperimentError
+from forcetorque.evaluation import Offset, OtherSensors, errors_from_zero
+from forcetorque.result import Result, Row, Shown, ShownWrench, Table, WrenchValues, finite_or_none, table_of
+from forcetorque.spatial import WRENCH_COMPONENTS
+
+
+class ContactForceErrors(Row):
+    """Contact wrench that a candidate reports where nothing touches, in the sensor's frame; per axis fx ... tz."""
+
+    sensor: str
+    """Sensor."""
+    serial: str
+    """Its serial number."""
+    sub_model: str
+    """Sub-model that nothing touches."""
+    candidate: Annotated[str, Shown("candidate", file=True)]
+    """The calibration file, or its prior: `prior`, and `prior of FILE` among several files."""
+    offset: Annotated[Offset, Shown("offset")]
+    """Offset from the first second of every judged interval, or that of the candidate."""
+    offset_source: str
+    """Where that offset comes from, in words."""
+    prior: str | None
+    """Candidate that is the prior of a calibration file; null for a prior, and where the file has none."""
+    samples: Annotated[int, Shown("samples")]
+    """Number of judged samples."""
+    force_mean_N: Annotated[float, Shown("force", "N", digits=2, error="force_mean_error_N")]
+    """Mean norm of the force."""
+    force_mean_error_N: float | None
+    """Standard error of that mean, from blocks of time."""
+    moment_mean_Nm: Annotated[float, Shown("moment", "N m", digits=3)]
+    """Mean norm of the moment."""
+    mean_absolute: Annotated[WrenchValues, ShownWrench(digits=3)]
+    """Mean absolute value per component; N, N m."""
+
+
+class BestCandidate(Row):
+    """The best candidate of a sensor with one offset."""
+
+    sensor: str
+    """Sensor."""
+    offset: Offset
+    """Which offset the candidates are judged with."""
+    by_magnitude: str
+    """Candidate with the smallest mean norm of the force."""
+    by_axis: tuple[str, ...]
+    """Candidate with the smallest mean absolute value, per component."""
+
+    @property
+    def sentence(self) -> str:
+        """Who is best, and on which axes somebody else is."""
+        others = [
+            f"{component} {name}"
+            for component, name in zip(WRENCH_COMPONENTS, self.by_axis, strict=True)
+            if name != self.by_magnitude
+        ]
+        words = f"; but for {', '.join(others)}" if others else ", on every axis"
+        return f"{self.sensor}, offset {self.offset}: best is {self.by_magnitude}{words}"
+
+
+class ContactForces(Result):
+    """Contact wrenches of a sub-model that nothing touches, by all candidates of a sensor."""
+
+    verdicts: tuple[ContactForceErrors, ...]
+    """One per candidate and offset."""
+    best: tuple[BestCandidate, ...]
+    """One per offset."""
+    left_out: tuple[str, ...]
+    """What could not be judged of the intervals, in words."""
+
+    def blocks(self) -> Iterator[Table | str]:
+        """Give a table per sensor, and who is best.
+
+        Yields:
+            Tables and sentences.
+        """
+        yield from contact_force_blocks(self.verdicts, self.best)
+
+
+def contact_forces(
+    run: SensorRun,
+    calibrations: Mapping[str, Calibration],
+    *,
+    others: Mapping[str, Calibration] | None = None,
+    other_sensors: OtherSensors = OtherSensors.MODEL,
+    sub_model: str | None = None,
+    contact: str | None = None,
+) -> ContactForces:
+    """Judge candidates of a sensor by the contact wrench of a sub-model that nothing touches.
+
+    Args:
+        run: The sensor; the validation intervals are judged.
+        calibrations: Calibrations of that sensor by name; their priors are judged too, or that of the experiment where
+            there is none.
+        others: Calibrations of the other sensors by name, for the mode `measured`; where there is none, their prior.
+        other_sensors: Whether the other sensors read what the model expects or what they measured.
+        sub_model: The sub-model, by the sensor at its base or the root link; None for that outboard of the sensor.
+        contact: Link at whose origin the contact is estimated; None for that mounted on the sensor.
+
+    Returns:
+        For every candidate the errors with its own offset and with one from each interval's first second, and the
+        intervals that are not in them.
+
+    Raises:
+        ExperimentError: If there is nothing to judge, or an interval has no support.
+    """
+    free = FreeSubModel.of(run, others=others, other_sensors=other_sensors, sub_model=sub_model, contact=contact)
+    return contact_forces_of(free, calibrations)
+
+
+def contact_forces_of(free: FreeSubModel, calibrations: Mapping[str, Calibration]) -> ContactForces:
+    """Judge candidates of a sensor by the contact wrench of a given sub-model.
+
+    Args:
+        free: The sub-model.
+        calibrations: Calibrations of the sensor by name.
+
+    Returns:
+        The same as `contact_forces`.
+
+    Raises:
+        ExperimentError: If there is nothing to judge, or an interval has no support.
+    """
+    contacts = contact_wrenches(free, calibrations)
+    verdicts = tuple(_rows(free.run, contacts))
+    if not verdicts:
+        raise ExperimentError(f"nothing can be judged: {'; '.join(contacts.left_out)}")
+    return ContactForces(
+        verdicts=verdicts,
+        best=tuple(_best(verdicts)),
+        left_out=contacts.left_out,
+        warnings=tuple(f"left out: {words}" for words in contacts.left_out),
+    )
+
+
+def contact_force_blocks(
+    verdicts: Sequence[ContactForceErrors], best: Sequence[BestCandidate]
+) -> Iterator[Table | str]:
+    """Show contact forces of any number of sensors.
+
+    Args:
+        verdicts: The rows.
+        best: Best candidates; said where there are several to choose from.
+
+    Yields:
+        A table per sensor, and a sentence per sensor and offset.
+    """
+    for sensor in dict.fromkeys(row.sensor for row in verdicts):
+        yield _table([row for row in verdicts if row.sensor == sensor])
+    if len({row.candidate for row in verdicts}) > 1:
+        yield from (candidate.sentence for candidate in best)
+
+
+def _rows(run: SensorRun, contacts: ContactWrenches) -> Iterator[ContactForceErrors]:
+    for (index, offset), wrenches in contacts.wrenches.items():
+        if np.isnan(wrenches).any(axis=1).all():
+            continue
+        candidate, errors = contacts.candidates[index], errors_from_zero(wrenches)
+        yield ContactForceErrors(
+            sensor=run.sensor.name,
+            serial=run.sensor.serial,
+            sub_model=contacts.sub_model,
+            candidate=candidate.name,
+            offset=candidate.offset(offset),
+            offset_source=candidate.offset_source(offset),
+            prior=candidate.prior,
+            samples=errors.count,
+            force_mean_N=errors.force_mean,
+            force_mean_error_N=finite_or_none(errors.force_mean_error),
+            moment_mean_Nm=errors.moment_mean,
+            mean_absolute=errors.mean_absolute,
+        )
+
+
+def _best(verdicts: Sequence[ContactForceErrors]) -> Iterator[BestCandidate]:
+    """Best candidate with each offset, of one sensor."""
+    for offset in dict.fromkeys(row.offset for row in verdicts):
+        rows = [row for row in verdicts if row.offset is offset]
+        values = np.stack([row.mean_absolute for row in rows])
+        yield BestCandidate(
+            sensor=rows[0].sensor,
+            offset=offset,
+            by_magnitude=min(rows, key=lambda row: row.force_mean_N).candidate,
+            by_axis=tuple(rows[k].candidate for k in values.argmin(axis=0)),
+        )
+
+
+def _table(rows: Sequence[ContactForceErrors]) -> Table:
+    row = rows[0]
+    alike = len({row.samples for row in rows}) == 1
+    count = f", {row.samples} samples" if alike else ""
+    return table_of(
+        rows,
+        f"{row.sensor} ({row.serial}): contact wrench of the free sub-model {row.sub_model}{count}; "
+        "per axis: mean absolute value",
+        leave_out={"samples"} if alike else (),
+    )

@@ -1,0 +1,195 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What estimates over the intervals of an experiment amount to, and the file with every sample of them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import Annotated, Literal
+
+import numpy as np
+from pydantic import Field
+
+from forcetorque.analysis.estimate import IntervalEstimates
+from forcetorque.analysis.reading import Correction
+from forcetorque.arrays import FloatArray
+from forcetorque.evaluation import WrenchErrors, wrench_errors
+from forcetorque.exchange.estimates_table import EstimatedSpan, write_estimates
+from forcetorque.experiment import Experiment
+from forcetorque.recording.alignment import seconds_since
+from forcetorque.result import Result, Row, Shown, Table, finite_or_none, table_of
+
+
+class ContactSummary(Row):
+    """One contact over one interval."""
+
+    interval: Annotated[str, Shown("interval")]
+    """Label of the interval."""
+    contact: Annotated[str, Shown("contact")]
+    """Name of the contact."""
+    samples: Annotated[int, Shown("samples")]
+    """Number of samples with an estimate."""
+    force_mean_N: Annotated[float | None, Shown("force", "N", digits=2, error="force_standard_error_N")]
+    """Mean norm of the force."""
+    force_standard_error_N: float | None
+    """Standard error of that mean, from ten contiguous blocks."""
+    force_largest_N: Annotated[float | None, Shown("largest", "N", digits=2)]
+    """Largest norm of the force."""
+    moment_mean_Nm: Annotated[float | None, Shown("moment", "N m", digits=3)]
+    """Mean norm of the moment."""
+
+
+class SubModelSummary(Row):
+    """The equation of one sub-model over one interval."""
+
+    interval: Annotated[str, Shown("interval")]
+    """Label of the interval."""
+    part: Annotated[str, Shown("sub-model")]
+    """Sensor at its base, or the support frame."""
+    rank: Annotated[int, Shown("rank")]
+    """Smallest rank over the samples."""
+    condition_largest: Annotated[float | None, Shown("condition", digits=1)]
+    """Largest condition over the samples."""
+    residual_force_mean_N: Annotated[float | None, Shown("residual", "N", digits=2)]
+    """Mean norm of the force that its contacts leave unexplained."""
+    residual_moment_mean_Nm: Annotated[float | None, Shown("residual", "N m", digits=3)]
+    """Mean norm of the moment that they leave unexplained."""
+    ambiguous: tuple[tuple[str, ...], ...]
+    """Groups of unknowns that cannot be told apart."""
+
+
+class EstimateSummary(Result):
+    """What touches the robot over the intervals of an experiment, and how well its equations determine that."""
+
+    schema_name: Literal["forcetorque/estimate/1"] = Field(default="forcetorque/estimate/1", alias="schema")
+    """Form of the result."""
+    experiment: str
+    """Name of the experiment."""
+    file: str | None
+    """File with every sample, where one was written."""
+    rows: int
+    """Number of samples, which are its rows."""
+    readings: dict[str, str]
+    """By sensor, how its reading became a wrench."""
+    contacts: tuple[ContactSummary, ...]
+    """One per interval and contact."""
+    parts: tuple[SubModelSummary, ...]
+    """One per interval and sub-model."""
+    left_out: tuple[str, ...]
+    """What the log does not allow to estimate."""
+
+    def blocks(self) -> Iterator[Table | str]:
+        """Give a table of the contacts and one of the sub-models.
+
+        Yields:
+            Tables and sentences.
+        """
+        if self.contacts:
+            yield table_of(self.contacts, self.experiment)
+        if self.parts:
+            yield table_of(self.parts, "")
+        for row in self.parts:
+            for group in row.ambiguous:
+                yield f"{row.part}, {row.interval}: cannot tell apart {', '.join(group)}"
+        yield "force and moment: mean norms of what the environment does to the robot, in the contact frame"
+        if self.file is not None:
+            yield f"{self.rows} rows written to {self.file}"
+
+    def records(self) -> list[dict[str, object]]:
+        """Give the contacts as lines.
+
+        Returns:
+            A line per interval and contact.
+        """
+        return [row.flat() for row in self.contacts]
+
+    def columns(self) -> list[str]:
+        """Name the columns of the lines.
+
+        Returns:
+            The same where nothing could be estimated.
+        """
+        return list(ContactSummary.model_fields)
+
+
+def summarise_estimates(
+    experiment: Experiment,
+    corrections: Mapping[str, Correction],
+    spans: Sequence[IntervalEstimates],
+    *,
+    file: Path | None = None,
+) -> EstimateSummary:
+    """Say what estimates amount to, and write every sample of them to a file.
+
+    Args:
+        experiment: The experiment.
+        corrections: How its sensors were read.
+        spans: Its estimates, as `estimate_experiment` gives them.
+        file: File for every sample, .parquet or .csv; none if left out.
+
+    Returns:
+        Mean norms of contacts and residuals.
+
+    Raises:
+        FormatError: If the name of the file ends otherwise.
+    """
+    if file is not None:
+        write_estimates(file, [_for_table(experiment, span) for span in spans], experiment.model)
+    left_out = tuple(dict.fromkeys(sentence for span in spans for sentence in span.left_out))
+    return EstimateSummary(
+        experiment=experiment.name,
+        file=None if file is None else str(file),
+        rows=sum(len(span.stamp_ns) for span in spans),
+        readings={sensor: correction.source for sensor, correction in corrections.items()},
+        contacts=tuple(row for span in spans for row in _contacts(span)),
+        parts=tuple(row for span in spans for row in _parts(span)),
+        left_out=left_out,
+        warnings=tuple(f"left out: {sentence}" for sentence in left_out),
+    )
+
+
+def _for_table(experiment: Experiment, span: IntervalEstimates) -> EstimatedSpan:
+    return EstimatedSpan(
+        label=span.interval.label,
+        stamp_ns=span.stamp_ns,
+        time_s=seconds_since(span.stamp_ns, experiment.recording.start_ns),
+        measured=span.measured,
+        estimates=span.estimates,
+    )
+
+
+def _contacts(span: IntervalEstimates) -> Iterator[ContactSummary]:
+    for name in span.estimates.layout.contacts:
+        samples, norms = _norms(span.estimates.contact(name))
+        yield ContactSummary(
+            interval=span.interval.label,
+            contact=name,
+            samples=samples,
+            force_mean_N=None if norms is None else norms.force_mean,
+            force_standard_error_N=None if norms is None else finite_or_none(norms.force_mean_error),
+            force_largest_N=None if norms is None else norms.force_largest,
+            moment_mean_Nm=None if norms is None else norms.moment_mean,
+        )
+
+
+def _parts(span: IntervalEstimates) -> Iterator[SubModelSummary]:
+    estimates = span.estimates
+    for k, name in enumerate(estimates.layout.parts):
+        whole = np.isfinite(estimates.residual[:, k]).all(axis=1)
+        _, norms = _norms(estimates.residual[:, k])
+        condition = estimates.condition[:, k][np.isfinite(estimates.condition[:, k])]
+        yield SubModelSummary(
+            interval=span.interval.label,
+            part=name,
+            rank=int(estimates.rank[whole, k].min()) if whole.any() else 0,
+            condition_largest=float(condition.max()) if len(condition) else None,
+            residual_force_mean_N=None if norms is None else norms.force_mean,
+            residual_moment_mean_Nm=None if norms is None else norms.moment_mean,
+            ambiguous=span.ambiguous.get(name, ()),
+        )
+
+
+def _norms(wrench: FloatArray) -> tuple[int, WrenchErrors | None]:
+    """Number of samples without a gap, and their norms: errors against nothing touching."""
+    whole = wrench[np.isfinite(wrench).all(axis=1)]
+    return len(whole), wrench_errors(whole, np.zeros_like(whole)) if len(whole) else None

@@ -1,0 +1,197 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Judge calibrations of a sensor on data that was not fitted: errors against what mechanics demands."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from typing import Annotated, Literal
+
+import numpy as np
+from pydantic import Field
+
+from forcetorque.analysis.candidate import JudgedRow
+from forcetorque.analysis.sensor_run import SensorRun
+from forcetorque.calibration import Calibration, FittedInterval
+from forcetorque.errors import ExperimentError
+from forcetorque.evaluation import wrench_errors
+from forcetorque.recording import Use
+from forcetorque.result import Result, Shown, ShownWrench, Table, WrenchValues, finite_or_none, table_of
+
+_BEYOND = 0.1
+"""Share of the fitted range of a variable by which it may be left before that is worth a word."""
+
+
+class CandidateErrors(JudgedRow):
+    """Errors of one candidate with one offset; per axis in the order fx fy fz (N) tx ty tz (N m)."""
+
+    samples: int
+    """Number of judged samples."""
+    rmse: Annotated[WrenchValues, ShownWrench(digits=3)]
+    """Root mean square error per component; N, N m."""
+    bias: WrenchValues
+    """Mean error per component; N, N m."""
+    largest: WrenchValues
+    """Largest absolute error per component; N, N m."""
+    force_error_mean_N: Annotated[float, Shown("force", "N", digits=2, error="force_error_standard_error_N")]
+    """Mean norm of the force error."""
+    force_error_standard_error_N: float | None
+    """Standard error of that mean, from contiguous blocks; None for one sample."""
+    force_error_largest_N: float
+    """Largest norm of the force error."""
+    moment_error_mean_Nm: Annotated[float, Shown("moment", "N m", digits=3, error="moment_error_standard_error_Nm")]
+    """Mean norm of the moment error."""
+    moment_error_standard_error_Nm: float | None
+    """Standard error of that mean, from contiguous blocks; None for one sample."""
+    moment_error_largest_Nm: float
+    """Largest norm of the moment error."""
+
+
+class Evaluation(Result):
+    """Errors of calibrations, and of the priors that they came from, on data that was not fitted."""
+
+    schema_name: Literal["forcetorque/evaluate/1"] = Field(default="forcetorque/evaluate/1", alias="schema")
+    """Form of the result."""
+    experiment: str
+    """Name of the experiment."""
+    verdicts: tuple[CandidateErrors, ...]
+    """One per sensor, candidate and offset."""
+
+    def blocks(self) -> Iterator[Table | str]:
+        """Give a table per sensor.
+
+        Yields:
+            Tables and a sentence.
+        """
+        for sensor in dict.fromkeys(row.sensor for row in self.verdicts):
+            rows = [row for row in self.verdicts if row.sensor == sensor]
+            judged = f"{rows[0].samples} samples that were not fitted"
+            yield table_of(rows, f"{self.experiment}: {sensor} ({rows[0].serial}), {judged}")
+        yield "per axis: RMSE; force and moment: mean norm of the error ± its standard error"
+
+
+def evaluate(run: SensorRun, calibrations: Mapping[str, Calibration]) -> Evaluation:
+    """Judge calibrations, and the priors that they came from, on data that was not fitted.
+
+    Args:
+        run: The sensor.
+        calibrations: Its calibrations by name; without any the prior of the experiment is judged.
+
+    Returns:
+        For every candidate the errors with the offset of the fitted data and with the mean of the judged samples
+        removed; a prior that several calibrations share comes once. Judged one by one, calibrations that need the
+        same variables have the same errors as together.
+
+    Raises:
+        SerialNumberError: If a calibration is of another sensor.
+        ExperimentError: If a judged interval was fitted, or the robot now reads the sensor in another frame or sign.
+        ShapeError: If a matrix does not have one column per channel of the sensor.
+    """
+    for name, calibration in calibrations.items():
+        require_unseen(name, calibration, run)
+    return Evaluation(
+        experiment=run.experiment.name,
+        verdicts=tuple(_rows(run, calibrations)),
+        warnings=tuple(
+            sentence for name, calibration in calibrations.items() for sentence in doubts(run, name, calibration)
+        ),
+    )
+
+
+def _rows(run: SensorRun, calibrations: Mapping[str, Calibration]) -> Iterator[CandidateErrors]:
+    judged = run.judged(calibrations)
+    for candidate, offset, wrench in judged.with_either_offset():
+        errors = wrench_errors(wrench, judged.reference)
+        yield CandidateErrors(
+            sensor=run.sensor.name,
+            serial=run.sensor.serial,
+            candidate=candidate.name,
+            offset=offset,
+            offset_source=candidate.offset_source(offset),
+            prior=candidate.prior,
+            samples=errors.count,
+            rmse=errors.rmse,
+            bias=errors.bias,
+            largest=errors.largest,
+            force_error_mean_N=errors.force_mean,
+            force_error_standard_error_N=finite_or_none(errors.force_mean_error),
+            force_error_largest_N=errors.force_largest,
+            moment_error_mean_Nm=errors.moment_mean,
+            moment_error_standard_error_Nm=finite_or_none(errors.moment_mean_error),
+            moment_error_largest_Nm=errors.moment_largest,
+        )
+
+
+def require_unseen(name: str, calibration: Calibration, run: SensorRun) -> None:
+    """Refuse a calibration that may not be applied, or that has seen the samples on which it would be judged.
+
+    Args:
+        name: Name of the calibration, for messages.
+        calibration: The calibration.
+        run: The sensor.
+
+    Raises:
+        SerialNumberError: If it is of another sensor.
+        ExperimentError: If it was fitted on a judged interval, or the robot now reads the sensor in another way.
+    """
+    run.require_fit(name, calibration)
+    for judged, fitted in _overlaps(run, calibration.provenance.intervals):
+        raise ExperimentError(
+            f"calibration {name!r} was fitted on the interval {fitted!r}, which overlaps the judged "
+            f"interval {judged!r}; judge it on data that it has not seen"
+        )
+
+
+def doubts(run: SensorRun, name: str, calibration: Calibration) -> Iterator[str]:
+    """Say what makes a verdict on the validation intervals doubtful.
+
+    Args:
+        run: The sensor.
+        name: Name of the calibration.
+        calibration: The calibration.
+
+    Yields:
+        A sentence per variable that leaves the fitted range by more than a tenth of it, where the line is drawn on;
+        and one per interval on which the calibration was chosen among others.
+    """
+    for sentence in _beyond_fitted_range(run, calibration):
+        yield f"{name}: {sentence}"
+    yield from doubts_about_choice(run, name, calibration)
+
+
+def doubts_about_choice(run: SensorRun, name: str, calibration: Calibration) -> Iterator[str]:
+    """Say where a calibration is judged on what it was chosen on.
+
+    Args:
+        run: The sensor.
+        name: Name of the calibration.
+        calibration: The calibration.
+
+    Yields:
+        A sentence per validation interval on which it was chosen among others.
+    """
+    for label in dict.fromkeys(judged for judged, _ in _overlaps(run, calibration.selection.chosen_on)):
+        yield f"{name} was chosen among others on {label!r} too, so the verdict on it flatters"
+
+
+def _beyond_fitted_range(run: SensorRun, calibration: Calibration) -> Iterator[str]:
+    stamps = run.stream.stamp_ns
+    judged = np.zeros(len(stamps), dtype=bool)
+    for interval in run.intervals(Use.VALIDATION):
+        judged |= interval.holds(stamps)
+    for variable in calibration.variables:
+        values = run.sensor.variable(variable.name).source.at(run.experiment.recording, stamps[judged])
+        margin = _BEYOND * (variable.maximum - variable.minimum)
+        low, high = float(np.nanmin(values)), float(np.nanmax(values))
+        if low < variable.minimum - margin or high > variable.maximum + margin:
+            yield (
+                f"{variable.name} is {low:.4g} to {high:.4g} {variable.unit}, "
+                f"fitted were {variable.minimum:.4g} to {variable.maximum:.4g}"
+            )
+
+
+def _overlaps(run: SensorRun, used: Iterable[FittedInterval]) -> Iterator[tuple[str, str]]:
+    """Labels of judged intervals and of those used before that overlap them."""
+    for judged in run.experiment.intervals(Use.VALIDATION):
+        for earlier in used:
+            if judged.start_ns < earlier.end_ns and earlier.start_ns < judged.end_ns:
+                yield judged.label, earlier.label

@@ -1,0 +1,87 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Everything that can be said about the sensors of one experiment."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+
+from forcetorque.analysis.assessment import Assessment, Demands, assess
+from forcetorque.analysis.findings import inspect_experiment
+from forcetorque.analysis.inspect import FindingRow, finding_rows
+from forcetorque.analysis.overview import IntervalOverview, StreamOverview, interval_overviews, stream_overviews
+from forcetorque.analysis.sensor_run import SensorRun
+from forcetorque.calibration import Calibration
+from forcetorque.experiment import Experiment
+from forcetorque.result import Row
+
+
+class ExperimentAssessment(Row):
+    """Everything about one experiment."""
+
+    experiment: str
+    """Its name."""
+    file: str
+    """Its file."""
+    robot: str
+    """Name of the robot."""
+    duration_s: float
+    """Time from the earliest to the latest stamp."""
+    streams: tuple[StreamOverview, ...]
+    """Streams of the recording."""
+    intervals: tuple[IntervalOverview, ...]
+    """Its intervals."""
+    findings: tuple[FindingRow, ...]
+    """What is wrong with the recording."""
+    sensors: tuple[Assessment, ...]
+    """Its sensors."""
+    inputs_sha256: dict[str, str]
+    """SHA-256 of every input file."""
+
+
+def assess_experiment(
+    experiment: Experiment,
+    calibrations: Mapping[str, Mapping[str, Calibration]],
+    *,
+    file: str,
+    demands: Demands,
+    progress: Callable[[str], None] | None = None,
+) -> ExperimentAssessment:
+    """Ask every question about the sensors of an experiment.
+
+    Args:
+        experiment: The experiment.
+        calibrations: Calibrations by name of their file, by sensor; the sensors that have any are judged, or all if
+            none has.
+        file: Name of its file.
+        demands: Limits and other sensors.
+        progress: Called with what is done next.
+
+    Returns:
+        The answers.
+    """
+    sensors = []
+    for sensor in experiment.sensors:
+        if calibrations and sensor.name not in calibrations:
+            continue
+        if progress is not None:
+            progress(f"judging {sensor.name}")
+        others = {
+            name: calibration
+            for other, group in calibrations.items()
+            if other != sensor.name
+            for name, calibration in group.items()
+        }
+        run = SensorRun(experiment, sensor)
+        sensors.append(assess(run, calibrations.get(sensor.name, {}), others=others, demands=demands))
+    start, end = experiment.recording.span_ns
+    return ExperimentAssessment(
+        experiment=experiment.name,
+        file=file,
+        robot=experiment.model.name,
+        duration_s=(end - start) * 1e-9,
+        streams=stream_overviews(experiment.recording),
+        intervals=interval_overviews(experiment.recording),
+        findings=finding_rows(start, inspect_experiment(experiment)),
+        sensors=tuple(sensors),
+        inputs_sha256=dict(experiment.inputs_sha256),
+    )

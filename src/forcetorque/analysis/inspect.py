@@ -1,0 +1,180 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Inspect a log or the recording of an experiment: what is wrong with it, where and how much."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Iterator, Sequence
+from pathlib import Path
+from typing import Literal
+
+from pydantic import Field
+
+from forcetorque.analysis.findings import inspect_experiment, inspect_recording
+from forcetorque.errors import MissingFileError
+from forcetorque.exchange.yarp import read_log_folder
+from forcetorque.experiment import load_experiment
+from forcetorque.recording import Finding, read_recording
+from forcetorque.result import Result, Row, Table
+
+_MOST_ALIKE = 8
+"""Lines of one kind and channel in the table; the rest is counted. JSON and CSV have them all."""
+
+
+class FindingRow(Row):
+    """One finding."""
+
+    stream: str
+    """Stream in which it was found."""
+    kind: str
+    """Kind, such as `gap`, `saturation`, `step`, `contact`."""
+    channel: str | None
+    """Channel, where it is not the whole stream."""
+    start_s: float | None
+    """First sample concerned; s from the earliest stamp of the recording."""
+    end_s: float | None
+    """Last sample concerned; s from the earliest stamp of the recording."""
+    count: int
+    """Number of samples concerned."""
+    size: float | None
+    """How large it is, in `unit`."""
+    unit: str | None
+    """Unit of the size."""
+    message: str
+    """What was found."""
+
+    @property
+    def likeness(self) -> tuple[str, str, str]:
+        """What it has in common with others of its kind."""
+        return self.stream, self.kind, self.channel or ""
+
+
+class Inspection(Result):
+    """What is wrong with a log."""
+
+    schema_name: Literal["forcetorque/inspect/1"] = Field(default="forcetorque/inspect/1", alias="schema")
+    """Form of the result."""
+    source: str
+    """What was inspected."""
+    streams: dict[str, int]
+    """Samples per stream."""
+    duration_s: float
+    """Time from the earliest to the latest stamp."""
+    findings: tuple[FindingRow, ...]
+    """Findings in the order of time."""
+
+    def blocks(self) -> Iterator[Table | str]:
+        """Give a table, with a few lines of what comes again and again.
+
+        Yields:
+            The table and sentences.
+        """
+        yield finding_table(self.findings, self.source)
+        for (stream, kind, channel), count in Counter(row.likeness for row in self.findings).items():
+            if count > _MOST_ALIKE:
+                yield f"{count - _MOST_ALIKE} more of {stream}: {kind} {channel}".rstrip()
+        streams = ", ".join(f"{name} ({count})" for name, count in self.streams.items())
+        yield f"{len(self.findings)} finding(s) in {self.duration_s:.1f} s of {streams}"
+
+    def columns(self) -> list[str]:
+        """Name the columns of the CSV.
+
+        Returns:
+            The keys of a finding, also where there is none.
+        """
+        return list(FindingRow.model_fields)
+
+
+def inspect_log(path: Path | str) -> Inspection:
+    """Inspect an experiment file, a folder of the project's own form, or a YARP dumper folder.
+
+    Args:
+        path: Experiment file or folder.
+
+    Returns:
+        What is wrong with it.
+
+    Raises:
+        MissingFileError: If there is nothing there.
+    """
+    source = Path(path)
+    if source.is_dir():
+        recording = read_recording(source) if (source / "recording.json").is_file() else read_log_folder(source)
+        findings = inspect_recording(recording)
+    elif source.is_file():
+        experiment = load_experiment(source)
+        recording, findings = experiment.recording, inspect_experiment(experiment)
+    else:
+        raise MissingFileError(f"{source}: expected an experiment file or the folder of a log, there is none")
+    start, end = recording.span_ns
+    return Inspection(
+        source=str(source),
+        streams={name: len(stream) for name, stream in recording.streams.items()},
+        duration_s=(end - start) * 1e-9,
+        findings=finding_rows(start, findings),
+    )
+
+
+def finding_rows(recording_start: int, findings: Iterable[Finding]) -> tuple[FindingRow, ...]:
+    """Put findings into rows.
+
+    Args:
+        recording_start: Earliest stamp of the recording, which is 0 s; ns.
+        findings: Findings about it.
+
+    Returns:
+        A row per finding, in their order.
+    """
+
+    def seconds(stamp_ns: int | None) -> float | None:
+        return None if stamp_ns is None else (stamp_ns - recording_start) * 1e-9
+
+    return tuple(
+        FindingRow(
+            stream=finding.stream,
+            kind=finding.kind,
+            channel=finding.channel,
+            start_s=seconds(finding.start_ns),
+            end_s=seconds(finding.end_ns),
+            count=finding.count,
+            size=finding.size,
+            unit=finding.unit,
+            message=finding.message,
+        )
+        for finding in findings
+    )
+
+
+def finding_table(findings: Sequence[FindingRow], caption: str) -> Table:
+    """Put findings into a table.
+
+    Args:
+        findings: Findings, any number.
+        caption: What was inspected.
+
+    Returns:
+        A line per finding, of many alike the first few.
+    """
+    alike: Counter[tuple[str, str, str]] = Counter()
+    lines = []
+    for row in findings:
+        alike[row.likeness] += 1
+        if alike[row.likeness] <= _MOST_ALIKE:
+            lines.append(_line(row))
+    return Table(
+        caption=caption,
+        headings=("stream", "kind", "channel", "from, s", "to, s", "size", "finding"),
+        rows=tuple(lines),
+    )
+
+
+def _line(row: FindingRow) -> tuple[str, ...]:
+    return (
+        row.stream,
+        row.kind,
+        row.channel or "",
+        "" if row.start_s is None else f"{row.start_s:.2f}",
+        "" if row.end_s is None else f"{row.end_s:.2f}",
+        "" if row.size is None else f"{row.size:.3g} {row.unit}",
+        row.message,
+    )

@@ -1,0 +1,169 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""How a sensor is read: what it logged, and what a calibration or a prior makes of it. Everybody reads it here."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Self
+
+import numpy as np
+
+from forcetorque.arrays import FloatArray, IntArray, require_shape
+from forcetorque.calibration import Calibration, Prior, WrenchModel, recover_raw
+from forcetorque.errors import ExperimentError
+from forcetorque.experiment import Experiment, ExperimentSensor
+from forcetorque.recording.alignment import interpolate
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Correction:
+    """How a reading becomes a wrench."""
+
+    model: WrenchModel
+    """What is done to the reading."""
+    source: str
+    """Where it comes from, in words."""
+    of_wrench: bool = False
+    """Whether the model is for the logged wrench, not for raw counts."""
+    variables: tuple[str, ...] = ()
+    """Variables of the sensor that the model needs, in its order."""
+    removes_offset: bool = True
+    """Whether data gave its offset; without, its wrenches have whatever offset the sensor has."""
+
+    @classmethod
+    def of(cls, name: str, calibration: Calibration) -> Self:
+        """Read by a calibration.
+
+        Args:
+            name: Name of its file.
+            calibration: The calibration.
+
+        Returns:
+            The correction.
+        """
+        variables = tuple(variable.name for variable in calibration.variables)
+        return cls(model=calibration.model, source=name, variables=variables)
+
+    @classmethod
+    def of_prior(cls, name: str, prior: Prior) -> Self:
+        """Read by the prior of a calibration, with the offset that the calibration carries for it.
+
+        Args:
+            name: Name of the calibration.
+            prior: Its prior.
+
+        Returns:
+            The correction.
+        """
+        model = WrenchModel(matrix=prior.matrix, offset=prior.offset)
+        return cls(model=model, source=f"the prior {prior.source}, offset of the data that {name} was fitted on")
+
+    @classmethod
+    def without_offset(cls, sensor: ExperimentSensor) -> Self:
+        """Read by the prior of the experiment, or take the logged wrench, with whatever offset it has.
+
+        Args:
+            sensor: The sensor.
+
+        Returns:
+            The correction.
+
+        Raises:
+            ExperimentError: If raw counts have no prior.
+        """
+        of_wrench = sensor.quantity != "raw"
+        if not of_wrench and sensor.prior is None:
+            raise ExperimentError(
+                f"sensor {sensor.name!r}: raw counts become wrenches by --calibration or a prior matrix"
+            )
+        matrix = np.eye(6) if of_wrench or sensor.prior is None else sensor.prior
+        words = "the logged wrench" if of_wrench else f"the prior {sensor.prior_source}"
+        return cls(
+            model=WrenchModel(matrix=matrix, offset=np.zeros(6)),
+            source=f"{words}, no offset removed",
+            of_wrench=of_wrench,
+            removes_offset=False,
+        )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Readings:
+    """What a sensor read at n instants, in every form that a correction may want."""
+
+    logged: FloatArray
+    """As logged; shape (n, c); counts, or N and N m."""
+    raw: FloatArray
+    """Raw readings, logged or recovered through the prior; shape (n, c); counts."""
+    variables: Mapping[str, FloatArray]
+    """Linear variables by name; shape (n,) each."""
+
+    @classmethod
+    def of(cls, sensor: ExperimentSensor, logged: FloatArray, variables: Mapping[str, FloatArray]) -> Self:
+        """Recover raw counts where only wrenches were logged.
+
+        Args:
+            sensor: The sensor.
+            logged: What it logged; shape (n, c).
+            variables: Linear variables by name; shape (n,) each.
+
+        Returns:
+            The readings.
+
+        Raises:
+            ExperimentError: If the stream is calibrated and the sensor has no prior.
+        """
+        if sensor.quantity == "raw":
+            return cls(logged=logged, raw=logged, variables=variables)
+        if sensor.prior is None:
+            raise ExperimentError(f"sensor {sensor.name!r}: recovering raw counts needs the prior matrix")
+        return cls(logged=logged, raw=recover_raw(logged, sensor.prior), variables=variables)
+
+    @classmethod
+    def joined(cls, parts: Sequence[Readings]) -> Self:
+        """Put readings one after the other.
+
+        Args:
+            parts: Readings of one sensor with the same variables, at least one.
+
+        Returns:
+            All of them.
+        """
+        return cls(
+            logged=np.concatenate([part.logged for part in parts]),
+            raw=np.concatenate([part.raw for part in parts]),
+            variables={name: np.concatenate([part.variables[name] for part in parts]) for name in parts[0].variables},
+        )
+
+    def wrench(self, correction: Correction) -> FloatArray:
+        """Read the sensor.
+
+        Args:
+            correction: How.
+
+        Returns:
+            Wrenches in the sensor's frame and direction; shape (n, 6); N, N m; NaN in gaps.
+        """
+        values = self.logged if correction.of_wrench else self.raw
+        name = f"{correction.source}: matrix"
+        require_shape(correction.model.matrix, name=name, shape=(6, values.shape[1]))
+        columns = [self.variables[variable] for variable in correction.variables]
+        return correction.model.wrench(values, np.stack(columns, axis=-1) if columns else None)
+
+
+def wrench_at(experiment: Experiment, sensor: ExperimentSensor, correction: Correction, at_ns: IntArray) -> FloatArray:
+    """Give what a sensor measured at given instants.
+
+    Args:
+        experiment: The experiment.
+        sensor: One of its sensors.
+        correction: How it is read.
+        at_ns: Instants; shape (n,); ns.
+
+    Returns:
+        Wrenches in its frame and direction; shape (n, 6); N, N m; NaN in gaps and while the board is saturated.
+    """
+    stream = experiment.recording.stream(sensor.stream)
+    logged = np.where(stream.held[:, None], np.nan, stream.signal(sensor.quantity).values)
+    variables = {name: sensor.variable(name).source.at(experiment.recording, at_ns) for name in correction.variables}
+    return Readings.of(sensor, interpolate(stream, logged, at_ns), variables).wrench(correction)

@@ -1,0 +1,143 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Calibrate a sensor for a file, and say what makes the calibration doubtful."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from forcetorque.analysis.calibrate import calibrate_sensor
+from forcetorque.analysis.calibration_tables import calibration_blocks, component_records
+from forcetorque.analysis.findings import doubtful_spans
+from forcetorque.analysis.sensor_run import SensorRun
+from forcetorque.array_field import ArrayField
+from forcetorque.arrays import FloatArray
+from forcetorque.calibration import Calibration, EstimationType, write_calibration
+from forcetorque.recording import Use
+from forcetorque.result import Result, Row, Table
+from forcetorque.spatial import WRENCH_COMPONENTS
+
+
+class SensorCalibration(Row):
+    """One calibration and the file that holds it."""
+
+    file: str
+    """Path of the file."""
+    calibration: Calibration = Field(repr=False)
+    """Its content."""
+    secondary_matrix: Annotated[FloatArray, ArrayField((6, 6))] | None
+    """`C C_prior^-1`, for a stream that is calibrated with the prior."""
+
+
+class SensorCalibrations(Result):
+    """Calibrations of the sensors of an experiment."""
+
+    schema_name: Literal["forcetorque/calibrate/1"] = Field(default="forcetorque/calibrate/1", alias="schema")
+    """Form of the result."""
+    experiment: str
+    """Name of the experiment."""
+    calibrations: tuple[SensorCalibration, ...]
+    """One per sensor that could be fitted."""
+
+    def save(self) -> None:
+        """Write every calibration to its file, in folders that are made where they are missing."""
+        for entry in self.calibrations:
+            file = Path(entry.file)
+            file.parent.mkdir(parents=True, exist_ok=True)
+            write_calibration(file, entry.calibration)
+
+    def blocks(self) -> Iterator[Table | str]:
+        """Give matrix, variables and excitation of every sensor.
+
+        Yields:
+            Tables and sentences.
+        """
+        for entry in self.calibrations:
+            yield from calibration_blocks(entry.calibration)
+            yield f"written to {entry.file}"
+
+    def records(self) -> list[dict[str, object]]:
+        """Give matrices, offsets and coefficients as flat lines.
+
+        Returns:
+            One line per sensor and component.
+        """
+        return [line for entry in self.calibrations for line in component_records(entry.calibration)]
+
+
+def calibrate_for_file(
+    run: SensorRun,
+    file: Path | str,
+    *,
+    code_version: str,
+    created: str,
+    regularisation: float | None = None,
+    kind: EstimationType | None = None,
+) -> SensorCalibrations:
+    """Fit a sensor, and say what makes the calibration doubtful.
+
+    Args:
+        run: The sensor.
+        file: File that `save` of the result writes.
+        code_version: As of `calibrate_sensor`.
+        created: As of `calibrate_sensor`.
+        regularisation: As of `calibrate_sensor`.
+        kind: As of `calibrate_sensor`.
+
+    Returns:
+        The calibration, which no file holds yet.
+    """
+    calibration = calibrate_sensor(
+        run, code_version=code_version, created=created, regularisation=regularisation, kind=kind
+    )
+    entry = SensorCalibration(file=str(file), calibration=calibration, secondary_matrix=calibration.secondary_matrix())
+    return SensorCalibrations(
+        experiment=run.experiment.name,
+        calibrations=(entry,),
+        warnings=(*data_doubts(run), *_fit_doubts(entry)),
+    )
+
+
+def data_doubts(run: SensorRun) -> Iterator[str]:
+    """Say what makes any fit on the calibration intervals doubtful.
+
+    Args:
+        run: The sensor.
+
+    Yields:
+        A sentence where the load was weighed with the sensor itself, and one per finding in a fitted interval.
+    """
+    experiment = run.experiment
+    if experiment.payload is not None:
+        yield (
+            "the load's mass was estimated with this sensor's own reading, so a wrong gain cannot be seen; "
+            "give mass_kg and centre_of_mass_m to judge it"
+        )
+    start_ns = experiment.recording.start_ns
+    for interval, finding in doubtful_spans(replace(experiment, sensors=(run.sensor,)), Use.CALIBRATION):
+        start, end = (((stamp_ns or 0) - start_ns) * 1e-9 for stamp_ns in (finding.start_ns, finding.end_ns))
+        yield (
+            f"interval {interval.label!r}: {finding.stream} {finding.kind} at {start:.2f}-{end:.2f} s: "
+            f"{finding.message}"
+        )
+
+
+def _fit_doubts(entry: SensorCalibration) -> Iterator[str]:
+    sensor, excited = entry.calibration.sensor.name, entry.calibration.validity.excited
+    if entry.secondary_matrix is not None:
+        diagonal = zip(WRENCH_COMPONENTS, entry.secondary_matrix.diagonal(), strict=True)
+        turned = [component for component, own in diagonal if own < 0.0]
+        if turned:
+            yield (
+                f"{sensor}: {', '.join(turned)} come(s) out with the sign of the prior reversed; "
+                "is gravity_direction or measure_direction the right way round?"
+            )
+    if unexcited := excited.count(False):
+        yield (
+            f"{sensor}: the loads leave {unexcited} of {len(excited)} raw directions unexcited; along them the matrix "
+            "is the prior's or noise"
+        )

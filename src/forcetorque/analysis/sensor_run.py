@@ -1,0 +1,238 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""One sensor of one experiment: what every question to it needs, computed when it is first asked for, and once."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Hashable, Mapping, Sequence
+from typing import TypeVar, cast
+
+from forcetorque.analysis.applicability import require_fit
+from forcetorque.analysis.candidate import JudgedCandidate, judged_candidates, uncalibrated
+from forcetorque.analysis.judged import JudgedWrenches, judged_wrenches
+from forcetorque.analysis.judged_instants import JudgedInstants
+from forcetorque.analysis.reading import Correction, Readings, wrench_at
+from forcetorque.analysis.samples import IntervalSamples, readings_over, samples_over
+from forcetorque.arrays import FloatArray
+from forcetorque.calibration import Calibration
+from forcetorque.errors import ExperimentError
+from forcetorque.estimation.picked import padded_samples
+from forcetorque.estimation.samples import robot_motion_at
+from forcetorque.experiment import Experiment, ExperimentSensor
+from forcetorque.experiment.contacts import touched_otherwise
+from forcetorque.recording import Interval, Stream, Use
+from forcetorque.robot import JointMotion, RootMotion
+
+_Answer = TypeVar("_Answer")
+
+
+class SensorRun:
+    """One sensor of one experiment. Questions take it, and share what they have in common."""
+
+    def __init__(self, experiment: Experiment, sensor: ExperimentSensor | str) -> None:
+        """Choose a sensor.
+
+        Args:
+            experiment: The experiment.
+            sensor: One of its sensors, or its name.
+        """
+        self.experiment = experiment
+        self.sensor = experiment.sensor(sensor) if isinstance(sensor, str) else sensor
+        self._known: dict[Hashable, object] = {}
+        self._motions: dict[Hashable, list[tuple[JointMotion, RootMotion]]] = {}
+
+    def __repr__(self) -> str:
+        return f"SensorRun({self.experiment.name!r}, {self.sensor.name!r}, serial={self.sensor.serial!r})"
+
+    @property
+    def stream(self) -> Stream:
+        """The stream that holds its reading."""
+        return self.experiment.recording.stream(self.sensor.stream)
+
+    def intervals(self, use: Use) -> tuple[Interval, ...]:
+        """Give the intervals of one use.
+
+        Args:
+            use: The use.
+
+        Returns:
+            Intervals in the order of time.
+        """
+        return tuple(sorted(self.experiment.intervals(use), key=lambda interval: interval.start_ns))
+
+    def interval_samples(
+        self, interval: Interval, *, variables: Collection[str] = (), smoothed: bool = True
+    ) -> IntervalSamples:
+        """Pair reading and reference over an interval.
+
+        Args:
+            interval: The interval.
+            variables: Names of the linear variables that are wanted; samples that lack one are left out.
+            smoothed: Whether the filter of the experiment is applied.
+
+        Returns:
+            The samples.
+        """
+        names = self._in_order(variables)
+        return self._once(
+            ("samples", _key(interval), names, smoothed),
+            lambda: samples_over(self.experiment, self.sensor, interval, variables=names, smoothed=smoothed),
+        )
+
+    def interval_readings(self, interval: Interval, *, variables: Collection[str] = ()) -> Readings:
+        """Take the readings over an interval, for which no reference is wanted.
+
+        Args:
+            interval: The interval.
+            variables: Names of the linear variables that are wanted; samples that lack one are left out.
+
+        Returns:
+            The readings, through the filter of the experiment.
+        """
+        names = self._in_order(variables)
+        return self._once(
+            ("readings", _key(interval), names),
+            lambda: readings_over(self.experiment, self.sensor, interval, variables=names),
+        )
+
+    def samples(self, use: Use, *, variables: Collection[str] = ()) -> list[IntervalSamples]:
+        """Pair reading and reference over the intervals of one use.
+
+        Args:
+            use: The use.
+            variables: Names of the linear variables that are wanted.
+
+        Returns:
+            Samples per interval, in the order of the file.
+        """
+        return [self.interval_samples(interval, variables=variables) for interval in self.experiment.intervals(use)]
+
+    def instants(self, interval: Interval) -> JudgedInstants:
+        """Give the instants at which the sensor is judged in an interval.
+
+        Args:
+            interval: The interval.
+
+        Returns:
+            Instants of all its samples, and those around it that the filter of the experiment takes.
+        """
+
+        def padded_instants() -> JudgedInstants:
+            recording, smoothing = self.experiment.recording, self.experiment.processing.smoothing
+            apart = touched_otherwise(interval, recording, self.experiment.contacts)
+            return JudgedInstants(samples=padded_samples(recording, self.stream, interval, smoothing, apart=apart))
+
+        return self._once(("instants", _key(interval)), padded_instants)
+
+    def motion(self, interval: Interval, joints: Sequence[str]) -> tuple[JointMotion, RootMotion]:
+        """Give the motion of joints and support at the instants of an interval.
+
+        Args:
+            interval: The interval.
+            joints: Joints whose motion is wanted.
+
+        Returns:
+            Motion of these joints, among others where a question before this one wanted more, and of the support frame.
+
+        Raises:
+            ExperimentError: If the interval has no support.
+        """
+        support = interval.support
+        if support is None:
+            raise ExperimentError(f"interval {interval.label!r}: expected a support frame, got none")
+        motions = self._motions.setdefault(_key(interval), [])
+        for motion in motions:
+            if set(joints) <= set(motion[0].names):
+                return motion
+        motions.append(
+            robot_motion_at(
+                self.experiment.recording,
+                self.experiment.model,
+                support,
+                joints,
+                self.stream,
+                self.instants(interval).at_ns,
+                processing=self.experiment.processing,
+            )
+        )
+        return motions[-1]
+
+    def measured(self, interval: Interval, correction: Correction) -> FloatArray:
+        """Give what the sensor measured at the instants of an interval.
+
+        Args:
+            interval: The interval.
+            correction: How it is read.
+
+        Returns:
+            Wrenches; shape (n, 6); N, N m; NaN in gaps.
+        """
+        return wrench_at(self.experiment, self.sensor, correction, self.instants(interval).at_ns)
+
+    def uncalibrated(self) -> Correction:
+        """Read the sensor by the prior of the experiment, or take the logged wrench.
+
+        Returns:
+            The correction, with the offset that the calibration intervals give.
+        """
+        return self._once("uncalibrated", lambda: uncalibrated(self))
+
+    def candidates(self, calibrations: Mapping[str, Calibration]) -> tuple[JudgedCandidate, ...]:
+        """Decide by what the sensor is read in turn.
+
+        Args:
+            calibrations: Calibrations of the sensor by name; without any it is read by the prior of the experiment.
+
+        Returns:
+            The candidates, priors first; a prior that several calibrations share comes once.
+        """
+        return self._once(("candidates", _names(calibrations)), lambda: judged_candidates(self, calibrations))
+
+    def judged(self, calibrations: Mapping[str, Calibration]) -> JudgedWrenches:
+        """Read the sensor by every candidate on the validation intervals.
+
+        Args:
+            calibrations: Calibrations of the sensor by name.
+
+        Returns:
+            Wrenches of all candidates at the same instants, and the reference.
+        """
+        return self._once(("judged", _names(calibrations)), lambda: judged_wrenches(self, calibrations))
+
+    def require_fit(self, name: str, calibration: Calibration) -> None:
+        """Refuse a calibration of another sensor, or of one that is read in another way.
+
+        Args:
+            name: Name of the calibration, for messages.
+            calibration: The calibration.
+        """
+        require_fit(name, calibration, self.experiment, self.sensor)
+
+    def _in_order(self, variables: Collection[str]) -> tuple[str, ...]:
+        return tuple(v.linear.name for v in self.sensor.variables if v.linear.name in variables)
+
+    def _once(self, key: Hashable, compute: Callable[[], _Answer]) -> _Answer:
+        if key not in self._known:
+            self._known[key] = compute()
+        return cast("_Answer", self._known[key])
+
+
+def _key(interval: Interval) -> Hashable:
+    # intervals of one label differ where somebody asks for the whole log
+    return interval.label, interval.start_ns, interval.end_ns
+
+
+def _names(calibrations: Mapping[str, Calibration]) -> Hashable:
+    return tuple((name, _Same(calibration)) for name, calibration in calibrations.items())
+
+
+class _Same:
+    """A calibration as a key, by identity: another one may come under the same name."""
+
+    def __init__(self, calibration: Calibration) -> None:
+        self.calibration = calibration
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, _Same) and self.calibration is other.calibration
+
+    def __hash__(self) -> int:
+        return id(self.calibration)

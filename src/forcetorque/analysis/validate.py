@@ -1,0 +1,112 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Judge a sensor where nothing touches: by the contact force that it reports, and by joint torques from it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Literal
+
+from pydantic import Field
+
+from forcetorque.analysis.contact_forces import (
+    BestCandidate,
+    ContactForceErrors,
+    contact_force_blocks,
+    contact_forces_of,
+)
+from forcetorque.analysis.free_sub_model import FreeSubModel
+from forcetorque.analysis.joint_torques import JointTorqueErrors, joint_torque_table, joint_torques_of
+from forcetorque.analysis.sensor_run import SensorRun
+from forcetorque.calibration import Calibration
+from forcetorque.evaluation import Offset, OtherSensors
+from forcetorque.result import Result, Table
+
+
+class Validation(Result):
+    """Contact forces and joint torques of sensors, by their calibrations and the priors that those came from."""
+
+    schema_name: Literal["forcetorque/validate/1"] = Field(default="forcetorque/validate/1", alias="schema")
+    """Form of the result."""
+    experiment: str
+    """Name of the experiment."""
+    other_sensors: Literal["model", "measured"]
+    """What the other sensors of the sub-model were taken to read."""
+    contact_forces: tuple[ContactForceErrors, ...]
+    """One per sensor, candidate and offset."""
+    best: tuple[BestCandidate, ...]
+    """One per sensor and offset."""
+    joint_torques: tuple[JointTorqueErrors, ...]
+    """One per sensor, candidate, offset and joint that depends on the sensor."""
+    left_out: tuple[str, ...]
+    """Torques that the log does not allow to estimate, and what gaps and short intervals leave out, in words."""
+
+    def blocks(self) -> Iterator[Table | str]:
+        """Give tables of contact forces, who is best, and tables of joint torques.
+
+        Yields:
+            Tables and sentences.
+        """
+        yield from contact_force_blocks(self.contact_forces, self.best)
+        for sensor in dict.fromkeys(row.sensor for row in self.contact_forces):
+            yield from self._without_offset(sensor)
+            torques = [row for row in self.joint_torques if row.sensor == sensor]
+            yield joint_torque_table(torques) if torques else f"{sensor}: no joint torque is estimated from it"
+        yield f"other sensors: as {'the model expects' if self.other_sensors == 'model' else 'they measured'}"
+
+    def records(self) -> list[dict[str, object]]:
+        """Give contact forces and joint torques as flat lines.
+
+        Returns:
+            One line per row; `what` says which it is.
+        """
+        forces: list[dict[str, object]] = [{"what": "contact_force", **row.flat()} for row in self.contact_forces]
+        return forces + [{"what": "joint_torque", **row.flat()} for row in self.joint_torques]
+
+    def _without_offset(self, sensor: str) -> Iterator[str]:
+        """Say what candidates are read by whose wrenches have whatever offset the sensor has."""
+        for row in self.contact_forces:
+            if row.sensor == sensor and row.offset is Offset.NONE:
+                yield f"{sensor}, {row.candidate}, offset {row.offset}: read by {row.offset_source}"
+
+
+def validate(
+    run: SensorRun,
+    calibrations: Mapping[str, Calibration],
+    *,
+    others: Mapping[str, Calibration] | None = None,
+    other_sensors: OtherSensors = OtherSensors.MODEL,
+    sub_model: str | None = None,
+    contact: str | None = None,
+) -> Validation:
+    """Judge candidates of a sensor by contact force and joint torques where nothing touches.
+
+    Args:
+        run: The sensor; the validation intervals are judged.
+        calibrations: Calibrations of that sensor by name; their priors are judged too, or that of the experiment where
+            there is none.
+        others: Calibrations of the other sensors by name, for the mode `measured`; where there is none, their prior.
+        other_sensors: Whether the other sensors read what the model expects or what they measured.
+        sub_model: The sub-model that nothing touches, by the sensor at its base or the root link; None for that
+            outboard of the sensor.
+        contact: Link of the sub-model at whose origin the contact is estimated; None for that mounted on the sensor.
+
+    Returns:
+        What `contact_forces` and `joint_torques` give, from one motion of the robot.
+
+    Raises:
+        ExperimentError: If there is nothing to judge, or an interval has no support.
+    """
+    free = FreeSubModel.of(run, others=others, other_sensors=other_sensors, sub_model=sub_model, contact=contact)
+    # torques need the motion of more joints, in which that of the contact force is found
+    torques = joint_torques_of(free, calibrations)
+    forces = contact_forces_of(free, calibrations)
+    left_out = tuple(dict.fromkeys(f"{run.sensor.name}: {words}" for words in (*forces.left_out, *torques.left_out)))
+    return Validation(
+        experiment=run.experiment.name,
+        other_sensors=other_sensors.value,
+        contact_forces=forces.verdicts,
+        best=forces.best,
+        joint_torques=torques.verdicts,
+        left_out=left_out,
+        warnings=tuple(f"left out: {words}" for words in left_out),
+    )

@@ -1,0 +1,168 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The verdict on a sensor in sentences, from everything that was measured of it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING, Annotated, Literal
+
+from forcetorque.analysis.evaluate import CandidateErrors
+from forcetorque.analysis.prior_comparison import FEWEST_INDEPENDENT, PriorComparison
+from forcetorque.evaluation import Offset
+from forcetorque.result import Row, Shown, short_names, with_error
+
+if TYPE_CHECKING:
+    from forcetorque.analysis.assessment import Assessment
+
+_FEW_INDEPENDENT = 20.0
+"""Independent samples below which a standard error from ten blocks is itself a guess."""
+
+Tone = Literal["good", "caution", "bad", "unknown", "note"]
+
+OFFSET_WORDS = {
+    Offset.FITTED: "its own offset",
+    Offset.FIRST_SECOND: "the offset of the first second",
+    Offset.JUDGED_MEAN: "the mean of the judged samples taken off",
+    Offset.NONE: "no offset removed",
+}
+"""The offsets in sentences."""
+
+
+class VerdictLine(Row):
+    """A sentence of the verdict."""
+
+    tone: Annotated[Tone, Shown("")]
+    """How good it is."""
+    text: Annotated[str, Shown("verdict")]
+    """The sentence."""
+
+
+def verdict(assessment: Assessment) -> tuple[VerdictLine, ...]:
+    """Say what the numbers of a sensor come to: acceptance, errors, and what makes them doubtful.
+
+    Args:
+        assessment: The numbers.
+
+    Returns:
+        Sentences, the most important first.
+    """
+    return tuple(VerdictLine(tone=tone, text=text) for tone, text in _lines(assessment))
+
+
+def _lines(assessment: Assessment) -> Iterator[tuple[Tone, str]]:
+    yield from _acceptance(assessment)
+    yield from _errors(assessment)
+    yield from _independence(assessment)
+    for warning in assessment.warnings:
+        yield "caution", warning
+    yield from _excitation(assessment)
+    yield from _saturation(assessment)
+    yield from _sphere(assessment)
+    for what, reason in assessment.not_judged.items():
+        yield "unknown", f"not judged: {what}: {reason}"
+    for words in assessment.left_out:
+        yield "unknown", f"left out: {words}"
+
+
+def _acceptance(assessment: Assessment) -> Iterator[tuple[Tone, str]]:
+    names = short_names([row.candidate for row in assessment.criteria])
+    for candidate, name in names.items():
+        rows = [row for row in assessment.criteria if row.candidate == candidate]
+        failed = [row.criterion for row in rows if not row.passed]
+        if failed:
+            yield "bad", f"{name} is not accepted: {len(failed)} of {len(rows)} criteria fail: {', '.join(failed)}"
+        else:
+            yield "good", f"{name} is accepted: all {len(rows)} criteria hold"
+
+
+def _errors(assessment: Assessment) -> Iterator[tuple[Tone, str]]:
+    names = short_names([row.candidate for row in assessment.evaluation])
+    for row in assessment.evaluation:
+        start = f"{names[row.candidate]} with {OFFSET_WORDS[row.offset]}, {row.samples} samples that were not fitted: "
+        compared = [one for one in assessment.comparisons if (one.candidate, one.offset) == (row.candidate, row.offset)]
+        if compared:
+            constant = f"; {compared[0].constant:.2f} N is constant" if row.offset is Offset.FITTED else ""
+            words = "; ".join(f"{one.quantity} error {_compared(one)}" for one in compared)
+            yield _tone(compared), start + words + constant
+        elif row.candidate in assessment.calibrations:
+            yield "unknown", f"{start}{_plain(row)}; it has no prior to compare it with"
+        elif not assessment.calibrations:
+            yield "unknown", f"{start}{_plain(row)}; no calibration was given to compare it with"
+    if any(row.offset is Offset.FITTED for row in assessment.comparisons):
+        yield (
+            "note",
+            "its own offset is one draw: intervals say how the error scatters in these recordings, not how the offset "
+            "changes from one switching on to the next",
+        )
+
+
+def _plain(row: CandidateErrors) -> str:
+    force = with_error(row.force_error_mean_N, row.force_error_standard_error_N, digits=2)
+    moment = with_error(row.moment_error_mean_Nm, row.moment_error_standard_error_Nm, digits=3)
+    return f"force error {force} N, moment error {moment} N m"
+
+
+def _compared(row: PriorComparison) -> str:
+    digits = 2 if row.quantity == "force" else 3
+    means = f"{row.mean:.{digits}f} {row.unit} against {row.prior_mean:.{digits}f} {row.unit} with the prior"
+    judgement = row.judgement
+    if judgement is None:
+        few = row.independent is not None and row.independent < FEWEST_INDEPENDENT
+        what = f"too few samples, worth {row.independent:.0f} independent ones," if few else "too few samples"
+        return f"{means} ({what} to tell them apart)"
+    interval = f"less by {row.gain:.{digits}f}, {row.gain_low:.{digits}f} to {row.gain_high:.{digits}f}"
+    return f"{means} ({judgement}: {interval})"
+
+
+def _tone(rows: Sequence[PriorComparison]) -> Tone:
+    """Good needs neither of force and moment worse, and one better."""
+    judgements = {row.judgement for row in rows}
+    if "worse" in judgements:
+        return "bad"
+    return "good" if "better" in judgements else "caution"
+
+
+def _independence(assessment: Assessment) -> Iterator[tuple[Tone, str]]:
+    counts = [count for row in assessment.independence for count in row.independent if count is not None]
+    if counts and min(counts) < _FEW_INDEPENDENT:
+        yield (
+            "caution",
+            f"neighbouring errors repeat each other: some components are worth {min(counts):.0f} independent samples "
+            "only, so standard errors are themselves uncertain",
+        )
+
+
+def _excitation(assessment: Assessment) -> Iterator[tuple[Tone, str]]:
+    names = short_names(list(assessment.calibrations))
+    for file, calibration in assessment.calibrations.items():
+        excited = calibration.validity.excited
+        if not all(excited):
+            yield (
+                "caution",
+                f"{names[file]}: the fitted loads moved {sum(excited)} of {len(excited)} raw directions; along the "
+                "others the prior, or noise, decides",
+            )
+
+
+def _saturation(assessment: Assessment) -> Iterator[tuple[Tone, str]]:
+    # every candidate is read from the same recording
+    shares = {interval.label: interval.saturated_share for row in assessment.static for interval in row.recording}
+    hit = {label: share for label, share in shares.items() if share > 0.0}
+    if hit:
+        worst = max(hit, key=hit.__getitem__)
+        yield "bad", f"saturated or held in {len(hit)} interval(s), most in {worst!r}: {hit[worst]:.2%} of it"
+
+
+def _sphere(assessment: Assessment) -> Iterator[tuple[Tone, str]]:
+    names = short_names([row.candidate for row in assessment.spheres])
+    for row in assessment.spheres:
+        fit = row.with_reference
+        if fit is None or not fit.identifiable or fit.index_kg is None:
+            continue
+        high = "" if fit.index_high_kg is None else f" ({fit.index_low_kg:.3f} to {fit.index_high_kg:.3f})"
+        text = f"{names[row.candidate]}: the three axes weigh the limb {fit.index_kg:.3f} kg apart{high}"
+        if row.fitted_on:
+            labels = ", ".join(map(repr, row.fitted_on))
+            yield "caution", f"{text}, which flatters: it was fitted on {labels}"
+        else:
+            yield "note", text

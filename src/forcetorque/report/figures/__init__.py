@@ -1,0 +1,32 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Figures of results, as PNG."""
+
+from forcetorque.report.figures.compare import index_figure
+from forcetorque.report.figures.comparison import comparison_figure
+from forcetorque.report.figures.contacts import contact_figure
+from forcetorque.report.figures.differences import difference_figure
+from forcetorque.report.figures.excitation import excitation_figure
+from forcetorque.report.figures.force_space import force_space_figure
+from forcetorque.report.figures.gains import gain_figure
+from forcetorque.report.figures.held_out import held_out_figure
+from forcetorque.report.figures.lambda_difference import lambda_difference_figure
+from forcetorque.report.figures.lambda_force import lambda_force_figure
+from forcetorque.report.figures.residuals import residual_figure
+from forcetorque.report.figures.sphere import sphere_figure
+from forcetorque.report.figures.wrench_space import space_figure
+
+__all__ = [
+    "comparison_figure",
+    "contact_figure",
+    "difference_figure",
+    "excitation_figure",
+    "force_space_figure",
+    "gain_figure",
+    "held_out_figure",
+    "index_figure",
+    "lambda_difference_figure",
+    "lambda_force_figure",
+    "residual_figure",
+    "space_figure",
+    "sphere_figure",
+]

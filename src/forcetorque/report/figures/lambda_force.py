@@ -1,0 +1,165 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Figure of the contact force that is left on validation data, over lambda."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from forcetorque.arrays import FloatArray, IntArray
+from forcetorque.errors import ShapeError, known_names
+from forcetorque.report.figures.canvas import (
+    REFERENCE_COLOUR,
+    ROW_INCHES,
+    TITLE_POINTS,
+    legend_below,
+    look,
+    new_figure,
+    png_bytes,
+    shown_name,
+)
+from forcetorque.report.figures.inputs import drawable_each
+from forcetorque.report.figures.lambda_axis import (
+    LAMBDA_LABEL,
+    LAMBDA_MEANING,
+    MARKED,
+    draw_curves,
+    rising_lambdas,
+    set_height_axis,
+    set_lambda_axis,
+)
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+MOST_HUES, MOST_CURVES = 6, 20
+"""Data sets, and curves, in one panel; with more, each data set has its own."""
+
+_PANEL_COLUMNS = 3
+_WORKBENCH: dict[str, Any] = {"color": REFERENCE_COLOUR, "linestyle": (0, (10, 3)), "linewidth": 1.2}
+
+_Curves = dict[str, dict[str, FloatArray]]
+
+
+def lambda_force_figure(
+    lambdas: FloatArray,
+    curves: Mapping[str, Mapping[str, FloatArray]],
+    *,
+    workbench: float | None = None,
+    chosen: tuple[str, str, float] | None = None,
+) -> bytes:
+    """Draw the mean magnitude of the contact force on validation data over lambda [1].
+
+    Up to `MOST_HUES` data sets with `MOST_CURVES` curves share a panel, colour by data set, dashes and points by
+    estimation type; of more, each has its own panel. The axis of forces is logarithmic where they span more than a
+    decade.
+
+    Args:
+        lambdas: Those of equation (5.4) of [1], at least 0, in any order; shape (l,); counts2.
+        curves: Mean magnitude of the contact force by data set and estimation type; shape (l,); N. What is not a finite
+            number breaks the curve.
+        workbench: The same with the Workbench matrix, for a horizontal line; N. None where there is no such matrix.
+        chosen: Data set, estimation type and lambda of the point to mark.
+
+    Returns:
+        The figure as PNG.
+
+    Raises:
+        MissingExtraError: If matplotlib is not installed.
+        ShapeError: If there are no curves or no lambdas, the shapes differ, a lambda is negative or not finite, the
+            force of the Workbench matrix is not finite, or what was chosen is not among the curves.
+
+    References:
+        [1] F. J. Andrade Chavez, Force-torque sensing in robotics, thesis (2019), figure 5.5 and tables 5.5, 5.6.
+    """
+    rising, order = rising_lambdas(lambdas)
+    given = _sorted(curves, order)
+    best = math.nan if chosen is None else _force_at(chosen, rising, given)
+    if workbench is not None and not math.isfinite(workbench):
+        raise ShapeError(f"workbench: expected a finite force in N, got {workbench}; None draws no line")
+    shared = len(given) <= MOST_HUES and sum(map(len, given.values())) <= MOST_CURVES
+    groups = [given] if shared else [{name: types} for name, types in given.items()]
+    kinds = list(dict.fromkeys(kind for types in given.values() for kind in types))
+    figure, panels = _panels(len(groups))
+    set_height_axis(panels[0], _heights(given, workbench))
+    for panel, group in zip(panels, groups, strict=True):
+        _draw(panel, rising, group, kinds, workbench)
+        if len(group) == 1:
+            panel.set_title(shown_name(next(iter(group))), fontsize=TITLE_POINTS)
+        if chosen is not None and chosen[0] in group:
+            panel.plot(chosen[2], best, zorder=4.0, clip_on=False, **MARKED)
+    figure.supylabel("mean magnitude of the contact force, N", fontsize=TITLE_POINTS)
+    keys = _keys(list(groups[0]), kinds)
+    if workbench is not None:
+        keys.append((f"Workbench: {workbench:.4g} N", _WORKBENCH))
+    if chosen is not None:
+        name, kind = map(shown_name, chosen[:2])
+        keys.append((f"{name}, {kind}, lambda {chosen[2]:g}: {best:.4g} N", MARKED))
+    legend_below(figure, keys, title=LAMBDA_MEANING)
+    return png_bytes(figure)
+
+
+def _sorted(curves: Mapping[str, Mapping[str, FloatArray]], order: IntArray) -> _Curves:
+    if not curves:
+        raise ShapeError("curves: expected at least one data set with its curves, got none")
+    checked = {
+        name: drawable_each(types, name=f"curves[{name!r}]", shape=(len(order),)) for name, types in curves.items()
+    }
+    return {name: {kind: values[order] for kind, values in types.items()} for name, types in checked.items()}
+
+
+def _force_at(chosen: tuple[str, str, float], rising: FloatArray, given: _Curves) -> float:
+    name, kind, value = chosen
+    if name not in given:
+        raise ShapeError(f"chosen: no data set is called {name!r}; {known_names(name, given)}")
+    if kind not in given[name]:
+        raise ShapeError(f"chosen: {name!r} has no estimation type {kind!r}; {known_names(kind, given[name])}")
+    (places,) = np.nonzero(rising == value)
+    if not len(places):
+        raise ShapeError(f"chosen: expected one of the lambdas {rising.tolist()}, got {value!r}")
+    return float(given[name][kind][places[0]])
+
+
+def _heights(given: _Curves, workbench: float | None) -> FloatArray:
+    forces = [values for types in given.values() for values in types.values()]
+    return np.concatenate([*forces, [] if workbench is None else [workbench]])
+
+
+def _panels(count: int) -> tuple[Figure, list[Axes]]:
+    columns = min(count, _PANEL_COLUMNS)
+    rows = math.ceil(count / columns)
+    figure = new_figure(ROW_INCHES[1] * (1.7 if count == 1 else max(1.2, 0.85 * rows)))
+    panels = list(figure.subplots(rows, columns, squeeze=False, sharex=True, sharey=True).ravel())
+    for k, unused in enumerate(panels[count:], start=count):
+        panels[k - columns].tick_params(labelbottom=True)
+        unused.remove()
+    for panel in panels[max(0, count - columns) : count]:
+        panel.set_xlabel(LAMBDA_LABEL)
+    return figure, panels[:count]
+
+
+def _draw(panel: Axes, rising: FloatArray, group: _Curves, kinds: list[str], workbench: float | None) -> None:
+    """Draw curves of one data set, or of several that share a panel."""
+    curves, looks = [], []
+    for k, types in enumerate(group.values()):
+        for kind, values in types.items():
+            style = look(kinds.index(kind))
+            curves.append(values)
+            looks.append(style if len(group) == 1 else replace(style, colour=look(k).colour))
+    if workbench is not None:
+        panel.axhline(workbench, **_WORKBENCH)
+    draw_curves(panel, rising, curves, looks)
+    set_lambda_axis(panel, rising)
+
+
+def _keys(hues: list[str], kinds: list[str]) -> list[tuple[str, dict[str, Any]]]:
+    """What the legend names: data sets by their colours where several share a panel, types by dashes and points."""
+    if len(hues) == 1:
+        return [(shown_name(kind), look(k).key) for k, kind in enumerate(kinds)]
+    sets = [(shown_name(name), {"color": look(k).colour, "linewidth": 5.0}) for k, name in enumerate(hues)]
+    return sets + [(shown_name(kind), look(k).key | {"color": "0.35"}) for k, kind in enumerate(kinds)]

@@ -1,0 +1,122 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The figures of thesis 5.3 for one sensor, as files."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+import numpy as np
+
+from forcetorque.analysis import SensorStudy
+from forcetorque.arrays import FloatArray
+from forcetorque.atomic import write_bytes_atomically
+from forcetorque.calibration import WrenchModel
+from forcetorque.evaluation import KNOWN_BEFORE, Offset
+from forcetorque.report import figures
+from forcetorque.study import WORKBENCH, ValidationSet, tables, with_offset
+
+_PAUSE_S = 2.0
+"""Pause that is drawn between validation intervals; s."""
+
+
+def write_figures(sensor: SensorStudy, folder: Path) -> list[str]:
+    """Draw figures 5.2 to 5.7 and 5.9; those over the types are of the best candidate's data set.
+
+    Args:
+        sensor: The study of one sensor.
+        folder: Folder to write to.
+
+    Returns:
+        Names of the files.
+    """
+    study = sensor.study
+    chosen = study.choices[Offset.FIRST_SECOND].by_magnitude
+    data_set = study.fits.candidates[chosen].data_set
+    names, differences = tables.matrix_differences(study, data_set)
+    unit = "1e-4 N/count"  # that of `tables.DIFFERENCE_UNIT`
+    draw: dict[str, Callable[[], bytes]] = {
+        "figure_5_2_wrench_space.png": lambda: figures.space_figure(_clouds(sensor)),
+        "figure_5_3_matrix_differences.png": lambda: figures.difference_figure(names, differences, unit=unit),
+        "figure_5_6_contact_forces.png": lambda: _contact_figure(sensor, slice(0, 3), "N"),
+        "figure_5_7_contact_moments.png": lambda: _contact_figure(sensor, slice(3, 6), "N m"),
+        "figure_5_9_measured_and_reference.png": lambda: _comparison_figure(sensor),
+    }
+    lambdas = {candidate.lambda_counts2 for candidate in study.fits.candidates}
+    if study.workbench is not None and len(lambdas) > 1:
+        lambdas_of, curves = tables.differences_to_workbench(study, data_set)
+        draw["figure_5_4_differences_to_workbench.png"] = lambda: figures.lambda_difference_figure(
+            np.array(lambdas_of), curves, unit=unit
+        )
+        for offset in KNOWN_BEFORE:
+            name = f"figure_5_5_mean_forces_offset_{offset.replace('-', '_')}.png"
+            draw[name] = lambda offset=offset: _lambda_force_figure(sensor, offset)  # type: ignore[misc]
+    for name, figure in draw.items():
+        write_bytes_atomically(folder / name, figure())
+    return sorted(draw)
+
+
+def _clouds(sensor: SensorStudy) -> dict[str, FloatArray]:
+    kinds: dict[str, list[FloatArray]] = {}
+    for interval in sensor.data.calibration:
+        kinds.setdefault(interval.kind, []).append(interval.part.samples.reference)
+    return {kind: np.concatenate(parts) for kind, parts in kinds.items()}
+
+
+def _lambda_force_figure(sensor: SensorStudy, offset: Offset) -> bytes:
+    study = sensor.study
+    pooled, best = study.judgements[offset].over(), study.choices[offset].by_magnitude
+    curves: dict[str, dict[str, list[float]]] = {}
+    for candidate, value in zip(study.fits.candidates, pooled.force_mean, strict=False):
+        curves.setdefault(candidate.data_set, {}).setdefault(candidate.kind.name, []).append(float(value))
+    lambdas = list(dict.fromkeys(candidate.lambda_counts2 for candidate in study.fits.candidates))
+    chosen = study.fits.candidates[best]
+    return figures.lambda_force_figure(
+        np.array(lambdas),
+        {name: {kind: np.array(values) for kind, values in types.items()} for name, types in curves.items()},
+        workbench=float(pooled.force_mean[-1]),
+        chosen=(chosen.data_set, chosen.kind.name, chosen.lambda_counts2),
+    )
+
+
+def _judged_models(sensor: SensorStudy) -> dict[str, tuple[WrenchModel, Offset]]:
+    """The candidates of figures 5.6 and 5.7, with the offset that each is judged with."""
+    models = {}
+    if sensor.study.workbench is not None:
+        models[WORKBENCH] = (sensor.study.workbench, Offset.FIRST_SECOND)
+    for offset in KNOWN_BEFORE:
+        mode = offset.replace("-", "_")
+        models[f"best, offset {offset}"] = (sensor.calibrations[f"best_offset_{mode}"].model, offset)
+        models[f"best by axis, offset {offset}"] = (sensor.calibrations[f"best_by_axis_offset_{mode}"].model, offset)
+    return models
+
+
+def _contact_figure(sensor: SensorStudy, axes: slice, unit: str) -> bytes:
+    sets = [interval.validation_set for interval in sensor.data.validation]
+    candidates = {
+        name: np.concatenate([(with_offset(model, one, offset) - one.reference)[:, axes] for one in sets])
+        for name, (model, offset) in _judged_models(sensor).items()
+    }
+    time, spans = _joined_time(sets)
+    return figures.contact_figure(time, candidates, unit=unit, spans=spans)
+
+
+def _joined_time(sets: Sequence[ValidationSet]) -> tuple[FloatArray, list[tuple[str, int, int]]]:
+    """One time axis for all validation intervals, and where each lies on it."""
+    parts, spans, start, first = [], [], 0.0, 0
+    for one in sets:
+        parts.append(start + one.time_s - one.time_s[0])
+        spans.append((one.label, first, first + len(one.time_s)))
+        start, first = float(parts[-1][-1]) + _PAUSE_S, first + len(one.time_s)
+    return np.concatenate(parts), spans
+
+
+def _comparison_figure(sensor: SensorStudy) -> bytes:
+    sets = [interval.validation_set for interval in sensor.data.validation]
+    liveliest = max(sets, key=lambda one: float(one.reference[:, :3].var(axis=0).sum()))
+    candidates = {
+        name: with_offset(model, liveliest, offset)
+        for name, (model, offset) in _judged_models(sensor).items()
+        if name in (WORKBENCH, f"best, offset {Offset.FIRST_SECOND}")
+    }
+    return figures.comparison_figure(liveliest.time_s, liveliest.reference, candidates)

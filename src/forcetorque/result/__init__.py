@@ -1,0 +1,33 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The one form of every answer: rows whose fields say unit and digits, and all that is shown made from them."""
+
+from forcetorque.result.cells import finite_or_none, interval, number, with_error
+from forcetorque.result.names import short_names
+from forcetorque.result.registry import result_classes
+from forcetorque.result.result import Result
+from forcetorque.result.row import AxisValues, FloatOrNull, Row, Values, WrenchValues
+from forcetorque.result.shown import COMPONENTS, Shown, ShownWrench
+from forcetorque.result.table import Table, table_of
+from forcetorque.result.text import table_text, wrapped
+
+__all__ = [
+    "COMPONENTS",
+    "AxisValues",
+    "FloatOrNull",
+    "Result",
+    "Row",
+    "Shown",
+    "ShownWrench",
+    "Table",
+    "Values",
+    "WrenchValues",
+    "finite_or_none",
+    "interval",
+    "number",
+    "result_classes",
+    "short_names",
+    "table_of",
+    "table_text",
+    "with_error",
+    "wrapped",
+]

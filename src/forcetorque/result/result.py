@@ -1,0 +1,136 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The one form of an answer: a frozen model from which JSON, CSV, text, page, schema and `repr` come."""
+
+from __future__ import annotations
+
+import html
+import json
+from collections.abc import Iterable, Iterator, Sequence
+from typing import Any, Self
+
+from pydantic import Field
+
+from forcetorque.errors import ShapeError
+from forcetorque.result.row import Row
+from forcetorque.result.table import Table
+from forcetorque.result.text import table_text, wrapped
+
+NOTEBOOK_WIDTH = 100
+"""Characters of a line where nobody says how wide the page is."""
+
+
+class Result(Row):
+    """What a question gave. A class of its own for every question adds a field `schema`, rows and tables."""
+
+    warnings: tuple[str, ...] = Field(default=(), exclude=True)
+    """What makes the answer doubtful, in sentences; messages, not part of the JSON."""
+
+    def blocks(self) -> Iterator[Table | str]:
+        """Give what people read, in its order; every class has its own.
+
+        Yields:
+            Tables and sentences.
+        """
+        yield from ()
+
+    def records(self) -> list[dict[str, object]]:
+        """Give the answer as flat lines of numbers, for CSV.
+
+        Returns:
+            One line per row of the first list of rows; classes that hold several say what each line is.
+        """
+        for name in type(self).model_fields:
+            value = getattr(self, name)
+            if isinstance(value, tuple) and value and all(isinstance(entry, Row) for entry in value):
+                return [entry.flat() for entry in value]
+        return []
+
+    def columns(self) -> list[str]:
+        """Name the columns of the CSV.
+
+        Returns:
+            The keys of all records in the order in which they come; of the rows that there might be, where there are
+            none.
+        """
+        return list(dict.fromkeys(name for record in self.records() for name in record))
+
+    def text(self, width: int = NOTEBOOK_WIDTH) -> str:
+        """Write the answer for people.
+
+        Args:
+            width: Characters of a line; narrow ones get tables on their side, never a folded number.
+
+        Returns:
+            Lines, each with its end.
+        """
+        return "".join(
+            f"{wrapped(block, width)}\n" if isinstance(block, str) else table_text(block, width)
+            for block in self.blocks()
+        )
+
+    def json_text(self) -> str:
+        """Write the answer as JSON.
+
+        Returns:
+            One object with stable keys.
+        """
+        return json.dumps(self.model_dump(mode="json", by_alias=True), indent=2, allow_nan=False)
+
+    def __str__(self) -> str:
+        return self.text()
+
+    def _repr_html_(self) -> str:
+        return "".join(
+            f"<p>{html.escape(block)}</p>" if isinstance(block, str) else _html_table(block) for block in self.blocks()
+        )
+
+    @classmethod
+    def described(cls) -> dict[str, Any]:
+        """Describe the JSON.
+
+        Returns:
+            Its JSON schema.
+        """
+        return cls.model_json_schema(mode="serialization")
+
+    @classmethod
+    def together(cls, results: Iterable[Self]) -> Self:
+        """Put the answers for several sensors of one experiment together.
+
+        Args:
+            results: Answers of one kind, at least one.
+
+        Returns:
+            One with the rows and warnings of all; what is no list is that of the first.
+
+        Raises:
+            ShapeError: If there is none.
+        """
+        parts: Sequence[Self] = tuple(results)
+        if not parts:
+            raise ShapeError(f"{cls.__name__}: expected at least one result to put together, got none")
+        joined: dict[str, Any] = {}
+        for name in cls.model_fields:
+            values = [getattr(part, name) for part in parts]
+            if isinstance(values[0], tuple):
+                # a warning or a sentence that several sensors share is said once
+                entries = [entry for value in values for entry in value]
+                joined[name] = tuple(dict.fromkeys(entries)) if _are_words(entries) else tuple(entries)
+        return parts[0].model_copy(update=joined)
+
+
+def _are_words(entries: Sequence[Any]) -> bool:
+    return all(isinstance(entry, str) for entry in entries)
+
+
+def _html_table(table: Table) -> str:
+    def line(cells: Sequence[str], tag: str) -> str:
+        aligned = ("right" if numeric else "left" for numeric in table.numeric)
+        return "".join(
+            f'<{tag} style="text-align:{side}">{html.escape(cell)}</{tag}>'
+            for cell, side in zip(cells, aligned, strict=True)
+        )
+
+    rows = "".join(f"<tr>{line(row, 'td')}</tr>" for row in table.rows)
+    caption = f"<caption>{html.escape(table.caption)}</caption>" if table.caption else ""
+    return f"<table>{caption}<thead><tr>{line(table.headings, 'th')}</tr></thead><tbody>{rows}</tbody></table>"

@@ -1,0 +1,87 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Calibrating for a file: what is written, what is shown, and what is said to be doubtful."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from forcetorque.analysis import SensorCalibrations, SensorRun, calibrate_for_file, calibrate_sensor, data_doubts
+from forcetorque.calibration import read_calibration
+from forcetorque.experiment import load_experiment
+from tests.experiments import FT_LOG, PARQUET, TWO, YARP, edit, edit_lines, snapshot
+from tests.result.showing import require_shown
+from tests.warm_experiments import TEMPERATURE, with_variables
+
+
+def _calibrated(
+    path: Path, file: Path, *, sensor: str = "arm_ft", regularisation: float | None = 5.0
+) -> SensorCalibrations:
+    run = SensorRun(load_experiment(path), sensor)
+    return calibrate_for_file(run, file, code_version="1", created="now", regularisation=regularisation)
+
+
+def test_a_file_is_written_when_it_is_asked_for(arm: Path) -> None:
+    """Not before `save`, into folders that it makes; it holds what `calibrate_sensor` gives."""
+    before = snapshot(arm)
+    file = arm / "deep" / "made.json"
+    calibrations = _calibrated(arm / PARQUET, file)
+    assert snapshot(arm) == before
+    calibrations.save()
+    run = SensorRun(load_experiment(arm / PARQUET), "arm_ft")
+    plain = calibrate_sensor(run, code_version="1", created="now", regularisation=5.0)
+    written = read_calibration(file)
+    assert written.matrix.tobytes() == plain.matrix.tobytes()
+    assert (
+        json.loads(file.read_text(encoding="utf-8"))
+        == json.loads(calibrations.json_text())["calibrations"][0]["calibration"]
+    )
+    (entry,) = calibrations.calibrations
+    assert written.prior is not None
+    assert entry.secondary_matrix is not None
+    restored = entry.secondary_matrix @ written.prior.matrix
+    # rounding of a solve with a prior of condition 1e3 in N and N m
+    np.testing.assert_allclose(restored, written.matrix, rtol=0.0, atol=1e-12 * np.abs(written.matrix).max())
+
+
+@pytest.mark.parametrize("variables", [(), (TEMPERATURE,)])
+def test_calibrations_show_themselves(warm: Path, variables: tuple[str, ...]) -> None:
+    """Matrix, variables and excitation, in a narrow terminal, on a page and in a cell."""
+    path = with_variables(warm / PARQUET, *variables)
+    calibrations = _calibrated(path, warm / "new.json")
+    require_shown(calibrations)
+    assert ("what one unit of a variable adds" in calibrations.text(120)) is bool(variables)
+
+
+def test_sensors_are_put_together(arm: Path) -> None:
+    """Both are there, and what both share is said once."""
+    edit_lines(arm / FT_LOG, lambda lines: [*lines[:200], *lines[230:]])
+    ours = _calibrated(arm / YARP, arm / "ours.json")
+    tool = _calibrated(arm / TWO, arm / "tool.json", sensor="tool_ft")
+    both = SensorCalibrations.together([ours, tool, ours])
+    assert [entry.calibration.sensor.name for entry in both.calibrations] == ["arm_ft", "tool_ft", "arm_ft"]
+    assert set(both.warnings) == {*ours.warnings, *tool.warnings}
+    assert len(set(both.warnings)) == len(both.warnings)
+
+
+def test_what_is_doubtful_is_said_by_the_library(arm: Path) -> None:
+    """A gap in a fitted interval, with its time; gravity upside down; nothing where all is well."""
+    assert _calibrated(arm / PARQUET, arm / "a.json").warnings == ()
+    edit_lines(arm / FT_LOG, lambda lines: [*lines[:200], *lines[230:]])
+    (gap,) = [sentence for sentence in _calibrated(arm / YARP, arm / "a.json").warnings if " gap at " in sentence]
+    assert gap.startswith("interval 'fit': arm_ft gap at 3.9")
+    assert gap in list(data_doubts(SensorRun(load_experiment(arm / YARP), "arm_ft")))
+    edit(arm / PARQUET, "gravity_direction = [0.0, 0.0, -1.0]", "gravity_direction = [0.0, 0.0, 1.0]")
+    warnings = _calibrated(arm / PARQUET, arm / "a.json", regularisation=0.01).warnings
+    assert any("sign of the prior reversed" in sentence for sentence in warnings)
+
+
+def test_directions_without_load_are_said(arm: Path) -> None:
+    """The sensor of the light tool: its raw directions that nothing moves are counted."""
+    calibrations = _calibrated(arm / TWO, arm / "tool.json", sensor="tool_ft")
+    missing = calibrations.calibrations[0].calibration.validity.excited.count(False)
+    assert missing > 0
+    assert any(f"the loads leave {missing} of 6 raw directions unexcited" in text for text in calibrations.warnings)

@@ -1,0 +1,117 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the verdict says of numbers that were made up."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+from typing import Any, Literal
+
+import pytest
+
+from forcetorque.analysis import Assessment, CandidateErrors, PriorComparison
+from forcetorque.analysis.verdict import verdict
+from forcetorque.evaluation import Offset
+
+Gain = tuple[float | None, float | None]
+BETTER: Gain = (0.5, 1.5)
+WORSE: Gain = (-1.5, -0.5)
+UNCLEAR: Gain = (-0.5, 0.5)
+UNKNOWN: Gain = (None, None)
+
+
+def _row(candidate: str) -> CandidateErrors:
+    return CandidateErrors(
+        sensor="leg_ft", serial="S1", candidate=candidate, offset=Offset.JUDGED_MEAN, offset_source="", samples=100,
+        rmse=[1.0] * 6, bias=[0.0] * 6, largest=[1.0] * 6, force_error_mean_N=1.0, force_error_standard_error_N=0.1,
+        force_error_largest_N=2.0, moment_error_mean_Nm=0.1, moment_error_standard_error_Nm=0.01,
+        moment_error_largest_Nm=0.2, prior=None if candidate.startswith("prior") else "prior",
+    )  # fmt: skip
+
+
+def _comparison(quantity: Literal["force", "moment"], gain: Gain, samples: int = 100, **other: Any) -> PriorComparison:
+    given = {"candidate": "new.json", "prior": "prior", "offset": Offset.JUDGED_MEAN, "independent": 50.0} | other
+    return PriorComparison(
+        **given, quantity=quantity, unit="N" if quantity == "force" else "N m", samples=samples, mean=1.0,
+        prior_mean=2.0, gain=1.0, gain_low=gain[0], gain_high=gain[1], constant=0.3,
+    )  # fmt: skip
+
+
+def _report(comparisons: list[PriorComparison], **other: Any) -> Assessment:
+    lists = "independence contact_forces best joint_torques spheres static criteria warnings left_out"
+    empty: dict[str, Any] = dict.fromkeys(lists.split(), ())
+    # of a calibration only this matters to the verdict
+    fitted = SimpleNamespace(validity=SimpleNamespace(excited=(True,) * 6))
+    given = empty | {"calibrations": {"new.json": fitted}, "not_judged": {}} | other
+    judged = {"evaluation": (_row("prior"), _row("new.json")), "comparisons": tuple(comparisons)}
+    return Assessment.model_construct(sensor="leg_ft", serial="S1", verdict=(), **judged | given)
+
+
+@pytest.mark.parametrize(
+    ("force", "moment", "tone"),
+    [
+        (BETTER, BETTER, "good"),
+        (BETTER, UNCLEAR, "good"),
+        (BETTER, WORSE, "bad"),
+        (WORSE, BETTER, "bad"),
+        (UNCLEAR, UNCLEAR, "caution"),
+        (BETTER, UNKNOWN, "good"),
+        (UNKNOWN, UNKNOWN, "caution"),
+    ],
+)
+def test_a_better_force_does_not_hide_a_worse_moment(force: Gain, moment: Gain, tone: str) -> None:
+    """Both are named, and the worse of the two gives the tone."""
+    (line,) = verdict(_report([_comparison("force", force), _comparison("moment", moment)]))
+    assert line.tone == tone
+    assert "force error 1.00 N against 2.00 N" in line.text
+    assert "moment error 1.000 N m against 2.000 N m" in line.text
+    words = {BETTER: "better", WORSE: "worse", UNCLEAR: "no difference", UNKNOWN: "too few samples"}
+    assert words[force] in line.text
+    assert words[moment] in line.text
+
+
+def test_few_samples_are_never_good() -> None:
+    """Nineteen samples with an interval that leaves out zero, and twenty."""
+    lines = [
+        verdict(_report([_comparison(q, BETTER, samples) for q in ("force", "moment")]))[0] for samples in (19, 20)
+    ]
+    assert [line.tone for line in lines] == ["caution", "good"]
+    assert "too few samples" in lines[0].text
+
+
+def test_an_own_offset_is_called_one_draw() -> None:
+    """The constant part is stated, and that intervals do not hold the change of offset."""
+    fitted = [_comparison(q, BETTER, offset=Offset.FITTED) for q in ("force", "moment")]
+    report = _report(fitted)
+    judged = tuple(row.model_copy(update={"offset": Offset.FITTED}) for row in report.evaluation)
+    first, second = verdict(report.model_copy(update={"evaluation": judged}))
+    assert "0.30 N is constant" in first.text
+    assert (second.tone, "one draw" in second.text) == ("note", True)
+
+
+def test_what_was_not_judged_comes_last() -> None:
+    """With its reason."""
+    *_, last = verdict(_report([_comparison("force", BETTER)], not_judged={"spheres": "no grid"}))
+    assert (last.tone, last.text) == ("unknown", "not judged: spheres: no grid")
+
+
+def test_what_was_left_out_is_said() -> None:
+    """After what was not judged, word by word."""
+    *_, last = verdict(_report([_comparison("force", BETTER)], left_out=("torque of l_knee: no stream holds it",)))
+    assert (last.tone, last.text) == ("unknown", "left out: torque of l_knee: no stream holds it")
+
+
+@pytest.mark.parametrize("independent", [5.9, None])
+def test_few_independent_samples_are_said_in_place_of_an_interval(independent: float | None) -> None:
+    """No interval is printed from fewer than six; how many there are is, where it is known."""
+    rows = [_comparison(q, UNKNOWN, independent=independent) for q in ("force", "moment")]
+    line = verdict(_report(rows))[0]
+    assert line.tone == "caution"
+    assert " to " not in line.text.partition("(")[2].replace("to tell", "")
+    assert ("worth 6 independent ones" in line.text) is (independent is not None)
+
+
+def test_a_prior_that_nothing_gave_an_offset_is_called_so() -> None:
+    """By its field, whatever the words about its source are."""
+    alone = _row("prior").model_copy(update={"offset": Offset.NONE, "offset_source": "x"})
+    line = verdict(_report([], calibrations={}, evaluation=(alone,)))[0]
+    assert line.text.startswith("prior with no offset removed, 100 samples")

@@ -1,0 +1,94 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What every command shows in terminals of 60, 80, 100 and 120 characters, as it was last looked at.
+
+Digits are masked: the layout is held here, the numbers elsewhere. `pytest --write-snapshots` takes what is shown now;
+look at the difference before it is committed.
+"""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+
+from forcetorque.cli.main import app
+from forcetorque.result import Result
+from tests.cli.outcome import Run
+from tests.experiments import PARQUET, TWO
+
+WIDTHS = (60, 80, 100, 120)
+FOLDER = Path(__file__).parent / "snapshots"
+LIMITS = (
+    'schema = "forcetorque/acceptance/1"\nname = "leg"\n\n[evaluate]\nforce_error_mean_N = 1.0\nrmse = { fz = 0.5 }\n'
+)
+SHORT = ("--type", "OnTdTO", "--type", "CnTdTO", "--lambda", "0", "--lambda", "100")
+COMMANDS = {
+    "accept": ("accept", PARQUET, "--spec", "limits.toml", "-c", "fitted.json"),
+    "calibrate": ("calibrate", PARQUET, "-o", "new.json", "--lambda", "5"),
+    "compare": ("compare", PARQUET, "-c", "fitted.json"),
+    "estimate": ("estimate", PARQUET, "-o", "contacts.parquet", "-c", "fitted.json"),
+    "evaluate": ("evaluate", PARQUET, "-c", "fitted.json"),
+    "export": ("export", "fitted.json", "--to", "csv", "-o", "matrix.csv"),
+    "gains": ("gains", PARQUET),
+    "inspect": ("inspect", "faulty.toml"),
+    "report": ("report", PARQUET, "fitted.json", "-o", "report.html"),
+    "sphere": ("sphere", PARQUET, "-c", "fitted.json"),
+    "study": ("study", PARQUET, "-o", "study", *SHORT),
+    "validate": ("validate", TWO, "-c", "fitted.json"),
+    "view": ("view", PARQUET, "-o", "view.html"),
+}
+WITHOUT_TABLE = {"payload", "schema", "simulate"}
+"""Shown elsewhere: `payload` needs a wrist, `simulate` minutes; `schema` is JSON."""
+
+
+@pytest.fixture
+def shown_widths(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let a result write itself once for every width."""
+    text = Result.text
+
+    def at_every_width(result: Result, width: int) -> str:
+        return "".join(f"===== {width} =====\n{text(result, width)}" for width in WIDTHS)
+
+    monkeypatch.setattr(Result, "text", at_every_width)
+
+
+def test_every_command_is_here() -> None:
+    """A new command gets its picture."""
+    assert {str(command.name) for command in app.registered_commands} == COMMANDS.keys() | WITHOUT_TABLE
+
+
+@pytest.mark.usefixtures("shown_widths")
+@pytest.mark.parametrize("name", COMMANDS)
+def test_the_layout_is_that_which_was_looked_at(arm: Path, run: Run, name: str, request: pytest.FixtureRequest) -> None:
+    """Line by line; no line of a table is wider than the terminal."""
+    (arm / "limits.toml").write_text(LIMITS, encoding="utf-8")
+    faulty = (
+        (arm / PARQUET)
+        .read_text(encoding="utf-8")
+        .replace('stream = "arm_ft"', 'stream = "arm_ft"\nlimit_counts = 9000')
+    )
+    (arm / "faulty.toml").write_text(faulty, encoding="utf-8")
+    ended = run(*COMMANDS[name])
+    assert ended.code in (0, 1), ended.err
+    shown = re.sub(
+        r"\d", "0", re.sub(r"(?<======) (\d+) (?=====)", lambda match: f" {'x' * int(match[1])} ", ended.out)
+    )
+    file = FOLDER / f"{name}.txt"
+    if request.config.getoption("--write-snapshots"):
+        file.write_text(shown, encoding="utf-8")
+    assert shown == file.read_text(encoding="utf-8")
+
+
+def test_no_line_is_wider_than_its_terminal() -> None:
+    """In all pictures: tables and sentences alike; a word that is longer than a line, such as a path, stands alone."""
+    pictures = sorted(FOLDER.glob("*.txt"))
+    assert len(pictures) == len(COMMANDS)
+    for picture in pictures:
+        width = 0
+        for line in picture.read_text(encoding="utf-8").splitlines():
+            if line.startswith("====="):
+                width = line.count("x")
+                continue
+            assert len(line) <= width or " " not in line.strip(), (picture.name, width, line)
+        assert width == WIDTHS[-1]

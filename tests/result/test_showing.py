@@ -1,0 +1,25 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The check that results show themselves can fail."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from forcetorque.result import Result, Table
+from tests.result.showing import folded, require_shown
+
+
+class _Whole(Result):
+    def blocks(self) -> Iterator[Table | str]:
+        yield Table(caption="", headings=("channel", "counts"), rows=(("ch0", "-12345.678"),))
+
+
+class _Folded(_Whole):
+    def text(self, width: int = 100) -> str:
+        return super().text(width).replace("-12345.678", "-12345.\n678")
+
+
+def test_a_folded_number_is_noticed() -> None:
+    """Negative control: a number on two lines stands in none of them."""
+    require_shown(_Whole())
+    assert folded(_Folded(), 60) == {"-12345.678"}
