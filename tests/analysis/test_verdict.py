@@ -107,7 +107,7 @@ def test_few_independent_samples_are_said_in_place_of_an_interval(independent: f
     line = verdict(_report(rows))[0]
     assert line.tone == "caution"
     assert " to " not in line.text.partition("(")[2].replace("to tell", "")
-    assert ("worth 6 independent ones" in line.text) is (independent is not None)
+    assert ("worth 5.9 independent ones" in line.text) is (independent is not None)
 
 
 def test_a_prior_that_nothing_gave_an_offset_is_called_so() -> None:

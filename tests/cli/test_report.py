@@ -294,7 +294,7 @@ def test_a_real_leg(data_dir: Path, run: Run, tmp_path: Path, monkeypatch: pytes
     for line in (own, of_judged):
         assert line["tone"] == "caution"
         assert not {"(better:", "(worse:"} & set(line["text"].split())
-    assert re.search(r"too few samples, worth [1-5] independent ones, to tell them apart", own["text"])
+    assert re.search(r"too few samples, worth [1-5]\.\d independent ones, to tell them apart", own["text"])
     assert "no difference that the recording shows" in of_judged["text"]
     # three times smaller in the mean, and yet: sixteen seconds of slow errors are worth a handful of samples
     force = next(row for row in sensor["comparisons"] if (row["offset"], row["quantity"]) == ("fitted", "force"))

@@ -108,7 +108,7 @@ def _compared(row: PriorComparison) -> str:
     judgement = row.judgement
     if judgement is None:
         few = row.independent is not None and row.independent < FEWEST_INDEPENDENT
-        what = f"too few samples, worth {row.independent:.0f} independent ones," if few else "too few samples"
+        what = f"too few samples, worth {row.independent:.1f} independent ones," if few else "too few samples"
         return f"{means} ({what} to tell them apart)"
     interval = f"less by {row.gain:.{digits}f}, {row.gain_low:.{digits}f} to {row.gain_high:.{digits}f}"
     return f"{means} ({judgement}: {interval})"
