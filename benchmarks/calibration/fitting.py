@@ -17,10 +17,10 @@ from benchmarks.calibration.measured import Measured
 from benchmarks.harness import interleaved, median_ratio
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration import ESTIMATION_TYPES, DataSet, Estimation, LinearVariable, Moments, solve
-from forcetorque.study import TABLE_LAMBDAS, fit_candidates
+from forcetorque.study import SWEEP_LAMBDAS, fit_candidates
 
 DATA_SETS, TYPES = 3, len(ESTIMATION_TYPES)
-FITS = DATA_SETS * TYPES * len(TABLE_LAMBDAS)
+FITS = DATA_SETS * TYPES * len(SWEEP_LAMBDAS)
 OURS = "ours, moments and 351 fits"
 KRONECKER = "Kronecker, one type of one data set"
 STACKED = "numpy.linalg.lstsq, one fit"
@@ -68,7 +68,7 @@ class Problem:
             prior=self.prior,
             variables=[TEMPERATURE],
             kinds=list(ESTIMATION_TYPES.values()),
-            table_lambdas=TABLE_LAMBDAS,
+            lambdas=SWEEP_LAMBDAS,
             sphere=None,
         )
 
@@ -114,23 +114,23 @@ class Problem:
         pulled = np.zeros(width)
         pulled[:36] = self.prior.T.ravel()
         solution = target
-        for table_lambda in TABLE_LAMBDAS:
-            penalty = 6.0 * table_lambda * penalised
+        for regularisation in SWEEP_LAMBDAS:
+            penalty = regularisation * penalised
             solution = np.linalg.solve(gram / samples + np.diag(penalty), target / samples + penalty * pulled)
         return solution.reshape(-1, 6)
 
-    def stacked(self, samples: int, table_lambda: float) -> FloatArray:
+    def stacked(self, samples: int, regularisation: float) -> FloatArray:
         """Solve one fit by least squares on the samples and the penalty below them.
 
         Args:
             samples: Number of samples.
-            table_lambda: Lambda of the tables; counts2.
+            regularisation: Lambda of (5.4); counts2.
 
         Returns:
             Coefficients; shape (8, 6).
         """
         columns, reference = self.columns(samples)
-        weight = np.sqrt(6.0 * table_lambda * samples)
+        weight = np.sqrt(regularisation * samples)
         penalty = np.zeros((6, columns.shape[1]))
         penalty[:, :6] = weight * np.eye(6)
         system = np.vstack([columns, penalty])
@@ -188,7 +188,7 @@ def _accuracy(problem: Problem, samples: int) -> dict[str, float]:
         )
     }
     found["fitting, lstsq and ours, lambda 100"] = _relative(
-        problem.stacked(samples, 100.0)[:6].T, _ours(problem, samples, 600.0)
+        problem.stacked(samples, 600.0)[:6].T, _ours(problem, samples, 600.0)
     )
     for excitation in WEAK:
         weak = Problem(samples, excitation=excitation)
