@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from forcetorque.analysis import Correction, corrections_of
+from forcetorque.analysis import Correction, SensorRun
 from forcetorque.errors import ForceTorqueError
 from forcetorque.experiment import Experiment, ExperimentSensor
 from forcetorque.recording import Signal, Stream
@@ -17,7 +17,7 @@ _DERIVATIVES = {"velocity": 1, "acceleration": 2}
 
 
 class Priors:
-    """How sensors are read without a calibration, as `corrections_of` has it."""
+    """How sensors are read without a calibration; what cannot be read is known, too, and not tried again."""
 
     def __init__(self, experiment: Experiment) -> None:
         self._experiment = experiment
@@ -37,14 +37,13 @@ class Priors:
         """
         if sensor.name not in self._known:
             try:
-                alone = replace(self._experiment, sensors=(sensor,))
-                self._known[sensor.name] = corrections_of(alone, {})[sensor.name]
+                self._known[sensor.name] = SensorRun(self._experiment, sensor).uncalibrated()
             except ForceTorqueError as error:
                 self._known[sensor.name] = error
-        found = self._known[sensor.name]
-        if isinstance(found, ForceTorqueError):
-            raise found
-        return found
+        correction = self._known[sensor.name]
+        if isinstance(correction, ForceTorqueError):
+            raise correction
+        return correction
 
 
 def differentiated(experiment: Experiment) -> Experiment:
