@@ -18,6 +18,7 @@ import forcetorque
 ORDER = (
     "spatial",
     "result",
+    "noise",
     "robot",
     "recording",
     "sensor",

@@ -1,0 +1,102 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Instants of means, and products of signals over them in which slow noise counts as little as it is worth.
+
+The covariance of white noise D and an Ornstein-Uhlenbeck process K is never built. The process is Markov, so that
+its inverse T is tridiagonal, and `(D + r K)^-1 = D^-1 - r D^-1 (T + r D^-1)^-1 D^-1` is as much work as there are
+instants.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, Self
+
+import numpy as np
+from scipy.linalg.lapack import dpttrf, dpttrs
+
+from forcetorque.arrays import FloatArray, IntArray, read_only, require_shape
+from forcetorque.errors import FitError
+from forcetorque.noise.slow import SlowNoise
+
+_LEAST_STEP = 1e-6
+"""Instants count as at least this part of a time constant apart: at the same instant the process has no inverse."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Timeline:
+    """When n means were taken; slow noise goes on within a recording and starts anew with the next."""
+
+    time_s: FloatArray
+    """Instants, not falling within a recording; shape (n,); s."""
+    recording: IntArray
+    """Number of the recording of each; those of one recording stand together; shape (n,)."""
+    share: FloatArray
+    """Samples in each mean over the usual number: its white noise has the variance s^2 / share; shape (n,)."""
+
+    @classmethod
+    def of(cls, time_s: Any, recording: Any = None, share: Any = None) -> Self:
+        """Check instants.
+
+        Args:
+            time_s: Instants; shape (n,); s.
+            recording: Number of the recording of each; shape (n,); None for one recording.
+            share: Samples in each mean over the usual number; shape (n,); None for the same everywhere.
+
+        Returns:
+            The timeline.
+
+        Raises:
+            ShapeError: If the shapes differ.
+            FitError: If time falls within a recording, or a share is not above 0.
+        """
+        time = read_only(time_s, name="time_s", shape=(None,))
+        n = len(time)
+        number = np.zeros(n, dtype=np.int64) if recording is None else np.array(recording, dtype=np.int64)
+        require_shape(number, name="recording", shape=(n,))
+        number.setflags(write=False)
+        part = read_only(np.ones(n) if share is None else share, name="share", shape=(n,))
+        if (np.diff(time)[np.diff(number) == 0] < 0.0).any():
+            raise FitError("time_s: expected instants that do not fall within a recording; sort the samples")
+        if not (part > 0.0).all():
+            raise FitError("share: expected numbers above 0; leave out means of no sample")
+        return cls(time_s=time, recording=number, share=part)
+
+    def __len__(self) -> int:
+        return len(self.time_s)
+
+    def product(self, columns: FloatArray, noise: SlowNoise) -> tuple[FloatArray, float]:
+        """Multiply columns by each other, each instant counted by what it is worth.
+
+        Args:
+            columns: Signals X at the instants; shape (n, m). Take off constants that are large against what changes:
+                they cost as many digits.
+            noise: Shape of the noise, whose covariance for s = 1 is V.
+
+        Returns:
+            `X^T V^-1 X`, shape (m, m), and the logarithm of the determinant of V.
+
+        Raises:
+            FitError: If instants are too close to each other.
+        """
+        weighed = columns * self.share[:, None]
+        white, log_white = columns.T @ weighed, -float(np.log(self.share).sum())
+        if noise.is_white or not len(self):
+            return white, log_white
+        diagonal, beside, log_inverse = self._precision(noise.time_constant_s)
+        pivots, multipliers, failed = dpttrf(diagonal + noise.ratio * self.share, beside)
+        solved, wrong = dpttrs(pivots, multipliers, weighed) if not failed else (weighed, 1)
+        if failed or wrong:
+            raise FitError("slow noise: the instants are too close to each other to tell it from white noise")
+        product = white - noise.ratio * (weighed.T @ solved)
+        return 0.5 * (product + product.T), log_white + float(np.log(pivots).sum()) - log_inverse
+
+    def _precision(self, time_constant_s: float) -> tuple[FloatArray, FloatArray, float]:
+        """Diagonal and side diagonal of the inverse covariance of the slow process, and its log determinant."""
+        steps = np.maximum(np.diff(self.time_s) / time_constant_s, _LEAST_STEP)
+        joined = np.diff(self.recording) == 0
+        kept = np.where(joined, np.exp(-steps), 0.0)  # correlation with the instant before
+        lost = np.where(joined, -np.expm1(-2.0 * steps), 1.0)  # 1 - kept^2, exact for small steps
+        diagonal = np.ones(len(self))
+        diagonal[1:] = 1.0 / lost
+        diagonal[:-1] += kept**2 / lost
+        return diagonal, -kept / lost, -float(np.log(lost).sum())
