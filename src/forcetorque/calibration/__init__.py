@@ -2,6 +2,7 @@
 """Calibration: data set to moments to fit, the choice of lambda, and the `Calibration` artefact."""
 
 from forcetorque.calibration.artefact import (
+    GENERATIVE,
     CalibratedVariable,
     Calibration,
     FittedInterval,
@@ -9,6 +10,7 @@ from forcetorque.calibration.artefact import (
     Provenance,
     Selection,
     SensorIdentity,
+    SessionOffset,
     Validity,
     read_calibration,
     write_calibration,
@@ -27,6 +29,7 @@ from forcetorque.calibration.fit import MatrixFit, fit_matrix, require_determine
 from forcetorque.calibration.held_out import RULE, LambdaCurve, choose_lambda
 from forcetorque.calibration.linear_variable import LinearVariable
 from forcetorque.calibration.moments import Moments, pooled
+from forcetorque.calibration.posterior import Posterior, RowNoise
 from forcetorque.calibration.raw import is_invertible, recover_raw
 from forcetorque.calibration.regression import Regression, solve
 from forcetorque.calibration.secondary import secondary_matrix, secondary_model
@@ -35,6 +38,7 @@ from forcetorque.calibration.wrench_model import WrenchModel
 
 __all__ = [
     "ESTIMATION_TYPES",
+    "GENERATIVE",
     "RULE",
     "CalibratedVariable",
     "Calibration",
@@ -49,11 +53,14 @@ __all__ = [
     "MatrixFit",
     "Moments",
     "OffsetStrategy",
+    "Posterior",
     "Prior",
     "Provenance",
     "Regression",
+    "RowNoise",
     "Selection",
     "SensorIdentity",
+    "SessionOffset",
     "Validity",
     "WrenchModel",
     "calibrate",
