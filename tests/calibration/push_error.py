@@ -109,8 +109,10 @@ def cases(motions: dict[str, Sequence[str]], moved: dict[str, Sequence[str]], se
                 )
 
 
-def _reference(scenario: Scenario, recorded: SimulatedRecording, sensor: str) -> tuple[FloatArray, FloatArray]:
-    """Samples that have an expected wrench, and that wrench: neither depends on the specimen."""
+def _reference(
+    scenario: Scenario, recorded: SimulatedRecording, sensor: str
+) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Samples that have an expected wrench, that wrench, and its flattening: none depends on the specimen."""
     (start, end), margin = recorded.recording.span_ns, round(INTERVAL_MARGIN_S * 1e9)
     movement = recorded.movement
     samples = sensor_samples(
@@ -129,15 +131,21 @@ def _reference(scenario: Scenario, recorded: SimulatedRecording, sensor: str) ->
         processing=Processing(),
     )
     inside = np.isin(recorded.recording.stream(sensor).stamp_ns, samples.stamp_ns)
-    return np.flatnonzero(inside), samples.reference
+    return np.flatnonzero(inside), samples.reference, samples.flattening
 
 
-def _data_set(recorded: SimulatedRecording, sensor: str, index: FloatArray, reference: FloatArray) -> DataSet:
+def _data_set(
+    recorded: SimulatedRecording, sensor: str, index: FloatArray, reference: FloatArray, flattening: FloatArray
+) -> DataSet:
     stream = recorded.recording.stream(sensor)
     valid = ~stream.held[index]
     return DataSet(
         label=recorded.name,
         raw=stream.signal("raw").values[index[valid]],
         reference=reference[valid],
+        flattening=flattening[valid],
+        time_s=stream.stamp_ns[index[valid]] * 1e-9,
+        session=recorded.session,
+        recording=recorded.name,
         variables=stream.signal("temperature").values[index[valid]],
     )

@@ -25,8 +25,8 @@ class DataSet:
     """Linear variables; shape (n, v), an array also where None was given: v is then 0."""
     time_s: Any = None
     """Instants on the clock of the recording; shape (n,); s; None where they are not known."""
-    dynamic: Any = None
-    """Part of the reference that velocities and accelerations of joints make; shape (n, 6); N, N m; None for none."""
+    flattening: Any = None
+    """What a derivative window of twice the length takes from the reference; shape (n, 6); N, N m; None for nothing."""
     session: str = ""
     """Power-up: data sets of one session share an offset."""
     recording: str = ""
@@ -38,6 +38,6 @@ class DataSet:
         object.__setattr__(self, "raw", raw)
         object.__setattr__(self, "reference", read_only(self.reference, name="reference", shape=(len(raw), 6)))
         object.__setattr__(self, "variables", read_only(variables, name="variables", shape=(len(raw), None)))
-        for field, shape in (("time_s", (len(raw),)), ("dynamic", (len(raw), 6))):
+        for field, shape in (("time_s", (len(raw),)), ("flattening", (len(raw), 6))):
             if getattr(self, field) is not None:
                 object.__setattr__(self, field, read_only(getattr(self, field), name=field, shape=shape))

@@ -36,8 +36,13 @@ FRAME: Final = Scale(expected=0.02, weight=6.0)
 """Gain, rotation and displacement of the reference."""
 QUADRATIC: Final = Scale(expected=0.05, weight=6.0)
 """Quadratic terms, over full scale."""
-DYNAMIC: Final = Scale(expected=0.1, weight=6.0)
-"""Share of the wrench from accelerations that the filter of the derivatives takes away, or clocks displace."""
+FLATTENED: Final = 1.0 / 3.0
+"""What the derivative window took from the reference, over what one of twice the length would take besides.
+
+The error of a window grows with the square of its length where the motion is smooth.
+"""
+FLATTENING: Final = Scale(expected=0.03, weight=np.inf)
+"""By how much that may be otherwise, as where a motion has corners."""
 
 DRIFT_SHARE_PER_DEGREE: Final = 0.005
 """What a temperature coefficient may be: a share of full scale per degree."""

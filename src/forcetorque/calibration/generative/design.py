@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Columns of the generative model at every mean, and what they come to under each shape of slow noise.
 
-    response = E wrench + k (variables - reference values) + quadratic + dynamic + offset of the session + noise
+    response = E wrench + k (variables - reference values) + quadratic + flattening + offset of the session + noise
 
 All rows of the response have the same columns. Constants large against what changes are taken off first, by session.
 """
@@ -24,7 +24,7 @@ PAIRS = np.triu_indices(6)
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Design:
-    """Columns at n means: 6 of the wrench, v of variables, 21 quadratic, 6 dynamic; then those that are free."""
+    """Columns at n means: 6 of the wrench, v of variables, 21 quadratic, 6 of flattening; then those that are free."""
 
     columns: FloatArray
     """All columns without their means; shape (n, a)."""
@@ -67,9 +67,9 @@ def design_of(
     wrench = np.concatenate([s.reference for s in stretches])
     about = counts - counts.mean(axis=0)
     variables = np.concatenate([s.variables for s in stretches]) - centre
-    dynamic = np.concatenate([s.dynamic for s in stretches])
+    flattening = np.concatenate([s.flattening for s in stretches])
     columns, column_means = _centred(
-        np.hstack([wrench, variables, about[:, PAIRS[0]] * about[:, PAIRS[1]], dynamic]), member, count
+        np.hstack([wrench, variables, about[:, PAIRS[0]] * about[:, PAIRS[1]], flattening]), member, count
     )
     centred, response_means = _centred(response, member, count)
     elapsed, session_time = _centred(time[:, None], member, count)

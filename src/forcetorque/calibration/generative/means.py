@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -32,20 +32,31 @@ class WindowMeans:
     """Readings; shape (n, c); counts."""
     reference: FloatArray
     """Expected wrenches; shape (n, 6); N, N m."""
-    dynamic: FloatArray
-    """Their part that comes from velocities and accelerations of joints; shape (n, 6); N, N m."""
+    flattening: FloatArray
+    """What a derivative window of twice the length takes from them; shape (n, 6); N, N m."""
     variables: FloatArray
     """Linear variables; shape (n, v)."""
 
     def __post_init__(self) -> None:
         n = len(np.asarray(self.time_s))
-        for field, width in (("raw", None), ("reference", 6), ("dynamic", 6), ("variables", None)):
+        for field, width in (("raw", None), ("reference", 6), ("flattening", 6), ("variables", None)):
             object.__setattr__(self, field, read_only(getattr(self, field), name=field, shape=(n, width)))
         for field in ("time_s", "count"):
             object.__setattr__(self, field, read_only(getattr(self, field), name=field, shape=(n,)))
 
     def __len__(self) -> int:
         return len(self.time_s)
+
+    def unflattened(self, share: float) -> WindowMeans:
+        """Give the reference back what the derivative window took from it.
+
+        Args:
+            share: That, over what a window of twice the length would take besides.
+
+        Returns:
+            The means with another reference.
+        """
+        return replace(self, reference=self.reference + share * self.flattening)
 
     @classmethod
     def of(cls, data: DataSet) -> WindowMeans:
@@ -62,13 +73,13 @@ class WindowMeans:
         """
         if data.time_s is None:
             raise FitError(f"data set {data.label!r}: expected time_s, the instants of its samples, got none")
-        dynamic = np.zeros_like(data.reference) if data.dynamic is None else data.dynamic
-        columns = np.hstack([data.raw, data.reference, dynamic, data.variables])
+        flattening = np.zeros_like(data.reference) if data.flattening is None else data.flattening
+        columns = np.hstack([data.raw, data.reference, flattening, data.variables])
         if not len(columns) or not np.isfinite(columns).all():
             raise FitError(f"data set {data.label!r}: expected samples of finite values; leave out gaps")
         time, means, count = means_over(data.time_s, columns)
         ends = np.cumsum([data.raw.shape[1], 6, 6])
-        raw, reference, dynamic, variables = np.split(means, ends, axis=1)
+        raw, reference, flattening, variables = np.split(means, ends, axis=1)
         return cls(
             label=data.label,
             session=data.session,
@@ -77,7 +88,7 @@ class WindowMeans:
             count=count,
             raw=raw,
             reference=reference,
-            dynamic=dynamic,
+            flattening=flattening,
             variables=variables,
         )
 
