@@ -6,6 +6,8 @@ from forcetorque.analysis.acceptance_file import AcceptanceFile, read_acceptance
 from forcetorque.analysis.applicability import by_sensor, one_per_sensor
 from forcetorque.analysis.assessment import Assessment, Demands, assess
 from forcetorque.analysis.calibrate import calibrate_sensor
+from forcetorque.analysis.campaign import Campaign
+from forcetorque.analysis.campaign_interval import CampaignInterval
 from forcetorque.analysis.candidate import JudgedCandidate
 from forcetorque.analysis.compare import Comparison, compare
 from forcetorque.analysis.contact_forces import (
@@ -74,6 +76,8 @@ __all__ = [
     "Assessment",
     "BestCandidate",
     "Bound",
+    "Campaign",
+    "CampaignInterval",
     "CandidateErrors",
     "Comparison",
     "ContactForceErrors",

@@ -13,7 +13,7 @@ from forcetorque.analysis.judged_instants import JudgedInstants
 from forcetorque.analysis.reading import Correction, Readings, wrench_at
 from forcetorque.analysis.samples import IntervalSamples, readings_over, samples_over
 from forcetorque.arrays import FloatArray
-from forcetorque.calibration import Calibration
+from forcetorque.calibration import Calibration, SensorIdentity
 from forcetorque.errors import ExperimentError
 from forcetorque.estimation.picked import padded_samples
 from forcetorque.estimation.samples import robot_motion_at
@@ -47,6 +47,35 @@ class SensorRun:
     def stream(self) -> Stream:
         """The stream that holds its reading."""
         return self.experiment.recording.stream(self.sensor.stream)
+
+    @property
+    def identity(self) -> SensorIdentity:
+        """Which sensor it is, where it is mounted and how it reads."""
+        tag = self.experiment.model.sensor(self.sensor.name)
+        return SensorIdentity(
+            name=self.sensor.name,
+            serial=self.sensor.serial,
+            robot=self.experiment.model.name,
+            frame=tag.frame.value,
+            measure_direction=tag.direction,
+        )
+
+    @property
+    def channels(self) -> int:
+        """Number of channels of a raw reading, logged or recovered through the prior."""
+        prior, logged = self.sensor.prior, self.stream.signal(self.sensor.quantity).values
+        return int(logged.shape[1] if self.sensor.quantity == "raw" or prior is None else prior.shape[1])
+
+    def has(self, use: Use) -> bool:
+        """Tell whether the recording has an interval of a use.
+
+        Args:
+            use: The use.
+
+        Returns:
+            Whether it has.
+        """
+        return any(interval.use is use for interval in self.experiment.recording.intervals)
 
     def intervals(self, use: Use) -> tuple[Interval, ...]:
         """Give the intervals of one use.

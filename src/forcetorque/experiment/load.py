@@ -54,6 +54,7 @@ def _of_robot(parsed: schema.ExperimentFile, file: Path) -> Experiment:
         recording = streams.with_intervals(intervals)
     return Experiment(
         name=parsed.name,
+        file=file,
         model=model,
         recording=recording,
         sensors=read_sensors(parsed, file, model, recording, inputs),
@@ -95,6 +96,7 @@ def _of_wrist(parsed: schema.ExperimentFile, file: Path) -> Experiment:
     loaded = load_model(load, name, inertia)
     return Experiment(
         name=parsed.name,
+        file=file,
         model=loaded,
         recording=recording,
         sensors=(sensor,),
@@ -148,6 +150,4 @@ def _sphere_intervals(parsed: schema.ExperimentFile, file: Path) -> tuple[str, .
 
 
 def _roles(parsed: schema.ExperimentFile) -> dict[str, Role]:
-    return {
-        span.label: Role(kind=span.kind or span.label, session=span.session or span.label) for span in parsed.interval
-    }
+    return {span.label: Role(kind=span.kind or span.label, session=span.session) for span in parsed.interval}
