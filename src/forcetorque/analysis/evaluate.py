@@ -9,6 +9,7 @@ from typing import Annotated, Literal
 import numpy as np
 from pydantic import Field
 
+from forcetorque.analysis.applicability import overlapping
 from forcetorque.analysis.candidate import JudgedRow
 from forcetorque.analysis.sensor_run import SensorRun
 from forcetorque.calibration import Calibration, FittedInterval
@@ -134,7 +135,7 @@ def require_unseen(name: str, calibration: Calibration, run: SensorRun) -> None:
         ExperimentError: If it was fitted on a judged interval, or the robot now reads the sensor in another way.
     """
     run.require_fit(name, calibration)
-    for judged, fitted in _overlaps(run, calibration.provenance.intervals):
+    for judged, fitted in _overlaps(run, calibration, calibration.provenance.intervals):
         raise ExperimentError(
             f"calibration {name!r} was fitted on the interval {fitted!r}, which overlaps the judged "
             f"interval {judged!r}; judge it on data that it has not seen"
@@ -169,7 +170,7 @@ def doubts_about_choice(run: SensorRun, name: str, calibration: Calibration) -> 
     Yields:
         A sentence per validation interval on which it was chosen among others.
     """
-    for label in dict.fromkeys(judged for judged, _ in _overlaps(run, calibration.selection.chosen_on)):
+    for label in dict.fromkeys(judged for judged, _ in _overlaps(run, calibration, calibration.selection.chosen_on)):
         yield f"{name} was chosen among others on {label!r} too, so the verdict on it flatters"
 
 
@@ -189,9 +190,6 @@ def _beyond_fitted_range(run: SensorRun, calibration: Calibration) -> Iterator[s
             )
 
 
-def _overlaps(run: SensorRun, used: Iterable[FittedInterval]) -> Iterator[tuple[str, str]]:
+def _overlaps(run: SensorRun, calibration: Calibration, used: Iterable[FittedInterval]) -> Iterator[tuple[str, str]]:
     """Labels of judged intervals and of those used before that overlap them."""
-    for judged in run.experiment.intervals(Use.VALIDATION):
-        for earlier in used:
-            if judged.start_ns < earlier.end_ns and earlier.start_ns < judged.end_ns:
-                yield judged.label, earlier.label
+    return overlapping(run.experiment, run.experiment.intervals(Use.VALIDATION), calibration, used)

@@ -6,6 +6,8 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Hashable, Mapping, Sequence
 from typing import TypeVar, cast
 
+import numpy as np
+
 from forcetorque.analysis.applicability import require_fit
 from forcetorque.analysis.candidate import JudgedCandidate, judged_candidates, uncalibrated
 from forcetorque.analysis.judged import JudgedWrenches, judged_wrenches
@@ -195,7 +197,25 @@ class SensorRun:
         Returns:
             Wrenches; shape (n, 6); N, N m; NaN in gaps.
         """
-        return wrench_at(self.experiment, self.sensor, correction, self.instants(interval).at_ns)
+        at_ns = self.instants(interval).at_ns
+        return wrench_at(self.experiment, self.sensor, correction, at_ns, interval=interval)
+
+    def read(self, spans: Sequence[tuple[Interval, Readings]], correction: Correction) -> FloatArray:
+        """Read the sensor over intervals, each with the offset of its session.
+
+        Args:
+            spans: Intervals with the readings in them, at least one.
+            correction: How it is read.
+
+        Returns:
+            Wrenches, one interval after the other; shape (n, 6); N, N m.
+        """
+        return np.concatenate(
+            [
+                readings.wrench(correction.in_session(self.experiment.session_names(interval.label)))
+                for interval, readings in spans
+            ]
+        )
 
     def uncalibrated(self) -> Correction:
         """Read the sensor by the prior of the experiment, or take the logged wrench.

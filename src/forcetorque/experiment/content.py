@@ -152,6 +152,8 @@ class Experiment:
     """What hangs on a wrist sensor, estimated on the calibration intervals; None for a robot or a given load."""
     inputs_sha256: dict[str, str]
     """SHA-256 of every input file, by its path as the experiment names it."""
+    log_sha256: frozenset[str] = frozenset()
+    """SHA-256 of the files of the recording, by which it is known under another experiment's name."""
     condition: str | None = None
     """What was done to the sensors, in the user's words; None if the file does not say."""
     trial: int | None = None
@@ -176,17 +178,17 @@ class Experiment:
             f"experiment {self.name!r} has no sensor {name!r}; {known_names(name, (s.name for s in self.sensors))}"
         )
 
-    def session_names(self, label: str) -> tuple[str, ...]:
+    def session_names(self, label: str | None) -> tuple[str, ...]:
         """Give the names under which a calibration may know the session of an interval.
 
         Args:
-            label: Label of the interval.
+            label: Label of the interval; None for what lies in none.
 
         Returns:
             The session that the file states; else the name of the recording, with as much of the path of its file as
             told several recordings of that name apart, longest first, and by itself.
         """
-        role = self.roles.get(label)
+        role = None if label is None else self.roles.get(label)
         if role is not None and role.session is not None:
             return (role.session,)
         return (*(recording_name(self.name, path) for path in reversed(path_endings(self.file))), self.name)
