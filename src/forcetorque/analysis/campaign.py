@@ -3,7 +3,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Iterator, Sequence
+from contextlib import contextmanager, nullcontext
 
 from forcetorque.analysis.campaign_interval import CampaignInterval, CampaignNames, joined_inputs, joined_sphere
 from forcetorque.analysis.campaign_recording import CampaignRecording
@@ -11,6 +12,7 @@ from forcetorque.analysis.sensor_run import SensorRun
 from forcetorque.calibration import DataSet, SensorIdentity
 from forcetorque.errors import ExperimentError
 from forcetorque.experiment.content import ExperimentSensor
+from forcetorque.experiment.inputs import stated_in
 from forcetorque.recording import Use
 
 
@@ -32,6 +34,18 @@ class Campaign:
             raise ExperimentError("expected at least one run of a sensor, got none; name an experiment file")
         self._recordings = [CampaignRecording.of(run) for run in self.runs]
         self.names = CampaignNames(self._recordings)
+
+    @classmethod
+    def of(cls, runs: Runs) -> Campaign:
+        """Take whatever a question may be asked to.
+
+        Args:
+            runs: One run of a sensor, several, or a campaign.
+
+        Returns:
+            The campaign.
+        """
+        return runs if isinstance(runs, Campaign) else cls(runs)
 
     def __repr__(self) -> str:
         return f"Campaign({list(self.experiments)!r}, {self.sensor.name!r}, serial={self.sensor.serial!r})"
@@ -68,6 +82,44 @@ class Campaign:
             return dict(self._recordings[0].inputs_sha256)
         return joined_inputs(self._recordings)
 
+    def recording(self, run: SensorRun) -> str:
+        """Name the recording of one of the runs.
+
+        Args:
+            run: The run.
+
+        Returns:
+            Its name, unique in the campaign.
+        """
+        return self.recordings[self.runs.index(run)]
+
+    def runs_with(self, use: Use) -> tuple[SensorRun, ...]:
+        """Give the runs that have an interval of a use.
+
+        Args:
+            use: The use.
+
+        Returns:
+            Those runs; the first where there is none, which says itself what it lacks when it is asked.
+        """
+        return tuple(run for run in self.runs if run.has(use)) or self.runs[:1]
+
+    @contextmanager
+    def stated(self, run: SensorRun) -> Iterator[None]:
+        """Say of which file an error is, where there are several.
+
+        Args:
+            run: The run that is asked.
+
+        Yields:
+            Nothing.
+
+        Raises:
+            ForceTorqueError: The error of the body, with the file in front.
+        """
+        with stated_in(str(run.experiment.file)) if len(self.runs) > 1 else nullcontext():
+            yield
+
     def samples(self, use: Use, *, variables: Collection[str] = ()) -> list[CampaignInterval]:
         """Pair reading and reference over the intervals of one use.
 
@@ -81,14 +133,11 @@ class Campaign:
         Raises:
             ExperimentError: If no recording has an interval of that use.
         """
-        having = [(recording, run) for recording, run in zip(self._recordings, self.runs, strict=True) if run.has(use)]
-        if not having:
-            # the first says what is missing, where there is one file as where there are many
-            self.runs[0].experiment.intervals(use)
+        recordings = dict(zip(self.runs, self._recordings, strict=True))
         return [
             interval
-            for recording, run in having
-            for interval in self.names.intervals(recording, run.samples(use, variables=variables))
+            for run in self.runs_with(use)
+            for interval in self.names.intervals(recordings[run], run.samples(use, variables=variables))
         ]
 
     def data_sets(self, use: Use, *, variables: Collection[str] = ()) -> list[DataSet]:
@@ -102,3 +151,7 @@ class Campaign:
             Data per interval, with its label, session and recording by names that are unique in the campaign.
         """
         return [interval.data_set for interval in self.samples(use, variables=variables)]
+
+
+Runs = SensorRun | Sequence[SensorRun] | Campaign
+"""What a question is asked to: one run of a sensor, several of the same, or a campaign."""
