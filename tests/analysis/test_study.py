@@ -22,8 +22,8 @@ from forcetorque.analysis import (
     study_sensor,
     study_warnings,
 )
+from forcetorque.analysis.campaign_interval import CampaignInterval
 from forcetorque.analysis.study import combinations_of
-from forcetorque.analysis.study_data import StudyInterval
 from forcetorque.calibration import (
     ESTIMATION_TYPES,
     CalibrationFit,
@@ -77,7 +77,7 @@ def made(data: StudyData) -> SensorStudy:
     return _study(data)
 
 
-def _of_kinds(data: StudyData, kinds: Sequence[str]) -> list[StudyInterval]:
+def _of_kinds(data: StudyData, kinds: Sequence[str]) -> list[CampaignInterval]:
     """An interval per kind, numbered."""
     return [replace(data.calibration[0], label=f"{k}_{kind}", kind=kind) for k, kind in enumerate(kinds)]
 

@@ -342,10 +342,10 @@ def test_what_does_not_fit_is_refused(warm: Path, name: str) -> None:
 
 
 def test_intervals_have_a_kind_and_a_session(warm: Path) -> None:
-    """What an interval is to a study stands in the file; each is its label where it does not."""
+    """What an interval is to a study stands in the file; else its kind is its label, and its session the recording."""
     edit(warm / PARQUET, 'label = "fit"\n', 'label = "fit"\nkind = "grid"\nsession = "day 3"\n')
     roles = load_experiment(warm / PARQUET).roles
     assert {label: (role.kind, role.session) for label, role in roles.items()} == {
         "fit": ("grid", "day 3"),
-        "judge": ("judge", "judge"),
+        "judge": ("judge", None),
     }

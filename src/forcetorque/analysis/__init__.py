@@ -6,6 +6,8 @@ from forcetorque.analysis.acceptance_file import AcceptanceFile, read_acceptance
 from forcetorque.analysis.applicability import by_sensor, one_per_sensor
 from forcetorque.analysis.assessment import Assessment, Demands, assess
 from forcetorque.analysis.calibrate import calibrate_sensor
+from forcetorque.analysis.campaign import Campaign, Runs
+from forcetorque.analysis.campaign_interval import CampaignInterval
 from forcetorque.analysis.candidate import JudgedCandidate
 from forcetorque.analysis.compare import Comparison, compare
 from forcetorque.analysis.contact_forces import (
@@ -18,7 +20,7 @@ from forcetorque.analysis.corrections import corrections_of
 from forcetorque.analysis.criterion import Bound, Criterion
 from forcetorque.analysis.estimate import IntervalEstimates, estimate_experiment
 from forcetorque.analysis.estimate_summary import EstimateSummary, summarise_estimates
-from forcetorque.analysis.evaluate import CandidateErrors, Evaluation, evaluate
+from forcetorque.analysis.evaluate import CandidateErrors, Evaluation, RecordingErrors, evaluate
 from forcetorque.analysis.experiment_assessment import ExperimentAssessment, assess_experiment
 from forcetorque.analysis.export import (
     export_coefficients,
@@ -74,6 +76,8 @@ __all__ = [
     "Assessment",
     "BestCandidate",
     "Bound",
+    "Campaign",
+    "CampaignInterval",
     "CandidateErrors",
     "Comparison",
     "ContactForceErrors",
@@ -100,6 +104,8 @@ __all__ = [
     "JudgedCandidate",
     "JudgedWrenches",
     "PriorComparison",
+    "RecordingErrors",
+    "Runs",
     "SensorCalibration",
     "SensorCalibrations",
     "SensorGains",

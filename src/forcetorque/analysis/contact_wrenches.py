@@ -77,6 +77,30 @@ def contact_wrenches(free: FreeSubModel, calibrations: Mapping[str, Calibration]
     )
 
 
+def pooled_contacts(recordings: Mapping[str, ContactWrenches]) -> ContactWrenches:
+    """Put together what several recordings say.
+
+    Args:
+        recordings: Wrenches by name of the recording, candidates in the same order.
+
+    Returns:
+        All of them, one recording after the other; the same where there is one.
+    """
+    first = next(iter(recordings.values()))
+    if len(recordings) == 1:
+        return first
+    pieces: dict[tuple[int, Offset], list[FloatArray]] = {}
+    for contacts in recordings.values():
+        for key, wrenches in contacts.wrenches.items():
+            pieces.setdefault(key, []).append(wrenches)
+    return ContactWrenches(
+        sub_model=first.sub_model,
+        candidates=first.candidates,
+        wrenches={key: np.concatenate(several) for key, several in pieces.items()},
+        left_out=tuple(f"{name}: {words}" for name, contacts in recordings.items() for words in contacts.left_out),
+    )
+
+
 def _over(
     free: FreeSubModel,
     interval: Interval,

@@ -8,12 +8,13 @@ from typing import Annotated, Literal
 
 import numpy as np
 
+from forcetorque.analysis.campaign import Campaign, Runs
 from forcetorque.analysis.candidate import JudgedRow
 from forcetorque.analysis.free_sub_model import FreeSubModel
-from forcetorque.analysis.sensor_run import SensorRun
-from forcetorque.analysis.torque_samples import JudgedTorques, judged_torques
+from forcetorque.analysis.torque_samples import JudgedTorques, judged_torques, pooled_torques
 from forcetorque.calibration import Calibration
 from forcetorque.evaluation import OtherSensors, torque_errors
+from forcetorque.recording import Use
 from forcetorque.result import Result, Shown, Table, finite_or_none, table_of
 from forcetorque.robot import JointType
 
@@ -45,6 +46,13 @@ class JointTorqueErrors(JudgedRow):
     """Standard error of that root, from blocks of time."""
 
 
+class RecordingJointTorques(JointTorqueErrors):
+    """The same on one of several recordings."""
+
+    recording: str
+    """Name of the recording, unique in the campaign: that of the experiment, with the file where several have it."""
+
+
 class JointTorques(Result):
     """Joint torques that depend on one sensor, by all its candidates."""
 
@@ -66,7 +74,7 @@ class JointTorques(Result):
 
 
 def joint_torques(
-    run: SensorRun,
+    runs: Runs,
     calibrations: Mapping[str, Calibration],
     *,
     others: Mapping[str, Calibration] | None = None,
@@ -81,7 +89,7 @@ def joint_torques(
     contact.
 
     Args:
-        run: The sensor; the validation intervals are judged.
+        runs: The sensor in one recording, or in several, whose errors are pooled; the validation intervals are judged.
         calibrations: Calibrations of that sensor by name; their priors are judged too, or that of the experiment where
             there is none.
         others: Calibrations of the other sensors by name, for the mode `measured`; where there is none, their prior.
@@ -95,23 +103,29 @@ def joint_torques(
     Raises:
         ExperimentError: If an interval has no support.
     """
-    free = FreeSubModel.of(run, others=others, other_sensors=other_sensors, sub_model=sub_model, contact=contact)
-    return joint_torques_of(free, calibrations)
+    campaign = Campaign.of(runs)
+    recordings = {}
+    for run in campaign.runs_with(Use.VALIDATION):
+        with campaign.stated(run):
+            free = FreeSubModel.of(
+                run, others=others, other_sensors=other_sensors, sub_model=sub_model, contact=contact
+            )
+            recordings[campaign.recording(run)] = judged_torques(free, calibrations)
+    return joint_torques_of(campaign, pooled_torques(recordings))
 
 
-def joint_torques_of(free: FreeSubModel, calibrations: Mapping[str, Calibration]) -> JointTorques:
-    """Judge candidates of a sensor by joint torques, with a given sub-model free.
+def joint_torques_of(campaign: Campaign, torques: JudgedTorques) -> JointTorques:
+    """Judge candidates of a sensor by given errors of joint torques.
 
     Args:
-        free: The sub-model.
-        calibrations: Calibrations of the sensor by name.
+        campaign: The sensor.
+        torques: Errors by every candidate.
 
     Returns:
         The same as `joint_torques`.
     """
-    torques = judged_torques(free, calibrations)
     return JointTorques(
-        verdicts=tuple(_rows(free.run, torques)),
+        verdicts=tuple(_rows(campaign, torques)),
         left_out=torques.left_out,
         warnings=tuple(f"left out: {words}" for words in torques.left_out),
     )
@@ -140,16 +154,17 @@ def _place(rows: Sequence[JointTorqueErrors]) -> Callable[[JointTorqueErrors], t
     return lambda row: (joints.index(row.joint), offsets.index(row.offset))
 
 
-def _rows(run: SensorRun, torques: JudgedTorques) -> Iterator[JointTorqueErrors]:
+def _rows(campaign: Campaign, torques: JudgedTorques) -> Iterator[JointTorqueErrors]:
+    joints = {name: joint for run in campaign.runs for name, joint in run.experiment.model.joints.items()}
     for key, samples in torques.samples.items():
         if np.isnan(samples.from_model).all():
             continue
         candidate, errors = torques.candidates[key.candidate], torque_errors(samples.from_model)
         logged = None if np.isnan(samples.from_logged).all() else torque_errors(samples.from_logged)
-        prismatic = run.experiment.model.joints[key.joint].type is JointType.PRISMATIC
+        prismatic = joints[key.joint].type is JointType.PRISMATIC
         yield JointTorqueErrors(
-            sensor=run.sensor.name,
-            serial=run.sensor.serial,
+            sensor=campaign.sensor.name,
+            serial=campaign.sensor.serial,
             candidate=candidate.name,
             offset=candidate.offset(key.offset),
             offset_source=candidate.offset_source(key.offset),

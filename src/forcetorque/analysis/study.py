@@ -7,8 +7,9 @@ from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import combinations
 
+from forcetorque.analysis.campaign_interval import CampaignInterval
 from forcetorque.analysis.study_calibrations import CalibrationMaker
-from forcetorque.analysis.study_data import StudyData, StudyInterval
+from forcetorque.analysis.study_data import StudyData
 from forcetorque.calibration import Calibration, EstimationType
 from forcetorque.errors import ExperimentError, known_names
 from forcetorque.evaluation import KNOWN_BEFORE
@@ -88,7 +89,7 @@ def study_sensor(
     return SensorStudy(data=data, study=study, calibrations=calibrations)
 
 
-def combinations_of(intervals: Sequence[StudyInterval]) -> dict[str, tuple[str, ...]]:
+def combinations_of(intervals: Sequence[CampaignInterval]) -> dict[str, tuple[str, ...]]:
     """Combine the kinds of data in every way.
 
     Args:
@@ -115,7 +116,9 @@ def combinations_of(intervals: Sequence[StudyInterval]) -> dict[str, tuple[str, 
     }
 
 
-def _resolved(intervals: Sequence[StudyInterval], data_sets: Mapping[str, Sequence[str]]) -> dict[str, tuple[str, ...]]:
+def _resolved(
+    intervals: Sequence[CampaignInterval], data_sets: Mapping[str, Sequence[str]]
+) -> dict[str, tuple[str, ...]]:
     """From labels and kinds to labels."""
     labels, kinds = [interval.label for interval in intervals], {interval.kind for interval in intervals}
     for name, words in data_sets.items():

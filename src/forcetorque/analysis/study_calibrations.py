@@ -12,7 +12,7 @@ import numpy as np
 from forcetorque.analysis.calibrate import artefact
 from forcetorque.analysis.study_data import StudyData
 from forcetorque.arrays import FloatArray
-from forcetorque.calibration import Calibration, FittedInterval, Selection, calibrate
+from forcetorque.calibration import Calibration, Selection, calibrate
 from forcetorque.evaluation import Offset
 from forcetorque.spatial import WRENCH_COMPONENTS
 from forcetorque.study import Candidate, Study, assembled
@@ -91,10 +91,7 @@ class CalibrationMaker:
             experiment="; ".join(self.data.experiments),
             inputs_sha256=self.data.inputs_sha256,
         )
-        judged = tuple(
-            FittedInterval(label=i.label, start_ns=i.part.interval.start_ns, end_ns=i.part.interval.end_ns)
-            for i in self.data.validation
-        )
+        judged = tuple(interval.fitted for interval in self.data.validation)
         return calibration.model_copy(update={"selection": Selection(rule=rule, chosen_on=judged)})
 
 

@@ -92,6 +92,29 @@ def judged_torques(free: FreeSubModel, calibrations: Mapping[str, Calibration]) 
     )
 
 
+def pooled_torques(recordings: Mapping[str, JudgedTorques]) -> JudgedTorques:
+    """Put together what several recordings say.
+
+    Args:
+        recordings: Errors by name of the recording, candidates in the same order.
+
+    Returns:
+        All of them, one recording after the other; the same where there is one.
+    """
+    first = next(iter(recordings.values()))
+    if len(recordings) == 1:
+        return first
+    pieces: dict[TorqueKey, list[TorqueSamples]] = {}
+    for torques in recordings.values():
+        for key, samples in torques.samples.items():
+            pieces.setdefault(key, []).append(samples)
+    return JudgedTorques(
+        candidates=first.candidates,
+        samples={key: _joined(samples) for key, samples in pieces.items()},
+        left_out=tuple(f"{name}: {words}" for name, torques in recordings.items() for words in torques.left_out),
+    )
+
+
 def _joined(pieces: Sequence[TorqueSamples]) -> TorqueSamples:
     return TorqueSamples(
         from_model=np.concatenate([samples.from_model for samples in pieces]),

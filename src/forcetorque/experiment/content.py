@@ -5,11 +5,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from pathlib import Path
 
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration import EstimationType, LinearVariable, OffsetStrategy
 from forcetorque.errors import ExperimentError, known_names
 from forcetorque.estimation import Contact, Payload, Processing
+from forcetorque.experiment.recording_names import path_endings, recording_name
 from forcetorque.recording import Interval, Recording, ScalarSource, Use
 from forcetorque.robot import RobotModel
 
@@ -55,8 +57,8 @@ class Role:
 
     kind: str
     """Kind of motion."""
-    session: str
-    """Stretch of time in which nothing was switched off."""
+    session: str | None
+    """Stretch of time in which nothing was switched off; None where the file names none: the recording is one."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -124,6 +126,8 @@ class Experiment:
 
     name: str
     """Name of the experiment."""
+    file: Path
+    """Its file."""
     model: RobotModel
     """The robot."""
     recording: Recording
@@ -148,6 +152,8 @@ class Experiment:
     """What hangs on a wrist sensor, estimated on the calibration intervals; None for a robot or a given load."""
     inputs_sha256: dict[str, str]
     """SHA-256 of every input file, by its path as the experiment names it."""
+    log_sha256: frozenset[str] = frozenset()
+    """SHA-256 of the files of the recording, by which it is known under another experiment's name."""
     condition: str | None = None
     """What was done to the sensors, in the user's words; None if the file does not say."""
     trial: int | None = None
@@ -171,6 +177,21 @@ class Experiment:
         raise ExperimentError(
             f"experiment {self.name!r} has no sensor {name!r}; {known_names(name, (s.name for s in self.sensors))}"
         )
+
+    def session_names(self, label: str | None) -> tuple[str, ...]:
+        """Give the names under which a calibration may know the session of an interval.
+
+        Args:
+            label: Label of the interval; None for what lies in none.
+
+        Returns:
+            The session that the file states; else the name of the recording, with as much of the path of its file as
+            told several recordings of that name apart, longest first, and by itself.
+        """
+        role = None if label is None else self.roles.get(label)
+        if role is not None and role.session is not None:
+            return (role.session,)
+        return (*(recording_name(self.name, path) for path in reversed(path_endings(self.file))), self.name)
 
     def intervals(self, use: Use) -> tuple[Interval, ...]:
         """Give the intervals of one use.

@@ -47,16 +47,20 @@ def _of_robot(parsed: schema.ExperimentFile, file: Path) -> Experiment:
     inputs = Inputs(file.parent)
     inputs.file(Path(file.name))
     model = declare_sensors(parsed, file, read_urdf(inputs.file(parsed.robot.urdf)))
+    before = inputs.names()
     streams = read_streams(parsed, file, model, inputs)
+    logs = inputs.names() - before
     supports = read_supports(parsed, file, streams, model)
     intervals = read_intervals(parsed, file, streams, supports, default=None)
     with stated_in(str(file)):
         recording = streams.with_intervals(intervals)
+    sensors, hashes = read_sensors(parsed, file, model, recording, inputs), inputs.sha256()
     return Experiment(
         name=parsed.name,
+        file=file,
         model=model,
         recording=recording,
-        sensors=read_sensors(parsed, file, model, recording, inputs),
+        sensors=sensors,
         contacts=read_contacts(parsed, file, model, recording),
         length_scale=parsed.estimation.length_scale_m,
         processing=_processing(parsed, gravity=parsed.robot.gravity),
@@ -65,7 +69,8 @@ def _of_robot(parsed: schema.ExperimentFile, file: Path) -> Experiment:
         sphere_intervals=_sphere_intervals(parsed, file),
         roles=_roles(parsed),
         payload=None,
-        inputs_sha256=inputs.sha256(),
+        inputs_sha256=hashes,
+        log_sha256=frozenset(hashes[name] for name in logs),
         condition=parsed.trial.condition,
         trial=parsed.trial.number,
     )
@@ -77,7 +82,9 @@ def _of_wrist(parsed: schema.ExperimentFile, file: Path) -> Experiment:
         raise ExperimentError(f"{file}: expected [robot] or [load]")
     load, name, inputs = parsed.load, parsed.sensor[0].name, Inputs(file.parent)
     inputs.file(Path(file.name))
+    before = inputs.names()
     streams = read_streams(parsed, file, None, inputs)
+    logs = inputs.names() - before
     moving = MovingSupport(frame=load.frame, motion_streams=load.motion)
     with stated_in(f"{file}: load"):
         for stream in load.motion:
@@ -92,9 +99,10 @@ def _of_wrist(parsed: schema.ExperimentFile, file: Path) -> Experiment:
         inertia = payload.inertia()
     with stated_in(str(file)):
         recording = streams.with_intervals(intervals)
-    loaded = load_model(load, name, inertia)
+    loaded, hashes = load_model(load, name, inertia), inputs.sha256()
     return Experiment(
         name=parsed.name,
+        file=file,
         model=loaded,
         recording=recording,
         sensors=(sensor,),
@@ -106,7 +114,8 @@ def _of_wrist(parsed: schema.ExperimentFile, file: Path) -> Experiment:
         sphere_intervals=_sphere_intervals(parsed, file),
         roles=_roles(parsed),
         payload=payload,
-        inputs_sha256=inputs.sha256(),
+        inputs_sha256=hashes,
+        log_sha256=frozenset(hashes[name] for name in logs),
         condition=parsed.trial.condition,
         trial=parsed.trial.number,
     )
@@ -148,6 +157,4 @@ def _sphere_intervals(parsed: schema.ExperimentFile, file: Path) -> tuple[str, .
 
 
 def _roles(parsed: schema.ExperimentFile) -> dict[str, Role]:
-    return {
-        span.label: Role(kind=span.kind or span.label, session=span.session or span.label) for span in parsed.interval
-    }
+    return {span.label: Role(kind=span.kind or span.label, session=span.session) for span in parsed.interval}

@@ -205,7 +205,7 @@ class Interval(Table):
     """Kind of motion, such as grid or balancing; a study combines the data by kind; the label if left out."""
     session: Text | None = None
     """Stretch of time in which nothing was switched off, such as a day; a study chooses on some sessions and scores on
-    others; the label if left out."""
+    others; a calibration has an offset for each; one for the whole recording if left out."""
     support: Text | None = None
     """Support frame; required unless the use is ignore."""
 
