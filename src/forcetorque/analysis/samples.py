@@ -43,6 +43,7 @@ class IntervalSamples:
             raw=self.raw,
             reference=self.samples.reference,
             variables=self.samples.variables,
+            time_s=self.samples.stamp_ns * 1e-9,
         )
 
 

@@ -205,6 +205,8 @@ class Calibration(_Part):
     """How lambda came about."""
     provenance: Provenance
     """What the fit was made from."""
+    doubts: tuple[str, ...] = ()
+    """What made the fit doubtful before it was made."""
 
     @field_validator("matrix")
     @classmethod

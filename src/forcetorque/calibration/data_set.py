@@ -23,10 +23,14 @@ class DataSet:
     """Reference wrenches; shape (n, 6); N, N m."""
     variables: Any = None
     """Linear variables; shape (n, v), an array also where None was given: v is then 0."""
+    time_s: Any = None
+    """Instants of the samples; shape (n,); s; None where they are not known: no even steps are taken for granted."""
 
     def __post_init__(self) -> None:
         raw = read_only(self.raw, name="raw", shape=(None, None))
         variables = np.empty((len(raw), 0)) if self.variables is None else self.variables
+        if self.time_s is not None:
+            object.__setattr__(self, "time_s", read_only(self.time_s, name="time_s", shape=(len(raw),)))
         object.__setattr__(self, "raw", raw)
         object.__setattr__(self, "reference", read_only(self.reference, name="reference", shape=(len(raw), 6)))
         object.__setattr__(self, "variables", read_only(variables, name="variables", shape=(len(raw), None)))
