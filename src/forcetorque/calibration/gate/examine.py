@@ -26,7 +26,7 @@ def examine(
 ) -> tuple[Doubt, ...]:
     """Judge whether readings can be those of a sensor under the modelled load, before anything is fitted to them.
 
-    Offsets of data sets are no matter, nor is what linear variables explain.
+    Offsets of data sets are no matter, nor are slow drifts and what linear variables explain.
 
     Args:
         data_sets: Stretches of calibration data of one sensor.

@@ -18,7 +18,7 @@ from forcetorque.calibration.moments import Moments, symmetric_pseudo_inverse
 class Movement:
     """Second moments of k columns of reading and six of reference about the mean of each data set.
 
-    What the linear variables explain is taken out, in each data set by itself, as its offset is.
+    What the linear variables and a slow drift explain is taken out, in each data set by itself, as its offset is.
     """
 
     count: int
@@ -84,7 +84,8 @@ class Movement:
 
 
 def _columns(data: DataSet) -> tuple[FloatArray, FloatArray, FloatArray]:
-    return data.raw, data.reference, data.variables
+    along = np.linspace(-1.0, 1.0, len(data.raw))[:, None]
+    return data.raw, data.reference, np.hstack([data.variables, along, along**2])
 
 
 def _paired(values: FloatArray) -> FloatArray:

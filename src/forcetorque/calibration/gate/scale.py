@@ -22,17 +22,18 @@ _DOUBTFUL = 0.1
 _SURE, _LIKELY = 3.0, 2.5
 """Standard deviations of the gain that a refusal, or a doubt, takes."""
 
-_NEAR = 1.3
-"""Factor within which a gain points to a cause."""
+_TURNED_LESS = 5.0
+"""Gain from which on the joints may have turned further than the model did: by 57, less where turns are large."""
 
 _CAUSES = (
-    (1000.0, "are masses 1000 times too small, or the prior in N per 1000 counts?"),
-    (9.80665, "is the prior in kgf instead of N?"),
-    (2.0, "does the model have half of the true mass?"),
-    (0.5, "does the model have twice the true mass?"),
-    (1.0 / 9.80665, "are weights given instead of masses?"),
-    (0.001, "are the masses in grams instead of kg?"),
+    (300.0, 3000.0, "are masses 1000 times too small, or the prior in N per 1000 counts?"),
+    (7.0, 14.0, "is the prior in kgf instead of N?"),
+    (1.5, 2.6, "does the model have half of the true mass?"),
+    (0.4, 0.65, "does the model have twice the true mass?"),
+    (0.07, 0.14, "are weights given instead of masses?"),
+    (0.0003, 0.003, "are the masses in grams instead of kg?"),
 )
+"""What gains between two limits point to."""
 
 _CHECK = (
     "check the mass of the links beyond the sensor in the file that urdf of [robot] names, or mass_kg of [load], and "
@@ -74,10 +75,9 @@ def _cause(movement: Movement, gain: float) -> str:
     size = float(np.linalg.norm(movement.size[:3]))
     change = float(np.sqrt(second[6:9].sum()))
     # the reading moves as the weight of the model would if it turned further
-    if gain > _SENSOR and change < 0.2 * size and np.sqrt(second[:3].sum()) < 2.0 * size:
+    if gain > _TURNED_LESS and change < 0.2 * size and np.sqrt(second[:3].sum()) < 2.0 * size:
         return (
             f"the reference moves by {change:.3g} N only, with a size of {size:.3g} N: are joints in radians read as "
             "degrees (a log of YARP holds degrees; units of [[recording.stream]] otherwise)? If not, "
         )
-    near = [words for factor, words in _CAUSES if 1.0 / _NEAR < gain / factor < _NEAR]
-    return f"{near[0]} " if near else ""
+    return next((f"{words} " for low, high, words in _CAUSES if low < gain < high), "")

@@ -26,7 +26,8 @@ _FASTER = 3.0
 
 _CHECK = (
     "check the unit of the joints (degrees or radians, as units of [[recording.stream]] or recording.json state it), "
-    "frame and gravity_direction of [[support]], and whether stream of [[sensor]] is its own"
+    "frame and gravity_direction of [[support]], and whether stream of [[sensor]] is its own; a load that "
+    "is lighter than the sensor's drift needs a heavier one beside it"
 )
 
 
