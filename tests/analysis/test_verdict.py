@@ -36,12 +36,15 @@ def _comparison(quantity: Literal["force", "moment"], gain: Gain, samples: int =
     )  # fmt: skip
 
 
+def _fitted(doubts: tuple[str, ...] = ()) -> SimpleNamespace:
+    """What matters to the verdict of a calibration."""
+    return SimpleNamespace(validity=SimpleNamespace(excited=(True,) * 6), doubts=doubts)
+
+
 def _report(comparisons: list[PriorComparison], **other: Any) -> Assessment:
     lists = "independence contact_forces best joint_torques spheres static criteria warnings left_out"
     empty: dict[str, Any] = dict.fromkeys(lists.split(), ())
-    # of a calibration only this matters to the verdict
-    fitted = SimpleNamespace(validity=SimpleNamespace(excited=(True,) * 6))
-    given = empty | {"calibrations": {"new.json": fitted}, "not_judged": {}} | other
+    given = empty | {"calibrations": {"new.json": _fitted()}, "not_judged": {}} | other
     judged = {"evaluation": (_row("prior"), _row("new.json")), "comparisons": tuple(comparisons)}
     return Assessment.model_construct(sensor="leg_ft", serial="S1", verdict=(), **judged | given)
 
@@ -67,6 +70,18 @@ def test_a_better_force_does_not_hide_a_worse_moment(force: Gain, moment: Gain, 
     words = {BETTER: "better", WORSE: "worse", UNCLEAR: "no difference", UNKNOWN: "too few samples"}
     assert words[force] in line.text
     assert words[moment] in line.text
+
+
+def test_a_calibration_in_doubt_is_never_good() -> None:
+    """A wrong reference flatters what was fitted to it: the doubt is told, and what is bad stays bad."""
+    doubted = {"calibrations": {"new.json": _fitted(("the gain changed by +69%",))}}
+    for gain, tone in ((BETTER, "caution"), (WORSE, "bad")):
+        first, second = verdict(_report([_comparison(q, gain) for q in ("force", "moment")], **doubted))
+        assert (first.tone, second.tone) == (tone, "caution")
+        assert second.text.endswith("was in doubt before it was fitted: the gain changed by +69%")
+    passed = (SimpleNamespace(candidate="new.json", passed=True, criterion="force"),)
+    for calibrations, tone in ((doubted, "caution"), ({}, "good")):
+        assert verdict(_report([], criteria=passed, **calibrations))[0].tone == tone
 
 
 def test_few_samples_are_never_good() -> None:

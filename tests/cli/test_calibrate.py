@@ -242,15 +242,6 @@ def test_an_earlier_file_is_replaced(arm: Path, run: Run) -> None:
     assert read_calibration(file).lambda_counts2 == 17.0
 
 
-def test_reversed_gravity_is_warned_of(arm: Path, run: Run) -> None:
-    """Gravity upside down turns the sign of the matrix, which is said; the right way round it is not."""
-    right = run("calibrate", PARQUET, "-o", "right.json")
-    assert not [line for line in right.log if "reversed" in line]
-    edit(arm / PARQUET, "gravity_direction = [0.0, 0.0, -1.0]", "gravity_direction = [0.0, 0.0, 1.0]")
-    wrong = run("calibrate", PARQUET, "-o", "wrong.json", "--lambda", "0.01")
-    assert [line for line in wrong.log if "sign of the prior reversed" in line]
-
-
 def test_the_temperature_is_fitted_and_shown(warm: Path, run: Run) -> None:
     """File, JSON, CSV and table hold the exact coefficients with their unit and reference value."""
     words = ("calibrate", PARQUET, "-o", "made.json", "--lambda", "0", "--format")

@@ -21,6 +21,7 @@ from forcetorque.analysis import (
     evaluate,
 )
 from forcetorque.arrays import FloatArray
+from forcetorque.calibration.gate import examine
 from forcetorque.estimation import SensorSamples
 from forcetorque.experiment import Experiment, load_experiment
 from forcetorque.recording import Use
@@ -54,6 +55,23 @@ def test_no_worse_than_the_prior(path: Path, data_dir: Path, tmp_path: Path) -> 
     assert new.samples > 1000
     assert new.force_error_mean_N <= prior.force_error_mean_N
     assert new.moment_error_mean_Nm <= prior.moment_error_mean_Nm
+
+
+@pytest.mark.parametrize("path", YOGA, ids=lambda path: path.name)
+def test_the_legs_log_raises_no_doubt(path: Path, data_dir: Path, tmp_path: Path) -> None:
+    """Fitted while it moves or is nearly static: the leg's sensor is one, and the masses beyond it are right."""
+    experiment = _load(path, data_dir, tmp_path)
+    parts = SensorRun(experiment, "r_leg_ft_sensor").samples(Use.CALIBRATION)
+    assert examine([part.data_set for part in parts], experiment.sensors[0].prior) == ()
+
+
+def test_the_free_foots_log_is_in_doubt(data_dir: Path, tmp_path: Path) -> None:
+    """It reads a fifth less than the model: what is fitted to that makes its reading of the robot's weight worse."""
+    experiment = _load(ROOT / "examples" / "10_icub_yoga_study.toml", data_dir, tmp_path)
+    parts = SensorRun(experiment, "r_foot_ft_sensor").samples(Use.CALIBRATION)
+    (doubt,) = examine([part.data_set for part in parts], experiment.sensor("r_foot_ft_sensor").prior)
+    assert doubt.kind == "scale"
+    assert "the gain changed by -2" in doubt.message
 
 
 def test_a_quiet_half_may_give_a_force_a_little_worse_than_the_prior(data_dir: Path, tmp_path: Path) -> None:

@@ -23,6 +23,7 @@ from forcetorque.calibration import (
     SensorIdentity,
     Validity,
     calibrate,
+    gate,
 )
 from forcetorque.experiment.content import Experiment, ExperimentSensor
 from forcetorque.recording import Use
@@ -47,13 +48,19 @@ def calibrate_sensor(
 
     Returns:
         The calibration, with everything that tells how far to trust it.
+
+    Raises:
+        FitError: If the data cannot be those of the sensor under the modelled load, or do not determine the fit.
     """
     experiment, sensor = run.experiment, run.sensor
     if kind is None:
         kind = experiment.fit_options.kind(has_variables=bool(sensor.variables))
     parts = run.samples(Use.CALIBRATION, variables=_variable_names(sensor) if kind.with_variables else ())
+    data_sets = [part.data_set for part in parts]
+    # where the prior is kept there is no matrix to spoil, and a limb at rest tells the offset
+    doubts = () if regularisation == math.inf else gate.examine(data_sets, sensor.prior)
     result = calibrate(
-        [part.data_set for part in parts],
+        data_sets,
         sensor.prior,
         regularisation=regularisation,
         kind=kind,
@@ -69,6 +76,7 @@ def calibrate_sensor(
         created=created,
         experiment=experiment.name,
         inputs_sha256=experiment.inputs_sha256,
+        doubts=[doubt.message for doubt in doubts],
     )
 
 
@@ -82,6 +90,7 @@ def artefact(
     created: str,
     experiment: str,
     inputs_sha256: Mapping[str, str],
+    doubts: Sequence[str] = (),
 ) -> Calibration:
     """Make the calibration that a fit leaves on disk.
 
@@ -94,6 +103,7 @@ def artefact(
         created: Date and time, ISO 8601, for the record.
         experiment: Name of the experiment.
         inputs_sha256: SHA-256 of every input file, by its path.
+        doubts: What made the fit doubtful before it was made.
 
     Returns:
         The calibration.
@@ -127,6 +137,7 @@ def artefact(
             dropped=sum(p.samples.dropped for p in parts),
             inputs_sha256=dict(inputs_sha256),
         ),
+        doubts=tuple(doubts),
     )
 
 

@@ -128,6 +128,8 @@ def data_doubts(run: SensorRun) -> Iterator[str]:
 
 def _fit_doubts(entry: SensorCalibration) -> Iterator[str]:
     sensor, excited = entry.calibration.sensor.name, entry.calibration.validity.excited
+    for doubt in entry.calibration.doubts:
+        yield f"{sensor}: {doubt}"
     if entry.secondary_matrix is not None:
         diagonal = zip(WRENCH_COMPONENTS, entry.secondary_matrix.diagonal(), strict=True)
         turned = [component for component, own in diagonal if own < 0.0]

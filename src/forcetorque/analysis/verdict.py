@@ -52,6 +52,7 @@ def verdict(assessment: Assessment) -> tuple[VerdictLine, ...]:
 def _lines(assessment: Assessment) -> Iterator[tuple[Tone, str]]:
     yield from _acceptance(assessment)
     yield from _errors(assessment)
+    yield from _doubts(assessment)
     yield from _independence(assessment)
     for warning in assessment.warnings:
         yield "caution", warning
@@ -72,7 +73,7 @@ def _acceptance(assessment: Assessment) -> Iterator[tuple[Tone, str]]:
         if failed:
             yield "bad", f"{name} is not accepted: {len(failed)} of {len(rows)} criteria fail: {', '.join(failed)}"
         else:
-            yield "good", f"{name} is accepted: all {len(rows)} criteria hold"
+            yield _unless_doubted("good", assessment, candidate), f"{name} is accepted: all {len(rows)} criteria hold"
 
 
 def _errors(assessment: Assessment) -> Iterator[tuple[Tone, str]]:
@@ -83,7 +84,7 @@ def _errors(assessment: Assessment) -> Iterator[tuple[Tone, str]]:
         if compared:
             constant = f"; {compared[0].constant:.2f} N is constant" if row.offset is Offset.FITTED else ""
             words = "; ".join(f"{one.quantity} error {_compared(one)}" for one in compared)
-            yield _tone(compared), start + words + constant
+            yield _unless_doubted(_tone(compared), assessment, row.candidate), start + words + constant
         elif row.candidate in assessment.calibrations:
             yield "unknown", f"{start}{_plain(row)}; it has no prior to compare it with"
         elif not assessment.calibrations:
@@ -94,6 +95,19 @@ def _errors(assessment: Assessment) -> Iterator[tuple[Tone, str]]:
             "its own offset is one draw: intervals say how the error scatters in these recordings, not how the offset "
             "changes from one switching on to the next",
         )
+
+
+def _doubts(assessment: Assessment) -> Iterator[tuple[Tone, str]]:
+    names = short_names(list(assessment.calibrations))
+    for file, calibration in assessment.calibrations.items():
+        for doubt in calibration.doubts:
+            yield "caution", f"{names[file]} was in doubt before it was fitted: {doubt}"
+
+
+def _unless_doubted(tone: Tone, assessment: Assessment, candidate: str) -> Tone:
+    """A reference that is wrong flatters the calibration that was fitted to it."""
+    calibration = assessment.calibrations.get(candidate)
+    return "caution" if tone == "good" and calibration is not None and calibration.doubts else tone
 
 
 def _plain(row: CandidateErrors) -> str:

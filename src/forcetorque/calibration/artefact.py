@@ -234,6 +234,8 @@ class Calibration(Part):
     """What made the fit doubtful before it was made."""
     provenance: Provenance
     """What the fit was made from."""
+    doubts: tuple[str, ...] = ()
+    """What made the fit doubtful before it was made."""
 
     @field_validator("matrix")
     @classmethod

@@ -9,6 +9,7 @@ from pathlib import Path
 
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration import EstimationType, LinearVariable, OffsetStrategy
+from forcetorque.calibration.generative import REPEATABILITY
 from forcetorque.errors import ExperimentError, known_names
 from forcetorque.estimation import Contact, Payload, Processing
 from forcetorque.experiment.recording_names import path_endings, recording_name
@@ -26,9 +27,18 @@ class SensorVariable:
     """Its column in the recording."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class FitOptions:
-    """Estimation type as the file states it; what it leaves open depends on the sensor."""
+    """Estimator as the file states it; what it leaves open depends on the sensor."""
+
+    generative: bool = True
+    """Whether the generative model is fitted, and not a type of the thesis."""
+    accuracy: FloatArray | None = None
+    """Accuracy of the reference; shape (6,); N, N m; None for 1e-3 of full scale."""
+    repeatability: float = REPEATABILITY
+    """Share of its response by which a sensor differs from one motion to the next."""
+    drift: bool = False
+    """Whether the offset of a session may move evenly in time."""
 
     offset: OffsetStrategy = OffsetStrategy.ONE_SHOT
     """How the offset is found."""
@@ -79,6 +89,8 @@ class ExperimentSensor:
     """Its file, as the experiment names it; `identity` where the reading itself takes the place of counts."""
     limit_counts: float
     """Largest magnitude of a raw reading; counts."""
+    full_scale: FloatArray | None = None
+    """Full scale per component, as the file states it; shape (6,); N, N m."""
     amplifier_gain: tuple[float, ...] | None = None
     """Gain of each channel's amplifier while it was recorded; None if it is not known."""
     allowed_gains: tuple[float, ...] | None = None

@@ -5,6 +5,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import numpy as np
+
 from forcetorque.calibration import ESTIMATION_TYPES, OffsetStrategy
 from forcetorque.errors import ExperimentError, known_names
 from forcetorque.estimation import Processing
@@ -135,10 +137,20 @@ def _processing(parsed: schema.ExperimentFile, *, gravity: float) -> Processing:
 
 
 def _fit_options(table: schema.CalibrationTable) -> FitOptions:
-    if table.type is not None:
+    if table.type in ESTIMATION_TYPES:
         kind = ESTIMATION_TYPES[table.type]
-        return FitOptions(offset=kind.offset, with_variables=kind.with_variables, from_reference=kind.from_reference)
+        return FitOptions(
+            generative=False,
+            offset=kind.offset,
+            with_variables=kind.with_variables,
+            from_reference=kind.from_reference,
+        )
+    accuracy = table.accuracy
     return FitOptions(
+        generative=table.generative,
+        accuracy=None if accuracy is None else np.repeat([accuracy.force_N, accuracy.moment_Nm], 3),
+        repeatability=table.repeatability,
+        drift=table.drift,
         offset=table.offset or OffsetStrategy.ONE_SHOT,
         with_variables=table.with_variables,
         from_reference=table.from_reference,

@@ -1,0 +1,84 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Reduce recordings of a sensor to what a calibration needs of them."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from forcetorque.analysis.campaign import Campaign, Runs
+from forcetorque.analysis.sensor_run import SensorRun
+from forcetorque.arrays import FloatArray
+from forcetorque.calibration import IntervalMoments, RecordingMoments, VariableDescription
+from forcetorque.calibration.generative import ACCURACY_SHARE
+from forcetorque.errors import ExperimentError
+from forcetorque.recording import Use
+
+
+def recording_moments(runs: Runs, *, with_variables: bool | None = None) -> list[RecordingMoments]:
+    """Reduce the calibration intervals of a sensor.
+
+    Args:
+        runs: The sensor, in one experiment or several.
+        with_variables: Whether its linear variables are wanted; None for what the experiment says, else where it has
+            any.
+
+    Returns:
+        Moments and means of every recording.
+
+    Raises:
+        ExperimentError: If there is no calibration interval, or the full scale of the sensor is not known.
+    """
+    campaign = Campaign.of(runs)
+    stated = campaign.runs[0].experiment.fit_options.with_variables if with_variables is None else with_variables
+    sensor = campaign.sensor
+    variables = [v.linear for v in sensor.variables] if stated is not False else []
+    intervals = campaign.samples(Use.CALIBRATION, variables=[variable.name for variable in variables])
+    results = []
+    for run, recording in zip(campaign.runs, campaign.recordings, strict=True):
+        own = [interval for interval in intervals if interval.recording == recording]
+        if not own:
+            continue
+        options = run.experiment.fit_options
+        results.append(
+            RecordingMoments(
+                sensor=run.identity,
+                experiment=run.experiment.name,
+                prior=sensor.prior,
+                prior_source=sensor.prior_source,
+                full_scale=channel_full_scale(run),
+                accuracy=options.accuracy,
+                repeatability=options.repeatability,
+                drift=options.drift,
+                variables=tuple(map(VariableDescription.of, variables)),
+                intervals=tuple(
+                    IntervalMoments.of(i.data_set, i.fitted, dropped=i.part.samples.dropped) for i in own
+                ),
+                inputs_sha256=run.experiment.inputs_sha256,
+            )
+        )
+    return results
+
+
+def channel_full_scale(run: SensorRun) -> FloatArray:
+    """Give the full scale of every channel of a sensor's raw reading.
+
+    Args:
+        run: The sensor.
+
+    Returns:
+        Full scales; shape (c,); counts, or N and N m where the logged wrench takes the place of counts.
+
+    Raises:
+        ExperimentError: If a wrench takes the place of counts, and neither its full scale nor an accuracy is stated.
+    """
+    sensor, accuracy = run.sensor, run.experiment.fit_options.accuracy
+    if sensor.prior_source != "identity":
+        return np.full(run.channels, sensor.limit_counts)
+    if sensor.full_scale is not None:
+        return sensor.full_scale
+    if accuracy is not None and (accuracy > 0.0).all():
+        return accuracy / ACCURACY_SHARE
+    raise ExperimentError(
+        f'sensor {sensor.name!r}: expected full_scale with the prior "identity", which says nothing of sizes: six '
+        "numbers in its [[sensor]], N and N m, as its data sheet has them; or accuracy of [calibration]"
+    )
