@@ -46,10 +46,12 @@ from forcetorque.analysis.inspect import (
 from forcetorque.analysis.interval_quality import IntervalQuality
 from forcetorque.analysis.joint_torques import JointTorqueErrors, JointTorques, joint_torques
 from forcetorque.analysis.judged import JudgedWrenches
+from forcetorque.analysis.learnt import LearntDirection, learnt_directions
 from forcetorque.analysis.payload import WeighedLoad, weigh_load
 from forcetorque.analysis.population import read_population
 from forcetorque.analysis.prior_comparison import Independence, PriorComparison, compare_with_prior
 from forcetorque.analysis.reading import Correction
+from forcetorque.analysis.recording_moments import recording_moments, store_moments
 from forcetorque.analysis.samples import IntervalSamples
 from forcetorque.analysis.sensor_calibration import (
     SensorCalibration,
@@ -71,6 +73,10 @@ from forcetorque.analysis.validate import Validation, validate
 from forcetorque.analysis.verdict import VerdictLine
 
 __all__ = [
+    "LearntDirection",
+    "learnt_directions",
+    "recording_moments",
+    "store_moments",
     "Acceptance",
     "AcceptanceFile",
     "Assessment",

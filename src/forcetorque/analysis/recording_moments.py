@@ -3,12 +3,15 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+from urllib.parse import quote
+
 import numpy as np
 
 from forcetorque.analysis.campaign import Campaign, Runs
 from forcetorque.analysis.sensor_run import SensorRun
 from forcetorque.arrays import FloatArray
-from forcetorque.calibration import IntervalMoments, RecordingMoments, VariableDescription
+from forcetorque.calibration import IntervalMoments, RecordingMoments, VariableDescription, gate
 from forcetorque.calibration.generative import ACCURACY_SHARE
 from forcetorque.errors import ExperimentError
 from forcetorque.recording import Use
@@ -33,6 +36,7 @@ def recording_moments(runs: Runs, *, with_variables: bool | None = None) -> list
     sensor = campaign.sensor
     variables = [v.linear for v in sensor.variables] if stated is not False else []
     intervals = campaign.samples(Use.CALIBRATION, variables=[variable.name for variable in variables])
+    doubts = gate.examine([interval.data_set for interval in intervals], sensor.prior)
     results = []
     for run, recording in zip(campaign.runs, campaign.recordings, strict=True):
         own = [interval for interval in intervals if interval.recording == recording]
@@ -50,9 +54,8 @@ def recording_moments(runs: Runs, *, with_variables: bool | None = None) -> list
                 repeatability=options.repeatability,
                 drift=options.drift,
                 variables=tuple(map(VariableDescription.of, variables)),
-                intervals=tuple(
-                    IntervalMoments.of(i.data_set, i.fitted, dropped=i.part.samples.dropped) for i in own
-                ),
+                intervals=tuple(IntervalMoments.of(i.data_set, i.fitted, dropped=i.part.samples.dropped) for i in own),
+                doubts=tuple(doubt.message for doubt in doubts),
                 inputs_sha256=run.experiment.inputs_sha256,
             )
         )
@@ -82,3 +85,23 @@ def channel_full_scale(run: SensorRun) -> FloatArray:
         f'sensor {sensor.name!r}: expected full_scale with the prior "identity", which says nothing of sizes: six '
         "numbers in its [[sensor]], N and N m, as its data sheet has them; or accuracy of [calibration]"
     )
+
+
+def store_moments(runs: Runs, folder: Path | str) -> list[Path]:
+    """Keep what a calibration needs of every recording of a sensor.
+
+    Args:
+        runs: The sensor, in one experiment or several.
+        folder: Where the files go; made where it is missing.
+
+    Returns:
+        The files, one per recording.
+    """
+    place = Path(folder)
+    place.mkdir(parents=True, exist_ok=True)
+    files = []
+    for recording in recording_moments(runs):
+        name = f"{recording.sensor.name}_{recording.sensor.serial}_{recording.intervals[0].recording}"
+        files.append(place / f"{quote(name, safe=' ')}.json")
+        recording.save(files[-1])
+    return files

@@ -9,8 +9,8 @@ from typing import Any
 
 import numpy as np
 
-from forcetorque.analysis.calibrate import artefact
 from forcetorque.analysis.study_data import StudyData
+from forcetorque.analysis.thesis_calibration import artefact
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration import Calibration, Selection, calibrate
 from forcetorque.evaluation import Offset
@@ -83,7 +83,7 @@ class CalibrationMaker:
         )
         calibration = artefact(
             result,
-            [replace(i.part, interval=replace(i.part.interval, label=i.label)) for i in intervals],
+            intervals,
             sensor=self.data.sensor,
             identity=self.data.identity,
             code_version=self.code_version,

@@ -26,17 +26,35 @@ from forcetorque.calibration.estimation_type import (
 )
 from forcetorque.calibration.excitation import Excitation, excitation_of
 from forcetorque.calibration.fit import MatrixFit, fit_matrix, require_determined
+from forcetorque.calibration.generative import Assumptions, GenerativeFit, WindowMeans, disagreements, fit_generative
 from forcetorque.calibration.held_out import RULE, LambdaCurve, choose_lambda
 from forcetorque.calibration.linear_variable import LinearVariable
 from forcetorque.calibration.moments import Moments, pooled
 from forcetorque.calibration.posterior import Posterior, RowNoise
 from forcetorque.calibration.raw import is_invertible, recover_raw
+from forcetorque.calibration.recording_moments import (
+    IntervalMoments,
+    RecordingMoments,
+    VariableDescription,
+    read_moments,
+    require_same_sensor,
+)
 from forcetorque.calibration.regression import Regression, solve
 from forcetorque.calibration.secondary import secondary_matrix, secondary_model
 from forcetorque.calibration.sphere import sphere_centre
 from forcetorque.calibration.wrench_model import WrenchModel
 
 __all__ = [
+    "require_same_sensor",
+    "read_moments",
+    "VariableDescription",
+    "RecordingMoments",
+    "IntervalMoments",
+    "fit_generative",
+    "disagreements",
+    "WindowMeans",
+    "GenerativeFit",
+    "Assumptions",
     "ESTIMATION_TYPES",
     "GENERATIVE",
     "RULE",

@@ -231,11 +231,9 @@ class Calibration(Part):
     selection: Selection
     """How lambda came about."""
     doubts: tuple[str, ...] = ()
-    """What made the fit doubtful before it was made."""
+    """What makes the data doubtful that were fitted."""
     provenance: Provenance
     """What the fit was made from."""
-    doubts: tuple[str, ...] = ()
-    """What made the fit doubtful before it was made."""
 
     @field_validator("matrix")
     @classmethod

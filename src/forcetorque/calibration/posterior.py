@@ -123,6 +123,21 @@ class Posterior(Part):
         load = np.asarray(wrench, dtype=np.float64)
         return self._in_wrench(np.einsum("...j,ijk,...k->...i", load, self.learnt_covariance, load))
 
+    def learnt_shares(self) -> FloatArray | None:
+        """Tell how much less than before is left of the uncertainty of each load direction.
+
+        Returns:
+            One less the standard deviation after over that before, of the error that a load along each component makes,
+            root mean square over the components of the error; shape (6,); None without a prior.
+        """
+        before = self.prior_error_covariance(np.eye(6))
+        if before is None:
+            return None
+        after = self.learnt_error_covariance(np.eye(6))
+        ratios = np.einsum("kii->ki", after) / np.einsum("kii->ki", before)
+        shares: FloatArray = 1.0 - np.sqrt(ratios.mean(axis=1))
+        return shares
+
     def matrix_error(self, matrix: FloatArray) -> FloatArray:
         """Give the standard errors of the calibration matrix.
 
@@ -171,4 +186,5 @@ class Posterior(Part):
         return spread
 
     def _in_wrench(self, variance: FloatArray) -> FloatArray:
-        return np.einsum("ai,...i,bi->...ab", self.to_wrench, variance, self.to_wrench)
+        covariance: FloatArray = np.einsum("ai,...i,bi->...ab", self.to_wrench, variance, self.to_wrench)
+        return covariance

@@ -10,7 +10,7 @@ from pathlib import Path
 
 from forcetorque.analysis import Campaign, SensorRun
 from forcetorque.analysis.campaign_recording import refuse_a_file_twice
-from forcetorque.calibration import Calibration, read_calibration
+from forcetorque.calibration import Calibration, RecordingMoments, read_calibration, read_moments
 from forcetorque.errors import ExperimentError, ForceTorqueError
 from forcetorque.experiment import Experiment, ExperimentSensor, load_experiment
 from forcetorque.experiment.inputs import stated_in
@@ -70,6 +70,18 @@ def campaign_of(experiments: Mapping[Path, Experiment], sensor: str) -> Campaign
         with stated_in(str(path)) if len(experiments) > 1 else nullcontext():
             runs.append(SensorRun(experiment, sensor))
     return Campaign(runs)
+
+
+def stored_moments(paths: Iterable[Path]) -> list[RecordingMoments]:
+    """Read the files of moments among files that are to be fitted.
+
+    Args:
+        paths: Experiment files, and files of moments, which end in .json.
+
+    Returns:
+        The moments.
+    """
+    return [read_moments(path) for path in paths if path.suffix == ".json"]
 
 
 def read_calibrations(paths: Iterable[Path] | None) -> dict[str, Calibration]:

@@ -298,9 +298,7 @@ class CalibrationTable(Table):
         if self.with_variables is False and self.from_reference:
             raise PydanticCustomError("no_variables", "from_reference belongs to with_variables = true")
         if self.type == GENERATIVE and "lambda_counts2" in self.model_fields_set:
-            raise PydanticCustomError(
-                "generative_lambda", "the generative model has no lambda; leave it out"
-            )
+            raise PydanticCustomError("generative_lambda", "the generative model has no lambda; leave it out")
         return self
 
     @property

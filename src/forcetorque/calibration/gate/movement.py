@@ -80,7 +80,8 @@ class Movement:
             Mean square of the rest of every column; shape (k,).
         """
         rest = np.hstack([np.eye(self.columns), -self.follows])
-        return np.maximum(np.einsum("ij,jk,ik->i", rest, second, rest), 0.0)
+        left: FloatArray = np.maximum(np.einsum("ij,jk,ik->i", rest, second, rest), 0.0)
+        return left
 
 
 def _columns(data: DataSet) -> tuple[FloatArray, FloatArray, FloatArray]:

@@ -283,11 +283,12 @@ class _Result:
         rows, unit = self.rows, self.rows.unit
         if rows.space == "wrench":
             require_sensor(np.eye(LOADS) + change * (unit / unit[:, None]))
-            to_wrench = np.linalg.inv(np.eye(LOADS) + change)
+            to_wrench = np.asarray(np.linalg.inv(np.eye(LOADS) + change), dtype=np.float64)
             return to_wrench @ self.matrix, to_wrench
         response = rows.from_load * unit[:, None] + change
         precision = np.array([1.0 / (one.white**2 * (1.0 + one.ratio)) for one in noise])[:, None]
-        matrix = np.linalg.solve(response.T @ (precision * response), (precision * response).T)
+        weighed = precision * response
+        matrix = np.asarray(np.linalg.solve(response.T @ weighed, weighed.T), dtype=np.float64)
         return matrix, matrix
 
     def _before(self, unit: FloatArray) -> FloatArray:

@@ -85,7 +85,7 @@ class WindowMeans:
             session=data.session,
             recording=data.recording,
             time_s=time,
-            count=count,
+            count=count.astype(np.float64),
             raw=raw,
             reference=reference,
             flattening=flattening,

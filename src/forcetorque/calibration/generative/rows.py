@@ -54,7 +54,7 @@ def rows_of(matrix: FloatArray, assumptions: Assumptions, *, with_prior: bool) -
         The rows.
     """
     scaled = matrix * assumptions.full_scale  # N, N m per full scale of a channel
-    response = np.linalg.pinv(scaled)
+    response = np.asarray(np.linalg.pinv(scaled), dtype=np.float64)
     channels = len(response)
     size = np.sqrt((scaled**2).mean(axis=1))
     accuracy = assumptions.reference_accuracy(matrix)
@@ -73,6 +73,7 @@ def rows_of(matrix: FloatArray, assumptions: Assumptions, *, with_prior: bool) -
             accuracy=accuracy / size,
         )
     _, strengths, directions = np.linalg.svd(response, full_matrices=False)
+    readings: FloatArray = np.sqrt(LOADS / channels) * strengths[:, None] * directions
     squares = np.einsum("ji,iab->jab", response**2, frames @ frames)
     return Rows(
         space="channel",
@@ -80,7 +81,7 @@ def rows_of(matrix: FloatArray, assumptions: Assumptions, *, with_prior: bool) -
         group=np.zeros(channels, dtype=np.int64),
         from_raw=np.diag(1.0 / assumptions.full_scale),
         from_load=response,
-        load_to_full_scale=np.sqrt(LOADS / channels) * strengths[:, None] * directions,
+        load_to_full_scale=readings,
         sensor_root=np.stack([spread / np.sqrt(channels)] * channels),
         frame_root=np.sqrt(squares),
         accuracy=_channel_accuracy(response, accuracy, assumptions),
