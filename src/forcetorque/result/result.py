@@ -97,7 +97,7 @@ class Result(Row):
             Its JSON schema.
         """
         schema = cls.model_json_schema(mode="serialization")
-        schema["required"] = [name for name in schema["required"] if name not in cls.of_several]
+        schema["required"] = [name for name in schema.get("required", ()) if name not in cls.of_several]
         return schema
 
     @classmethod
