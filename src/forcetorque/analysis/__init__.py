@@ -19,7 +19,11 @@ from forcetorque.analysis.contact_forces import (
 from forcetorque.analysis.corrections import corrections_of
 from forcetorque.analysis.criterion import Bound, Criterion
 from forcetorque.analysis.estimate import IntervalEstimates, estimate_experiment
-from forcetorque.analysis.estimate_summary import EstimateSummary, summarise_estimates
+from forcetorque.analysis.estimate_summary import (
+    EstimateSummary,
+    estimates_of_recordings,
+    summarise_estimates,
+)
 from forcetorque.analysis.evaluate import CandidateErrors, Evaluation, RecordingErrors, evaluate
 from forcetorque.analysis.experiment_assessment import ExperimentAssessment, assess_experiment
 from forcetorque.analysis.export import (
@@ -144,6 +148,7 @@ __all__ = [
     "data_doubts",
     "doubtful_spans",
     "estimate_experiment",
+    "estimates_of_recordings",
     "evaluate",
     "export_coefficients",
     "export_icub_matrix",

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, ClassVar, Literal
 
 import numpy as np
 from pydantic import Field
@@ -58,11 +58,9 @@ class SubModelSummary(Row):
     """Groups of unknowns that cannot be told apart."""
 
 
-class EstimateSummary(Result):
-    """What touches the robot over the intervals of an experiment, and how well its equations determine that."""
+class EstimatedRecording(Row):
+    """The estimates of one of several recordings."""
 
-    schema_name: Literal["forcetorque/estimate/1"] = Field(default="forcetorque/estimate/1", alias="schema")
-    """Form of the result."""
     experiment: str
     """Name of the experiment."""
     file: str | None
@@ -78,30 +76,56 @@ class EstimateSummary(Result):
     left_out: tuple[str, ...]
     """What the log does not allow to estimate."""
 
+
+class EstimateSummary(Result):
+    """What touches the robot over the intervals of an experiment, and how well its equations determine that."""
+
+    of_several: ClassVar[tuple[str, ...]] = ("recordings",)
+
+    schema_name: Literal["forcetorque/estimate/1"] = Field(default="forcetorque/estimate/1", alias="schema")
+    """Form of the result."""
+    experiment: str
+    """Name of the experiment; of several recordings their names, apart by semicolons."""
+    file: str | None
+    """File with every sample, where one was written."""
+    rows: int
+    """Number of samples, which are its rows."""
+    readings: dict[str, str]
+    """By sensor, how its reading became a wrench."""
+    contacts: tuple[ContactSummary, ...]
+    """One per interval and contact."""
+    parts: tuple[SubModelSummary, ...]
+    """One per interval and sub-model."""
+    left_out: tuple[str, ...]
+    """What the log does not allow to estimate."""
+    recordings: tuple[EstimatedRecording, ...] = ()
+    """Of several recordings one each, where these things then stand; none where there is one recording."""
+
     def blocks(self) -> Iterator[Table | str]:
-        """Give a table of the contacts and one of the sub-models.
+        """Give a table of the contacts and one of the sub-models, of one recording after the other.
 
         Yields:
             Tables and sentences.
         """
-        if self.contacts:
-            yield table_of(self.contacts, self.experiment)
-        if self.parts:
-            yield table_of(self.parts, "")
-        for row in self.parts:
-            for group in row.ambiguous:
-                yield f"{row.part}, {row.interval}: cannot tell apart {', '.join(group)}"
+        for recording in self.recordings or (self,):
+            yield from _tables(recording)
         yield "force and moment: mean norms of what the environment does to the robot, in the contact frame"
-        if self.file is not None:
-            yield f"{self.rows} rows written to {self.file}"
+        for recording in self.recordings or (self,):
+            if recording.file is not None:
+                yield f"{recording.rows} rows written to {recording.file}"
 
     def records(self) -> list[dict[str, object]]:
         """Give the contacts as lines.
 
         Returns:
-            A line per interval and contact.
+            A line per interval and contact; of several recordings with the name of the experiment and the file.
         """
-        return [row.flat() for row in self.contacts]
+        several = [
+            {"experiment": recording.experiment, "file": recording.file, **row.flat()}
+            for recording in self.recordings
+            for row in recording.contacts
+        ]
+        return several or [row.flat() for row in self.contacts]
 
     def columns(self) -> list[str]:
         """Name the columns of the lines.
@@ -109,7 +133,42 @@ class EstimateSummary(Result):
         Returns:
             The same where nothing could be estimated.
         """
-        return list(ContactSummary.model_fields)
+        return [*(("experiment", "file") if self.recordings else ()), *ContactSummary.model_fields]
+
+
+def _tables(recording: EstimateSummary | EstimatedRecording) -> Iterator[Table | str]:
+    if recording.contacts:
+        yield table_of(recording.contacts, recording.experiment)
+    if recording.parts:
+        yield table_of(recording.parts, "")
+    for row in recording.parts:
+        for group in row.ambiguous:
+            yield f"{row.part}, {row.interval}: cannot tell apart {', '.join(group)}"
+
+
+def estimates_of_recordings(summaries: Mapping[str, EstimateSummary]) -> EstimateSummary:
+    """Put what several recordings amount to together; nothing is pooled, as every one has samples of its own.
+
+    Args:
+        summaries: Summaries by name of the experiment file.
+
+    Returns:
+        One that holds them all.
+    """
+    return EstimateSummary(
+        experiment="; ".join(summary.experiment for summary in summaries.values()),
+        file=None,
+        rows=sum(summary.rows for summary in summaries.values()),
+        readings={},
+        contacts=(),
+        parts=(),
+        left_out=(),
+        recordings=tuple(
+            EstimatedRecording(**{name: getattr(summary, name) for name in EstimatedRecording.model_fields})
+            for summary in summaries.values()
+        ),
+        warnings=tuple(f"{name}: {words}" for name, summary in summaries.items() for words in summary.warnings),
+    )
 
 
 def summarise_estimates(

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, ClassVar, Literal
 
 import numpy as np
 from pydantic import Field
@@ -68,6 +68,8 @@ class RecordingErrors(CandidateErrors):
 
 class Evaluation(Result):
     """Errors of calibrations, and of the priors that they came from, on data that was not fitted."""
+
+    of_several: ClassVar[tuple[str, ...]] = ("recordings",)
 
     schema_name: Literal["forcetorque/evaluate/1"] = Field(default="forcetorque/evaluate/1", alias="schema")
     """Form of the result."""

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import Literal
+from typing import ClassVar, Literal
 
 from pydantic import Field
 
@@ -34,6 +34,8 @@ from forcetorque.result import Result, Table
 
 class Validation(Result):
     """Contact forces and joint torques of sensors, by their calibrations and the priors that those came from."""
+
+    of_several: ClassVar[tuple[str, ...]] = ("recordings", "recording_torques")
 
     schema_name: Literal["forcetorque/validate/1"] = Field(default="forcetorque/validate/1", alias="schema")
     """Form of the result."""
