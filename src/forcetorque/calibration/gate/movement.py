@@ -68,7 +68,8 @@ class Movement:
     def follows(self) -> FloatArray:
         """Matrix by which the reading follows the reference, by least squares; shape (k, 6)."""
         k = self.columns
-        return self.second[:k, k:] @ symmetric_pseudo_inverse(self.second[k:, k:])
+        matrix: FloatArray = self.second[:k, k:] @ symmetric_pseudo_inverse(self.second[k:, k:])
+        return matrix
 
     def left(self, second: FloatArray) -> FloatArray:
         """Take out of the reading what follows the reference.
