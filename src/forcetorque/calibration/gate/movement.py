@@ -68,8 +68,7 @@ class Movement:
     def follows(self) -> FloatArray:
         """Matrix by which the reading follows the reference, by least squares; shape (k, 6)."""
         k = self.columns
-        matrix: FloatArray = self.second[:k, k:] @ symmetric_pseudo_inverse(self.second[k:, k:])
-        return matrix
+        return self.second[:k, k:] @ symmetric_pseudo_inverse(self.second[k:, k:])
 
     def left(self, second: FloatArray) -> FloatArray:
         """Take out of the reading what follows the reference.
@@ -81,7 +80,8 @@ class Movement:
             Mean square of the rest of every column; shape (k,).
         """
         rest = np.hstack([np.eye(self.columns), -self.follows])
-        return np.maximum(np.einsum("ij,jk,ik->i", rest, second, rest), 0.0)
+        square: FloatArray = np.maximum(np.einsum("ij,jk,ik->i", rest, second, rest), 0.0)
+        return square
 
 
 def _columns(data: DataSet) -> tuple[FloatArray, FloatArray, FloatArray]:
