@@ -80,8 +80,8 @@ class Movement:
             Mean square of the rest of every column; shape (k,).
         """
         rest = np.hstack([np.eye(self.columns), -self.follows])
-        left: FloatArray = np.maximum(np.einsum("ij,jk,ik->i", rest, second, rest), 0.0)
-        return left
+        square: FloatArray = np.maximum(np.einsum("ij,jk,ik->i", rest, second, rest), 0.0)
+        return square
 
 
 def _columns(data: DataSet) -> tuple[FloatArray, FloatArray, FloatArray]:

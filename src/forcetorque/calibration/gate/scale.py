@@ -31,9 +31,9 @@ _CAUSES = (
     (1.5, 2.6, "does the model have half of the true mass?"),
     (0.4, 0.65, "does the model have twice the true mass?"),
     (0.07, 0.14, "are weights given instead of masses?"),
-    (0.0003, 0.003, "are the masses in grams instead of kg?"),
+    (-0.1, 0.02, "are the masses in grams instead of kg?"),
 )
-"""What gains between two limits point to."""
+"""What gains between two limits point to; small ones are known to some hundredths only."""
 
 _CHECK = (
     "check the mass of the links beyond the sensor in the file that urdf of [robot] names, or mass_kg of [load], and "
