@@ -116,6 +116,22 @@ def test_every_question_reads_the_session(arm: Path, fitted: Calibration) -> Non
     assert np.array_equal(stepped["fit"], plain["fit"])
 
 
+def test_a_recording_that_is_one_session_is_read_alike_outside_its_intervals(arm: Path, fitted: Calibration) -> None:
+    """The whole log, as the viewer shows it; a session that the file states reaches no farther than its intervals."""
+    run = _run(arm)
+    at_ns = run.stream.stamp_ns
+    plain = wrench_at(run.experiment, run.sensor, Correction.of(NAME, fitted), at_ns)
+    shifted = Correction.of(NAME, _sessions(fitted, "small arm"))
+    stepped = wrench_at(run.experiment, run.sensor, shifted, at_ns)
+    assert np.allclose(stepped - plain, STEP, rtol=0.0, atol=1e-9)
+    edit(arm / PARQUET, 'label = "judge"\n', 'label = "judge"\nsession = "day 2"\n')
+    run = _run(arm)
+    (judge,) = run.intervals(Use.VALIDATION)
+    stepped, inside = wrench_at(run.experiment, run.sensor, shifted, at_ns), judge.holds(at_ns)
+    assert np.allclose((stepped - plain)[~inside], STEP, rtol=0.0, atol=1e-9)
+    assert np.allclose(stepped[inside], plain[inside], rtol=0.0, atol=1e-9)
+
+
 def _fitted_elsewhere(calibration: Calibration, experiment: str | None, hashes: dict[str, str]) -> Calibration:
     """Say that a calibration was fitted on the whole of another recording, whose stamps count from the same time."""
     interval = FittedInterval(label="all", start_ns=0, end_ns=2**62, session="day 1", experiment=experiment)
