@@ -17,6 +17,7 @@ from forcetorque.evaluation import ContactForceValidation, Offset
 from forcetorque.evaluation import contact_forces as forces_of_readings
 from forcetorque.experiment.inputs import stated_in
 from forcetorque.recording import Interval, Use
+from forcetorque.recording.alignment import seconds_since
 from forcetorque.robot import Wrenches
 
 
@@ -31,6 +32,8 @@ class ContactWrenches:
     wrenches: Mapping[tuple[int, Offset], FloatArray]
     """Wrenches by the place of the candidate, because a calibration may be called `prior` too, and by the offset that
     is asked for; shape (n, 6) each; N, N m; NaN in gaps."""
+    time_s: Mapping[tuple[int, Offset], FloatArray]
+    """Instants of these, since the start of the recording; shape (n,) each; s."""
     left_out: tuple[str, ...]
     """What could not be judged of the intervals, in words."""
 
@@ -51,6 +54,7 @@ def contact_wrenches(free: FreeSubModel, calibrations: Mapping[str, Calibration]
     run = free.run
     candidates = run.candidates(calibrations)
     wrenches: dict[tuple[int, Offset], list[FloatArray]] = {}
+    times: dict[tuple[int, Offset], list[FloatArray]] = {}
     left_out: dict[str, None] = {}
     name = ""
     for interval in run.intervals(Use.VALIDATION):
@@ -68,11 +72,15 @@ def contact_wrenches(free: FreeSubModel, calibrations: Mapping[str, Calibration]
             words = gap_words(f"contact force by {candidates[index].name}", interval, judged)
             left_out |= {} if words is None else {words: None}
             for offset, errors in judged.items():
+                times.setdefault((index, offset), []).append(
+                    seconds_since(instants.judged_ns, run.experiment.recording.start_ns)
+                )
                 wrenches.setdefault((index, offset), []).append(errors)
     return ContactWrenches(
         sub_model=name,
         candidates=candidates,
         wrenches={key: np.concatenate(pieces) for key, pieces in wrenches.items()},
+        time_s={key: np.concatenate(pieces) for key, pieces in times.items()},
         left_out=tuple(left_out),
     )
 

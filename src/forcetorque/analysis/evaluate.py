@@ -32,16 +32,20 @@ class CandidateErrors(JudgedRow):
     """Mean error per component; N, N m."""
     largest: WrenchValues
     """Largest absolute error per component; N, N m."""
-    force_error_mean_N: Annotated[float, Shown("force", "N", digits=2, error="force_error_standard_error_N")]
+    force_error_mean_N: Annotated[float, Shown("force", "N", digits=2, error="force_error_half_width_95_N")]
     """Mean norm of the force error."""
     force_error_standard_error_N: float | None
-    """Standard error of that mean, from contiguous blocks; None for one sample."""
+    """Standard error of that mean; None for one sample."""
+    force_error_half_width_95_N: float | None
+    """Half-width of its 95 % interval; None where it cannot be told."""
     force_error_largest_N: float
     """Largest norm of the force error."""
-    moment_error_mean_Nm: Annotated[float, Shown("moment", "N m", digits=3, error="moment_error_standard_error_Nm")]
+    moment_error_mean_Nm: Annotated[float, Shown("moment", "N m", digits=3, error="moment_error_half_width_95_Nm")]
     """Mean norm of the moment error."""
     moment_error_standard_error_Nm: float | None
-    """Standard error of that mean, from contiguous blocks; None for one sample."""
+    """Standard error of that mean; None for one sample."""
+    moment_error_half_width_95_Nm: float | None
+    """Half-width of its 95 % interval; None where it cannot be told."""
     moment_error_largest_Nm: float
     """Largest norm of the moment error."""
 
@@ -66,7 +70,7 @@ class Evaluation(Result):
             rows = [row for row in self.verdicts if row.sensor == sensor]
             judged = f"{rows[0].samples} samples that were not fitted"
             yield table_of(rows, f"{self.experiment}: {sensor} ({rows[0].serial}), {judged}")
-        yield "per axis: RMSE; force and moment: mean norm of the error ± its standard error"
+        yield "per axis: RMSE; force and moment: mean norm of the error ± half its 95 % interval"
 
 
 def evaluate(run: SensorRun, calibrations: Mapping[str, Calibration]) -> Evaluation:
@@ -100,7 +104,7 @@ def evaluate(run: SensorRun, calibrations: Mapping[str, Calibration]) -> Evaluat
 def _rows(run: SensorRun, calibrations: Mapping[str, Calibration]) -> Iterator[CandidateErrors]:
     judged = run.judged(calibrations)
     for candidate, offset, wrench in judged.with_either_offset():
-        errors = wrench_errors(wrench, judged.reference)
+        errors = wrench_errors(wrench, judged.reference, judged.time_s)
         yield CandidateErrors(
             sensor=run.sensor.name,
             serial=run.sensor.serial,
@@ -114,9 +118,11 @@ def _rows(run: SensorRun, calibrations: Mapping[str, Calibration]) -> Iterator[C
             largest=errors.largest,
             force_error_mean_N=errors.force_mean,
             force_error_standard_error_N=finite_or_none(errors.force_mean_error),
+            force_error_half_width_95_N=finite_or_none(errors.force_mean_half_width),
             force_error_largest_N=errors.force_largest,
             moment_error_mean_Nm=errors.moment_mean,
             moment_error_standard_error_Nm=finite_or_none(errors.moment_mean_error),
+            moment_error_half_width_95_Nm=finite_or_none(errors.moment_mean_half_width),
             moment_error_largest_Nm=errors.moment_largest,
         )
 

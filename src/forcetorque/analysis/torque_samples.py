@@ -19,7 +19,7 @@ from forcetorque.estimation import Estimates, estimate
 from forcetorque.evaluation import KNOWN_BEFORE, Offset, TorqueMap, torque_map
 from forcetorque.experiment.inputs import stated_in
 from forcetorque.recording import Interval, Use
-from forcetorque.recording.alignment import interpolate, require_overlap
+from forcetorque.recording.alignment import interpolate, require_overlap, seconds_since
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -42,6 +42,10 @@ class TorqueSamples:
     """Estimated torque less that of the rigid-body model; shape (n,)."""
     from_logged: FloatArray
     """Estimated torque less the logged one, over the intervals in which there is one; shape (m,)."""
+    time_s: FloatArray
+    """Instants of the former since the start of the recording; shape (n,); s."""
+    logged_time_s: FloatArray
+    """Instants of the latter; shape (m,); s."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -96,6 +100,8 @@ def _joined(pieces: Sequence[TorqueSamples]) -> TorqueSamples:
     return TorqueSamples(
         from_model=np.concatenate([samples.from_model for samples in pieces]),
         from_logged=np.concatenate([samples.from_logged for samples in pieces]),
+        time_s=np.concatenate([samples.time_s for samples in pieces]),
+        logged_time_s=np.concatenate([samples.logged_time_s for samples in pieces]),
     )
 
 
@@ -109,6 +115,7 @@ def _over(
     measured = free.measured(scheme.sensors[1:], interval)
     others = {name: wrench - model.expected_of(name) for name, wrench in measured.items()}
     logged = _logged(run, interval, scheme.logged)
+    time = seconds_since(instants.judged_ns, run.experiment.recording.start_ns)
     for offset in KNOWN_BEFORE:
         by_others = np.zeros((len(instants.at_ns), len(scheme.joints)))
         for name, error in others.items():
@@ -122,6 +129,8 @@ def _over(
                     TorqueSamples(
                         from_model=instants.judged(torque[:, None])[:, 0],
                         from_logged=np.empty(0) if off is None else instants.judged(off[:, None])[:, 0],
+                        time_s=time,
+                        logged_time_s=np.empty(0) if off is None else time,
                     ),
                 )
 
