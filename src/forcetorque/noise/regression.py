@@ -119,7 +119,7 @@ def regress(
     n, p = design.shape
     require_shape(design, name="design", shape=(len(line), None))
     require_shape(values, name="values", shape=(n, None))
-    start: FloatArray = np.linalg.lstsq(design, values, rcond=None)[0]
+    start = np.asarray(np.linalg.lstsq(design, values, rcond=None)[0], dtype=np.float64)
     residual = values - design @ start
     residual[:, np.abs(residual).max(axis=0, initial=0.0) <= _ROUNDING * np.abs(values).max(axis=0, initial=0.0)] = 0.0
     if n <= p:
@@ -163,7 +163,7 @@ class _Fit:
 def _fit(line: Timeline, design: FloatArray, residual: FloatArray, noise: SlowNoise) -> _Fit:
     n, p = design.shape
     moments, log_determinant = line.product(np.column_stack([design, residual]), noise)
-    inverse: FloatArray = np.linalg.inv(moments[:p, :p])
+    inverse = np.asarray(np.linalg.inv(moments[:p, :p]), dtype=np.float64)
     coefficients = moments[p:, :p] @ inverse
     squares = np.diag(moments)[p:] - np.einsum("kp,kp->k", coefficients, moments[p:, :p])
     squares = np.maximum(squares, 0.0)
