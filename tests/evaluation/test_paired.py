@@ -8,12 +8,11 @@ import math
 import numpy as np
 import pytest
 from scipy.signal import lfilter
-from scipy.special import stdtrit
 
 from forcetorque.arrays import FloatArray
 from forcetorque.errors import ShapeError
 from forcetorque.evaluation import PairedMean, paired_difference
-from forcetorque.evaluation.wrench_errors import error_of_mean
+from forcetorque.noise import mean_error
 
 EXACT = 1e-12
 """N, N m: norms of some 10 N by two ways."""
@@ -61,11 +60,10 @@ def test_by_hand() -> None:
     assert found.count == 200
     assert found.force.mean == pytest.approx(norms.mean(), abs=EXACT)
     assert found.moment.mean == pytest.approx((norms.mean() + 1.0) / 5.0 - 3.0, abs=EXACT)
-    n = found.force.effective_count**2 / (found.force.effective_count + 7.0)
-    error = max(float(error_of_mean(norms)), norms.std() / math.sqrt(n - 1.0))
-    assert found.force.degrees_of_freedom == 9.0
-    assert found.force.standard_error == pytest.approx(error, abs=EXACT)
-    assert found.force.high - found.force.mean == pytest.approx(stdtrit(9.0, 0.975) * error, abs=EXACT)
+    known = mean_error(norms[:, None], _time(200))
+    assert found.force.degrees_of_freedom == pytest.approx(known.degrees_of_freedom[0])
+    assert found.force.standard_error == pytest.approx(known.standard_error[0], abs=EXACT)
+    assert found.force.high - found.force.mean == pytest.approx(known.half_width[0], abs=EXACT)
     assert (found.force.is_higher, found.force.is_lower) == (True, False)
     assert (found.moment.is_higher, found.moment.is_lower) == (False, True)
 
@@ -84,7 +82,8 @@ def test_a_difference_that_is_not_there_is_seldom_found(effective: float, plain_
         difference = _process(effective, rng)
         found = _force(difference)
         wrong += found.is_lower or found.is_higher
-        plain += abs(difference.mean()) > 2.0 * float(error_of_mean(difference))
+        blocks = difference.reshape(10, -1).mean(axis=1)
+        plain += abs(difference.mean()) > 2.0 * blocks.std(ddof=1) / math.sqrt(10.0)
     assert wrong / RECORDINGS <= FALSE
     assert plain / RECORDINGS > plain_errs
 

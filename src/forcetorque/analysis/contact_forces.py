@@ -49,10 +49,12 @@ class ContactForceErrors(Row):
     """Candidate that is the prior of a calibration file; null for a prior, and where the file has none."""
     samples: Annotated[int, Shown("samples")]
     """Number of judged samples."""
-    force_mean_N: Annotated[float, Shown("force", "N", digits=2, error="force_mean_error_N")]
+    force_mean_N: Annotated[float, Shown("force", "N", digits=2, error="force_mean_half_width_95_N")]
     """Mean norm of the force."""
     force_mean_error_N: float | None
-    """Standard error of that mean, from blocks of time."""
+    """Standard error of that mean; none for one sample."""
+    force_mean_half_width_95_N: float | None
+    """Half-width of its 95 % interval; none where it cannot be told."""
     moment_mean_Nm: Annotated[float, Shown("moment", "N m", digits=3)]
     """Mean norm of the moment."""
     mean_absolute: Annotated[WrenchValues, ShownWrench(digits=3)]
@@ -209,7 +211,7 @@ def contact_force_rows(sensor: ExperimentSensor, contacts: ContactWrenches) -> I
     for (index, offset), wrenches in contacts.wrenches.items():
         if np.isnan(wrenches).any(axis=1).all():
             continue
-        candidate, errors = contacts.candidates[index], errors_from_zero(wrenches)
+        candidate, errors = contacts.candidates[index], errors_from_zero(wrenches, contacts.time_s[index, offset])
         yield ContactForceErrors(
             sensor=sensor.name,
             serial=sensor.serial,
@@ -221,6 +223,7 @@ def contact_force_rows(sensor: ExperimentSensor, contacts: ContactWrenches) -> I
             samples=errors.count,
             force_mean_N=errors.force_mean,
             force_mean_error_N=finite_or_none(errors.force_mean_error),
+            force_mean_half_width_95_N=finite_or_none(errors.force_mean_half_width),
             moment_mean_Nm=errors.moment_mean,
             mean_absolute=errors.mean_absolute,
         )
@@ -246,6 +249,6 @@ def _table(rows: Sequence[ContactForceErrors]) -> Table:
     return table_of(
         rows,
         f"{row.sensor} ({row.serial}): contact wrench of the free sub-model {row.sub_model}{count}; "
-        "per axis: mean absolute value",
+        "force: mean norm ± half its 95 % interval; per axis: mean absolute value",
         leave_out={"samples"} if alike else (),
     )

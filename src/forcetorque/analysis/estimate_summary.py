@@ -12,7 +12,7 @@ from pydantic import Field
 
 from forcetorque.analysis.estimate import IntervalEstimates
 from forcetorque.analysis.reading import Correction
-from forcetorque.arrays import FloatArray
+from forcetorque.arrays import FloatArray, IntArray
 from forcetorque.evaluation import WrenchErrors, wrench_errors
 from forcetorque.exchange.estimates_table import EstimatedSpan, write_estimates
 from forcetorque.experiment import Experiment
@@ -29,10 +29,12 @@ class ContactSummary(Row):
     """Name of the contact."""
     samples: Annotated[int, Shown("samples")]
     """Number of samples with an estimate."""
-    force_mean_N: Annotated[float | None, Shown("force", "N", digits=2, error="force_standard_error_N")]
+    force_mean_N: Annotated[float | None, Shown("force", "N", digits=2, error="force_half_width_95_N")]
     """Mean norm of the force."""
     force_standard_error_N: float | None
-    """Standard error of that mean, from ten contiguous blocks."""
+    """Standard error of that mean; none for one sample."""
+    force_half_width_95_N: float | None
+    """Half-width of its 95 % interval; none where it cannot be told."""
     force_largest_N: Annotated[float | None, Shown("largest", "N", digits=2)]
     """Largest norm of the force."""
     moment_mean_Nm: Annotated[float | None, Shown("moment", "N m", digits=3)]
@@ -109,7 +111,10 @@ class EstimateSummary(Result):
         """
         for recording in self.recordings or (self,):
             yield from _tables(recording)
-        yield "force and moment: mean norms of what the environment does to the robot, in the contact frame"
+        yield (
+            "force and moment: mean norms of what the environment does to the robot, in the contact frame, "
+            "± half a 95 % interval"
+        )
         for recording in self.recordings or (self,):
             if recording.file is not None:
                 yield f"{recording.rows} rows written to {recording.file}"
@@ -219,13 +224,14 @@ def _for_table(experiment: Experiment, span: IntervalEstimates) -> EstimatedSpan
 
 def _contacts(span: IntervalEstimates) -> Iterator[ContactSummary]:
     for name in span.estimates.layout.contacts:
-        samples, norms = _norms(span.estimates.contact(name))
+        samples, norms = _norms(span.estimates.contact(name), span.stamp_ns)
         yield ContactSummary(
             interval=span.interval.label,
             contact=name,
             samples=samples,
             force_mean_N=None if norms is None else norms.force_mean,
             force_standard_error_N=None if norms is None else finite_or_none(norms.force_mean_error),
+            force_half_width_95_N=None if norms is None else finite_or_none(norms.force_mean_half_width),
             force_largest_N=None if norms is None else norms.force_largest,
             moment_mean_Nm=None if norms is None else norms.moment_mean,
         )
@@ -235,7 +241,7 @@ def _parts(span: IntervalEstimates) -> Iterator[SubModelSummary]:
     estimates = span.estimates
     for k, name in enumerate(estimates.layout.parts):
         whole = np.isfinite(estimates.residual[:, k]).all(axis=1)
-        _, norms = _norms(estimates.residual[:, k])
+        _, norms = _norms(estimates.residual[:, k], span.stamp_ns)
         condition = estimates.condition[:, k][np.isfinite(estimates.condition[:, k])]
         yield SubModelSummary(
             interval=span.interval.label,
@@ -248,7 +254,10 @@ def _parts(span: IntervalEstimates) -> Iterator[SubModelSummary]:
         )
 
 
-def _norms(wrench: FloatArray) -> tuple[int, WrenchErrors | None]:
+def _norms(wrench: FloatArray, stamp_ns: IntArray) -> tuple[int, WrenchErrors | None]:
     """Number of samples without a gap, and their norms: errors against nothing touching."""
-    whole = wrench[np.isfinite(wrench).all(axis=1)]
-    return len(whole), wrench_errors(whole, np.zeros_like(whole)) if len(whole) else None
+    complete = np.isfinite(wrench).all(axis=1)
+    whole, stamps = wrench[complete], stamp_ns[complete]
+    if not len(whole):
+        return 0, None
+    return len(whole), wrench_errors(whole, np.zeros_like(whole), seconds_since(stamps, int(stamps[0])))

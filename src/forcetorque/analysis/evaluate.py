@@ -18,6 +18,7 @@ from forcetorque.arrays import FloatArray
 from forcetorque.calibration import Calibration, FittedInterval
 from forcetorque.errors import ExperimentError
 from forcetorque.evaluation import Offset, wrench_errors
+from forcetorque.noise import one_after_another
 from forcetorque.recording import Use
 from forcetorque.result import (
     Result,
@@ -45,16 +46,20 @@ class CandidateErrors(JudgedRow):
     """Mean error per component; N, N m."""
     largest: WrenchValues
     """Largest absolute error per component; N, N m."""
-    force_error_mean_N: Annotated[float, Shown("force", "N", digits=2, error="force_error_standard_error_N")]
+    force_error_mean_N: Annotated[float, Shown("force", "N", digits=2, error="force_error_half_width_95_N")]
     """Mean norm of the force error."""
     force_error_standard_error_N: float | None
-    """Standard error of that mean, from contiguous blocks; None for one sample."""
+    """Standard error of that mean; None for one sample."""
+    force_error_half_width_95_N: float | None
+    """Half-width of its 95 % interval; None where it cannot be told."""
     force_error_largest_N: float
     """Largest norm of the force error."""
-    moment_error_mean_Nm: Annotated[float, Shown("moment", "N m", digits=3, error="moment_error_standard_error_Nm")]
+    moment_error_mean_Nm: Annotated[float, Shown("moment", "N m", digits=3, error="moment_error_half_width_95_Nm")]
     """Mean norm of the moment error."""
     moment_error_standard_error_Nm: float | None
-    """Standard error of that mean, from contiguous blocks; None for one sample."""
+    """Standard error of that mean; None for one sample."""
+    moment_error_half_width_95_Nm: float | None
+    """Half-width of its 95 % interval; None where it cannot be told."""
     moment_error_largest_Nm: float
     """Largest norm of the moment error."""
 
@@ -96,7 +101,7 @@ class Evaluation(Result):
             if apart:
                 table = table_of(apart, f"{sensor} ({rows[0].serial}), each recording by itself")
                 yield with_first_column(table, "recording", [row.recording for row in apart])
-        yield "per axis: RMSE; force and moment: mean norm of the error ± its standard error"
+        yield "per axis: RMSE; force and moment: mean norm of the error ± half its 95 % interval"
 
     def records(self) -> list[dict[str, object]]:
         """Give the verdicts as flat lines, and where there are several recordings those on each.
@@ -118,6 +123,7 @@ class _Judged:
     offset: Offset
     wrench: FloatArray
     reference: FloatArray
+    time_s: FloatArray
 
 
 def evaluate(runs: Runs, calibrations: Mapping[str, Calibration]) -> Evaluation:
@@ -166,7 +172,9 @@ def evaluate(runs: Runs, calibrations: Mapping[str, Calibration]) -> Evaluation:
 def _judged(run: SensorRun, calibrations: Mapping[str, Calibration]) -> Iterator[_Judged]:
     judged = run.judged(calibrations)
     for candidate, offset, wrench in judged.with_either_offset():
-        yield _Judged(candidate=candidate, offset=offset, wrench=wrench, reference=judged.reference)
+        yield _Judged(
+            candidate=candidate, offset=offset, wrench=wrench, reference=judged.reference, time_s=judged.time_s
+        )
 
 
 def _pooled(rows: Sequence[_Judged]) -> _Judged:
@@ -174,11 +182,12 @@ def _pooled(rows: Sequence[_Judged]) -> _Judged:
         rows[0],
         wrench=np.concatenate([row.wrench for row in rows]),
         reference=np.concatenate([row.reference for row in rows]),
+        time_s=one_after_another([row.time_s for row in rows]),
     )
 
 
 def _statistics(campaign: Campaign, judged: _Judged) -> dict[str, Any]:
-    errors = wrench_errors(judged.wrench, judged.reference)
+    errors = wrench_errors(judged.wrench, judged.reference, judged.time_s)
     return {
         "sensor": campaign.sensor.name,
         "serial": campaign.sensor.serial,
@@ -192,9 +201,11 @@ def _statistics(campaign: Campaign, judged: _Judged) -> dict[str, Any]:
         "largest": errors.largest,
         "force_error_mean_N": errors.force_mean,
         "force_error_standard_error_N": finite_or_none(errors.force_mean_error),
+        "force_error_half_width_95_N": finite_or_none(errors.force_mean_half_width),
         "force_error_largest_N": errors.force_largest,
         "moment_error_mean_Nm": errors.moment_mean,
         "moment_error_standard_error_Nm": finite_or_none(errors.moment_mean_error),
+        "moment_error_half_width_95_Nm": finite_or_none(errors.moment_mean_half_width),
         "moment_error_largest_Nm": errors.moment_largest,
     }
 

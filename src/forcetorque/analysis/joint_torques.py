@@ -28,22 +28,28 @@ class JointTorqueErrors(JudgedRow):
     """Unit of its torque: N for a prismatic joint."""
     samples: Annotated[int, Shown("samples")]
     """Number of judged samples."""
-    rmse: Annotated[float, Shown("RMSE", digits=3, error="rmse_error")]
+    rmse: Annotated[float, Shown("RMSE", digits=3, error="rmse_half_width_95")]
     """Root mean square of estimated torque less that of the rigid-body model."""
     rmse_error: float | None
-    """Standard error of that root, from blocks of time."""
-    mean: Annotated[float, Shown("mean", digits=3, error="mean_error")]
+    """Standard error of that root; none for one sample."""
+    rmse_half_width_95: float | None
+    """Half-width of its 95 % interval; none where it cannot be told."""
+    mean: Annotated[float, Shown("mean", digits=3, error="mean_half_width_95")]
     """Mean of estimated torque less that of the model."""
     mean_error: float | None
-    """Standard error of that mean, from blocks of time."""
+    """Standard error of that mean; none for one sample."""
+    mean_half_width_95: float | None
+    """Half-width of its 95 % interval; none where it cannot be told."""
     largest: Annotated[float, Shown("largest", digits=3)]
     """Largest magnitude of estimated torque less that of the model."""
     logged_samples: int | None
     """Number of samples with a logged torque; null where none can be compared."""
-    logged_rmse: Annotated[float | None, Shown("RMSE from logged", digits=3, error="logged_rmse_error")]
+    logged_rmse: Annotated[float | None, Shown("RMSE from logged", digits=3, error="logged_rmse_half_width_95")]
     """Root mean square of estimated torque less the logged one."""
     logged_rmse_error: float | None
-    """Standard error of that root, from blocks of time."""
+    """Standard error of that root; none for one sample."""
+    logged_rmse_half_width_95: float | None
+    """Half-width of its 95 % interval; none where it cannot be told."""
 
 
 class RecordingJointTorques(JointTorqueErrors):
@@ -143,7 +149,8 @@ def joint_torque_table(rows: Sequence[JointTorqueErrors]) -> Table:
     ordered = sorted(rows, key=_place(rows))
     return table_of(
         ordered,
-        f"{rows[0].sensor} ({rows[0].serial}): joint torques estimated from it, less those of the model",
+        f"{rows[0].sensor} ({rows[0].serial}): joint torques estimated from it, less those of the model; "
+        "± half a 95 % interval",
         leave_out={"logged_rmse"} if all(row.logged_rmse is None for row in rows) else (),
     )
 
@@ -159,8 +166,9 @@ def _rows(campaign: Campaign, torques: JudgedTorques) -> Iterator[JointTorqueErr
     for key, samples in torques.samples.items():
         if np.isnan(samples.from_model).all():
             continue
-        candidate, errors = torques.candidates[key.candidate], torque_errors(samples.from_model)
-        logged = None if np.isnan(samples.from_logged).all() else torque_errors(samples.from_logged)
+        candidate, errors = torques.candidates[key.candidate], torque_errors(samples.from_model, samples.time_s)
+        none_logged = np.isnan(samples.from_logged).all()
+        logged = None if none_logged else torque_errors(samples.from_logged, samples.logged_time_s)
         prismatic = joints[key.joint].type is JointType.PRISMATIC
         yield JointTorqueErrors(
             sensor=campaign.sensor.name,
@@ -174,10 +182,13 @@ def _rows(campaign: Campaign, torques: JudgedTorques) -> Iterator[JointTorqueErr
             samples=errors.count,
             rmse=errors.rmse,
             rmse_error=finite_or_none(errors.rmse_error),
+            rmse_half_width_95=finite_or_none(errors.rmse_half_width),
             mean=errors.mean,
             mean_error=finite_or_none(errors.mean_error),
+            mean_half_width_95=finite_or_none(errors.mean_half_width),
             largest=errors.largest,
             logged_samples=None if logged is None else logged.count,
             logged_rmse=None if logged is None else logged.rmse,
             logged_rmse_error=None if logged is None else finite_or_none(logged.rmse_error),
+            logged_rmse_half_width_95=None if logged is None else finite_or_none(logged.rmse_half_width),
         )

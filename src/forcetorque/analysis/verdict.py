@@ -111,8 +111,8 @@ def _unless_doubted(tone: Tone, assessment: Assessment, candidate: str) -> Tone:
 
 
 def _plain(row: CandidateErrors) -> str:
-    force = with_error(row.force_error_mean_N, row.force_error_standard_error_N, digits=2)
-    moment = with_error(row.moment_error_mean_Nm, row.moment_error_standard_error_Nm, digits=3)
+    force = with_error(row.force_error_mean_N, row.force_error_half_width_95_N, digits=2)
+    moment = with_error(row.moment_error_mean_Nm, row.moment_error_half_width_95_Nm, digits=3)
     return f"force error {force} N, moment error {moment} N m"
 
 

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -12,6 +13,9 @@ from forcetorque.errors import FitError
 
 WINDOW_S = 1.0
 """Length of a window; s. Slow noise that lasts shorter averages out in it."""
+
+APART_S = 1e5
+"""Pause between recordings that are put one after the other; s. Slow noise has forgotten itself by then."""
 
 _ROUNDING = 1e-6
 """Part of a window by which a stamp may be rounded: 0.99999999 s belongs to the second window of 1 s."""
@@ -50,3 +54,21 @@ def means_over(time_s: Any, columns: Any, window_s: float = WINDOW_S) -> tuple[F
     counts = np.diff(starts, append=len(time))
     middle = time[0] + np.add.reduceat(time - time[0], starts) / counts
     return middle, np.add.reduceat(signals, starts, axis=0) / counts[:, None], counts
+
+
+def one_after_another(instants: Sequence[FloatArray]) -> FloatArray:
+    """Put the instants of several recordings on one axis, so far apart that no slow noise goes on between them.
+
+    Args:
+        instants: Instants of each recording, not falling; shapes (n,); s.
+
+    Returns:
+        All of them, not falling; shape (sum of n,); s.
+    """
+    shifted: list[FloatArray] = []
+    start = 0.0
+    for time in instants:
+        if len(time):
+            shifted.append(time - time[0] + start)
+            start = float(shifted[-1][-1]) + APART_S
+    return np.concatenate(shifted) if shifted else np.zeros(0)
