@@ -14,6 +14,7 @@ from forcetorque.calibration import (
     CalibratedVariable,
     Calibration,
     GenerativeFit,
+    IntervalMoments,
     LinearVariable,
     Prior,
     Provenance,
@@ -48,7 +49,7 @@ def generative_calibration(recordings: Sequence[RecordingMoments], *, code_versi
     stretches, variables = [interval.means for interval in intervals], [v.linear for v in first.variables]
     fit = fit_generative(stretches, first.prior, first.assumptions, variables=variables, drift=first.drift)
     moments = pooled(interval.moments for interval in intervals)
-    sessions = _sessions(fit)
+    sessions = _sessions(fit, intervals, first.prior)
     errors = fit.posterior.coefficient_error(fit.model.coefficients)
     return Calibration(
         sensor=first.sensor,
@@ -63,8 +64,8 @@ def generative_calibration(recordings: Sequence[RecordingMoments], *, code_versi
         residual_rms=fit.residual,
         lambda_counts2=None,
         prior=None
-        if first.prior is None or first.prior_source is None or fit.prior_offsets is None
-        else Prior(matrix=first.prior, offset=fit.prior_offsets[-1], source=first.prior_source),
+        if first.prior is None or first.prior_source is None or sessions[-1].prior_offset is None
+        else Prior(matrix=first.prior, offset=sessions[-1].prior_offset, source=first.prior_source),
         validity=validity_of(
             np.min([interval.raw_minimum_counts for interval in intervals], axis=0),
             np.max([interval.raw_maximum_counts for interval in intervals], axis=0),
@@ -95,7 +96,9 @@ def _inputs(recordings: Sequence[RecordingMoments]) -> dict[str, str]:
     }
 
 
-def _sessions(fit: GenerativeFit) -> tuple[SessionOffset, ...]:
+def _sessions(
+    fit: GenerativeFit, intervals: Sequence[IntervalMoments], prior: FloatArray | None
+) -> tuple[SessionOffset, ...]:
     posterior = fit.posterior
     return tuple(
         SessionOffset(
@@ -104,10 +107,17 @@ def _sessions(fit: GenerativeFit) -> tuple[SessionOffset, ...]:
             standard_error=posterior.offset_error(fit.offsets[k], name),
             drift_per_s=None if fit.drifts is None else fit.drifts[k],
             drift_from_ns=None if fit.drifts is None else round(fit.session_time_s[k] * 1e9),
-            prior_offset=None if fit.prior_offsets is None else fit.prior_offsets[k],
+            prior_offset=None if prior is None else _prior_offset(intervals, name, prior),
         )
         for k, name in enumerate(posterior.sessions)
     )
+
+
+def _prior_offset(intervals: Sequence[IntervalMoments], session: str, prior: FloatArray) -> FloatArray:
+    """Offset that the samples of a session give with the prior matrix."""
+    moments = pooled(interval.moments for interval in intervals if interval.means.session == session)
+    offset: FloatArray = moments.reference_mean - prior @ moments.raw_mean
+    return offset
 
 
 def _variable(

@@ -49,9 +49,9 @@ def calibrate(
     ] = None,
     output_format: FormatOption = Format.TABLE,
 ) -> None:
-    """Fit matrix and offset of each sensor on the calibration intervals of any number of recordings.
+    """Fit matrix and offset of each sensor to any number of recordings.
 
-    Example: forcetorque calibrate cold.toml warm.toml --sensor r_leg_ft -o right_leg.json
+    Example: forcetorque calibrate cold.toml warm.toml -o calibrations
     """
     from datetime import UTC, datetime
     from importlib.metadata import version

@@ -5,6 +5,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+import numpy as np
+
 from forcetorque.arrays import FloatArray, read_only
 from forcetorque.calibration.data_set import DataSet
 from forcetorque.calibration.gate.delay import delay_doubts
@@ -16,6 +18,8 @@ from forcetorque.calibration.gate.scale import scale_doubts
 from forcetorque.calibration.gate.sign import require_same_sign
 from forcetorque.calibration.gate.span import span_doubts
 from forcetorque.calibration.moments import Moments, pooled
+from forcetorque.calibration.raw import is_invertible
+from forcetorque.errors import FitError
 
 _FEWEST = 20
 """Samples below which six components of a reference explain any reading."""
@@ -37,10 +41,13 @@ def examine(
         What is doubtful; nothing where all is well, or where too few samples say anything.
 
     Raises:
-        FitError: If nothing may be fitted: the model has no mass, its load stands still or is beyond the sensor, or the
-            reading does not follow it, or follows it the wrong way round or by a factor that no sensor has.
+        FitError: If nothing may be fitted: the prior is singular, the model has no mass, its load stands still or is
+            beyond the sensor, or the reading does not follow it, or follows it the wrong way round or by a factor that
+            no sensor has.
         ShapeError: If data sets, or data and prior, have different numbers of channels or variables.
     """
+    if prior is not None and np.shape(prior) == (6, 6) and not is_invertible(prior):
+        raise FitError("the prior matrix is singular, so no matrix corrects what it made")
     # one sample has no neighbour, and without any the fit itself says what is missing
     usable = [data for data in data_sets if len(data.raw) > 1]
     if sum(len(data.raw) for data in usable) < _FEWEST:

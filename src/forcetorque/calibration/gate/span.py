@@ -47,11 +47,12 @@ def span_doubts(movement: Movement, *, has_prior: bool) -> Iterator[Doubt]:
     k = movement.columns
     rows = slice(3) if has_prior else slice(k)
     left = float(movement.left(movement.lasting)[rows].sum())
-    moved = float(np.diag(movement.lasting)[rows].sum())
+    moved = max(float(np.diag(movement.lasting)[rows].sum()), 0.0)
     if left <= (1.0 - _FOLLOWS) * moved:
         return
-    rest, unit = np.sqrt(left), "N" if has_prior else "counts"
-    change = float(np.sqrt(np.diag(movement.second)[k : k + 3].sum()))
+    # of a load that carries everything the differences may be rounded below zero
+    rest, unit = np.sqrt(max(left, 0.0)), "N" if has_prior else "counts"
+    change = float(np.sqrt(max(np.diag(movement.second)[k : k + 3].sum(), 0.0)))
     message = (
         f"the reading moves by {np.sqrt(moved):.3g} {unit}, of which the reference, which moves by {change:.3g} N, "
         f"explains {max(1.0 - left / moved, 0.0):.0%}; {_CHECK}"

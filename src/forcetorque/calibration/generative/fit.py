@@ -36,8 +36,6 @@ class GenerativeFit:
     """Drift of every offset; shape (sessions, 6); N/s, N m/s; None where offsets were taken as constant."""
     session_time_s: FloatArray
     """Instants at which the drifting offsets hold, on the clocks of the recordings; shape (sessions,); s."""
-    prior_offsets: FloatArray | None
-    """Offsets that the same data give with the prior matrix; shape (sessions, 6); N, N m."""
     posterior: Posterior
     """Mean and covariance of the unknowns."""
     residual: FloatArray
@@ -252,7 +250,6 @@ class _Result:
             offsets=offsets,
             drifts=drifts,
             session_time_s=self.design.session_time_s,
-            prior_offsets=self._prior_offsets(raw, wrench) if with_prior else None,
             posterior=posterior,
             residual=np.sqrt(np.average(left**2, axis=0, weights=weight)),
             quadratic=np.stack([self._quadratic(k) for k in range(len(unit))]) * unit[:, None],
@@ -314,12 +311,3 @@ class _Result:
     def _quadratic(self, k: int) -> FloatArray:
         place = 2 * LOADS + self.expected_rows.shape[1]
         return self.unknowns[k].coefficients[place : place + len(PAIRS[0])]
-
-    def _prior_offsets(self, raw: FloatArray, wrench: FloatArray) -> FloatArray:
-        weight = self.design.timeline.share
-        error = wrench - raw @ self.matrix.T
-        offsets = []
-        for session in range(len(self.design.sessions)):
-            inside = self.design.free[:, session] == 1.0
-            offsets.append(np.average(error[inside], axis=0, weights=weight[inside]))
-        return np.stack(offsets)
