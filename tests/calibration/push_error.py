@@ -74,9 +74,7 @@ class Case:
         return fit_generative(
             [WindowMeans.of(data) for data in self.data],
             self.prior if with_prior else None,
-            Assumptions.of_counts(
-                self.truth.shape[1], LIMIT_COUNTS, accuracy=np.zeros(6), repeatability=repeatability
-            ),
+            Assumptions.of_counts(self.truth.shape[1], LIMIT_COUNTS, accuracy=np.zeros(6), repeatability=repeatability),
             variables=[TEMPERATURE],
         )
 
