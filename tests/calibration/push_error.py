@@ -88,7 +88,7 @@ class Case:
         return np.array([np.linalg.norm(error[:, part], axis=1).mean() for part in (slice(3), slice(3, 6))])
 
     def covered(self, fit: GenerativeFit) -> FloatArray:
-        """Share of nominal 95 % intervals that hold the truth: of coefficients, push forces, push moments; shape (3,)."""
+        """Share of 95 % intervals that hold the truth: of coefficients, push forces, push moments; shape (3,)."""
         matrix = fit.model.matrix
         spread = np.sqrt(np.einsum("nii->ni", fit.posterior.error_covariance(WRENCHES)))
         inside = np.abs(self._errors(matrix)) <= NOMINAL * spread
