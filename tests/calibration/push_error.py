@@ -3,13 +3,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from types import MappingProxyType
+from typing import Any
 
 import numpy as np
 
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration import CalibrationFit, DataSet, LinearVariable, calibrate
+from forcetorque.calibration.generative import REPEATABILITY, Assumptions, GenerativeFit, WindowMeans, fit_generative
 from forcetorque.estimation import Processing, sensor_samples
 from forcetorque.recording import Interval, Support, Use
 from forcetorque.simulation.scenario import (
@@ -26,8 +29,11 @@ from forcetorque.toml_table import read_toml
 
 TEMPERATURE = LinearVariable(name="temperature", unit="degC")
 PUSH_N, LEVER_M, PUSHES = 50.0, 0.3, 2000
+LIMIT_COUNTS = 32767.0
 EXACT = 1e-9
 """Relative rounding of a lambda that was chosen among candidates."""
+NOMINAL = 1.96
+"""Standard deviations to either side that hold 95 % of a normal distribution."""
 
 
 def _pushes() -> FloatArray:
@@ -63,22 +69,51 @@ class Case:
         best = curve.regularisations[free][np.argmin(curve.held_out_error[free])]
         return self.fitted(float(best))
 
-    def ratio(self, fit: CalibrationFit) -> FloatArray:
-        """Mean error of a push with the fitted matrix over that with the prior; force and moment; shape (2,)."""
-        return self._errors(fit.fit.matrix) / self._errors(self.prior)
+    def generative(self, *, repeatability: float = REPEATABILITY, with_prior: bool = True) -> GenerativeFit:
+        """Calibrate with the default estimator, the reference being exact but for its derivative window."""
+        return fit_generative(
+            [WindowMeans.of(data) for data in self.data],
+            self.prior if with_prior else None,
+            Assumptions.of_counts(self.truth.shape[1], LIMIT_COUNTS, accuracy=np.zeros(6), repeatability=repeatability),
+            variables=[TEMPERATURE],
+        )
 
-    def _errors(self, matrix: FloatArray) -> FloatArray:
-        error = WRENCHES @ (matrix @ np.linalg.inv(self.truth) - np.eye(6)).T
+    def ratio(self, matrix: FloatArray) -> FloatArray:
+        """Mean error of a push with a matrix over that with the prior; force and moment; shape (2,)."""
+        return self.error(matrix) / self.error(self.prior)
+
+    def error(self, matrix: FloatArray) -> FloatArray:
+        """Mean error of a push with a matrix; force and moment; shape (2,); N, N m."""
+        error = self._errors(matrix)
         return np.array([np.linalg.norm(error[:, part], axis=1).mean() for part in (slice(3), slice(3, 6))])
 
+    def covered(self, fit: GenerativeFit) -> FloatArray:
+        """Share of 95 % intervals that hold the truth: of coefficients, push forces, push moments; shape (3,)."""
+        matrix = fit.model.matrix
+        spread = np.sqrt(np.einsum("nii->ni", fit.posterior.error_covariance(WRENCHES)))
+        inside = np.abs(self._errors(matrix)) <= NOMINAL * spread
+        known = np.abs(matrix - self.truth) <= NOMINAL * fit.posterior.matrix_error(matrix)
+        return np.array([known.mean(), inside[:, :3].mean(), inside[:, 3:].mean()])
 
-def cases(motions: dict[str, Sequence[str]], moved: dict[str, Sequence[str]], seeds: range) -> Iterator[Case]:
+    def _errors(self, matrix: FloatArray) -> FloatArray:
+        response = np.linalg.pinv(self.truth)  # counts that a load makes
+        errors: FloatArray = WRENCHES @ (matrix @ response - np.eye(6)).T
+        return errors
+
+
+def cases(
+    motions: Mapping[str, Sequence[str]],
+    moved: Mapping[str, Sequence[str]],
+    seeds: range,
+    changes: Mapping[str, Any] = MappingProxyType({}),
+) -> Iterator[Case]:
     """Calibration cases of `icub-insitu`, one after the other.
 
     Args:
         motions: Names of recordings by motion.
         moved: Motions by sensor, those in which its load changes.
         seeds: Seeds of the sensors.
+        changes: Keys of `[sensors]` that change.
 
     Yields:
         A case for every seed, sensor and motion.
@@ -87,7 +122,7 @@ def cases(motions: dict[str, Sequence[str]], moved: dict[str, Sequence[str]], se
     content = read_toml(bundled_scenario("icub-insitu"), ScenarioFile, what="a scenario")
     # a recording that is not fitted sets the error of the workbench matrix
     kept = tuple(entry for entry in content.recording if entry.name in used or entry.name == "bsl_day1")
-    changed = content.model_copy(update={"recording": kept}).with_sensors(names=tuple(moved))
+    changed = content.model_copy(update={"recording": kept}).with_sensors(names=tuple(moved), **changes)
     scenario = build_scenario(changed)
     traces, references = trace_recordings(scenario), {}
     for seed in seeds:

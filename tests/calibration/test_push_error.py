@@ -20,7 +20,7 @@ WORSE = 1.05
 def _ratios(case: Case) -> tuple[FloatArray, FloatArray]:
     """Error after over error before, of force and moment: with lambda as chosen, and without its floor."""
     choice = case.fitted()
-    return case.ratio(choice), case.ratio(case.unfloored(choice))
+    return case.ratio(choice.fit.matrix), case.ratio(case.unfloored(choice).fit.matrix)
 
 
 def test_a_push_that_was_not_recorded_reads_no_worse_than_before() -> None:

@@ -31,7 +31,7 @@ def require_rank(wrench: FloatArray, lengths: Sequence[int]) -> None:
     """
     parts = np.split(wrench, np.cumsum(lengths)[:-1])
     moved = np.concatenate([part - part.mean(axis=0) for part in parts])
-    size = np.repeat([max(float(moved[:, part].std()), 1e-12) for part in (slice(3), slice(3, 6))], 3)
+    size = _load_sizes(moved)
     _, strengths, directions = np.linalg.svd(np.vstack([moved / size, np.zeros((6, 6))]), full_matrices=False)
     weak = strengths < _RANK * strengths[0]
     if weak.any():
@@ -42,23 +42,26 @@ def require_rank(wrench: FloatArray, lengths: Sequence[int]) -> None:
         )
 
 
-def require_response(response: FloatArray, covariance: FloatArray) -> None:
+def require_response(response: FloatArray, covariance: FloatArray, wrench: FloatArray) -> None:
     """Refuse a matrix that is not known by half in some direction of load.
 
     Args:
         response: Response of every row to loads; shape (rows, 6).
         covariance: Its covariance; shape (rows, 6, 6).
+        wrench: Loads, in whose sizes the direction is told; shape (n, 6); N, N m.
 
     Raises:
         FitError: If a direction is not known; the message names it.
     """
     inverse_root = np.linalg.inv(np.linalg.cholesky(response.T @ response))
-    values, vectors = np.linalg.eigh(inverse_root @ covariance.sum(axis=0) @ inverse_root.T)
-    if values[-1] > _UNKNOWN**2:
+    total = covariance.sum(axis=0)
+    if np.linalg.eigvalsh(inverse_root @ total @ inverse_root.T)[-1] > _UNKNOWN**2:
+        # the ratio is largest where a wild response to one load cancels that to others, so it does not name the load
+        size = _load_sizes(wrench)
+        least_known = np.linalg.eigh(total * np.outer(size, size))[1][:, -1] * size
         raise FitError(
-            f"the response to {direction_words(inverse_root.T @ vectors[:, -1])} is known to "
-            f"{100.0 * np.sqrt(values[-1]):.0f} % only; without a prior matrix every direction must be loaded: give "
-            "prior, or record a load that moves it"
+            f"the response to {direction_words(least_known)} is not known by half; without a prior matrix every "
+            "direction must be loaded: give prior, or record a load that moves it"
         )
 
 
@@ -78,6 +81,12 @@ def require_sensor(response: FloatArray) -> None:
             "prior says; mounting does not do that: check prior and serial, the masses of the model, measure_direction "
             "and the support"
         )
+
+
+def _load_sizes(wrench: FloatArray) -> FloatArray:
+    """Spread of forces and of moments, to compare both; shape (6,); N, N m."""
+    moved = wrench - wrench.mean(axis=0)
+    return np.repeat([max(float(moved[:, part].std()), 1e-12) for part in (slice(3), slice(3, 6))], 3)
 
 
 def direction_words(load: FloatArray) -> str:

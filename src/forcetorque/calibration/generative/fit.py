@@ -216,7 +216,7 @@ class _Result:
         covariance += self._repeatability(matrix)
         prior = self._before(unit) if with_prior else None
         if not with_prior:
-            require_response(mean[:, :LOADS], learnt)
+            require_response(mean[:, :LOADS], learnt, wrench)
         posterior = Posterior(
             space=rows.space,
             variables=tuple(variable.name for variable in variables),
