@@ -6,7 +6,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from forcetorque.calibration import GENERATIVE, Calibration
+from forcetorque.calibration import GENERATIVE, Calibration, SessionOffset
 from forcetorque.result import COMPONENTS, Table, number, with_error
 from forcetorque.spatial import WRENCH_COMPONENTS, WRENCH_UNITS
 
@@ -30,7 +30,7 @@ def calibration_blocks(calibration: Calibration) -> Iterator[Table | str]:
     if calibration.variables:
         yield _variable_table(calibration)
     if len(calibration.sessions) > 1:
-        yield _session_table(calibration)
+        yield session_table(calibration)
     if calibration.estimation_type != GENERATIVE:
         yield _excitation_table(calibration)
 
@@ -74,21 +74,32 @@ def _error_words(calibration: Calibration) -> str:
     return "one standard error" if calibration.posterior is not None else "one standard error, by blocks"
 
 
-def _session_table(calibration: Calibration) -> Table:
+def session_table(calibration: Calibration, name: str = "") -> Table:
+    """Show the offset of every session, and its drift where it was fitted.
+
+    Args:
+        calibration: The calibration.
+        name: Name of the calibration, for the caption; left out if empty.
+
+    Returns:
+        A row per session, and one per drift.
+    """
+    start = f"{name}: " if name else ""
     return Table(
-        caption=f"offset of every session, ± {_error_words(calibration)}",
+        caption=f"{start}offset of every session, ± {_error_words(calibration)}",
         headings=("session", *COMPONENTS),
-        rows=tuple(
-            (
-                session.name,
-                *(
-                    with_error(value, None if session.standard_error is None else session.standard_error[k], digits=3)
-                    for k, value in enumerate(session.offset)
-                ),
-            )
-            for session in calibration.sessions
-        ),
+        rows=tuple(row for session in calibration.sessions for row in _session_rows(session)),
     )
+
+
+def _session_rows(session: SessionOffset) -> Iterator[tuple[str, ...]]:
+    errors = [None] * len(COMPONENTS) if session.standard_error is None else session.standard_error.tolist()
+    yield (
+        session.name,
+        *(with_error(value, error, digits=3) for value, error in zip(session.offset, errors, strict=True)),
+    )
+    if session.drift_per_s is not None:
+        yield f"{session.name}, added per hour", *(number(3600.0 * value, 3) for value in session.drift_per_s)
 
 
 def _lambda_text(calibration: Calibration) -> str:

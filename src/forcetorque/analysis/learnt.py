@@ -12,7 +12,7 @@ from forcetorque.calibration import Calibration
 from forcetorque.result import Row, Shown
 from forcetorque.spatial import WRENCH_COMPONENTS
 
-_LITTLE = 0.5
+LITTLE_LEARNT = 0.5
 """Share below which more should be recorded along a direction."""
 
 
@@ -76,7 +76,7 @@ def learnt_words(directions: Sequence[LearntDirection]) -> str:
         Words such as `fz 97 %, tz 4 %: add a load off the axis`.
     """
     shares = ", ".join(f"{row.direction} {100.0 * row.learnt:.0f} %" for row in directions)
-    little = [row.direction for row in directions if row.learnt < _LITTLE]
+    little = [row.direction for row in directions if row.learnt < LITTLE_LEARNT]
     if not little:
         return f"learnt: {shares}"
     advice = []

@@ -46,6 +46,8 @@ class SensorCalibrations(Result):
     """Name of the experiment."""
     calibrations: tuple[SensorCalibration, ...]
     """One per sensor that could be fitted."""
+    figure: str | None = None
+    """File of the figure of what the recordings taught; none where none was drawn."""
 
     def save(self) -> None:
         """Write every calibration to its file, in folders that are made where they are missing."""
@@ -66,6 +68,8 @@ class SensorCalibrations(Result):
                 yield table_of(entry.learnt, "what the recordings taught: error that a unit load makes, one s.d.")
                 yield learnt_words(entry.learnt)
             yield f"written to {entry.file}"
+        if self.figure is not None:
+            yield f"drawn to {self.figure}"
 
     def records(self) -> list[dict[str, object]]:
         """Give matrices, offsets and coefficients as flat lines.

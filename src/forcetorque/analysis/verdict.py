@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Annotated, Literal
 
 from forcetorque.analysis.evaluate import CandidateErrors
+from forcetorque.analysis.learnt import LITTLE_LEARNT, learnt_words
 from forcetorque.analysis.prior_comparison import FEWEST_INDEPENDENT, PriorComparison
 from forcetorque.evaluation import Offset
 from forcetorque.result import Row, Shown, short_names, with_error
@@ -57,6 +58,7 @@ def _lines(assessment: Assessment) -> Iterator[tuple[Tone, str]]:
     for warning in assessment.warnings:
         yield "caution", warning
     yield from _excitation(assessment)
+    yield from _learnt(assessment)
     yield from _saturation(assessment)
     yield from _sphere(assessment)
     for what, reason in assessment.not_judged.items():
@@ -150,12 +152,19 @@ def _excitation(assessment: Assessment) -> Iterator[tuple[Tone, str]]:
     names = short_names(list(assessment.calibrations))
     for file, calibration in assessment.calibrations.items():
         excited = calibration.validity.excited
-        if not all(excited):
+        if calibration.posterior is None and not all(excited):
             yield (
                 "caution",
                 f"{names[file]}: the fitted loads moved {sum(excited)} of {len(excited)} raw directions; along the "
                 "others the prior, or noise, decides",
             )
+
+
+def _learnt(assessment: Assessment) -> Iterator[tuple[Tone, str]]:
+    names = short_names(list(assessment.calibrations))
+    for file, rows in assessment.learnt.items():
+        if any(row.learnt < LITTLE_LEARNT for row in rows):
+            yield "caution", f"{names[file]}: {learnt_words(rows)}"
 
 
 def _saturation(assessment: Assessment) -> Iterator[tuple[Tone, str]]:

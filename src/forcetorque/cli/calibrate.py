@@ -14,6 +14,7 @@ from forcetorque.cli.output import Format, refuse_standard_output, report_error,
 from forcetorque.errors import ExperimentError, FitError, ForceTorqueError
 
 if TYPE_CHECKING:
+    from forcetorque.analysis import SensorCalibrations
     from forcetorque.calibration import EstimationType, RecordingMoments
     from forcetorque.experiment import Experiment
 
@@ -47,6 +48,10 @@ def calibrate(
         Path | None,
         typer.Option("--moments", help="Folder to keep what the fit needs of each recording, to be added to others."),
     ] = None,
+    figure: Annotated[
+        Path | None,
+        typer.Option("--figure", help="PNG of what the recordings taught: errors of every load, before and after."),
+    ] = None,
     output_format: FormatOption = Format.TABLE,
 ) -> None:
     """Fit matrix and offset of each sensor to any number of recordings.
@@ -57,11 +62,13 @@ def calibrate(
     from importlib.metadata import version
 
     from forcetorque import analysis
+    from forcetorque.cli.figure_file import refuse_figure
     from forcetorque.cli.reading import campaign_of, read_experiments, stored_moments
     from forcetorque.experiment.inputs import stated_in
 
     log = start_logging()
     refuse_standard_output("--output", output)
+    refuse_figure(figure)
     stored = stored_moments(experiments)
     contents = read_experiments([path for path in experiments if path.suffix != ".json"], log)
     names = _sensors(contents, stored, sensor)
@@ -96,8 +103,32 @@ def calibrate(
     if results:
         calibrations = analysis.SensorCalibrations.together(results)
         calibrations.save()
+        if figure is not None:
+            try:
+                calibrations = _drawn(calibrations, figure)
+            except ForceTorqueError as error:  # what was fitted is written and shown all the same
+                refusals.append(error)
         show(calibrations, output_format)
     _end(refusals)
+
+
+def _drawn(calibrations: SensorCalibrations, figure: Path) -> SensorCalibrations:
+    """Draw what the recordings taught of every sensor, and name the file in the result."""
+    from forcetorque.atomic import write_bytes_atomically
+    from forcetorque.report.figures import learnt_figure
+
+    learnt = {
+        f"{entry.calibration.sensor.name} ({entry.calibration.sensor.serial})": entry.learnt
+        for entry in calibrations.calibrations
+        if entry.learnt is not None
+    }
+    if not learnt:
+        raise ForceTorqueError(
+            f"--figure {figure}: expected a generative fit towards a prior, which tells what the recordings taught; "
+            "got none. Leave it out"
+        )
+    write_bytes_atomically(figure, learnt_figure(learnt))
+    return calibrations.model_copy(update={"figure": str(figure)})
 
 
 def _end(refusals: Sequence[ForceTorqueError]) -> None:
