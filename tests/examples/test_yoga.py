@@ -125,7 +125,7 @@ def test_the_prior_reproduces_the_known_error(data_dir: Path, tmp_path: Path) ->
         text = path.read_text(encoding="utf-8")
         plain = tmp_path / "plain.toml"
         plain.write_text(text.replace("smoothing = ", "# smoothing = "))
-        verdicts, _ = _verdicts(_load(plain, data_dir, tmp_path))
+        verdicts = _verdicts(_load(plain, data_dir, tmp_path))
         assert verdicts["prior", "fitted"].force_error_mean_N == pytest.approx(seen, abs=0.15)
 
 
