@@ -11,6 +11,7 @@ import numpy as np
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration import CalibrationFit, DataSet, LinearVariable, calibrate
 from forcetorque.estimation import Processing, sensor_samples
+from forcetorque.evaluation import push_error
 from forcetorque.recording import Interval, Support, Use
 from forcetorque.simulation.scenario import (
     INTERVAL_MARGIN_S,
@@ -25,21 +26,8 @@ from forcetorque.simulation.scenario import (
 from forcetorque.toml_table import read_toml
 
 TEMPERATURE = LinearVariable(name="temperature", unit="degC")
-PUSH_N, LEVER_M, PUSHES = 50.0, 0.3, 2000
 EXACT = 1e-9
 """Relative rounding of a lambda that was chosen among candidates."""
-
-
-def _pushes() -> FloatArray:
-    """Wrenches of pushes in random directions at random points around the sensor; shape (n, 6); N, N m."""
-    rng = np.random.default_rng(2024)
-    force, lever = rng.normal(size=(2, PUSHES, 3))
-    force *= PUSH_N / np.linalg.norm(force, axis=1, keepdims=True)
-    lever *= LEVER_M * rng.uniform(size=(PUSHES, 1)) / np.linalg.norm(lever, axis=1, keepdims=True)
-    return np.hstack([force, np.cross(lever, force)])
-
-
-WRENCHES = _pushes()
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -68,8 +56,8 @@ class Case:
         return self._errors(fit.fit.matrix) / self._errors(self.prior)
 
     def _errors(self, matrix: FloatArray) -> FloatArray:
-        error = WRENCHES @ (matrix @ np.linalg.inv(self.truth) - np.eye(6)).T
-        return np.array([np.linalg.norm(error[:, part], axis=1).mean() for part in (slice(3), slice(3, 6))])
+        error = push_error(matrix, self.truth)
+        return np.array([error.force_N, error.moment_Nm])
 
 
 def cases(motions: dict[str, Sequence[str]], moved: dict[str, Sequence[str]], seeds: range) -> Iterator[Case]:
