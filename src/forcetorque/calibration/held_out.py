@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Lambda chosen on held-out blocks of the fitted data, and block-wise uncertainty.
 
-A slow motion has a few independent postures, not thousands of samples. Its blocks are contiguous stretches of time, or
-whole recordings where there are several, which differ in motion, day and temperature. Each block ALONE is fitted and
-judged, with its own offset, on all the others: that asks what a validation will ask, whether a fit on few postures holds
-on others. (Leaving one block out asks the reverse, whether a fit on nearly everything holds in between, and trusts the
-data too much.) The prior, with the offset of the same block, is judged likewise. Coefficients of variables, which a block
-alone does not know, are those that all fitted data have with the matrix.
+A slow motion has a few independent postures, not thousands of samples. Its blocks are contiguous stretches of
+time, or whole recordings where there are several, which differ in motion, day and temperature. Each block ALONE is
+fitted and judged, with its own offset, on all the others: that asks what a validation will ask, whether a fit on few
+postures holds on others. (Leaving one block out asks the reverse, whether a fit on nearly everything holds in
+between, and trusts the data too much.) The prior, with the offset of the same block, is judged likewise.
+Coefficients of variables, which a block alone does not know, are those that all fitted data have with the matrix.
 
 Blocks of one motion cannot see what the matrix does along directions that this motion does not load. There
 the readings hold noise alone, and the fit is the prior times lambda / (noise variance + lambda): lost, not
