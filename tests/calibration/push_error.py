@@ -52,7 +52,9 @@ WRENCHES = _pushes()
 class Case:
     """One sensor with the recordings of one motion, its workbench matrix and its truth."""
 
-    name: str
+    sensor: str
+    motion: str
+    seed: int
     data: list[DataSet]
     prior: FloatArray
     truth: FloatArray
@@ -137,7 +139,9 @@ def cases(
         for sensor, names in moved.items():
             for motion in names:
                 yield Case(
-                    name=f"{sensor} {motion} seed {seed}",
+                    sensor=sensor,
+                    motion=motion,
+                    seed=seed,
                     data=[data[sensor, name] for name in motions[motion]],
                     prior=drawn.specimens[sensor].workbench,
                     truth=drawn.specimens[sensor].sensor.matrix,
