@@ -11,7 +11,7 @@ import pytest
 from numpy.typing import NDArray
 
 from forcetorque.arrays import BoolArray, FloatArray
-from forcetorque.calibration.generative import REPEATABILITY
+from forcetorque.calibration.generative import ACCURACY_SHARE, REPEATABILITY
 from forcetorque.simulation.scenario import LINEAR_ONLY
 from tests.calibration.other_sensors import FAMILIES, with_eight_channels, with_error
 from tests.calibration.push_error import Case, cases
@@ -24,6 +24,8 @@ MOVED = {"l_leg_ft": EVERY, "l_foot_ft": EVERY, "r_leg_ft": ["bsl", "all"], "l_a
 """The sensors, and the motions in which their load changes: 12 cases for every seed."""
 NEW_SEEDS = range(301, 321)
 """Specimens that nobody looked at while the default estimator was made."""
+EXACT_COUNTS = {**LINEAR_ONLY, "noise_counts": 0.0, "noise_corner_hz": 0.0}
+"""Changes of the scenario after which counts follow the loads but for rounding."""
 WORSE = 1.05
 """Error after over error before, from which on a calibration made the sensor worse."""
 
@@ -144,15 +146,130 @@ def outcomes() -> dict[str, Outcome]:
 
 @pytest.mark.long
 def test_the_default_hardly_ever_makes_a_push_read_worse(outcomes: dict[str, Outcome]) -> None:
-    """X."""
-    for kind, outcome in outcomes.items():
-        for motion in (*MOTIONS, None):
-            print(
-                kind,
-                motion,
-                outcome.percentile(50.0, motion).round(3),
-                outcome.percentile(95.0, motion).round(3),
-                outcome.percentile(100.0, motion).round(3),
-                outcome.worse,
-                outcome.coverage(motion).round(3),
-            )
+    """Of 240 new sensors 2 are made worse, in force: by 2.05 and 1.22; the prior is halved tenfold in the median.
+
+    Measured, force and moment: median .073 .065, at 95 % .66 .85, worst 2.05 .92; all recordings pooled .032 .034, at
+    95 % .086 .115. With seeds 101-120 none is above 1.05, with 321-340 3 are, by 1.12 at most: 5 of 720, all of them
+    among 60 left legs in a grid alone, whose one posture moves forces and moments only together. Their priors err by
+    5 to 7 N where the median is 17 N; with loads known exactly the same ones are worse.
+    """
+    outcome = outcomes["mounting"]
+    assert outcome.ratio.shape == (240, 2)
+    assert (outcome.worse <= [2, 0]).all()
+    assert (outcome.percentile(100.0) < [2.1, 0.95]).all()
+    assert (outcome.percentile(50.0) < 0.08).all()
+    assert (outcome.percentile(95.0) < [0.80, 0.85]).all()
+    assert (outcome.percentile(50.0, "all") < 0.04).all()
+    assert (outcome.percentile(95.0, "all") < 0.12).all()
+    for motion in ("tz", "bsl", "all"):
+        assert (outcome.percentile(100.0, motion) < 1.0).all()
+
+
+@pytest.mark.long
+def test_nominal_intervals_hold_the_truth_as_often_as_they_say(outcomes: dict[str, Outcome]) -> None:
+    """Nominal 95 % of coefficients, push forces and push moments: .957 .977 .978 of 240 sensors.
+
+    By motion at least .93, coefficients with all recordings; of feet alone these are .88. Pushes go where no load went
+    too.
+    """
+    outcome = outcomes["mounting"]
+    assert ((outcome.coverage() > 0.90) & (outcome.coverage() < 0.98)).all()
+    for motion in MOTIONS:
+        assert (outcome.coverage(motion) > 0.92).all()
+
+
+@pytest.mark.long
+def test_errors_of_other_families_are_repaired_where_the_motions_tell_them(outcomes: dict[str, Outcome]) -> None:
+    """Gains of channels (6 %) and of the response (5 %) are; a turned and shifted frame takes all motions.
+
+    Measured over 240 each: gains median .075 .092, one above 1.05, by 1.08 in force; response .044 .049, one, by 1.10.
+    A frame that is turned by 2.3 degrees and shifted by 4 mm errs by 1.6 N only: median .72 .10, 84 are above 1.05 in
+    force, 39 of 40 in a grid and the worst by 6.5, of 80 with all motions one by 1.13. Never worse does not hold there.
+    """
+    for family in ("gains", "relative"):
+        assert (outcomes[family].worse <= [1, 0]).all()
+        assert (outcomes[family].percentile(100.0) < [1.15, 1.0]).all()
+        assert (outcomes[family].percentile(50.0) < 0.1).all()
+    frame = outcomes["frame"]
+    assert frame.worse[0] > 60
+    assert (frame.percentile(100.0, "all") < 1.2).all()
+    assert (frame.percentile(50.0, "all") < [0.4, 0.05]).all()
+
+
+@pytest.mark.long
+def test_intervals_hold_in_other_families_too(outcomes: dict[str, Outcome]) -> None:
+    """What does not hold there is never worse; the predicted error does.
+
+    Coverage: gains .959 .971 .979, frame .964 .989 .986, response .927 .947 .958 (a grid alone .88 .88 .88).
+    """
+    for family in FAMILIES:
+        assert (outcomes[family].coverage() > 0.92).all()
+        for motion in MOTIONS:
+            assert (outcomes[family].coverage(motion) > 0.87).all()
+
+
+@pytest.mark.long
+def test_intervals_hold_for_sensors_that_a_matrix_tells_all_of() -> None:
+    """White noise, no creep, cross-talk or hysteresis, and a repeatability of 0: .976 .969 .974 of 240 sensors.
+
+    By motion at least .91; medians of the ratios .027 .030, pooled .006 .007; 2 above 1.05, by 1.83 and 1.44, the same
+    left legs as above.
+    """
+    drawn = cases(MOTIONS, MOVED, NEW_SEEDS, {**LINEAR_ONLY, "noise_corner_hz": 0.0})
+    outcome = Outcome.of(_fitted(case, repeatability=0.0) for case in drawn)
+    assert ((outcome.coverage() > 0.90) & (outcome.coverage() < 0.98)).all()
+    for motion in MOTIONS:
+        assert (outcome.coverage(motion) > 0.90).all()
+    assert (outcome.worse <= [2, 0]).all()
+    assert (outcome.percentile(50.0) < 0.04).all()
+    assert (outcome.percentile(50.0, "all") < 0.01).all()
+
+
+@pytest.mark.long
+def test_eight_channels_are_calibrated_with_a_prior_and_without() -> None:
+    """Legs, all recordings: medians .0014 .0025 with a prior, .0022 .0054 without; feet .024 .065, arms .032 .036.
+
+    Feet and arms read no better with six channels: what the derivative windows and the encoders leave in the reference
+    is more to them, whose loads move less.
+    """
+    drawn = cases({"all": POOLED}, dict.fromkeys(MOVED, ["all"]), range(301, 306), EXACT_COUNTS)
+    sensors = [with_eight_channels(case) for case in drawn]
+    legs = np.array([case.sensor.endswith("leg_ft") for case in sensors])
+    for with_prior in (True, False):
+        fits = [case.generative(repeatability=0.0, with_prior=with_prior) for case in sensors]
+        ratios = np.array([case.ratio(fit.model.matrix) for case, fit in zip(sensors, fits, strict=True)])
+        assert (np.median(ratios[legs], axis=0) < 0.012).all()
+        assert (np.median(ratios[~legs], axis=0) < 0.08).all()
+        assert (ratios[legs] < 0.025).all()
+        assert (ratios < 0.15).all()
+
+
+@pytest.mark.long
+def test_a_foot_that_hung_free_knows_how_badly_it_reads_the_robot() -> None:
+    """Of 60 force errors under 320 N, all but one are within 2.6 predicted standard deviations; that one is at 3.3.
+
+    As for a normal distribution, of which 0.9 % lie outside.
+    """
+    moved = {"l_leg_ft": ["bsl"], "l_foot_ft": ["grid", "bsl"]}  # the scenario wants the leg, whose error it sets
+    pairs: dict[int, dict[str, Case]] = {}
+    for case in cases(ALONE, moved, NEW_SEEDS):
+        if case.sensor == "l_foot_ft":
+            pairs.setdefault(case.seed, {})[case.motion] = case
+    ratios = np.array([_of_stance(pair["grid"], pair["bsl"]) for pair in pairs.values()])
+    assert ratios.shape == (20, 3)
+    assert np.count_nonzero(ratios > 2.6) <= 1
+    assert ratios.max() < 3.5
+
+
+def _of_stance(free: Case, stood: Case) -> FloatArray:
+    """Force errors when the robot stands on a foot that was fitted while free, over predicted; shape (3,)."""
+    fit = free.generative(accuracy=ACCURACY_SHARE)
+    (before,), (after,) = free.data, stood.data
+    load, counts, warmer = (
+        getattr(after, name).mean(axis=0) - getattr(before, name).mean(axis=0)
+        for name in ("reference", "raw", "variables")
+    )
+    error = fit.model.matrix @ counts + fit.model.coefficients @ warmer - load
+    predicted = np.sqrt(np.diag(fit.posterior.error_covariance(load, variables=warmer)))
+    ratio: FloatArray = np.abs(error / predicted)[:3]
+    return ratio
