@@ -40,7 +40,9 @@ NOMINAL = 1.96
 class Case:
     """One sensor with the recordings of one motion, its workbench matrix and its truth."""
 
-    name: str
+    sensor: str
+    motion: str
+    seed: int
     data: list[DataSet]
     prior: FloatArray
     truth: FloatArray
@@ -57,14 +59,27 @@ class Case:
         best = curve.regularisations[free][np.argmin(curve.held_out_error[free])]
         return self.fitted(float(best))
 
-    def generative(self, *, repeatability: float = REPEATABILITY, with_prior: bool = True) -> GenerativeFit:
-        """Calibrate with the default estimator, the reference being exact but for its derivative window."""
-        return fit_generative(
-            [WindowMeans.of(data) for data in self.data],
-            self.prior if with_prior else None,
-            Assumptions.of_counts(self.truth.shape[1], LIMIT_COUNTS, accuracy=np.zeros(6), repeatability=repeatability),
-            variables=[TEMPERATURE],
+    def generative(
+        self, *, repeatability: float = REPEATABILITY, accuracy: float = 0.0, with_prior: bool = True
+    ) -> GenerativeFit:
+        """Calibrate with the default estimator.
+
+        Args:
+            repeatability: Share of its response by which the sensor differs from one motion to the next.
+            accuracy: Slow error of the reference over full scale; 0 as its only error is that of the derivative window.
+            with_prior: Whether the prior is known.
+
+        Returns:
+            The fit.
+        """
+        assumed = Assumptions.of_counts(
+            self.truth.shape[1],
+            LIMIT_COUNTS,
+            accuracy=accuracy * LIMIT_COUNTS * np.linalg.norm(self.prior, axis=1),
+            repeatability=repeatability,
         )
+        means = [WindowMeans.of(data) for data in self.data]
+        return fit_generative(means, self.prior if with_prior else None, assumed, variables=[TEMPERATURE])
 
     def ratio(self, matrix: FloatArray) -> FloatArray:
         """Mean error of a push with a matrix over that with the prior; force and moment; shape (2,)."""
@@ -125,7 +140,9 @@ def cases(
         for sensor, names in moved.items():
             for motion in names:
                 yield Case(
-                    name=f"{sensor} {motion} seed {seed}",
+                    sensor=sensor,
+                    motion=motion,
+                    seed=seed,
                     data=[data[sensor, name] for name in motions[motion]],
                     prior=drawn.specimens[sensor].workbench,
                     truth=drawn.specimens[sensor].sensor.matrix,
