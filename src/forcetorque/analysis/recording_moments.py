@@ -53,6 +53,7 @@ def recording_moments(runs: Runs, *, with_variables: bool | None = None) -> list
                 accuracy=options.accuracy,
                 repeatability=options.repeatability,
                 drift=options.drift,
+                nonlinear=options.nonlinear,
                 variables=tuple(map(VariableDescription.of, variables)),
                 intervals=tuple(IntervalMoments.of(i.data_set, i.fitted, dropped=i.part.samples.dropped) for i in own),
                 doubts=tuple(doubt.message for doubt in doubts),

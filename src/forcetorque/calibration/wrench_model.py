@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The model of a sensor: `wrench = matrix raw + coefficients (variables - reference values) + offset`, and what is not
-linear taken off where it is known."""
+"""The model of a sensor: `wrench = matrix raw + coefficients (variables - reference values) + offset`.
+
+What is not linear is taken off that where it is known.
+"""
 
 from __future__ import annotations
 

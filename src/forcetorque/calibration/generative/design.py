@@ -66,9 +66,7 @@ def design_of(
     about = counts - counts.mean(axis=0)
     variables = np.concatenate([s.variables for s in stretches]) - centre
     flattening = np.concatenate([s.flattening for s in stretches])
-    columns, column_means = _centred(
-        np.hstack([wrench, variables, quadratic_terms(about), flattening]), member, count
-    )
+    columns, column_means = _centred(np.hstack([wrench, variables, quadratic_terms(about), flattening]), member, count)
     centred, response_means = _centred(response, member, count)
     elapsed, session_time = _centred(time[:, None], member, count)
     ones = (member[:, None] == np.arange(len(sessions))).astype(np.float64)

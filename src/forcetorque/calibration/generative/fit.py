@@ -30,7 +30,7 @@ class GenerativeFit:
     """A fit with everything that is known of its unknowns."""
 
     model: WrenchModel
-    """Matrix, coefficients, and the offset of the last session."""
+    """Matrix, coefficients, the offset of the last session, and quadratic terms where they correct readings."""
     offsets: FloatArray
     """Offset of every session, where every variable has its reference value; shape (sessions, 6); N, N m."""
     drifts: FloatArray | None
@@ -42,7 +42,7 @@ class GenerativeFit:
     posterior: Posterior
     """Mean and covariance of the unknowns."""
     residual: FloatArray
-    """Root mean square residual of the linear model on the means; shape (6,); N, N m."""
+    """Root mean square residual of the model on the means; shape (6,); N, N m."""
     quadratic: FloatArray
     """What the 21 quadratic terms of the loads add to the rows of the posterior; shape (rows, 21); N, N m or counts."""
     load_to_full_scale: FloatArray

@@ -9,7 +9,7 @@ recordings that were not fitted.
 from __future__ import annotations
 
 from collections.abc import Collection, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
@@ -33,19 +33,7 @@ _REACH = 0.999
 """Share of the steepest correction that limits are drawn in to, so that rounding leaves it valid."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class NonlinearFit:
-    """A fit whose quadratic terms correct readings."""
-
-    model: WrenchModel
-    """Matrix, coefficients and correction, with the offset of the last session."""
-    offsets: FloatArray
-    """Offset of every session that goes with the correction; shape (sessions, 6); N, N m."""
-    residual: FloatArray
-    """Root mean square residual on the means; shape (6,); N, N m."""
-
-
-def corrected_fit(fit: GenerativeFit, stretches: Sequence[WindowMeans], halves: Collection[Half]) -> NonlinearFit:
+def corrected_fit(fit: GenerativeFit, stretches: Sequence[WindowMeans], halves: Collection[Half]) -> GenerativeFit:
     """Let the quadratic terms of a fit correct readings.
 
     Args:
@@ -54,7 +42,7 @@ def corrected_fit(fit: GenerativeFit, stretches: Sequence[WindowMeans], halves: 
         halves: Which of force and moment are corrected.
 
     Returns:
-        The fit with the correction; its offsets are those of the fit and what the terms came to on average.
+        The fit with the correction in its model; its offsets have what the terms came to on average besides.
     """
     means = [stretch.unflattened(FLATTENED) for stretch in stretches]
     loads = np.concatenate([one.reference for one in means])
@@ -75,9 +63,8 @@ def corrected_fit(fit: GenerativeFit, stretches: Sequence[WindowMeans], halves: 
     drift = 0.0 if fit.drifts is None else fit.drifts[member] * elapsed[:, None]
     reading = np.concatenate([_linear(model, one) for one in means]) + offsets[member] + drift
     error = correction.corrected(reading) - loads
-    return NonlinearFit(
-        model=model, offsets=offsets, residual=np.sqrt(np.average(error**2, axis=0, weights=weight))
-    )
+    residual = np.sqrt(np.average(error**2, axis=0, weights=weight))
+    return replace(fit, model=model, offsets=offsets, residual=residual)
 
 
 def try_correction(
@@ -129,21 +116,18 @@ def try_correction(
 
 def _held_out(model: WrenchModel, stretches: Sequence[WindowMeans]) -> tuple[FloatArray, FloatArray]:
     """Errors of force and moment without and with the correction, the offset of each session removed; shape (2,)."""
-    linear, corrected, weight = [], [], []
+    errors, weight = [], []
     for session in dict.fromkeys(stretch.session for stretch in stretches):
         means = [stretch.unflattened(FLATTENED) for stretch in stretches if stretch.session == session]
         load, count = (np.concatenate([getattr(one, name) for one in means]) for name in ("reference", "count"))
         reading = np.concatenate([_linear(model, one) for one in means])
         reading = reading - np.average(reading - load, axis=0, weights=count)
-        linear.append(reading - load)
-        error = _corrected(model, reading) - load
-        corrected.append(error - np.average(error, axis=0, weights=count))
+        corrected = (reading if model.quadratic is None else model.quadratic.corrected(reading)) - load
+        errors.append(np.hstack([reading - load, corrected - np.average(corrected, axis=0, weights=count)]))
         weight.append(count)
-    return tuple(_sizes(np.concatenate(part), np.concatenate(weight)) for part in (linear, corrected))  # type: ignore
-
-
-def _corrected(model: WrenchModel, reading: FloatArray) -> FloatArray:
-    return reading if model.quadratic is None else model.quadratic.corrected(reading)
+    square = np.average(np.concatenate(errors) ** 2, axis=0, weights=np.concatenate(weight))
+    sizes = np.sqrt(square.reshape(2, 2, 3).sum(axis=-1))
+    return sizes[0], sizes[1]
 
 
 def _linear(model: WrenchModel, means: WindowMeans) -> FloatArray:
@@ -176,9 +160,3 @@ def _within(coefficients: FloatArray, to_full_scale: FloatArray, shares: FloatAr
         minimum=reach * minimum,
         maximum=reach * maximum,
     )
-
-
-def _sizes(error: FloatArray, weight: FloatArray) -> FloatArray:
-    """Root mean square of force and moment; shape (2,)."""
-    square = np.average(error**2, axis=0, weights=weight)
-    return np.sqrt([square[part].sum() for part in _PARTS])
