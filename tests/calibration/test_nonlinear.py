@@ -6,6 +6,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from forcetorque.analysis.calibration_tables import calibration_blocks
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration import Calibration, DataSet, corrected_fit, fit_generative, try_correction
 from forcetorque.errors import FitError
@@ -14,7 +15,7 @@ from tests.calibrations import FACTORY
 
 CROSSTALK_COUNTS = 2000.0
 """Cross-talk of a sensor that a matrix does not tell: at a quarter of full scale some 0.5 % of it."""
-RECORDINGS = 4
+RECORDINGS = 3
 
 
 def _unseen(calibration: Calibration, data: DataSet) -> FloatArray:
@@ -24,30 +25,48 @@ def _unseen(calibration: Calibration, data: DataSet) -> FloatArray:
     return np.sqrt([(error[:, part] ** 2).sum(axis=1).mean() for part in (slice(3), slice(3, 6))])
 
 
+def _kept(seeds: range, crosstalk_counts: float) -> list[int]:
+    """How many of force and moment are corrected, sensor by sensor, of two recordings and of three in turn."""
+    counts = []
+    for seed in seeds:
+        sensor = Specimen(seed, crosstalk_counts)
+        means = means_of([sensor.recording(k) for k in range(2 + seed % 2)])
+        counts.append(len(try_correction(means, FACTORY, ASSUMPTIONS).kept))
+    return counts
+
+
 def test_a_linear_sensor_keeps_no_correction() -> None:
-    """Of 20 sensors, force and moment apart, at most 5 % do."""
-    kept = 0
-    for seed in range(100, 120):
-        sensor = Specimen(seed, 0.0)
-        means = means_of([sensor.recording(k) for k in range(RECORDINGS)])
-        kept += len(try_correction(means, FACTORY, ASSUMPTIONS).kept)
-    assert kept <= 2
+    """None of 6; of quadratic ones, the negative control, both do."""
+    assert _kept(range(100, 106), 0.0) == [0] * 6
+    assert _kept(range(106, 108), CROSSTALK_COUNTS) == [2, 2]
+
+
+@pytest.mark.long
+def test_hardly_any_linear_sensor_keeps_a_correction() -> None:
+    """Of 60 sensors, force and moment apart, at most 5 %, and all of 20 quadratic ones."""
+    assert sum(_kept(range(300, 360), 0.0)) <= 6
+    assert sum(_kept(range(400, 420), CROSSTALK_COUNTS)) == 40
 
 
 def test_a_quadratic_sensor_is_corrected_and_reads_motions_better_that_were_not_fitted() -> None:
-    """Of 10 sensors all keep it in force and moment; on other motions the error is less than a quarter."""
+    """Of 4 sensors all keep it in force and moment; on other motions the error is a third, and at most half."""
     ratios = []
-    for seed in range(200, 210):
+    for seed in range(200, 204):
         sensor = Specimen(seed, CROSSTALK_COUNTS)
         data = [sensor.recording(k) for k in range(RECORDINGS)]
         corrected, linear = (calibrated(data, nonlinear=nonlinear) for nonlinear in (True, False))
         assert corrected.nonlinear is not None
         assert corrected.nonlinear.kept == ("force", "moment")
+        shown = [block for block in calibration_blocks(corrected) if isinstance(block, str)]
+        assert shown[-1].startswith(
+            "the quadratic correction of the moment is kept: on recordings that were not fitted "
+        )
         assert linear.quadratic is None
         assert linear.nonlinear is None
         unseen = sensor.recording(99)
         ratios.append(_unseen(corrected, unseen) / _unseen(linear, unseen))
-    assert np.max(ratios) < 0.25
+    assert np.max(ratios) < 0.5
+    assert np.median(ratios, axis=0).max() < 0.35
 
 
 def test_a_refused_correction_leaves_the_linear_calibration() -> None:
@@ -116,7 +135,9 @@ def test_a_sensor_that_is_linear_is_not_corrected_for_loads_that_hide_its_gain()
     data = []
     for k in range(RECORDINGS):
         load = sensor.recording(k, reach=0.003).reference
-        load = load - load.mean(axis=0) + np.outer(np.arange(len(load)) // 40 % 2, [0.0, 0.0, -300.0, 0.0, 0.0, 0.0])
+        load = (
+            load - load.mean(axis=0) + np.outer(np.arange(len(load)) // 40 % 3 == 0, [0.0, 0.0, -300.0, 0.0, 0.0, 0.0])
+        )
         raw = sensor.counts(load) + sensor.rng.standard_normal(load.shape)
         data.append(
             DataSet(

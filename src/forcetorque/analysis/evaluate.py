@@ -276,7 +276,7 @@ def _beyond_fitted_loads(run: SensorRun, name: str, calibration: Calibration) ->
     share = float(calibration.quadratic.beyond(wrench).mean())
     if share > 0.0:
         yield (
-            f"{name}: {100 * share:.2g} % of the judged readings are of loads beyond those that its quadratic terms "
+            f"{name}: {100 * share:.3g} % of the judged readings are of loads beyond those that its quadratic terms "
             "were fitted to; they are corrected as at the limit"
         )
 
