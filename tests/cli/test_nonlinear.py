@@ -17,7 +17,7 @@ from tests.cli.outcome import Run
 from tests.experiments import PARQUET, add, edit
 from tests.studies import CALIBRATION
 
-REFUSED = "WARNING: arm_ft: the quadratic correction of the {half} is refused: on recordings that were not fitted the error is "
+REFUSED = "WARNING: arm_ft: the quadratic correction of the {half} is refused: on recordings that were not "
 
 
 def test_one_recording_is_refused_and_nothing_written(arm: Path, run: Run) -> None:

@@ -62,8 +62,8 @@ def steepness(coefficients: FloatArray, directions: FloatArray, minimum: FloatAr
     first, second = PAIRS
     derivative = np.zeros((len(corners), len(first), 6))
     terms = np.arange(len(first))
-    np.add.at(derivative, (slice(None), terms, first), corners[:, second])
-    np.add.at(derivative, (slice(None), terms, second), corners[:, first])
+    derivative[:, terms, first] = corners[:, second]
+    derivative[:, terms, second] += corners[:, first]  # of a square both, which is twice the load
     return float(np.linalg.norm(coefficients @ derivative, ord=2, axis=(1, 2)).max())
 
 
@@ -145,8 +145,7 @@ class QuadraticCorrection(Part):
         along = self._along(np.asarray(load, dtype=np.float64))
         # a fitted load at a limit stays inside whatever the last bits of the product are
         slack = 1e-9 * np.maximum(self.maximum - self.minimum, np.finfo(float).tiny)
-        outside: BoolArray = ((along < self.minimum - slack) | (along > self.maximum + slack)).any(axis=-1)
-        return outside
+        return np.asarray(((along < self.minimum - slack) | (along > self.maximum + slack)).any(axis=-1))
 
     @property
     def _iterations(self) -> int:

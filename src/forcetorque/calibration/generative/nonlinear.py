@@ -13,7 +13,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray
+from forcetorque.arrays import FloatArray, IntArray
 from forcetorque.calibration.generative.assumptions import FLATTENED, Assumptions
 from forcetorque.calibration.generative.fit import GenerativeFit, fit_generative
 from forcetorque.calibration.generative.means import WindowMeans
@@ -111,7 +111,7 @@ def try_correction(
         errors.append((np.minimum(linear, _held_out(plain.model, judged)[0]), corrected))
         samples.append(sum(float(stretch.count.sum()) for stretch in judged))
     linear, corrected = np.swapaxes(errors, 0, 1)
-    return NonlinearTrial(recordings=recordings, samples=samples, linear_rms=linear, corrected_rms=corrected)
+    return NonlinearTrial(recordings=recordings, samples=np.array(samples), linear_rms=linear, corrected_rms=corrected)
 
 
 def _held_out(model: WrenchModel, stretches: Sequence[WindowMeans]) -> tuple[FloatArray, FloatArray]:
@@ -136,7 +136,7 @@ def _linear(model: WrenchModel, means: WindowMeans) -> FloatArray:
     return plain.wrench(means.raw, means.variables if means.variables.shape[1] else None)
 
 
-def _session_means(values: FloatArray, member: FloatArray, weight: FloatArray) -> FloatArray:
+def _session_means(values: FloatArray, member: IntArray, weight: FloatArray) -> FloatArray:
     total = np.zeros((int(member.max()) + 1, values.shape[1]))
     np.add.at(total, member, values * weight[:, None])
     means: FloatArray = total / np.bincount(member, weights=weight)[:, None]
