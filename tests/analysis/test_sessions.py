@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -24,6 +25,7 @@ from forcetorque.calibration import Calibration, FittedInterval, SessionOffset
 from forcetorque.errors import ExperimentError
 from forcetorque.experiment import load_experiment
 from forcetorque.recording import Use
+from tests.calibration.quadratic_sensor import correction_of_steepness
 from tests.experiments import PARQUET, TWO, edit
 
 STEP = np.array([3.0, -2.0, 5.0, 0.2, -0.1, 0.05])
@@ -130,6 +132,24 @@ def test_a_recording_that_is_one_session_is_read_alike_outside_its_intervals(arm
     stepped, inside = wrench_at(run.experiment, run.sensor, shifted, at_ns), judge.holds(at_ns)
     assert np.allclose((stepped - plain)[~inside], STEP, rtol=0.0, atol=1e-9)
     assert np.allclose(stepped[inside], plain[inside], rtol=0.0, atol=1e-9)
+
+
+def test_a_quadratic_correction_is_of_the_reading_with_its_sessions_offset(arm: Path, fitted: Calibration) -> None:
+    """In an interval and at its instants of the whole log alike; a step of the offset then moves more than itself."""
+    edit(arm / TWO, 'label = "judge"\n', 'label = "judge"\nsession = "day 2"\n')
+    run, shifted = _run(arm, TWO), _sessions(fitted, "day 2")
+    (judge,) = run.intervals(Use.VALIDATION)
+    curved = shifted.model_copy(update={"quadratic": correction_of_steepness(0.4)})
+    model = replace(curved.model, offset=fitted.offset + STEP)
+    at_ns = run.instants(judge).at_ns
+    linear, measured = (run.measured(judge, Correction.of(NAME, one)) for one in (shifted, curved))
+    assert model.quadratic is not None
+    assert np.allclose(measured, model.quadratic.corrected(linear), rtol=0.0, atol=1e-9)
+    assert np.abs(measured - linear).max() > 1.0
+    assert np.array_equal(wrench_at(run.experiment, run.sensor, Correction.of(NAME, curved), at_ns), measured)
+    plain = run.measured(judge, Correction.of(NAME, fitted.model_copy(update={"quadratic": curved.quadratic})))
+    # negative control: adding the step of the offset to what was corrected without it
+    assert np.abs(plain + STEP - measured).max() > 1e-3
 
 
 def _fitted_elsewhere(calibration: Calibration, experiment: str | None, hashes: dict[str, str]) -> Calibration:

@@ -22,6 +22,7 @@ def calibrate_sensor(
     moments: Sequence[RecordingMoments] = (),
     regularisation: float | Literal["held-out"] | None = None,
     kind: EstimationType | Literal["generative"] | None = None,
+    nonlinear: bool | None = None,
 ) -> Calibration:
     """Fit a sensor on the calibration intervals of any number of recordings.
 
@@ -34,22 +35,26 @@ def calibrate_sensor(
             the experiment says.
         kind: `generative`, or an estimation type of the thesis; None for what the experiment says, which is the
             generative model unless it names a type or a lambda, or one is given here.
+        nonlinear: Whether quadratic terms may correct readings; None for what the experiment says.
 
     Returns:
         The calibration, with everything that tells how far to trust it.
 
     Raises:
         FitError: If the data cannot be those of the sensor under the modelled load, or do not determine the fit; or
-            moments are to be fitted by a type of the thesis, which needs samples.
+            moments are to be fitted by a type of the thesis, which needs samples; or quadratic terms are asked for of
+            such a type, or of a single recording.
     """
     if runs is None:
-        return generative_calibration(moments, code_version=code_version, created=created)
+        return generative_calibration(moments, code_version=code_version, created=created, nonlinear=nonlinear)
     campaign = Campaign.of(runs)
     experiment = campaign.runs[0].experiment
     options = experiment.fit_options
     if kind == "generative" or (kind is None and regularisation is None and options.generative):
         recordings = [*moments, *recording_moments(campaign)]
-        return generative_calibration(recordings, code_version=code_version, created=created)
+        return generative_calibration(recordings, code_version=code_version, created=created, nonlinear=nonlinear)
+    if nonlinear:
+        raise FitError("nonlinear: the types of the thesis are linear; leave out the estimation type and lambda")
     if moments:
         raise FitError("stored moments are fitted by the generative model; leave out the estimation type and lambda")
     given = experiment.regularisation if regularisation is None else regularisation

@@ -19,7 +19,8 @@ def fit_doubts(calibration: Calibration) -> Iterator[str]:
         A sentence per doubt, with the name of the sensor.
     """
     sensor = calibration.sensor.name
-    for sentence in (*calibration.doubts, *_turned(calibration), *_unmoved(calibration), *_left_prior(calibration)):
+    own = (*_turned(calibration), *_unmoved(calibration), *_left_prior(calibration), *_refused(calibration))
+    for sentence in (*calibration.doubts, *own):
         yield f"{sensor}: {sentence}"
 
 
@@ -57,6 +58,12 @@ def _left_prior(calibration: Calibration) -> Iterator[str]:
         f"{calibration.estimation_type} leaves the prior for noise, and a load that was not recorded may read worse "
         "than before; the default estimator keeps the prior there"
     )
+
+
+def _refused(calibration: Calibration) -> Iterator[str]:
+    """A correction that was asked for and lost."""
+    if calibration.nonlinear is not None:
+        yield from calibration.nonlinear.refusals()
 
 
 def _unit(variable: CalibratedVariable) -> str:

@@ -240,10 +240,12 @@ def doubts(run: SensorRun, name: str, calibration: Calibration) -> Iterator[str]
 
     Yields:
         A sentence per variable that leaves the fitted range by more than a tenth of it, where the line is drawn on;
-        and one per interval on which the calibration was chosen among others.
+        one on loads beyond those that quadratic terms were fitted to; and one per interval on which the calibration was
+        chosen among others.
     """
     for sentence in _beyond_fitted_range(run, calibration):
         yield f"{name}: {sentence}"
+    yield from _beyond_fitted_loads(run, name, calibration)
     yield from doubts_about_choice(run, name, calibration)
 
 
@@ -276,6 +278,18 @@ def _beyond_fitted_range(run: SensorRun, calibration: Calibration) -> Iterator[s
                 f"{variable.name} is {low:.4g} to {high:.4g} {variable.unit}, "
                 f"fitted were {variable.minimum:.4g} to {variable.maximum:.4g}"
             )
+
+
+def _beyond_fitted_loads(run: SensorRun, name: str, calibration: Calibration) -> Iterator[str]:
+    if calibration.quadratic is None:
+        return
+    _, wrench = run.judged({name: calibration}).measured[-1]
+    share = float(calibration.quadratic.beyond(wrench).mean())
+    if share > 0.0:
+        yield (
+            f"{name}: {100 * share:.3g} % of the judged readings are of loads beyond those that its quadratic terms "
+            "were fitted to; they are corrected as at the limit"
+        )
 
 
 def _overlaps(run: SensorRun, calibration: Calibration, used: Iterable[FittedInterval]) -> Iterator[tuple[str, str]]:

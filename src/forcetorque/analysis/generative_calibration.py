@@ -22,32 +22,43 @@ from forcetorque.calibration import (
     Selection,
     SessionOffset,
     WindowMeans,
+    corrected_fit,
     disagreements,
     excitation_of,
     fit_generative,
     pooled,
     require_same_sensor,
+    try_correction,
 )
 
 _RULE = "readings regressed on loads; sizes of prior deviations and slow noise by evidence"
 
 
-def generative_calibration(recordings: Sequence[RecordingMoments], *, code_version: str, created: str) -> Calibration:
+def generative_calibration(
+    recordings: Sequence[RecordingMoments], *, code_version: str, created: str, nonlinear: bool | None = None
+) -> Calibration:
     """Fit a sensor to any number of recordings.
 
     Args:
         recordings: What is kept of each, at least one.
         code_version: Version of this library, for the record.
         created: Date and time, ISO 8601, for the record.
+        nonlinear: Whether quadratic terms may correct readings; None for what the recordings say.
 
     Returns:
         The calibration, with everything that tells how far to trust it.
     """
+    if nonlinear is not None:
+        recordings = [recording.model_copy(update={"nonlinear": nonlinear}) for recording in recordings]
     require_same_sensor(recordings)
     first = recordings[0]
     intervals = [interval for recording in recordings for interval in recording.intervals]
     stretches, variables = [interval.means for interval in intervals], [v.linear for v in first.variables]
     fit = fit_generative(stretches, first.prior, first.assumptions, variables=variables, drift=first.drift)
+    trial = None
+    if first.nonlinear:
+        trial = try_correction(stretches, first.prior, first.assumptions, variables=variables, drift=first.drift)
+        fit = corrected_fit(fit, stretches, trial.kept) if trial.kept else fit
     moments = pooled(interval.moments for interval in intervals)
     sessions = _sessions(fit, intervals, first.prior)
     errors = fit.posterior.coefficient_error(fit.model.coefficients)
@@ -57,6 +68,8 @@ def generative_calibration(recordings: Sequence[RecordingMoments], *, code_versi
         offset=fit.model.offset,
         sessions=sessions,
         variables=tuple(_variable(fit, recordings, k, variable, errors[:, k]) for k, variable in enumerate(variables)),
+        quadratic=fit.model.quadratic,
+        nonlinear=trial,
         estimation_type=GENERATIVE,
         posterior=fit.posterior,
         matrix_standard_error=fit.posterior.matrix_error(fit.model.matrix),

@@ -9,7 +9,7 @@ from typing import Self
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray, IntArray, require_shape
+from forcetorque.arrays import BoolArray, FloatArray, IntArray, require_shape
 from forcetorque.calibration import Calibration, Prior, SessionOffset, WrenchModel, recover_raw
 from forcetorque.errors import ExperimentError
 from forcetorque.experiment import Experiment, ExperimentSensor
@@ -141,6 +141,18 @@ class Readings:
             raise ExperimentError(f"sensor {sensor.name!r}: recovering raw counts needs the prior matrix")
         return cls(logged=logged, raw=recover_raw(logged, sensor.prior), variables=variables)
 
+    def at(self, chosen: BoolArray) -> Self:
+        """Pick some instants.
+
+        Args:
+            chosen: Which; shape (n,).
+
+        Returns:
+            The readings there.
+        """
+        variables = {name: values[chosen] for name, values in self.variables.items()}
+        return replace(self, logged=self.logged[chosen], raw=self.raw[chosen], variables=variables)
+
     def wrench(self, correction: Correction) -> FloatArray:
         """Read the sensor.
 
@@ -184,9 +196,9 @@ def wrench_at(
     readings = Readings.of(sensor, interpolate(stream, logged, at_ns), variables)
     if interval is not None:
         return readings.wrench(correction.in_session(experiment.session_names(interval.label)))
-    outside = correction.in_session(experiment.session_names(None))
-    wrench = readings.wrench(outside)
+    wrench = readings.wrench(correction.in_session(experiment.session_names(None)))
     for span in experiment.recording.intervals if correction.sessions else ():
-        offset = correction.in_session(experiment.session_names(span.label)).model.offset
-        wrench[span.holds(at_ns)] += offset - outside.model.offset
+        inside = span.holds(at_ns)
+        own = correction.in_session(experiment.session_names(span.label))
+        wrench[inside] = readings.at(inside).wrench(own)
     return wrench

@@ -80,6 +80,7 @@ def moments_of(
         accuracy=options.accuracy,
         repeatability=options.repeatability,
         drift=options.drift,
+        nonlinear=options.nonlinear,
         variables=tuple(map(VariableDescription.of, variables)),
         intervals=tuple(intervals),
         doubts=tuple(doubts),

@@ -89,6 +89,7 @@ def calibrate_for_file(
     moments: Sequence[RecordingMoments] = (),
     regularisation: float | Literal["held-out"] | None = None,
     kind: EstimationType | Literal["generative"] | None = None,
+    nonlinear: bool | None = None,
 ) -> SensorCalibrations:
     """Fit a sensor, and say what makes the calibration doubtful.
 
@@ -100,12 +101,19 @@ def calibrate_for_file(
         moments: As of `calibrate_sensor`.
         regularisation: As of `calibrate_sensor`.
         kind: As of `calibrate_sensor`.
+        nonlinear: As of `calibrate_sensor`.
 
     Returns:
         The calibration, which no file holds yet.
     """
     calibration = calibrate_sensor(
-        runs, code_version=code_version, created=created, moments=moments, regularisation=regularisation, kind=kind
+        runs,
+        code_version=code_version,
+        created=created,
+        moments=moments,
+        regularisation=regularisation,
+        kind=kind,
+        nonlinear=nonlinear,
     )
     entry = SensorCalibration(
         file=str(file),

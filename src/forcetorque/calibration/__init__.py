@@ -26,11 +26,21 @@ from forcetorque.calibration.estimation_type import (
 )
 from forcetorque.calibration.excitation import Excitation, excitation_of
 from forcetorque.calibration.fit import MatrixFit, fit_matrix, require_determined
-from forcetorque.calibration.generative import Assumptions, GenerativeFit, WindowMeans, disagreements, fit_generative
+from forcetorque.calibration.generative import (
+    Assumptions,
+    GenerativeFit,
+    WindowMeans,
+    corrected_fit,
+    disagreements,
+    fit_generative,
+    try_correction,
+)
 from forcetorque.calibration.held_out import RULE, LambdaCurve, choose_lambda
 from forcetorque.calibration.linear_variable import LinearVariable
 from forcetorque.calibration.moments import Moments, pooled
+from forcetorque.calibration.nonlinear_trial import NonlinearTrial
 from forcetorque.calibration.posterior import Posterior, RowNoise
+from forcetorque.calibration.quadratic_correction import QuadraticCorrection
 from forcetorque.calibration.raw import is_invertible, recover_raw
 from forcetorque.calibration.recording_moments import (
     IntervalMoments,
@@ -50,7 +60,11 @@ __all__ = [
     "VariableDescription",
     "RecordingMoments",
     "IntervalMoments",
+    "corrected_fit",
     "fit_generative",
+    "try_correction",
+    "NonlinearTrial",
+    "QuadraticCorrection",
     "disagreements",
     "WindowMeans",
     "GenerativeFit",

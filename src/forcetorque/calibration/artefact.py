@@ -22,10 +22,12 @@ from pydantic import (
 from pydantic_core import PydanticCustomError
 
 from forcetorque.array_field import ArrayField
-from forcetorque.arrays import FloatArray
+from forcetorque.arrays import BoolArray, FloatArray
 from forcetorque.atomic import write_bytes_atomically
+from forcetorque.calibration.nonlinear_trial import NonlinearTrial
 from forcetorque.calibration.part import Part
 from forcetorque.calibration.posterior import Posterior
+from forcetorque.calibration.quadratic_correction import QuadraticCorrection
 from forcetorque.calibration.secondary import secondary_matrix
 from forcetorque.calibration.wrench_model import WrenchModel
 from forcetorque.errors import FormatError, MissingFileError, RecordingError, SerialNumberError, ShapeError
@@ -192,7 +194,10 @@ class Provenance(Part):
 
 
 class Calibration(Part):
-    """A fitted sensor: `wrench = matrix raw + sum of coefficients (variable - reference value) + offset`."""
+    """A fitted sensor: `wrench = matrix raw + sum of coefficients (variable - reference value) + offset`.
+
+    Where there are quadratic terms, what they add at the load is taken off that.
+    """
 
     model_config = ConfigDict(extra="forbid", frozen=True, arbitrary_types_allowed=True, populate_by_name=True)
 
@@ -208,6 +213,10 @@ class Calibration(Part):
     """Offset of every session; none in files of earlier versions."""
     variables: tuple[CalibratedVariable, ...] = ()
     """Linear variables; none for a type without."""
+    quadratic: QuadraticCorrection | None = None
+    """Quadratic terms that correct readings; None for a linear calibration."""
+    nonlinear: NonlinearTrial | None = None
+    """Whether such a correction won on recordings that were not fitted; None where it was not asked for."""
     estimation_type: str = "OnTdTO"
     """`generative`, or a type of thesis 5.1.4; `by axis` where every row has its own, see `selection`."""
     posterior: Posterior | None = None
@@ -244,13 +253,14 @@ class Calibration(Part):
 
     @property
     def model(self) -> WrenchModel:
-        """Matrix, offset and coefficients of the variables."""
+        """Matrix, offset, coefficients of the variables, and quadratic terms."""
         coefficients = [variable.coefficients for variable in self.variables]
         return WrenchModel(
             matrix=self.matrix,
             offset=self.offset,
             coefficients=np.column_stack(coefficients) if coefficients else np.zeros((6, 0)),
             reference_values=np.array([variable.reference_value for variable in self.variables]),
+            quadratic=self.quadratic,
         )
 
     def in_session(self, name: str) -> Calibration:
@@ -292,6 +302,22 @@ class Calibration(Part):
         """
         self.require_serial(serial, allow_foreign=allow_foreign)
         counts = np.asarray(raw, dtype=np.float64)
+        return self.model.wrench(counts, self._values(counts, variables))
+
+    def beyond_limits(self, raw: Any, *, variables: Mapping[str, Any] | None = None) -> BoolArray:
+        """Tell which readings are of loads outside those that the quadratic terms were fitted to.
+
+        Args:
+            raw: As of `apply`.
+            variables: As of `apply`.
+
+        Returns:
+            Whether the reading is corrected as at the limit, not at its own load; shape (...); False without terms.
+        """
+        counts = np.asarray(raw, dtype=np.float64)
+        return self.model.beyond(counts, self._values(counts, variables))
+
+    def _values(self, counts: FloatArray, variables: Mapping[str, Any] | None) -> FloatArray | None:
         given = {} if variables is None else variables
         names = [variable.name for variable in self.variables]
         if set(given) != set(names):
@@ -303,8 +329,7 @@ class Calibration(Part):
         for name, value in zip(names, values, strict=True):
             if value.shape not in ((), counts.shape[:-1]):
                 raise ShapeError(f"variable {name!r}: expected shape () or {counts.shape[:-1]}, got {value.shape}")
-        stacked = np.stack([np.broadcast_to(v, counts.shape[:-1]) for v in values], axis=-1) if values else None
-        return self.model.wrench(counts, stacked)
+        return np.stack([np.broadcast_to(v, counts.shape[:-1]) for v in values], axis=-1) if values else None
 
     def require_serial(self, serial: str, *, allow_foreign: bool = False) -> None:
         """Refuse a sensor that is not the calibrated one.
@@ -323,7 +348,7 @@ class Calibration(Part):
             )
 
     def secondary_matrix(self) -> FloatArray | None:
-        """Give the matrix that corrects a stream made with the prior (5.20).
+        """Give the matrix that corrects a stream made with the prior (5.20), for the linear part of the reading.
 
         Returns:
             `C C_prior^-1`; shape (6, 6); None where there is no prior or it has not six channels.

@@ -191,6 +191,8 @@ class RecordingMoments(Part):
     """Share of its response by which the sensor differs from one motion to the next."""
     drift: bool
     """Whether the offset of a session may move evenly in time."""
+    nonlinear: bool = False
+    """Whether quadratic terms may correct readings."""
     variables: tuple[VariableDescription, ...]
     """Linear variables that are fitted."""
     intervals: tuple[IntervalMoments, ...] = Field(min_length=1)
@@ -283,5 +285,6 @@ def _compared(recording: RecordingMoments) -> dict[str, Any]:
         "accuracy": None if recording.accuracy is None else recording.accuracy.tolist(),
         "repeatability": recording.repeatability,
         "drift": recording.drift,
+        "nonlinear": recording.nonlinear,
         "variables": [variable.model_dump(mode="json") for variable in recording.variables],
     }

@@ -44,6 +44,14 @@ def calibrate(
             "generative.",
         ),
     ] = None,
+    nonlinear: Annotated[
+        bool | None,
+        typer.Option(
+            "--nonlinear/--linear",
+            help="Let quadratic terms correct readings where they win on recordings that were not fitted. Default: "
+            "what the experiment says, else not.",
+        ),
+    ] = None,
     moments: Annotated[
         Path | None,
         typer.Option("--moments", help="Folder to keep what the fit needs of each recording, to be added to others."),
@@ -93,6 +101,7 @@ def calibrate(
                         moments=own,
                         regularisation=given,
                         kind=chosen,
+                        nonlinear=nonlinear,
                     )
                 )
         except ForceTorqueError as error:  # a limb that stands still says nothing against the others

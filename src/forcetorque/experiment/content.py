@@ -39,6 +39,8 @@ class FitOptions:
     """Share of its response by which a sensor differs from one motion to the next."""
     drift: bool = False
     """Whether the offset of a session may move evenly in time."""
+    nonlinear: bool = False
+    """Whether quadratic terms may correct readings, where they win on recordings that were not fitted."""
 
     offset: OffsetStrategy = OffsetStrategy.ONE_SHOT
     """How the offset is found."""

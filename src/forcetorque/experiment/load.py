@@ -151,6 +151,7 @@ def _fit_options(table: schema.CalibrationTable) -> FitOptions:
         accuracy=None if accuracy is None else np.repeat([accuracy.force_N, accuracy.moment_Nm], 3),
         repeatability=table.repeatability,
         drift=table.drift,
+        nonlinear=table.nonlinear,
         offset=table.offset or OffsetStrategy.ONE_SHOT,
         with_variables=table.with_variables,
         from_reference=table.from_reference,

@@ -265,6 +265,8 @@ class CalibrationTable(Table):
     """Share of its response by which the sensor differs from one motion to the next (creep, hysteresis)."""
     drift: bool = False
     """Whether the offset of a session may move evenly in time."""
+    nonlinear: bool = False
+    """Whether quadratic terms may correct readings; they do where they win on recordings that were not fitted."""
 
     lambda_counts2: Annotated[
         Annotated[float, Field(ge=0.0, strict=True)] | None,
@@ -299,6 +301,10 @@ class CalibrationTable(Table):
             raise PydanticCustomError("no_variables", "from_reference belongs to with_variables = true")
         if self.type == GENERATIVE and "lambda_counts2" in self.model_fields_set:
             raise PydanticCustomError("generative_lambda", "the generative model has no lambda; leave it out")
+        if self.nonlinear and not self.generative:
+            raise PydanticCustomError(
+                "linear_type", "nonlinear belongs to the generative model; leave it out, or type, offset and lambda"
+            )
         return self
 
     @property

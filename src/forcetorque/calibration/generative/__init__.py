@@ -5,6 +5,7 @@ from forcetorque.calibration.generative.agreement import Disagreement, disagreem
 from forcetorque.calibration.generative.assumptions import ACCURACY_SHARE, REPEATABILITY, Assumptions
 from forcetorque.calibration.generative.fit import GenerativeFit, fit_generative
 from forcetorque.calibration.generative.means import WindowMeans
+from forcetorque.calibration.generative.nonlinear import corrected_fit, try_correction
 
 __all__ = [
     "ACCURACY_SHARE",
@@ -13,6 +14,8 @@ __all__ = [
     "Disagreement",
     "GenerativeFit",
     "WindowMeans",
+    "corrected_fit",
     "disagreements",
     "fit_generative",
+    "try_correction",
 ]

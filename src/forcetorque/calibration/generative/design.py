@@ -16,10 +16,8 @@ import numpy as np
 from forcetorque.arrays import FloatArray, IntArray
 from forcetorque.calibration.generative.means import WindowMeans
 from forcetorque.calibration.moments import symmetric_pseudo_inverse
+from forcetorque.calibration.quadratic_correction import quadratic_terms
 from forcetorque.noise import CANDIDATES, SlowNoise, Timeline
-
-PAIRS = np.triu_indices(6)
-"""Pairs of components of the load whose products are the 21 quadratic terms."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -68,9 +66,7 @@ def design_of(
     about = counts - counts.mean(axis=0)
     variables = np.concatenate([s.variables for s in stretches]) - centre
     flattening = np.concatenate([s.flattening for s in stretches])
-    columns, column_means = _centred(
-        np.hstack([wrench, variables, about[:, PAIRS[0]] * about[:, PAIRS[1]], flattening]), member, count
-    )
+    columns, column_means = _centred(np.hstack([wrench, variables, quadratic_terms(about), flattening]), member, count)
     centred, response_means = _centred(response, member, count)
     elapsed, session_time = _centred(time[:, None], member, count)
     ones = (member[:, None] == np.arange(len(sessions))).astype(np.float64)

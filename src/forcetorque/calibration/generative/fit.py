@@ -11,13 +11,14 @@ import numpy as np
 from forcetorque.arrays import FloatArray, read_only
 from forcetorque.calibration.generative import assumptions as expected
 from forcetorque.calibration.generative.assumptions import Assumptions, Scale
-from forcetorque.calibration.generative.design import PAIRS, Design, design_of, whiten
+from forcetorque.calibration.generative.design import Design, design_of, whiten
 from forcetorque.calibration.generative.determined import require_rank, require_response, require_sensor
 from forcetorque.calibration.generative.evidence import Unknowns, infer
 from forcetorque.calibration.generative.means import WindowMeans, in_order
 from forcetorque.calibration.generative.rows import LOADS, Rows, rows_of
 from forcetorque.calibration.linear_variable import LinearVariable
 from forcetorque.calibration.posterior import Posterior, RowNoise
+from forcetorque.calibration.quadratic_correction import PAIRS
 from forcetorque.calibration.wrench_model import WrenchModel
 from forcetorque.errors import FitError
 
@@ -29,7 +30,7 @@ class GenerativeFit:
     """A fit with everything that is known of its unknowns."""
 
     model: WrenchModel
-    """Matrix, coefficients, and the offset of the last session."""
+    """Matrix, coefficients, the offset of the last session, and quadratic terms where they correct readings."""
     offsets: FloatArray
     """Offset of every session, where every variable has its reference value; shape (sessions, 6); N, N m."""
     drifts: FloatArray | None
@@ -39,9 +40,11 @@ class GenerativeFit:
     posterior: Posterior
     """Mean and covariance of the unknowns."""
     residual: FloatArray
-    """Root mean square residual of the linear model on the means; shape (6,); N, N m."""
+    """Root mean square residual of the model on the means; shape (6,); N, N m."""
     quadratic: FloatArray
-    """What the 21 quadratic terms of `readings` add to the readings, as rows of the posterior; shape (rows, 21)."""
+    """What the 21 quadratic terms of the loads add to the rows of the posterior; shape (rows, 21); N, N m or counts."""
+    load_to_full_scale: FloatArray
+    """Shares of full scale that loads make, of which the quadratic terms are, about their mean; shape (6, 6)."""
     means: int
     """Number of means that were fitted."""
 
@@ -53,6 +56,7 @@ def fit_generative(
     *,
     variables: Sequence[LinearVariable] = (),
     drift: bool = False,
+    quadratic: bool = True,
 ) -> GenerativeFit:
     """Fit a sensor: readings are regressed on loads, and where no load speaks the prior stays.
 
@@ -62,6 +66,7 @@ def fit_generative(
         assumptions: Full scales, accuracy of the reference and repeatability.
         variables: What the columns of `variables` in the means are.
         drift: Whether the offset of a session may move evenly in time.
+        quadratic: Whether there are quadratic terms; without them what is quadratic passes for gain.
 
     Returns:
         The fit.
@@ -96,7 +101,8 @@ def fit_generative(
     # what a variable is expected to do is taken off, so that the prior of what is left is about zero
     expected_rows = -rows.from_load @ usual
     response = raw @ rows.from_raw.T - wrench @ rows.from_load.T - (values - centre) @ expected_rows.T
-    design = design_of(ordered, response, wrench @ rows.load_to_full_scale.T, drift=drift, centre=centre)
+    shares = wrench @ rows.load_to_full_scale.T if quadratic else np.zeros((len(wrench), LOADS))
+    design = design_of(ordered, response, shares, drift=drift, centre=centre)
     _require_means(design, drift=drift)
     basis = [
         _basis(rows, k, variables=_variable_sizes(variables, values, rows, k), width=design.columns.shape[1])
@@ -260,6 +266,7 @@ class _Result:
             posterior=posterior,
             residual=np.sqrt(np.average(left**2, axis=0, weights=weight)),
             quadratic=np.stack([self._quadratic(k) for k in range(len(unit))]) * unit[:, None],
+            load_to_full_scale=rows.load_to_full_scale,
             means=len(raw),
         )
 
