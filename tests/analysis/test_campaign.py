@@ -10,7 +10,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from forcetorque.analysis import Campaign, SensorRun
+from forcetorque.analysis import Campaign, SensorRun, calibrate_sensor
+from forcetorque.calibration import ESTIMATION_TYPES
 from forcetorque.errors import ExperimentError
 from forcetorque.experiment import load_experiment
 from forcetorque.recording import Use
@@ -157,3 +158,12 @@ def test_a_use_that_no_file_has_is_refused(recorded: Path) -> None:
     assert len(_campaign(recorded, (CALIBRATION[0], VALIDATION[0])).samples(Use.VALIDATION)) == 1
     with pytest.raises(ExperimentError, match='expected an interval with use = "validation", it has none'):
         _campaign(recorded, CALIBRATION).samples(Use.VALIDATION)
+
+
+def test_the_artefact_says_what_lambda_was_chosen_on(recorded: Path) -> None:
+    """Whole recordings where there are several, else pieces of the one."""
+    options = {"regularisation": "held-out", "kind": ESTIMATION_TYPES["OnTdTO"], "code_version": "1", "created": "now"}
+    several = calibrate_sensor(_campaign(recorded, CALIBRATION), **options)
+    single = calibrate_sensor(_campaign(recorded, CALIBRATION[:1]), **options)
+    assert several.selection.rule.endswith("; blocks are whole recordings")
+    assert single.selection.rule.endswith("; blocks are equal contiguous pieces of the intervals")

@@ -8,9 +8,10 @@ from typing import Any, Literal
 
 import pytest
 
-from forcetorque.analysis import Assessment, CandidateErrors, PriorComparison
+from forcetorque.analysis import Assessment, CandidateErrors, LearntDirection, PriorComparison
 from forcetorque.analysis.verdict import verdict
 from forcetorque.evaluation import Offset
+from forcetorque.spatial import WRENCH_COMPONENTS
 
 Gain = tuple[float | None, float | None]
 BETTER: Gain = (0.5, 1.5)
@@ -38,7 +39,7 @@ def _comparison(quantity: Literal["force", "moment"], gain: Gain, samples: int =
 
 def _fitted(doubts: tuple[str, ...] = ()) -> SimpleNamespace:
     """What matters to the verdict of a calibration."""
-    return SimpleNamespace(validity=SimpleNamespace(excited=(True,) * 6), doubts=doubts)
+    return SimpleNamespace(validity=SimpleNamespace(excited=(True,) * 6), doubts=doubts, posterior=None)
 
 
 def _report(comparisons: list[PriorComparison], **other: Any) -> Assessment:
@@ -82,6 +83,32 @@ def test_a_calibration_in_doubt_is_never_good() -> None:
     passed = (SimpleNamespace(candidate="new.json", passed=True, criterion="force"),)
     for calibrations, tone in ((doubted, "caution"), ({}, "good")):
         assert verdict(_report([], criteria=passed, **calibrations))[0].tone == tone
+
+
+def _learnt(*shares: float) -> tuple[LearntDirection, ...]:
+    return tuple(
+        LearntDirection(
+            direction=name, learnt=share, force_error_before_N=1.0, force_error_after_N=1.0 - share,
+            moment_error_before_Nm=1.0, moment_error_after_Nm=1.0 - share,
+        )
+        for name, share in zip(WRENCH_COMPONENTS, shares, strict=True)
+    )  # fmt: skip
+
+
+def test_what_a_generative_fit_did_not_learn_is_said_and_raw_directions_are_not() -> None:
+    """A direction below half is a caution with what to do; with none there is no sentence; others as they were."""
+    shy = SimpleNamespace(validity=SimpleNamespace(excited=(True, False) * 3), doubts=(), posterior="known")
+    both = [_comparison(quantity, BETTER) for quantity in ("force", "moment")]
+    given = {"calibrations": {"new.json": shy}, "learnt": {"new.json": _learnt(0.9, 0.9, 0.97, 0.8, 0.8, 0.04)}}
+    _, line = verdict(_report(both, **given))
+    assert line.tone == "caution"
+    assert (
+        "new.json: learnt: fx 90 %, fy 90 %, fz 97 %, tx 80 %, ty 80 %, tz 4 %; for tz the prior decides" in line.text
+    )
+    (_,) = verdict(_report(both, **given | {"learnt": {"new.json": _learnt(*[0.9] * 6)}}))
+    shy.posterior = None
+    _, line = verdict(_report(both, calibrations={"new.json": shy}))
+    assert "the fitted loads moved 3 of 6 raw directions" in line.text
 
 
 def test_few_samples_are_never_good() -> None:

@@ -14,6 +14,7 @@ from forcetorque.arrays import FloatArray
 from forcetorque.calibration import CalibrationFit, DataSet, LinearVariable, calibrate
 from forcetorque.calibration.generative import REPEATABILITY, Assumptions, GenerativeFit, WindowMeans, fit_generative
 from forcetorque.estimation import Processing, sensor_samples
+from forcetorque.evaluation import push_error, pushes
 from forcetorque.recording import Interval, Support, Use
 from forcetorque.simulation.scenario import (
     INTERVAL_MARGIN_S,
@@ -28,7 +29,6 @@ from forcetorque.simulation.scenario import (
 from forcetorque.toml_table import read_toml
 
 TEMPERATURE = LinearVariable(name="temperature", unit="degC")
-PUSH_N, LEVER_M, PUSHES = 50.0, 0.3, 2000
 LIMIT_COUNTS = 32767.0
 EXACT = 1e-9
 """Relative rounding of a lambda that was chosen among candidates."""
@@ -36,23 +36,13 @@ NOMINAL = 1.96
 """Standard deviations to either side that hold 95 % of a normal distribution."""
 
 
-def _pushes() -> FloatArray:
-    """Wrenches of pushes in random directions at random points around the sensor; shape (n, 6); N, N m."""
-    rng = np.random.default_rng(2024)
-    force, lever = rng.normal(size=(2, PUSHES, 3))
-    force *= PUSH_N / np.linalg.norm(force, axis=1, keepdims=True)
-    lever *= LEVER_M * rng.uniform(size=(PUSHES, 1)) / np.linalg.norm(lever, axis=1, keepdims=True)
-    return np.hstack([force, np.cross(lever, force)])
-
-
-WRENCHES = _pushes()
-
-
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Case:
     """One sensor with the recordings of one motion, its workbench matrix and its truth."""
 
-    name: str
+    sensor: str
+    motion: str
+    seed: int
     data: list[DataSet]
     prior: FloatArray
     truth: FloatArray
@@ -69,14 +59,27 @@ class Case:
         best = curve.regularisations[free][np.argmin(curve.held_out_error[free])]
         return self.fitted(float(best))
 
-    def generative(self, *, repeatability: float = REPEATABILITY, with_prior: bool = True) -> GenerativeFit:
-        """Calibrate with the default estimator, the reference being exact but for its derivative window."""
-        return fit_generative(
-            [WindowMeans.of(data) for data in self.data],
-            self.prior if with_prior else None,
-            Assumptions.of_counts(self.truth.shape[1], LIMIT_COUNTS, accuracy=np.zeros(6), repeatability=repeatability),
-            variables=[TEMPERATURE],
+    def generative(
+        self, *, repeatability: float = REPEATABILITY, accuracy: float = 0.0, with_prior: bool = True
+    ) -> GenerativeFit:
+        """Calibrate with the default estimator.
+
+        Args:
+            repeatability: Share of its response by which the sensor differs from one motion to the next.
+            accuracy: Slow error of the reference over full scale; 0 as its only error is that of the derivative window.
+            with_prior: Whether the prior is known.
+
+        Returns:
+            The fit.
+        """
+        assumed = Assumptions.of_counts(
+            self.truth.shape[1],
+            LIMIT_COUNTS,
+            accuracy=accuracy * LIMIT_COUNTS * np.linalg.norm(self.prior, axis=1),
+            repeatability=repeatability,
         )
+        means = [WindowMeans.of(data) for data in self.data]
+        return fit_generative(means, self.prior if with_prior else None, assumed, variables=[TEMPERATURE])
 
     def ratio(self, matrix: FloatArray) -> FloatArray:
         """Mean error of a push with a matrix over that with the prior; force and moment; shape (2,)."""
@@ -84,20 +87,20 @@ class Case:
 
     def error(self, matrix: FloatArray) -> FloatArray:
         """Mean error of a push with a matrix; force and moment; shape (2,); N, N m."""
-        error = self._errors(matrix)
-        return np.array([np.linalg.norm(error[:, part], axis=1).mean() for part in (slice(3), slice(3, 6))])
+        error = push_error(matrix, self.truth)
+        return np.array([error.force_N, error.moment_Nm])
 
     def covered(self, fit: GenerativeFit) -> FloatArray:
         """Share of 95 % intervals that hold the truth: of coefficients, push forces, push moments; shape (3,)."""
         matrix = fit.model.matrix
-        spread = np.sqrt(np.einsum("nii->ni", fit.posterior.error_covariance(WRENCHES)))
+        spread = np.sqrt(np.einsum("nii->ni", fit.posterior.error_covariance(pushes())))
         inside = np.abs(self._errors(matrix)) <= NOMINAL * spread
         known = np.abs(matrix - self.truth) <= NOMINAL * fit.posterior.matrix_error(matrix)
         return np.array([known.mean(), inside[:, :3].mean(), inside[:, 3:].mean()])
 
     def _errors(self, matrix: FloatArray) -> FloatArray:
         response = np.linalg.pinv(self.truth)  # counts that a load makes
-        errors: FloatArray = WRENCHES @ (matrix @ response - np.eye(6)).T
+        errors: FloatArray = pushes() @ (matrix @ response - np.eye(6)).T
         return errors
 
 
@@ -137,7 +140,9 @@ def cases(
         for sensor, names in moved.items():
             for motion in names:
                 yield Case(
-                    name=f"{sensor} {motion} seed {seed}",
+                    sensor=sensor,
+                    motion=motion,
+                    seed=seed,
                     data=[data[sensor, name] for name in motions[motion]],
                     prior=drawn.specimens[sensor].workbench,
                     truth=drawn.specimens[sensor].sensor.matrix,

@@ -202,6 +202,18 @@ def test_a_variable_that_never_moves_keeps_the_coefficient_it_had(prior: FloatAr
     np.testing.assert_allclose(error, supposed, rtol=0.2)
 
 
+def test_a_variable_of_which_nothing_is_known_must_move() -> None:
+    """A constant voltage would get a coefficient of zero that is known exactly; temperatures are known beforehand."""
+    data = read_by(anyhow())
+    data = replace(data, variables=np.full((len(data), 1), 24.0))
+    supply = LinearVariable(name="supply", unit="V")
+    with pytest.raises(FitError, match="'supply': its value is 24 V throughout the fitted data.*state prior_deviation"):
+        fit_generative([data], PRIOR, assumptions(), variables=[supply])
+    deviation = np.array([0.5, 0.5, 0.5, 0.01, 0.01, 0.01])
+    fit = fit_generative([data], PRIOR, assumptions(), variables=[replace(supply, prior_deviation=deviation)])
+    np.testing.assert_allclose(fit.posterior.coefficient_error(fit.model.coefficients)[:, 0], deviation, rtol=0.2)
+
+
 def test_prior_deviations_of_a_variable_are_respected() -> None:
     """A coefficient that is stated to a thousandth stays, whatever the data say."""
     load, slope = anyhow(), np.full((6, 1), 0.01)

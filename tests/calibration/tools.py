@@ -12,15 +12,16 @@ from forcetorque.arrays import FloatArray
 from forcetorque.calibration import DataSet
 from forcetorque.calibration.generative import Assumptions, GenerativeFit, WindowMeans, fit_generative
 from forcetorque.estimation import Processing, sensor_samples
+from forcetorque.evaluation import pushes
 from forcetorque.recording import Interval, Support, Use
 from forcetorque.robot import read_urdf
 from forcetorque.simulation import SimulatedSensor, Stand, Trace, random_movement, trace_movement, with_load
 from forcetorque.spatial import MeasureDirection
-from tests.calibration.push_error import LIMIT_COUNTS, WRENCHES
+from tests.calibration.push_error import LIMIT_COUNTS
 from tests.robots import example_robot
 
 SENSOR, JOINT, FLANGE, BASE = "wrist_ft", "ee_fixed_joint", "ee_link", "base_link"
-PUSHES = WRENCHES / 5.0
+PUSHES = pushes() / 5.0
 """Of 10 N."""
 TOOL_KG = 1.7
 CENTRES_M = ((0.0, 0.0, 0.06), (0.06, 0.0, 0.08), (0.0, 0.05, 0.1))

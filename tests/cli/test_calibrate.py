@@ -347,3 +347,30 @@ def test_a_prior_of_another_sensor_is_refused(arm: Path, run: Run) -> None:
     assert error.startswith(
         "error: parquet.toml: sensor[0]: expected the prior matrix of the sensor 'SIM001', got that "
     )
+
+
+def test_what_was_learnt_is_drawn_where_it_is_asked(arm: Path, run: Run) -> None:
+    """A PNG beside the calibration, named in the result; without the option there is none."""
+    before = snapshot(arm)
+    ended = run("calibrate", PARQUET, "-o", "a.json", "--figure", "learnt.png", "--format", "json")
+    assert ended.result()["figure"] == "learnt.png"
+    assert Path("learnt.png").read_bytes()[:8] == b"\x89PNG\r\n\x1a\n"
+    assert snapshot(arm).keys() - before.keys() == {"a.json", "learnt.png"}
+    assert run("calibrate", PARQUET, "-o", "a.json", "--format", "json").result()["figure"] is None
+
+
+def test_a_type_of_the_thesis_has_nothing_to_draw(arm: Path, run: Run) -> None:
+    """The calibration is written all the same; the reason is one line, and the exit code says that one was given."""
+    ended = run("calibrate", PARQUET, "-o", "a.json", "--type", "OnTdTO", "--figure", "learnt.png")
+    assert ended.code == 2
+    assert "error: --figure learnt.png: expected a generative fit towards a prior" in ended.err
+    assert Path("a.json").exists()
+    assert not Path("learnt.png").exists()
+
+
+def test_a_figure_that_cannot_be_written_is_refused_before_the_fit(arm: Path, run: Run) -> None:
+    """Another ending: nothing is read, fitted or written."""
+    before = snapshot(arm)
+    error = run("calibrate", PARQUET, "-o", "a.json", "--figure", "learnt.pdf").error()
+    assert "--figure learnt.pdf: expected a name that ends in .png" in error
+    assert snapshot(arm) == before

@@ -13,7 +13,7 @@ import numpy as np
 from forcetorque.analysis.sensor_run import SensorRun
 from forcetorque.calibration import SensorIdentity
 from forcetorque.errors import ExperimentError
-from forcetorque.experiment.content import ExperimentSensor, Role
+from forcetorque.experiment.content import ExperimentSensor, FitOptions, Role
 from forcetorque.paths import real_path
 from forcetorque.recording import Use
 
@@ -30,6 +30,8 @@ class CampaignRecording:
     """The sensor."""
     identity: SensorIdentity
     """Which sensor it is, where and how it reads."""
+    options: FitOptions
+    """Estimator as the file states it."""
     channels: int
     """Number of channels of a raw reading."""
     roles: Mapping[str, Role]
@@ -58,6 +60,7 @@ class CampaignRecording:
             experiment=experiment.name,
             sensor=run.sensor,
             identity=run.identity,
+            options=experiment.fit_options,
             channels=run.channels,
             roles={label: experiment.roles[label] for label in labels},
             start_ns=experiment.recording.start_ns,

@@ -16,6 +16,7 @@ from forcetorque.analysis.contact_forces import ContactForceErrors, contact_forc
 from forcetorque.analysis.criterion import Bound, Criterion, Judge
 from forcetorque.analysis.evaluate import CandidateErrors, evaluate
 from forcetorque.analysis.interval_quality import IntervalQuality
+from forcetorque.analysis.learnt import learnt_directions
 from forcetorque.analysis.sensor_run import SensorRun
 from forcetorque.analysis.static_checks import StaticChecks
 from forcetorque.calibration import Calibration
@@ -274,6 +275,17 @@ def _excitation(subject: Subject, stated: limits.Excitation) -> Iterator[Criteri
     yield from subject.judge.at_limit("excitation.condition", condition, stated.condition, count=n)
 
 
+def _learnt(subject: Subject, stated: limits.Learnt) -> Iterator[Criterion]:
+    name, fitted = subject.fitted()
+    directions = learnt_directions(fitted)
+    if directions is None:
+        raise ExperimentError(f"calibration {name!r} is not a generative fit towards a prior, which alone tells it")
+    for row in directions:
+        limit = getattr(stated, row.direction)
+        n = fitted.provenance.samples
+        yield from subject.judge.at_limit(f"learnt.{row.direction}", row.learnt, limit, bound=Bound.AT_LEAST, count=n)
+
+
 _TABLES: dict[str, Callable[..., Iterable[Criterion]]] = {
     "evaluate": _evaluate,
     "improvement": _improvement,
@@ -284,6 +296,7 @@ _TABLES: dict[str, Callable[..., Iterable[Criterion]]] = {
     "offset": _offset,
     "uncertainty": _uncertainty,
     "excitation": _excitation,
+    "learnt": _learnt,
 }
 """What judges each table of the file."""
 

@@ -146,6 +146,7 @@ def _entry(
         matrix=matrix,
         offset=calibration.offset,
         offset_stored=offset_stored,
+        session=calibration.sessions[-1].name if len(calibration.sessions) > 1 else None,
         variables={variable.name: variable.coefficients for variable in calibration.variables},
         variables_stored=variables_stored,
     )
@@ -165,6 +166,8 @@ def _doubts(form: ExportFormat, entry: ExportedCalibration) -> Iterator[str]:
     """What the file does not hold, or the robot does not take from it."""
     if not entry.offset_stored:
         yield f"{entry.calibration}: offset {entry.offset_text}: {form.offset_handling}"
+    if entry.session is not None:
+        yield f"{entry.calibration}: its offset is of the last session, {entry.session!r}; others have their own"
     if entry.variables and not entry.variables_stored:
         names = ", ".join(entry.variables)
         yield f"{entry.calibration}: the coefficients of {names} are not in this file: --to coefficients"

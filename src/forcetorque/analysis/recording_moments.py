@@ -3,15 +3,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 from urllib.parse import quote
 
 import numpy as np
 
 from forcetorque.analysis.campaign import Campaign, Runs
-from forcetorque.analysis.sensor_run import SensorRun
+from forcetorque.analysis.campaign_recording import CampaignRecording
 from forcetorque.arrays import FloatArray
-from forcetorque.calibration import IntervalMoments, RecordingMoments, VariableDescription, gate
+from forcetorque.calibration import IntervalMoments, LinearVariable, RecordingMoments, VariableDescription, gate
 from forcetorque.calibration.generative import ACCURACY_SHARE
 from forcetorque.errors import ExperimentError
 from forcetorque.recording import Use
@@ -42,31 +43,55 @@ def recording_moments(runs: Runs, *, with_variables: bool | None = None) -> list
         own = [interval for interval in intervals if interval.recording == recording]
         if not own:
             continue
-        options = run.experiment.fit_options
-        results.append(
-            RecordingMoments(
-                sensor=run.identity,
-                experiment=run.experiment.name,
-                prior=sensor.prior,
-                prior_source=sensor.prior_source,
-                full_scale=channel_full_scale(run),
-                accuracy=options.accuracy,
-                repeatability=options.repeatability,
-                drift=options.drift,
-                variables=tuple(map(VariableDescription.of, variables)),
-                intervals=tuple(IntervalMoments.of(i.data_set, i.fitted, dropped=i.part.samples.dropped) for i in own),
-                doubts=tuple(doubt.message for doubt in doubts),
-                inputs_sha256=run.experiment.inputs_sha256,
-            )
-        )
+        kept = [IntervalMoments.of(i.data_set, i.fitted, dropped=i.part.samples.dropped) for i in own]
+        stated_by = CampaignRecording.of(run)
+        results.append(moments_of(stated_by, kept, variables=variables, doubts=[doubt.message for doubt in doubts]))
     return results
 
 
-def channel_full_scale(run: SensorRun) -> FloatArray:
+def moments_of(
+    recording: CampaignRecording,
+    intervals: Sequence[IntervalMoments],
+    *,
+    variables: Sequence[LinearVariable],
+    doubts: Sequence[str],
+) -> RecordingMoments:
+    """Put what is kept of intervals beside what the recording says about the sensor.
+
+    Args:
+        recording: The recording.
+        intervals: What is kept of its intervals.
+        variables: Linear variables that are fitted.
+        doubts: What makes any fit of them doubtful.
+
+    Returns:
+        The moments of the recording.
+
+    Raises:
+        ExperimentError: If the full scale of the sensor is not known.
+    """
+    sensor, options = recording.sensor, recording.options
+    return RecordingMoments(
+        sensor=recording.identity,
+        experiment=recording.experiment,
+        prior=sensor.prior,
+        prior_source=sensor.prior_source,
+        full_scale=channel_full_scale(recording),
+        accuracy=options.accuracy,
+        repeatability=options.repeatability,
+        drift=options.drift,
+        variables=tuple(map(VariableDescription.of, variables)),
+        intervals=tuple(intervals),
+        doubts=tuple(doubts),
+        inputs_sha256=dict(recording.inputs_sha256),
+    )
+
+
+def channel_full_scale(recording: CampaignRecording) -> FloatArray:
     """Give the full scale of every channel of a sensor's raw reading.
 
     Args:
-        run: The sensor.
+        recording: What the recording says about the sensor.
 
     Returns:
         Full scales; shape (c,); counts, or N and N m where the logged wrench takes the place of counts.
@@ -74,9 +99,9 @@ def channel_full_scale(run: SensorRun) -> FloatArray:
     Raises:
         ExperimentError: If a wrench takes the place of counts, and neither its full scale nor an accuracy is stated.
     """
-    sensor, accuracy = run.sensor, run.experiment.fit_options.accuracy
+    sensor, accuracy = recording.sensor, recording.options.accuracy
     if sensor.prior_source != "identity":
-        return np.full(run.channels, sensor.limit_counts)
+        return np.full(recording.channels, sensor.limit_counts)
     if sensor.full_scale is not None:
         return sensor.full_scale
     if accuracy is not None and (accuracy > 0.0).all():

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -13,11 +13,13 @@ from forcetorque.analysis.campaign_interval import CampaignInterval, CampaignNam
 from forcetorque.analysis.campaign_recording import CampaignRecording, refuse_a_file_twice
 from forcetorque.analysis.samples import IntervalSamples
 from forcetorque.analysis.sensor_run import SensorRun
+from forcetorque.arrays import FloatArray
 from forcetorque.calibration import SensorIdentity
 from forcetorque.errors import ExperimentError
 from forcetorque.experiment.content import ExperimentSensor
 from forcetorque.experiment.inputs import stated_in
 from forcetorque.experiment.load import load_experiment
+from forcetorque.experiment.truth import true_matrix
 from forcetorque.recording import Use
 
 
@@ -39,6 +41,10 @@ class StudyData:
     """Names of the experiments."""
     inputs_sha256: dict[str, str]
     """SHA-256 of every input file, by its path as the experiment names it, with the experiment's folder."""
+    recordings: Mapping[str, CampaignRecording]
+    """What every recording says beside its samples, by its name."""
+    truth: FloatArray | None
+    """True matrix of a simulated sensor; shape (6, c); N/count, N m/count; None if it is not known."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -104,7 +110,18 @@ def _joined(shares: Sequence[_Share]) -> StudyData:
         sphere=joined_sphere(recordings, names),
         experiments=tuple(recording.experiment for recording in recordings),
         inputs_sha256=joined_inputs(recordings),
+        recordings={names.recording(recording): recording for recording in recordings},
+        truth=_one_truth(recordings),
     )
+
+
+def _one_truth(recordings: Sequence[CampaignRecording]) -> FloatArray | None:
+    """The true matrix, where all files have one and the same beside them."""
+    sensor = recordings[0].sensor
+    known = [true_matrix(recording.file, sensor=sensor.name, serial=sensor.serial) for recording in recordings]
+    first = known[0]
+    alike = first is not None and all(matrix is not None and np.array_equal(matrix, first) for matrix in known)
+    return first if alike else None
 
 
 def _refuse_judging_what_was_fitted(

@@ -197,7 +197,7 @@ def _selection(result: CalibrationFit) -> Selection:
     if result.curve is None:
         return Selection(rule="given")
     return Selection(
-        rule=RULE,
+        rule=f"{RULE}; blocks are {result.held_out}",
         lambda_counts2=tuple(float(v) for v in result.curve.regularisations),
         held_out_rmse=tuple(float(v) for v in result.curve.held_out_error),
         worst_ratio_to_prior=tuple(float(v) for v in result.curve.worst_ratio),

@@ -15,7 +15,7 @@ from forcetorque.calibration.artefact import (
     read_calibration,
     write_calibration,
 )
-from forcetorque.calibration.calibrate import CalibrationFit, calibrate, estimation_of, sphere_labels
+from forcetorque.calibration.calibrate import CalibrationFit, HeldOut, calibrate, estimation_of, sphere_labels
 from forcetorque.calibration.data_set import DataSet
 from forcetorque.calibration.estimation import Estimation
 from forcetorque.calibration.estimation_type import (
@@ -66,6 +66,7 @@ __all__ = [
     "EstimationType",
     "Excitation",
     "FittedInterval",
+    "HeldOut",
     "LambdaCurve",
     "LinearVariable",
     "MatrixFit",

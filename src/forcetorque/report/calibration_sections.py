@@ -43,13 +43,11 @@ def learnt_blocks(sensor: Assessment) -> Iterator[Block]:
 
 def _assumed(name: str, calibration: Calibration, posterior: Posterior) -> Iterator[Block]:
     accuracy = posterior.accuracy
-    unpaired = (
-        "" if posterior.prior_covariance is not None else "; without a prior there is nothing to be narrower than"
-    )
+    alone = "" if posterior.prior_covariance is not None else "; without a prior there is nothing to be narrower than"
     yield Text(
         text=f"{name}: the reference was taken as accurate to {accuracy[:3].max():.3g} N and "
         f"{accuracy[3:].max():.3g} N m, the sensor as repeating itself to {100.0 * posterior.repeatability:.2g} % of "
-        f"its response{unpaired}."
+        f"its response{alone}."
     )
     yield tables.noise_table(name, posterior)
     if calibration.sessions:

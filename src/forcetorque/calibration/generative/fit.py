@@ -68,7 +68,8 @@ def fit_generative(
 
     Raises:
         FitError: If there are no data, fewer than six channels, no prior and loads that do not tell all of the
-            matrix, or the data say that the sensor has lost a direction.
+            matrix, a variable that never moves and of which nothing is known, or the data say that the sensor has lost
+            a direction.
         ShapeError: If the data do not fit each other, the prior or the variables.
 
     References:
@@ -140,7 +141,13 @@ def _variable_sizes(variables: Sequence[LinearVariable], values: FloatArray, row
             sizes[k] = expected.DRIFT_SHARE_PER_DEGREE
         else:
             extent = float(np.ptp(values[:, k]))
-            sizes[k] = expected.VARIABLE_SHARE / extent if extent > 0.0 else 0.0
+            if extent == 0.0:
+                raise FitError(
+                    f"variable {variable.name!r}: its value is {values[0, k]:g} {variable.unit} throughout the fitted "
+                    "data, which says nothing of its coefficients; fit data at several values, state prior_deviation, "
+                    "or leave it out"
+                )
+            sizes[k] = expected.VARIABLE_SHARE / extent
     return sizes
 
 

@@ -75,8 +75,8 @@ def learnt_figure(learnt: Mapping[str, Sequence[LearntDirection]]) -> bytes:
             _draw_shares(share, [row.learnt for row in rows[loads]])
             for quantity, panel in enumerate(panels):
                 label, factor = _ERRORS[half][quantity]
-                _draw_errors(panel, factor * errors[place, loads, quantity], little[loads])
                 _set_error_axis(panel, factor * errors[:, loads, quantity], label)
+                _draw_errors(panel, factor * errors[place, loads, quantity], little[loads])
             for panel in (share, *panels):
                 _name_directions(panel, WRENCH_COMPONENTS[loads])
             share.set_ylabel(_LOADS[half], fontsize=SMALL_POINTS)
@@ -126,15 +126,17 @@ def _draw_shares(panel: Axes, shares: Sequence[float]) -> None:
 
 
 def _draw_errors(panel: Axes, errors: FloatArray, little: Sequence[bool]) -> None:
-    """A line from the error before to that after, with both numbers outside of it."""
-    for row, ((before, after), few) in enumerate(zip(errors, little, strict=True)):
+    """A line from the error before to that after, with both numbers outside of it; one that is 0 at the left edge."""
+    least = panel.get_xlim()[0]
+    for row, (values, few) in enumerate(zip(errors, little, strict=True)):
+        before, after = np.maximum(values, least)
         style = _AFTER_LITTLE if few else _AFTER
         panel.plot([before, after], [row, row], ":" if few else "-", color=style["color"], linewidth=2.0)
         panel.plot(after, row, linestyle="none", zorder=3, **style)
         panel.plot(before, row, linestyle="none", zorder=4, **_BEFORE)
         side = 1 if after > before else -1
-        _write(panel, _two_digits(after), (after, row), side)
-        _write(panel, _two_digits(before), (before, row), -side)
+        _write(panel, _two_digits(values[1]), (after, row), side)
+        _write(panel, _two_digits(values[0]), (before, row), -side)
 
 
 def _two_digits(value: float) -> str:
