@@ -68,6 +68,7 @@ def test_by_hand() -> None:
     assert (found.moment.is_higher, found.moment.is_lower) == (False, True)
 
 
+@pytest.mark.long
 @pytest.mark.parametrize(
     ("effective", "plain_errs"), [(5.0, 0.25), (10.0, 0.14), (30.0, 0.08), (160.0, 0.05)], ids=["5", "10", "30", "160"]
 )
