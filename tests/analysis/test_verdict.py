@@ -25,7 +25,8 @@ def _row(candidate: str) -> CandidateErrors:
         sensor="leg_ft", serial="S1", candidate=candidate, offset=Offset.JUDGED_MEAN, offset_source="", samples=100,
         rmse=[1.0] * 6, bias=[0.0] * 6, largest=[1.0] * 6, force_error_mean_N=1.0, force_error_standard_error_N=0.1,
         force_error_largest_N=2.0, moment_error_mean_Nm=0.1, moment_error_standard_error_Nm=0.01,
-        moment_error_largest_Nm=0.2, prior=None if candidate.startswith("prior") else "prior",
+        moment_error_largest_Nm=0.2, force_error_half_width_95_N=0.2, moment_error_half_width_95_Nm=0.02,
+        prior=None if candidate.startswith("prior") else "prior",
     )  # fmt: skip
 
 

@@ -78,7 +78,7 @@ def test_the_documented_file_is_one(tmp_path: Path) -> None:
     """The example of the documentation, with every optional key, is accepted as it stands."""
     parsed = _parse(tmp_path, _documented()[0])
     assert parsed.calibration.lambda_counts2 is None
-    assert parsed.calibration.type == "OnTdTO"
+    assert parsed.calibration.type == "generative"
     assert parsed.processing.smoothing is not None
     assert (parsed.interval[0].kind, parsed.interval[0].session) == ("balancing support", "day 3")
     assert (parsed.trial.condition, parsed.trial.number) == ("2 N m", 1)
@@ -211,8 +211,8 @@ TABLES = {
     "[processing]": ("processing", "derivatives, smoothing"),
     "[calibration]": (
         "calibration",
-        "accuracy, drift, from_reference, lambda_counts2, offset, repeatability, sphere_intervals, type, "
-        "with_variables",
+        "accuracy, drift, from_reference, lambda_counts2, nonlinear, offset, repeatability, sphere_intervals, "
+        "type, with_variables",
     ),
     'name = "small arm"': (
         "top level",

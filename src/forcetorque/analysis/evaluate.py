@@ -178,6 +178,8 @@ def _judged(run: SensorRun, calibrations: Mapping[str, Calibration]) -> Iterator
 
 
 def _pooled(rows: Sequence[_Judged]) -> _Judged:
+    if len(rows) == 1:
+        return rows[0]
     return replace(
         rows[0],
         wrench=np.concatenate([row.wrench for row in rows]),

@@ -2,8 +2,8 @@
 """Whether one candidate is nearer to the reference than another, by their errors in the same samples.
 
 Two candidates share what the reference does not know, so that the difference of their errors is known better than
-either. Its samples repeat each other where a limb moves slowly; the interval is that of every mean over a recording
-(`noise.mean_error`).
+either. Its samples repeat each other where a limb moves slowly; the interval is therefore from blocks of time, and no
+narrower than the effective number of samples allows.
 """
 
 from __future__ import annotations
@@ -13,11 +13,19 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from scipy.special import stdtrit
 
 from forcetorque.arrays import FloatArray, require_shape
 from forcetorque.errors import ShapeError
 from forcetorque.evaluation.autocorrelation import autocorrelation
-from forcetorque.noise import mean_error
+from forcetorque.evaluation.candidate_errors import BLOCKS
+
+CONFIDENCE = 0.95
+"""Probability with which the interval holds the difference that is sought."""
+
+_OVERRATED = 7.0
+"""The effective number k of a short signal is overrated, by some 4 where it is 5 to 30: `k^2 / (k + 7)` makes up for
+it (a heuristic, by simulation of AR(1) processes)."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -63,7 +71,11 @@ class PairedDifference:
 def paired_difference(first: Any, second: Any, reference: Any, time_s: Any) -> PairedDifference:
     """Compare the errors of two candidates in the same samples.
 
-    The interval is that of `noise.mean_error`: white noise plus a slow offset of unknown shape.
+    The standard error is that of contiguous blocks, `SD / sqrt(n_eff - 1)` if that is larger; the interval is
+    Student's with one degree of freedom less than there are blocks or effective samples, whichever are fewer. By
+    simulation with differences that are AR(1) processes of mean 0, one candidate is called better or worse in 7 % of
+    recordings worth 5 independent samples, in 5 % of those worth 10, 3 % of 30 and 2 % of 160; but in 8 % of those
+    worth 3, and in 12 % if as much again is fast noise: what lasts for a third of a recording cannot be told from it.
 
     Args:
         first: Wrenches by one candidate, in the order of time; shape (n, 6); N, N m. Samples in which anything is
@@ -91,13 +103,10 @@ def paired_difference(first: Any, second: Any, reference: Any, time_s: Any) -> P
     if not whole.any():
         raise ShapeError(f"expected at least one sample in which everything is finite, got none among {len(wanted)}")
     one, other = (error[whole] for error in errors)
-    axes = (slice(0, 3), slice(3, 6))
-    differences = np.column_stack([_norms(one[:, part]) - _norms(other[:, part]) for part in axes])
-    force, moment = _means(differences, time[whole])
     return PairedDifference(
         count=int(whole.sum()),
-        force=force,
-        moment=moment,
+        force=_mean(_norms(one[:, :3]) - _norms(other[:, :3]), time[whole]),
+        moment=_mean(_norms(one[:, 3:]) - _norms(other[:, 3:]), time[whole]),
     )
 
 
@@ -106,23 +115,16 @@ def _norms(vectors: FloatArray) -> FloatArray:
     return norms
 
 
-def _means(differences: FloatArray, time: FloatArray) -> list[PairedMean]:
-    known = mean_error(differences, time)
-    effective = [autocorrelation(column, time).effective_count for column in differences.T]
-    columns = zip(
-        differences.mean(axis=0),
-        known.standard_error,
-        known.half_width,
-        known.degrees_of_freedom,
-        effective,
-        strict=True,
-    )
-    return [_paired_mean(*map(float, column)) for column in columns]
-
-
-def _paired_mean(mean: float, error: float, half: float, freedom: float, effective: float) -> PairedMean:
-    if not effective > 0.0:  # NaN: nothing changes, which does not say that nothing ever would
-        error, half, freedom = math.nan, math.inf, 0.0
+def _mean(difference: FloatArray, time: FloatArray) -> PairedMean:
+    mean = float(difference.mean())
+    effective = autocorrelation(difference, time).effective_count
+    fewer = effective**2 / (effective + _OVERRATED)
+    freedom = min(fewer, BLOCKS, len(difference)) - 1.0  # NaN first, or it would be passed over
+    error, half = math.nan, math.inf
+    if freedom > 0.0:  # not so where it is NaN
+        # the deviation is from the mean of the samples themselves, hence less 1
+        error = max(_error_of_mean(difference), float(difference.std()) / math.sqrt(fewer - 1.0))
+        half = float(stdtrit(freedom, 0.5 + 0.5 * CONFIDENCE)) * error
     return PairedMean(
         mean=mean,
         standard_error=error,
@@ -131,3 +133,9 @@ def _paired_mean(mean: float, error: float, half: float, freedom: float, effecti
         low=mean - half,
         high=mean + half,
     )
+
+
+def _error_of_mean(values: FloatArray) -> float:
+    """Standard error of a mean from the scatter of the means of contiguous blocks."""
+    means = np.array([block.mean() for block in np.array_split(values, min(BLOCKS, len(values)))])
+    return float(means.std(ddof=1)) / math.sqrt(len(means))
