@@ -18,6 +18,7 @@ from forcetorque.calibration import calibrate
 from forcetorque.evaluation import offset_removed, wrench_errors
 from forcetorque.experiment import load_experiment
 from forcetorque.recording import Use
+from forcetorque.recording.alignment import seconds_since
 
 
 def show_curve(run: SensorRun) -> None:
@@ -26,6 +27,8 @@ def show_curve(run: SensorRun) -> None:
     fitted = [interval.data_set for interval in run.samples(Use.CALIBRATION)]
     raw = np.concatenate([interval.raw for interval in judged])
     reference = np.concatenate([interval.samples.reference for interval in judged])
+    stamps = np.concatenate([interval.samples.stamp_ns for interval in judged])
+    time = seconds_since(stamps, int(stamps[0]))
     curve = calibrate(fitted, sensor.prior).curve
     if curve is None:
         raise SystemExit(f"{sensor.name}: no prior, so there is no lambda to choose")
@@ -37,8 +40,8 @@ def show_curve(run: SensorRun) -> None:
     ):
         fit = calibrate(fitted, sensor.prior, regularisation=float(regularisation)).fit
         measured = raw @ fit.matrix.T + fit.offset
-        own = wrench_errors(measured, reference)
-        moved = wrench_errors(offset_removed(measured, reference), reference)
+        own = wrench_errors(measured, reference, time)
+        moved = wrench_errors(offset_removed(measured, reference), reference, time)
         mark = "  <- chosen" if regularisation == curve.chosen else ""
         judged_errors = (own.force_mean, moved.force_mean, own.moment_mean, moved.moment_mean)
         columns = "".join(f"{value:10.3f}" for value in (held_out, ratio, *judged_errors))

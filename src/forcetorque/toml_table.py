@@ -33,6 +33,7 @@ class Table(BaseModel):
 Text = Annotated[str, Field(min_length=1)]
 # strict: a text or a flag is no number
 Positive = Annotated[float, Field(gt=0.0, allow_inf_nan=False, strict=True)]
+NotNegative = Annotated[float, Field(ge=0.0, allow_inf_nan=False, strict=True)]
 Finite = Annotated[float, Field(allow_inf_nan=False, strict=True)]
 
 _Content = TypeVar("_Content", bound=Table)

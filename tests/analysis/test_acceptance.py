@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 from dataclasses import replace
 from pathlib import Path
@@ -57,6 +58,7 @@ LIMITS: dict[str, dict[str, Any]] = {
     "offset": {"change": ANY, "force_change_N": 1e9, "per_degree": ANY},
     "uncertainty": {"matrix_relative": 1e9, "offset": ANY},
     "excitation": {"directions": 1, "condition": 1e9},
+    "learnt": dict.fromkeys(WRENCH_COMPONENTS, 0.0),
 }
 """Every key of every table with a limit that holds."""
 OTHERS = {f"SN{k}": MOUNTED * np.random.default_rng(k).uniform(0.9, 1.1, (6, 6)) for k in range(9)}
@@ -178,6 +180,24 @@ def test_the_numbers_are_those_of_the_other_commands(drifting: Experiment) -> No
     errors = np.linalg.norm(calibration.matrix_standard_error, axis=1) / np.linalg.norm(calibration.matrix, axis=1)
     assert found["uncertainty.matrix_relative"] == errors.max()
     assert found["excitation.directions"] == sum(calibration.validity.excited)
+    assert calibration.posterior is not None
+    shares = calibration.posterior.learnt_shares()
+    assert shares is not None
+    assert [found[f"learnt.{component}"] for component in WRENCH_COMPONENTS] == shares.tolist()
+
+
+def test_what_was_learnt_is_judged_of_generative_fits_alone(drifting: Experiment) -> None:
+    """A share just above the limit holds, one just below fails; a type of the thesis knows none."""
+    name, calibration = _fitted(drifting)
+    assert calibration.posterior is not None
+    shares = calibration.posterior.learnt_shares()
+    assert shares is not None
+    for factor, passed in ((1.0 - JUST, True), (1.0 + JUST, False)):
+        (row,) = _criteria(drifting, _spec(learnt={"tz": shares[5] * factor}), (name, calibration)).values()
+        assert (row.criterion, row.passed) == ("learnt.tz", passed)
+    by_thesis = _fitted(drifting, regularisation=5.0)
+    with pytest.raises(ForceTorqueError, match=r"\[learnt\] cannot be judged: calibration 'new' is not a generative"):
+        accept(_run(drifting), _spec(learnt={"tz": 0.1}), by_thesis)
 
 
 def test_a_calibration_may_be_called_prior(drifting: Experiment) -> None:
@@ -294,7 +314,7 @@ def test_an_acceptance_shows_itself(drifting: Experiment) -> None:
     assert '<td style="text-align:left">evaluate.rmse.fx</td>' in result._repr_html_()
     assert len(repr(result)) < 600
     assert result.records()[0]["passed"] is True
-    assert list(result.model_dump(by_alias=True)) == [
+    assert list(json.loads(result.json_text())) == [
         "schema", "experiment", "specification", "accepted", "criteria", "measured"
     ]  # fmt: skip
 
@@ -306,6 +326,7 @@ def test_an_acceptance_shows_itself(drifting: Experiment) -> None:
         ("improvement", "force_error_ratio", "judges a calibration"),
         ("uncertainty", "offset", "judges a calibration"),
         ("excitation", "directions", "judges a calibration"),
+        ("learnt", "fz", "judges a calibration"),
         ("population", "robust_z", "no matrices of other sensors were given; name them with --population"),
         ("recording", "lost_share", "stream 'arm_ft' has no sequence numbers"),
         ("offset", "per_degree", "expected a variable of the sensor in degC"),
@@ -383,6 +404,7 @@ HEAD = 'schema = "forcetorque/acceptance/1"\nname = "limits"\n'
         (HEAD + "[population]\nquantiles = [0.1]\n", r"population.quantiles: expected 2 values, got \[0\.1\]$"),
         (HEAD + "[population]\nquantiles = [-0.1]\n", r"population.quantiles\[0\]: .* equal to 0, got -0\.1$"),
         (HEAD + "[excitation]\ndirections = 5.5\n", "excitation.directions"),
+        (HEAD + "[learnt]\nfz = 97.0\n", "learnt.fz: .*less than or equal to 1"),
         (HEAD.replace("/1", "/2") + "[matrix]\ncondition = 3.0\n", "schema: .*'forcetorque/acceptance/1'"),
         ('name = "limits"\n[matrix]\ncondition = 3.0\n', "schema: Field required"),
         ("[evaluate", "expected TOML"),

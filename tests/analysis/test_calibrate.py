@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from pathlib import Path
+from typing import Literal
 
 import numpy as np
 import pytest
@@ -14,7 +15,7 @@ from forcetorque.analysis import (
     calibrate_sensor,
 )
 from forcetorque.arrays import FloatArray
-from forcetorque.calibration import Calibration
+from forcetorque.calibration import GENERATIVE, Calibration
 from forcetorque.errors import ExperimentError, FitError
 from forcetorque.experiment import Experiment, load_experiment
 from forcetorque.recording import Use, read_recording, write_recording
@@ -26,7 +27,7 @@ DIGITS = 1e-9
 """Relative; twelve digits in the log, times the condition number 60 of the matrix with its rows at one scale."""
 
 
-def _calibrated(experiment: Experiment, *, regularisation: float | None = None) -> Calibration:
+def _calibrated(experiment: Experiment, *, regularisation: float | Literal["held-out"] | None = None) -> Calibration:
     return calibrate_sensor(
         SensorRun(experiment, experiment.sensors[0]),
         code_version="1.2.3",
@@ -90,11 +91,14 @@ def test_the_priors_offset_is_the_mean_on_the_fitted_data(intact: Path) -> None:
 def test_how_lambda_came_about_is_recorded(intact: Path) -> None:
     """A given lambda is called so; a chosen one comes with its candidates, itself among them."""
     experiment = load_experiment(intact / PARQUET)
-    given, chosen = _calibrated(experiment, regularisation=5.0), _calibrated(experiment)
+    given, chosen = _calibrated(experiment, regularisation=5.0), _calibrated(experiment, regularisation="held-out")
     assert (given.lambda_counts2, given.selection.rule, given.selection.lambda_counts2) == (5.0, "given", ())
     assert chosen.lambda_counts2 in chosen.selection.lambda_counts2
     assert len(chosen.selection.held_out_rmse) == len(chosen.selection.lambda_counts2) > 10
     assert "held-out" in chosen.selection.rule
+    default = _calibrated(experiment)
+    assert (default.estimation_type, default.lambda_counts2, default.selection.lambda_counts2) == (GENERATIVE, None, ())
+    assert default.posterior is not None
 
 
 def test_raw_readings_are_those_of_the_log(intact: Path) -> None:
@@ -138,13 +142,13 @@ def test_the_other_direction_turns_the_sign(arm: Path) -> None:
 
 
 def test_a_first_calibration_has_no_prior(arm: Path) -> None:
-    """Without a prior lambda 0 is the only choice, and there is no secondary matrix."""
+    """Without a prior lambda 0 is the only one of a thesis' type, and there is no secondary matrix."""
     experiment = load_experiment(edit(arm / PARQUET, 'prior = "matrix_SIM001.txt"\n', ""))
     made = _calibrated(experiment, regularisation=0.0)
     assert made.prior is None
     assert made.secondary_matrix() is None
     with pytest.raises(FitError, match="lambda cannot be chosen without a prior matrix; give a prior, or lambda 0"):
-        _calibrated(experiment)
+        _calibrated(experiment, regularisation="held-out")
     with pytest.raises(FitError, match="lambda: 5 counts2 needs a prior matrix to pull towards; give one or lambda 0"):
         _calibrated(experiment, regularisation=5.0)
 

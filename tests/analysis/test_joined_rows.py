@@ -8,7 +8,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from forcetorque.analysis.study_calibrations import joined_by_axis
-from forcetorque.calibration import Calibration
+from forcetorque.calibration import Calibration, SessionOffset
 from tests.calibrations import make_calibration
 
 
@@ -77,3 +77,28 @@ def test_joined_rows_are_worth_what_the_weakest_is() -> None:
     weak = rows[4].validity.model_copy(update={"excited": (True,) * 4 + (False,) * 2, "rank": 4})
     rows[4] = rows[4].model_copy(update={"validity": weak})
     assert joined_by_axis(rows).validity is weak
+
+
+def test_every_session_has_the_offset_of_its_rows() -> None:
+    """Also a session that some rows do not know, which give theirs; a drift or posterior of one row is nobody's."""
+    rows = _rows(5, [None] * 6)
+    rng = np.random.default_rng(6)
+    for k, names in enumerate((("a", "b"), ("b",), (), ("a",), ("a", "b"), ("b",))):
+        sessions = [
+            SessionOffset(
+                name=name, offset=rng.normal(size=6), standard_error=rng.uniform(1, 2, size=6), prior_offset=None
+            )
+            for name in names
+        ]
+        rows[k] = rows[k].model_copy(update={"sessions": tuple(sessions)})
+    joined = joined_by_axis(rows)
+    assert [session.name for session in joined.sessions] == ["a", "b"]
+    for session in joined.sessions:
+        expected = [row.in_session(session.name).offset[axis] for axis, row in enumerate(rows)]
+        np.testing.assert_array_equal(session.offset, expected)
+        assert session.standard_error is not None
+        assert session.drift_per_s is None
+    # negative control: the two sessions differ, and from the rest
+    assert not np.array_equal(joined.sessions[0].offset, joined.sessions[1].offset)
+    assert not np.array_equal(joined.sessions[0].offset, joined.offset)
+    assert joined.posterior is None

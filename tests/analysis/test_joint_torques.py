@@ -209,7 +209,7 @@ def test_logged_torques_are_compared_too(arm: Path) -> None:
     with_log = replace(experiment, recording=replace(recording, streams=streams))
     found = joint_torques(SensorRun(with_log, sensor), {}).verdicts
     without = joint_torques(SensorRun(experiment, sensor), {}).verdicts
-    logged_fields = ("logged_samples", "logged_rmse", "logged_rmse_error")
+    logged_fields = ("logged_samples", "logged_rmse", "logged_rmse_error", "logged_rmse_half_width_95")
     assert [v.model_copy(update=dict.fromkeys(logged_fields)) for v in found] == list(without)
     compared = [v for v in found if v.logged_rmse is not None]
     assert [v.joint for v in compared] == ["shoulder_pitch"] * 2

@@ -11,6 +11,8 @@ import pytest
 
 from forcetorque.analysis import SensorCalibrations, SensorRun, calibrate_for_file, calibrate_sensor, data_doubts
 from forcetorque.calibration import read_calibration
+from forcetorque.errors import FitError
+from forcetorque.exchange.icub import encode_matrix, read_matrix_file, write_matrix_file
 from forcetorque.experiment import load_experiment
 from tests.experiments import FT_LOG, PARQUET, TWO, YARP, edit, edit_lines, snapshot
 from tests.result.showing import require_shown
@@ -68,15 +70,22 @@ def test_sensors_are_put_together(arm: Path) -> None:
 
 
 def test_what_is_doubtful_is_said_by_the_library(arm: Path) -> None:
-    """A gap in a fitted interval, with its time; gravity upside down; nothing where all is well."""
+    """A gap in a fitted interval, with its time; a moment of the other sign; nothing where all is well.
+
+    Gravity upside down is refused.
+    """
     assert _calibrated(arm / PARQUET, arm / "a.json").warnings == ()
     edit_lines(arm / FT_LOG, lambda lines: [*lines[:200], *lines[230:]])
     (gap,) = [sentence for sentence in _calibrated(arm / YARP, arm / "a.json").warnings if " gap at " in sentence]
     assert gap.startswith("interval 'fit': arm_ft gap at 3.9")
     assert gap in list(data_doubts(SensorRun(load_experiment(arm / YARP), "arm_ft")))
-    edit(arm / PARQUET, "gravity_direction = [0.0, 0.0, -1.0]", "gravity_direction = [0.0, 0.0, 1.0]")
+    prior = read_matrix_file(arm / "matrix_SIM001.txt").matrix
+    write_matrix_file(arm / "matrix_SIM001.txt", encode_matrix(np.diag([1.0, 1.0, 1.0, 1.0, 1.0, -1.0]) @ prior))
     warnings = _calibrated(arm / PARQUET, arm / "a.json", regularisation=0.01).warnings
-    assert any("sign of the prior reversed" in sentence for sentence in warnings)
+    assert any("tz come(s) out with the sign of the prior reversed" in sentence for sentence in warnings)
+    edit(arm / PARQUET, "gravity_direction = [0.0, 0.0, -1.0]", "gravity_direction = [0.0, 0.0, 1.0]")
+    with pytest.raises(FitError, match="runs against the reference"):
+        _calibrated(arm / PARQUET, arm / "a.json", regularisation=0.01)
 
 
 def test_directions_without_load_are_said(arm: Path) -> None:

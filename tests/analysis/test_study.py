@@ -22,8 +22,9 @@ from forcetorque.analysis import (
     study_sensor,
     study_warnings,
 )
+from forcetorque.analysis.campaign_interval import CampaignInterval
 from forcetorque.analysis.study import combinations_of
-from forcetorque.analysis.study_data import StudyInterval
+from forcetorque.arrays import FloatArray
 from forcetorque.calibration import (
     ESTIMATION_TYPES,
     CalibrationFit,
@@ -35,7 +36,7 @@ from forcetorque.errors import ExperimentError, FitError
 from forcetorque.evaluation.offset import KNOWN_BEFORE, Offset
 from forcetorque.experiment import load_experiment
 from forcetorque.spatial import WRENCH_COMPONENTS
-from forcetorque.study import Candidate
+from forcetorque.study import Candidate, GenerativeCandidate
 from tests.experiments import PARQUET, edit
 from tests.result.showing import require_shown
 from tests.studies import CALIBRATION, FILES, SERIAL, VALIDATION, scenario
@@ -77,7 +78,7 @@ def made(data: StudyData) -> SensorStudy:
     return _study(data)
 
 
-def _of_kinds(data: StudyData, kinds: Sequence[str]) -> list[StudyInterval]:
+def _of_kinds(data: StudyData, kinds: Sequence[str]) -> list[CampaignInterval]:
     """An interval per kind, numbered."""
     return [replace(data.calibration[0], label=f"{k}_{kind}", kind=kind) for k, kind in enumerate(kinds)]
 
@@ -159,6 +160,16 @@ def _again(data: StudyData, candidate: Candidate) -> CalibrationFit:
     )
 
 
+def _errors_alone(data: StudyData, candidate: Candidate | GenerativeCandidate) -> tuple[FloatArray, FloatArray]:
+    """Standard errors of matrix and coefficients that a candidate has by itself."""
+    if isinstance(candidate, GenerativeCandidate):
+        posterior, model = candidate.posterior, candidate.model
+        return posterior.matrix_error(model.matrix), posterior.coefficient_error(model.coefficients)
+    again = _again(data, candidate)
+    assert again.standard_errors is not None
+    return again.standard_errors.matrix, again.standard_errors.coefficients
+
+
 def _close(one: Any, other: Any) -> bool:
     a, b = np.asarray(one), np.asarray(other)
     return a.shape == b.shape and bool(np.abs(a - b).max(initial=0.0) <= SAME * np.abs(b).max(initial=0.0))
@@ -227,20 +238,20 @@ def test_every_row_of_the_best_by_axis_is_that_of_its_candidate(
     assert len(set(rows)) > 1
     (judged,) = [i.data_set for i in data.validation if i.label == "day_2"]
     read = calibration.model.wrench(judged.raw, judged.variables if calibration.variables else None)
-    candidates = [made.study.fits.candidates[index] for index in rows]
+    candidates = [made.study.candidates[index] for index in rows]
     for axis, candidate in enumerate(candidates):
-        again, fitted = _again(data, candidate), candidate.kind.with_variables
-        assert again.standard_errors is not None
+        errors, fitted = _errors_alone(data, candidate), bool(candidate.model.coefficients.shape[1])
         assert _close(calibration.matrix[axis], candidate.model.matrix[axis])
         assert calibration.matrix_standard_error is not None
-        assert _close(calibration.matrix_standard_error[axis], again.standard_errors.matrix[axis])
-        assert _close(calibration.residual_rms[axis], again.fit.residual[axis])
+        assert _close(calibration.matrix_standard_error[axis], errors[0][axis])
         alone = candidate.model.wrench(judged.raw, judged.variables if fitted else None)
         assert _close(read[:, axis], alone[:, axis])
         for variable in calibration.variables:
-            expected = again.standard_errors.coefficients[axis, 0] if fitted else 0.0
+            expected = errors[1][axis, 0] if fitted else 0.0
             assert variable.standard_error is not None
             assert _close(variable.standard_error[axis], expected)
+        if isinstance(candidate, Candidate):
+            assert _close(calibration.residual_rms[axis], _again(data, candidate).fit.residual[axis])
     named = "; ".join(f"{c} by {k.name}" for c, k in zip(WRENCH_COMPONENTS, candidates, strict=True))
     assert calibration.selection.rule == f"smallest mean absolute value of every axis, offset {source}: {named}"
     assert calibration.estimation_type == "by axis"
@@ -256,7 +267,7 @@ def test_the_best_by_axis_counts_the_samples_of_all_its_rows(
     """Intervals and samples are those that any row was fitted to, each once."""
     provenance = made.calibrations[NAMES[source, "best_by_axis"]].provenance
     rows = made.study.choices[source].by_axis
-    kinds = {kind for index in rows for kind in made.study.fits.candidates[index].data_set.split(" + ")}
+    kinds = {kind for index in rows for kind in made.study.candidates[index].data_set.split(" + ")}
     fitted = [i for i in data.calibration if i.kind in kinds]
     assert {i.label for i in provenance.intervals} == {i.label for i in fitted}
     assert len(provenance.intervals) == len(fitted)
@@ -292,7 +303,7 @@ def test_what_a_study_comes_to_shows_itself(made: SensorStudy) -> None:
     studies = Studies(experiments=("days",), folder=None, sensors=(row,))
     require_shown(studies)
     assert "are in" not in studies.text()
-    assert len(studies.records()) == row.candidates + 1
+    assert len(studies.records()) == row.candidates + row.generative + 1
     assert "candidate_rows" not in studies.json_text()
     assert [mode.offset for mode in row.modes] == ["first-second", "fitted"]
     chosen = made.study.choices[Offset.FIRST_SECOND].by_magnitude
@@ -329,7 +340,7 @@ def test_a_sensor_without_a_prior_is_studied_at_lambda_zero(days: Path) -> None:
     assert {c.table_lambda for c in found.study.fits.candidates} == {0.0}
     assert found.study.workbench is None
     assert all(c.prior is None for c in found.calibrations.values())
-    assert all(found.study.fits.candidates[k].determined for c in found.study.choices.values() for k in c.by_axis)
+    assert all(found.study.candidates[k].determined for c in found.study.choices.values() for k in c.by_axis)
 
 
 def test_the_sphere_of_the_files_is_taken_unless_another_is_named(days: Path) -> None:
@@ -361,10 +372,10 @@ def test_progress_tells_every_step(data: StudyData) -> None:
     _study(data, kinds=[ESTIMATION_TYPES["OwTrTO"]], progress=said.append)
     assert said == [
         "fitting 3 combinations of data sets, 1 types, 3 lambdas",
-        "judging 10 matrices on 2 intervals, offset first-second",
+        "judging 13 matrices on 2 intervals, offset first-second",
         "day_1",
         "day_2",
-        "judging 10 matrices on 2 intervals, offset fitted",
+        "judging 13 matrices on 2 intervals, offset fitted",
         "day_1",
         "day_2",
     ]

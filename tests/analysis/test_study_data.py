@@ -177,8 +177,8 @@ def _another_gain(file: Path) -> None:
 @pytest.mark.parametrize(
     ("change", "message"),
     [
-        (_another_serial, "serial number of .*, SIM001, got SIM002; a study is of one sensor"),
-        (_another_prior, "prior matrix of .*, got another; all candidates are pulled towards one matrix"),
+        (_another_serial, "serial number of .*, SIM001, got SIM002; files are pooled for one sensor"),
+        (_another_prior, "prior matrix of .*, got another; all data are fitted with one"),
         (_no_prior, "prior matrix of .*, got another"),
         (_no_variable, r"variables of .*temperature.* got \[\]"),
         (_another_reference_value, "variables of .*None, None.* got .*25.0, None"),

@@ -86,12 +86,12 @@ def test_it_shows_itself(arm: Path) -> None:
         assert len(repr(result)) < 600
         if result is not torques:
             for row in validation.contact_forces:
-                assert f"{row.force_mean_N:.2f} ±{row.force_mean_error_N:.2f}" in text
+                assert f"{row.force_mean_N:.2f} ±{row.force_mean_half_width_95_N:.2f}" in text
                 assert f'<td style="text-align:right">{row.moment_mean_Nm:.3f}</td>' in page
                 shown += 1
         if result is not forces:
             for torque in validation.joint_torques:
-                assert f"{torque.rmse:.3f} ±{torque.rmse_error:.3f}" in text
+                assert f"{torque.rmse:.3f} ±{torque.rmse_half_width_95:.3f}" in text
                 assert f'<td style="text-align:right">{torque.largest:.3f}</td>' in page
                 shown += 1
     assert shown == 2 * 4 + 2 * 12

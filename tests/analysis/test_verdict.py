@@ -8,9 +8,10 @@ from typing import Any, Literal
 
 import pytest
 
-from forcetorque.analysis import Assessment, CandidateErrors, PriorComparison
+from forcetorque.analysis import Assessment, CandidateErrors, LearntDirection, PriorComparison
 from forcetorque.analysis.verdict import verdict
 from forcetorque.evaluation import Offset
+from forcetorque.spatial import WRENCH_COMPONENTS
 
 Gain = tuple[float | None, float | None]
 BETTER: Gain = (0.5, 1.5)
@@ -24,7 +25,8 @@ def _row(candidate: str) -> CandidateErrors:
         sensor="leg_ft", serial="S1", candidate=candidate, offset=Offset.JUDGED_MEAN, offset_source="", samples=100,
         rmse=[1.0] * 6, bias=[0.0] * 6, largest=[1.0] * 6, force_error_mean_N=1.0, force_error_standard_error_N=0.1,
         force_error_largest_N=2.0, moment_error_mean_Nm=0.1, moment_error_standard_error_Nm=0.01,
-        moment_error_largest_Nm=0.2, prior=None if candidate.startswith("prior") else "prior",
+        moment_error_largest_Nm=0.2, force_error_half_width_95_N=0.2, moment_error_half_width_95_Nm=0.02,
+        prior=None if candidate.startswith("prior") else "prior",
     )  # fmt: skip
 
 
@@ -36,12 +38,15 @@ def _comparison(quantity: Literal["force", "moment"], gain: Gain, samples: int =
     )  # fmt: skip
 
 
+def _fitted(doubts: tuple[str, ...] = ()) -> SimpleNamespace:
+    """What matters to the verdict of a calibration."""
+    return SimpleNamespace(validity=SimpleNamespace(excited=(True,) * 6), doubts=doubts, posterior=None)
+
+
 def _report(comparisons: list[PriorComparison], **other: Any) -> Assessment:
     lists = "independence contact_forces best joint_torques spheres static criteria warnings left_out"
     empty: dict[str, Any] = dict.fromkeys(lists.split(), ())
-    # of a calibration only this matters to the verdict
-    fitted = SimpleNamespace(validity=SimpleNamespace(excited=(True,) * 6))
-    given = empty | {"calibrations": {"new.json": fitted}, "not_judged": {}} | other
+    given = empty | {"calibrations": {"new.json": _fitted()}, "not_judged": {}} | other
     judged = {"evaluation": (_row("prior"), _row("new.json")), "comparisons": tuple(comparisons)}
     return Assessment.model_construct(sensor="leg_ft", serial="S1", verdict=(), **judged | given)
 
@@ -67,6 +72,44 @@ def test_a_better_force_does_not_hide_a_worse_moment(force: Gain, moment: Gain, 
     words = {BETTER: "better", WORSE: "worse", UNCLEAR: "no difference", UNKNOWN: "too few samples"}
     assert words[force] in line.text
     assert words[moment] in line.text
+
+
+def test_a_calibration_in_doubt_is_never_good() -> None:
+    """A wrong reference flatters what was fitted to it: the doubt is told, and what is bad stays bad."""
+    doubted = {"calibrations": {"new.json": _fitted(("the gain changed by +69%",))}}
+    for gain, tone in ((BETTER, "caution"), (WORSE, "bad")):
+        first, second = verdict(_report([_comparison(q, gain) for q in ("force", "moment")], **doubted))
+        assert (first.tone, second.tone) == (tone, "caution")
+        assert second.text.endswith("was in doubt before it was fitted: the gain changed by +69%")
+    passed = (SimpleNamespace(candidate="new.json", passed=True, criterion="force"),)
+    for calibrations, tone in ((doubted, "caution"), ({}, "good")):
+        assert verdict(_report([], criteria=passed, **calibrations))[0].tone == tone
+
+
+def _learnt(*shares: float) -> tuple[LearntDirection, ...]:
+    return tuple(
+        LearntDirection(
+            direction=name, learnt=share, force_error_before_N=1.0, force_error_after_N=1.0 - share,
+            moment_error_before_Nm=1.0, moment_error_after_Nm=1.0 - share,
+        )
+        for name, share in zip(WRENCH_COMPONENTS, shares, strict=True)
+    )  # fmt: skip
+
+
+def test_what_a_generative_fit_did_not_learn_is_said_and_raw_directions_are_not() -> None:
+    """A direction below half is a caution with what to do; with none there is no sentence; others as they were."""
+    shy = SimpleNamespace(validity=SimpleNamespace(excited=(True, False) * 3), doubts=(), posterior="known")
+    both = [_comparison(quantity, BETTER) for quantity in ("force", "moment")]
+    given = {"calibrations": {"new.json": shy}, "learnt": {"new.json": _learnt(0.9, 0.9, 0.97, 0.8, 0.8, 0.04)}}
+    _, line = verdict(_report(both, **given))
+    assert line.tone == "caution"
+    assert (
+        "new.json: learnt: fx 90 %, fy 90 %, fz 97 %, tx 80 %, ty 80 %, tz 4 %; for tz the prior decides" in line.text
+    )
+    (_,) = verdict(_report(both, **given | {"learnt": {"new.json": _learnt(*[0.9] * 6)}}))
+    shy.posterior = None
+    _, line = verdict(_report(both, calibrations={"new.json": shy}))
+    assert "the fitted loads moved 3 of 6 raw directions" in line.text
 
 
 def test_few_samples_are_never_good() -> None:

@@ -3,14 +3,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from types import MappingProxyType
+from typing import Any
 
 import numpy as np
 
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration import CalibrationFit, DataSet, LinearVariable, calibrate
+from forcetorque.calibration.generative import REPEATABILITY, Assumptions, GenerativeFit, WindowMeans, fit_generative
 from forcetorque.estimation import Processing, sensor_samples
+from forcetorque.evaluation import push_error, pushes
 from forcetorque.recording import Interval, Support, Use
 from forcetorque.simulation.scenario import (
     INTERVAL_MARGIN_S,
@@ -25,28 +29,20 @@ from forcetorque.simulation.scenario import (
 from forcetorque.toml_table import read_toml
 
 TEMPERATURE = LinearVariable(name="temperature", unit="degC")
-PUSH_N, LEVER_M, PUSHES = 50.0, 0.3, 2000
+LIMIT_COUNTS = 32767.0
 EXACT = 1e-9
 """Relative rounding of a lambda that was chosen among candidates."""
-
-
-def _pushes() -> FloatArray:
-    """Wrenches of pushes in random directions at random points around the sensor; shape (n, 6); N, N m."""
-    rng = np.random.default_rng(2024)
-    force, lever = rng.normal(size=(2, PUSHES, 3))
-    force *= PUSH_N / np.linalg.norm(force, axis=1, keepdims=True)
-    lever *= LEVER_M * rng.uniform(size=(PUSHES, 1)) / np.linalg.norm(lever, axis=1, keepdims=True)
-    return np.hstack([force, np.cross(lever, force)])
-
-
-WRENCHES = _pushes()
+NOMINAL = 1.96
+"""Standard deviations to either side that hold 95 % of a normal distribution."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Case:
     """One sensor with the recordings of one motion, its workbench matrix and its truth."""
 
-    name: str
+    sensor: str
+    motion: str
+    seed: int
     data: list[DataSet]
     prior: FloatArray
     truth: FloatArray
@@ -63,22 +59,64 @@ class Case:
         best = curve.regularisations[free][np.argmin(curve.held_out_error[free])]
         return self.fitted(float(best))
 
-    def ratio(self, fit: CalibrationFit) -> FloatArray:
-        """Mean error of a push with the fitted matrix over that with the prior; force and moment; shape (2,)."""
-        return self._errors(fit.fit.matrix) / self._errors(self.prior)
+    def generative(
+        self, *, repeatability: float = REPEATABILITY, accuracy: float = 0.0, with_prior: bool = True
+    ) -> GenerativeFit:
+        """Calibrate with the default estimator.
+
+        Args:
+            repeatability: Share of its response by which the sensor differs from one motion to the next.
+            accuracy: Slow error of the reference over full scale; 0 as its only error is that of the derivative window.
+            with_prior: Whether the prior is known.
+
+        Returns:
+            The fit.
+        """
+        assumed = Assumptions.of_counts(
+            self.truth.shape[1],
+            LIMIT_COUNTS,
+            accuracy=accuracy * LIMIT_COUNTS * np.linalg.norm(self.prior, axis=1),
+            repeatability=repeatability,
+        )
+        means = [WindowMeans.of(data) for data in self.data]
+        return fit_generative(means, self.prior if with_prior else None, assumed, variables=[TEMPERATURE])
+
+    def ratio(self, matrix: FloatArray) -> FloatArray:
+        """Mean error of a push with a matrix over that with the prior; force and moment; shape (2,)."""
+        return self.error(matrix) / self.error(self.prior)
+
+    def error(self, matrix: FloatArray) -> FloatArray:
+        """Mean error of a push with a matrix; force and moment; shape (2,); N, N m."""
+        error = push_error(matrix, self.truth)
+        return np.array([error.force_N, error.moment_Nm])
+
+    def covered(self, fit: GenerativeFit) -> FloatArray:
+        """Share of 95 % intervals that hold the truth: of coefficients, push forces, push moments; shape (3,)."""
+        matrix = fit.model.matrix
+        spread = np.sqrt(np.einsum("nii->ni", fit.posterior.error_covariance(pushes())))
+        inside = np.abs(self._errors(matrix)) <= NOMINAL * spread
+        known = np.abs(matrix - self.truth) <= NOMINAL * fit.posterior.matrix_error(matrix)
+        return np.array([known.mean(), inside[:, :3].mean(), inside[:, 3:].mean()])
 
     def _errors(self, matrix: FloatArray) -> FloatArray:
-        error = WRENCHES @ (matrix @ np.linalg.inv(self.truth) - np.eye(6)).T
-        return np.array([np.linalg.norm(error[:, part], axis=1).mean() for part in (slice(3), slice(3, 6))])
+        response = np.linalg.pinv(self.truth)  # counts that a load makes
+        errors: FloatArray = pushes() @ (matrix @ response - np.eye(6)).T
+        return errors
 
 
-def cases(motions: dict[str, Sequence[str]], moved: dict[str, Sequence[str]], seeds: range) -> Iterator[Case]:
+def cases(
+    motions: Mapping[str, Sequence[str]],
+    moved: Mapping[str, Sequence[str]],
+    seeds: range,
+    changes: Mapping[str, Any] = MappingProxyType({}),
+) -> Iterator[Case]:
     """Calibration cases of `icub-insitu`, one after the other.
 
     Args:
         motions: Names of recordings by motion.
         moved: Motions by sensor, those in which its load changes.
         seeds: Seeds of the sensors.
+        changes: Keys of `[sensors]` that change.
 
     Yields:
         A case for every seed, sensor and motion.
@@ -87,7 +125,7 @@ def cases(motions: dict[str, Sequence[str]], moved: dict[str, Sequence[str]], se
     content = read_toml(bundled_scenario("icub-insitu"), ScenarioFile, what="a scenario")
     # a recording that is not fitted sets the error of the workbench matrix
     kept = tuple(entry for entry in content.recording if entry.name in used or entry.name == "bsl_day1")
-    changed = content.model_copy(update={"recording": kept}).with_sensors(names=tuple(moved))
+    changed = content.model_copy(update={"recording": kept}).with_sensors(names=tuple(moved), **changes)
     scenario = build_scenario(changed)
     traces, references = trace_recordings(scenario), {}
     for seed in seeds:
@@ -102,15 +140,19 @@ def cases(motions: dict[str, Sequence[str]], moved: dict[str, Sequence[str]], se
         for sensor, names in moved.items():
             for motion in names:
                 yield Case(
-                    name=f"{sensor} {motion} seed {seed}",
+                    sensor=sensor,
+                    motion=motion,
+                    seed=seed,
                     data=[data[sensor, name] for name in motions[motion]],
                     prior=drawn.specimens[sensor].workbench,
                     truth=drawn.specimens[sensor].sensor.matrix,
                 )
 
 
-def _reference(scenario: Scenario, recorded: SimulatedRecording, sensor: str) -> tuple[FloatArray, FloatArray]:
-    """Samples that have an expected wrench, and that wrench: neither depends on the specimen."""
+def _reference(
+    scenario: Scenario, recorded: SimulatedRecording, sensor: str
+) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Samples that have an expected wrench, that wrench, and its flattening: none depends on the specimen."""
     (start, end), margin = recorded.recording.span_ns, round(INTERVAL_MARGIN_S * 1e9)
     movement = recorded.movement
     samples = sensor_samples(
@@ -129,15 +171,21 @@ def _reference(scenario: Scenario, recorded: SimulatedRecording, sensor: str) ->
         processing=Processing(),
     )
     inside = np.isin(recorded.recording.stream(sensor).stamp_ns, samples.stamp_ns)
-    return np.flatnonzero(inside), samples.reference
+    return np.flatnonzero(inside), samples.reference, samples.flattening
 
 
-def _data_set(recorded: SimulatedRecording, sensor: str, index: FloatArray, reference: FloatArray) -> DataSet:
+def _data_set(
+    recorded: SimulatedRecording, sensor: str, index: FloatArray, reference: FloatArray, flattening: FloatArray
+) -> DataSet:
     stream = recorded.recording.stream(sensor)
     valid = ~stream.held[index]
     return DataSet(
         label=recorded.name,
         raw=stream.signal("raw").values[index[valid]],
         reference=reference[valid],
+        flattening=flattening[valid],
+        time_s=stream.stamp_ns[index[valid]] * 1e-9,
+        session=recorded.session,
+        recording=recorded.name,
         variables=stream.signal("temperature").values[index[valid]],
     )

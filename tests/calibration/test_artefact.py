@@ -131,7 +131,7 @@ def test_a_file_from_before_there_were_variables_is_read(tmp_path: Path) -> None
     path = tmp_path / "c.json"
     write_calibration(path, _calibration())
     content = json.loads(path.read_text())
-    assert content["schema"] == "forcetorque/calibration/2"
+    assert content["schema"] == "forcetorque/calibration/3"
     for key in ("variables", "estimation_type", "raw_offset_counts"):
         del content[key]
     path.write_text(json.dumps(content | {"schema": "forcetorque/calibration/1"}))

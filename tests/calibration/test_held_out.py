@@ -12,6 +12,7 @@ from forcetorque.calibration import (
     DataSet,
     Estimation,
     EstimationType,
+    HeldOut,
     LinearVariable,
     Moments,
     calibrate,
@@ -203,3 +204,61 @@ def test_bad_requests_are_refused() -> None:
         calibrate([data, DataSet(label="b", raw=raw[:, :5], reference=reference)], PRIOR)
     with pytest.raises(FitError, match="do not change"):
         calibrate([DataSet(label="c", raw=np.ones((50, 6)), reference=reference[:50])], PRIOR)
+
+
+def _recorded(blocks: list, names: str) -> list[DataSet]:
+    """A data set per block, of the recordings with these letters."""
+    return [
+        DataSet(label=f"{k}", raw=raw, reference=reference, recording=name)
+        for k, ((raw, reference), name) in enumerate(zip(blocks, names, strict=True))
+    ]
+
+
+def test_recordings_are_held_out_whole() -> None:
+    """With two or more, lambda is that of blocks that are recordings, each with all its intervals."""
+    blocks = _blocks(matrix=TRUTH, drift=20.0, seed=4)
+    moments = _moments(blocks)
+    made = calibrate(_recorded(blocks, "aabba"), PRIOR)
+    whole = choose_lambda([pooled([moments[k] for k in ks]) for ks in ([0, 1, 4], [2, 3])], Estimation(prior=PRIOR))
+    assert made.held_out is HeldOut.RECORDINGS
+    assert made.curve is not None
+    np.testing.assert_allclose(made.curve.held_out_error, whole.held_out_error, rtol=1e-9)
+    # negative control: the same samples as one recording are held out in pieces, with another error
+    pieces = calibrate(_recorded(blocks, "aaaaa"), PRIOR)
+    assert pieces.held_out is HeldOut.PIECES
+    assert pieces.curve is not None
+    np.testing.assert_allclose(
+        pieces.curve.held_out_error, choose_lambda(moments, Estimation(prior=PRIOR)).held_out_error, rtol=1e-9
+    )
+    assert not np.allclose(pieces.curve.held_out_error, whole.held_out_error, rtol=1e-3)
+
+
+def test_the_floor_stays_where_recordings_are_held_out() -> None:
+    """It is of all samples, however they are divided."""
+    data = [(raw, reference) for raw, reference in _blocks(matrix=TRUTH, drift=0.0, seed=4)]
+    floors = [calibrate(_recorded(data, names), PRIOR).curve for names in ("aabba", "aaaaa")]
+    assert floors[0] is not None
+    assert floors[1] is not None
+    assert floors[0].floor == pytest.approx(floors[1].floor, rel=1e-9)
+    assert floors[0].floor > 0.0
+    assert floors[0].chosen >= floors[0].floor
+
+
+def test_a_recording_too_short_to_be_fitted_alone_goes_with_its_neighbour() -> None:
+    """It costs no choice where two others are long enough; where one is, its intervals are held out as before."""
+    blocks = _blocks(matrix=TRUTH, drift=1.0, seed=4)
+    short = [(raw[:7], reference[:7]) for raw, reference in blocks[:1]]
+    made = calibrate(_recorded([*short, *blocks[1:4]], "abcb"), PRIOR)
+    moments = _moments([*short, *blocks[1:4]])
+    whole = choose_lambda([pooled([moments[k] for k in ks]) for ks in ([0, 1, 3], [2])], Estimation(prior=PRIOR))
+    assert made.held_out is HeldOut.RECORDINGS
+    assert made.curve is not None
+    np.testing.assert_allclose(made.curve.held_out_error, whole.held_out_error, rtol=1e-9)
+    with pytest.raises(FitError, match="at least 8 samples in each of 5 blocks"):
+        calibrate(_recorded([*short, *blocks[1:]], "abbbb"), PRIOR)
+
+
+def test_nothing_is_held_out_where_lambda_is_given() -> None:
+    """Recordings or not."""
+    made = calibrate(_recorded(_blocks(matrix=TRUTH, drift=1.0), "abcde"), PRIOR, regularisation=1.0)
+    assert (made.held_out, made.curve) == (None, None)

@@ -219,7 +219,7 @@ def test_a_real_leg_sensor_passes_with_its_calibration_and_fails_with_the_factor
     assert run("calibrate", experiment, "-o", fitted).code == 0
     words = ("accept", experiment, "--population", others, "--format", "json")
     result = _parsed(run(*words, "--spec", EXAMPLE, "-c", fitted), 0)
-    assert len(result["criteria"]) == 29
+    assert len(result["criteria"]) == 30
     assert result["measured"][0]["population_count"] == 31
     tighter = tmp_path / "force.toml"
     tighter.write_text(HEAD + "[validate]\nforce_mean_N = 1.5\noffset = 'fitted'\n", encoding="utf-8")

@@ -134,7 +134,7 @@ BAD: dict[str, tuple[str, Callable[[], object], str]] = {
     ),
     "held-out without prior": (
         PARQUET,
-        _in(PARQUET, "prior =", "# prior ="),
+        lambda: add(edit(Path(PARQUET), "prior =", "# prior ="), '\n[calibration]\nlambda_counts2 = "held-out"\n'),
         "parquet.toml: sensor 'arm_ft': lambda cannot be chosen without a prior matrix; give a prior, or lambda 0",
     ),
     "lambda without prior": (

@@ -61,24 +61,29 @@ def test_the_csv_holds_the_same_numbers(arm: Path, run: Run) -> None:
     assert np.array_equal([[float(row[f"c{j}_per_count"]) for j in range(6)] for row in rows], fitted.matrix)
     assert np.array_equal([float(row["offset"]) for row in rows], fitted.offset)
     assert np.array_equal([float(row["residual_rms"]) for row in rows], fitted.residual_rms)
-    assert {float(row["lambda_counts2"]) for row in rows} == {fitted.lambda_counts2}
+    assert {row["lambda_counts2"] for row in rows} == {""}
+    given = run("calibrate", PARQUET, "-o", "other.json", "--lambda", "7", "--format", "csv").rows()
+    assert {float(row["lambda_counts2"]) for row in given} == {7.0}
     assert {row["samples"] for row in rows} == {str(fitted.provenance.samples)}
 
 
 def test_the_table_is_the_default(arm: Path, run: Run) -> None:
-    """Without --format people get the matrix per 1000 counts, excitation and the name of the file."""
+    """Without --format people get the matrix per 1000 counts, what was learnt and the name of the file."""
     made = run("calibrate", PARQUET, "-o", "made.json")
     assert made.code == 0
     assert made.out == run("calibrate", PARQUET, "-o", "made.json", "--format", "table").out
     first, *_, last = made.out.splitlines()
     fitted = read_calibration("made.json")
-    assert first.startswith(f"arm_ft (SIM001): {fitted.provenance.samples} samples of fit, 0 left out; OnTdTO, lambda ")
+    assert first.startswith(
+        f"arm_ft (SIM001): {fitted.provenance.samples} samples of fit, 0 left out; generative model, "
+    )
     assert last == "written to made.json"
     found = re.search(r"^ fz, N +(.*)$", made.out, re.MULTILINE)
     assert found is not None
     shown = [float(word) for word in found[1].split()]
     assert np.abs(np.array(shown[:6]) - 1000.0 * fitted.matrix[2]).max() < 0.0005001  # half of the third digit
-    assert made.out.count(" yes ") == 6
+    assert "what the recordings taught" in made.out
+    assert run("calibrate", PARQUET, "-o", "other.json", "--type", "OnTdTO").out.count(" yes ") == 6
 
 
 def test_brackets_in_names_are_shown(arm: Path, run: Run) -> None:
@@ -186,7 +191,7 @@ def _stop(folder: Path) -> None:
 @pytest.mark.parametrize(
     ("in_file", "words", "expected", "rule"),
     [
-        ("", (), None, "held-out"),
+        ("", (), "", "regressed on loads"),
         ("lambda_counts2 = 12.5", (), 12.5, "given"),
         ("lambda_counts2 = 12.5", ("--lambda", "1e3"), 1000.0, "given"),
         ("lambda_counts2 = 12.5", ("--lambda", "held-out"), None, "held-out"),
@@ -198,12 +203,15 @@ def _stop(folder: Path) -> None:
 def test_lambda_comes_from_the_command_or_the_file(
     arm: Path, run: Run, in_file: str, words: tuple[str, ...], expected: float | str | None, rule: str
 ) -> None:
-    """--lambda rules over the file, the file over the default, which is held-out blocks."""
+    """--lambda rules over the file, the file over the default, which has no lambda."""
     add(arm / PARQUET, f"\n[calibration]\n{in_file}\n")
     result = run("calibrate", PARQUET, "-o", "a.json", *words, "--format", "json").result()
     made = result["calibrations"][0]["calibration"]
     assert rule in made["selection"]["rule"]
-    assert made["lambda_counts2"] == expected if expected is not None else made["lambda_counts2"] > 0.0
+    if expected == "":
+        assert made["lambda_counts2"] is None
+    else:
+        assert made["lambda_counts2"] == expected if expected is not None else made["lambda_counts2"] > 0.0
     if expected == "infinite":
         assert made["matrix"] == made["prior"]["matrix"]
 
@@ -240,15 +248,6 @@ def test_an_earlier_file_is_replaced(arm: Path, run: Run) -> None:
     file.write_text(file.read_text(encoding="utf-8") * 3, encoding="utf-8")
     assert run("calibrate", PARQUET, "-o", file, "--lambda", "17").code == 0
     assert read_calibration(file).lambda_counts2 == 17.0
-
-
-def test_reversed_gravity_is_warned_of(arm: Path, run: Run) -> None:
-    """Gravity upside down turns the sign of the matrix, which is said; the right way round it is not."""
-    right = run("calibrate", PARQUET, "-o", "right.json")
-    assert not [line for line in right.log if "reversed" in line]
-    edit(arm / PARQUET, "gravity_direction = [0.0, 0.0, -1.0]", "gravity_direction = [0.0, 0.0, 1.0]")
-    wrong = run("calibrate", PARQUET, "-o", "wrong.json", "--lambda", "0.01")
-    assert [line for line in wrong.log if "sign of the prior reversed" in line]
 
 
 def test_the_temperature_is_fitted_and_shown(warm: Path, run: Run) -> None:
@@ -320,7 +319,7 @@ def test_what_a_type_cannot_do_is_one_line(warm: Path, run: Run) -> None:
     assert snapshot(warm) == before
     _still(warm)
     before = snapshot(warm)
-    error = run("calibrate", PARQUET, "-o", "a.json").error()
+    error = run("calibrate", PARQUET, "-o", "a.json", "--type", "OwTrTO").error()
     assert error == (
         "error: parquet.toml: sensor 'arm_ft': variable 'temperature': its value is 31.5 degC throughout the fitted "
         "data, so its coefficients cannot be told from the offset; fit data at several values, or a type without "
@@ -348,3 +347,30 @@ def test_a_prior_of_another_sensor_is_refused(arm: Path, run: Run) -> None:
     assert error.startswith(
         "error: parquet.toml: sensor[0]: expected the prior matrix of the sensor 'SIM001', got that "
     )
+
+
+def test_what_was_learnt_is_drawn_where_it_is_asked(arm: Path, run: Run) -> None:
+    """A PNG beside the calibration, named in the result; without the option there is none."""
+    before = snapshot(arm)
+    ended = run("calibrate", PARQUET, "-o", "a.json", "--figure", "learnt.png", "--format", "json")
+    assert ended.result()["figure"] == "learnt.png"
+    assert Path("learnt.png").read_bytes()[:8] == b"\x89PNG\r\n\x1a\n"
+    assert snapshot(arm).keys() - before.keys() == {"a.json", "learnt.png"}
+    assert run("calibrate", PARQUET, "-o", "a.json", "--format", "json").result()["figure"] is None
+
+
+def test_a_type_of_the_thesis_has_nothing_to_draw(arm: Path, run: Run) -> None:
+    """The calibration is written all the same; the reason is one line, and the exit code says that one was given."""
+    ended = run("calibrate", PARQUET, "-o", "a.json", "--type", "OnTdTO", "--figure", "learnt.png")
+    assert ended.code == 2
+    assert "error: --figure learnt.png: expected a generative fit towards a prior" in ended.err
+    assert Path("a.json").exists()
+    assert not Path("learnt.png").exists()
+
+
+def test_a_figure_that_cannot_be_written_is_refused_before_the_fit(arm: Path, run: Run) -> None:
+    """Another ending: nothing is read, fitted or written."""
+    before = snapshot(arm)
+    error = run("calibrate", PARQUET, "-o", "a.json", "--figure", "learnt.pdf").error()
+    assert "--figure learnt.pdf: expected a name that ends in .png" in error
+    assert snapshot(arm) == before

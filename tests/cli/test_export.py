@@ -19,7 +19,7 @@ import pytest
 
 from forcetorque.analysis import Export, export_icub_matrix, export_wholebodydynamics
 from forcetorque.arrays import FloatArray
-from forcetorque.calibration import Calibration, write_calibration
+from forcetorque.calibration import Calibration, SessionOffset, write_calibration
 from forcetorque.cli import main
 from forcetorque.exchange.icub import read_matrix_file
 from forcetorque.exchange.wholebodydynamics import corrected, read_groups
@@ -119,6 +119,21 @@ def test_the_offset_that_a_matrix_file_cannot_hold_is_announced(run: Run, leg: P
     stored = run(leg, "--to", "csv", "-o", tmp_path / "table.csv", "--format", "json")
     assert "WARNING" not in stored.err
     assert stored.result()["calibrations"][0]["offset_stored"] is True
+
+
+def test_the_offset_of_several_sessions_is_said_to_be_the_last(run: Run, tmp_path: Path) -> None:
+    """A robot has one offset: it is named, and warned of; with one session there is nothing to say."""
+    old, new = (
+        SessionOffset(name=name, offset=offset, standard_error=None, prior_offset=None)
+        for name, offset in (("monday", 2.0 * OFFSET), ("friday", OFFSET))
+    )
+    for sessions, session in (((old, new), "friday"), ((new,), None)):
+        calibration = make_calibration().model_copy(update={"sessions": sessions})
+        file = _written(tmp_path / "days.json", calibration)
+        done = run(file, "--to", "csv", "-o", tmp_path / "table.csv", "--format", "json")
+        (entry,) = done.result()["calibrations"]
+        assert (entry["session"], entry["offset"]) == (session, OFFSET.tolist())
+        assert ("its offset is of the last session, 'friday'" in done.err) == (session is not None)
 
 
 def test_full_scales_can_be_kept(run: Run, leg: Path, tmp_path: Path) -> None:

@@ -12,7 +12,7 @@ from forcetorque.exchange.export_format import ExportFormat
 from tests.cli.outcome import Outcome, Run
 from tests.experiments import PARQUET, YARP
 
-OLD, NEW = "forcetorque/calibration/1", "forcetorque/calibration/2"
+OLD, NEW = "forcetorque/calibration/1", "forcetorque/calibration/3"
 ADDED = ("variables", "estimation_type", "raw_offset_counts")
 """Keys that version 1 did not have."""
 

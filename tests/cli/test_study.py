@@ -144,7 +144,8 @@ def test_tables_5_5_and_5_6_are_in_the_form_of_the_thesis(days: Path, run: Run, 
     """Rows of data set and type, a column for each of the thirteen lambdas as printed, and the workbench below."""
     sensor = _sensor(run, *SPHERE)
     number = {"first_second": "5_5", "fitted": "5_6"}[mode]
-    *rows, workbench = _rows(FOLDER / f"table_{number}_mean_forces_offset_{mode}.csv")
+    *types, grid, move, both, workbench = _rows(FOLDER / f"table_{number}_mean_forces_offset_{mode}.csv")
+    rows, generative = types, [grid, move, both]
     assert list(rows[0]) == ["data_set", "type", *LAMBDAS, "mean"]
     without = [name for name in ESTIMATION_TYPES if not name.startswith("S")]
     assert [(row["data_set"], row["type"]) for row in rows] == [
@@ -152,12 +153,17 @@ def test_tables_5_5_and_5_6_are_in_the_form_of_the_thesis(days: Path, run: Run, 
         *(("random", name) for name in without),
         *(("grid + random", name) for name in ESTIMATION_TYPES),
     ]
+    assert [(row["data_set"], row["type"], row[LAMBDAS[0]]) for row in generative] == [
+        (name, "generative", "") for name in ("grid", "random", "grid + random")
+    ]
     assert (workbench["data_set"], workbench["type"], workbench[LAMBDAS[0]]) == ("workbench", "", "")
     assert float(workbench["mean"]) == pytest.approx(sensor["workbench"]["force_mean_N"], rel=PRINTED)
     (found,) = [each["best"] for each in sensor["modes"] if each["offset"].replace("-", "_") == mode]
     data_set, _, name = found["name"].partition(" lambda ")[0].rpartition(" ")
-    (row,) = [row for row in rows if (row["data_set"], row["type"]) == (data_set, name)]
-    heading = f"lambda {found['lambda_counts2']:.0f} (table {found['table_lambda_counts2']:.0f})"
+    (row,) = [row for row in (*rows, *generative) if (row["data_set"], row["type"]) == (data_set, name)]
+    heading = "mean"
+    if name != "generative":
+        heading = f"lambda {found['lambda_counts2']:.0f} (table {found['table_lambda_counts2']:.0f})"
     assert float(row[heading]) == pytest.approx(found["force_mean_N"], rel=PRINTED)
     assert sensor["candidates"] == len(rows) * 13 == 312
 
@@ -166,15 +172,17 @@ def test_the_other_tables_can_be_read(days: Path, run: Run) -> None:
     """5.2 and 5.4 by axis, 5.3 with the workbench first, 5.7 a row per axis, and every candidate."""
     sensor = _sensor(run, *SPHERE)
     keys = [(row["data_set"], row["type"]) for row in _rows(FOLDER / TABLES[0])]
-    assert len(keys) == 9 + 6 + 9
+    assert len(keys) == 9 + 6 + 9 + 3
+    assert [key for key in keys if key[1] == "generative"] == keys[-3:]
     for name in (TABLES[0], TABLES[2]):
         rows = _rows(FOLDER / name)
         assert list(rows[0]) == ["data_set", "type", *WRENCH_COMPONENTS]
         assert [(row["data_set"], row["type"]) for row in rows] == keys
         assert all(float(row[component]) != 0.0 for row in rows for component in WRENCH_COMPONENTS)
     differences = _rows(FOLDER / TABLES[1])
-    assert list(differences[0]) == ["data_set", "type", "workbench", *ESTIMATION_TYPES]
-    assert [row["type"] for row in differences if row["data_set"] == "grid"] == ["workbench", *ESTIMATION_TYPES]
+    names = ["workbench", *ESTIMATION_TYPES, "generative"]
+    assert list(differences[0]) == ["data_set", "type", *names]
+    assert [row["type"] for row in differences if row["data_set"] == "grid"] == names
     assert all(float(row[row["type"]]) == 0.0 for row in differences)
     assert {row["SnTdTO"] for row in differences if row["data_set"] == "random"} == {""}
     by_axis = _rows(FOLDER / TABLES[5])
@@ -185,7 +193,13 @@ def test_the_other_tables_can_be_read(days: Path, run: Run) -> None:
             assert float(row[f"value, offset {mode['offset']}"]) == found["mean_absolute"]
             assert float(row["workbench"]) == found["workbench"]
     *candidates, workbench = _rows(FOLDER / TABLES[6])
-    assert len(candidates) == sensor["candidates"]
+    assert len(candidates) == sensor["candidates"] + sensor["generative"]
+    generative, candidates = candidates[sensor["candidates"] :], candidates[: sensor["candidates"]]
+    assert {(row["type"], row["lambda_counts2"], row["relative_lambda"]) for row in generative} == {
+        ("generative", "", "")
+    }
+    assert all(abs(float(row["push_deviation_sd"])) < 1e-6 for row in generative)
+    assert max(float(row["push_deviation_sd"]) for row in candidates) > 0.1
     assert (workbench["data_set"], workbench["table_lambda_counts2"]) == ("workbench", "")
     for row in candidates:
         assert float(row["lambda_counts2"]) == 6.0 * float(row["table_lambda_counts2"])
@@ -200,7 +214,8 @@ def test_the_result_agrees_with_the_candidates(days: Path, run: Run) -> None:
         smallest = min(float(row[f"force_mean_{suffix}"]) for row in candidates)
         assert best["force_mean_N"] == pytest.approx(smallest, rel=1e-6)
         assert 0.0 < best["force_mean_error_N"] < best["force_mean_N"]
-        assert best["lambda_counts2"] == 6.0 * best["table_lambda_counts2"]
+        if best["lambda_counts2"] is not None:
+            assert best["lambda_counts2"] == 6.0 * best["table_lambda_counts2"]
         for row in mode["by_axis"]:
             least = min(float(candidate[f"{row['axis']}_{suffix}"]) for candidate in candidates)
             assert row["mean_absolute"] == pytest.approx(least, rel=1e-6)
@@ -234,7 +249,7 @@ def test_the_calibrations_can_be_evaluated(days: Path, run: Run) -> None:
 def test_types_and_lambdas_can_be_chosen(days: Path, run: Run) -> None:
     """In any order and each once: types as they are typed, lambdas sorted."""
     sensor = _sensor(run, "--type", "OwTrTO", "--type", "CnTdTO", "--lambda", "60", "--lambda", "1.5", "--lambda", "60")
-    rows = _rows(FOLDER / "candidates.csv")[:-1]
+    rows = [row for row in _rows(FOLDER / "candidates.csv")[:-1] if row["type"] != "generative"]
     assert [(row["type"], row["lambda_counts2"]) for row in rows[:4]] == [
         ("OwTrTO", "1.5"), ("OwTrTO", "60.0"), ("CnTdTO", "1.5"), ("CnTdTO", "60.0"),
     ]  # fmt: skip
@@ -286,7 +301,7 @@ def test_every_sensor_has_a_folder_of_its_own(arm: Path, run: Run) -> None:
     assert alone["modes"] == result["sensors"][1]["modes"]
     assert alone["modes"][0]["across_sessions"] == []
     rows = run("study", TWO, "--lambda", "100", "--format", "csv", "-o", "rows").rows()
-    assert [row["sensor"] for row in rows] == [name for name in ("arm_ft", "tool_ft") for _ in range(4)]
+    assert [row["sensor"] for row in rows] == [name for name in ("arm_ft", "tool_ft") for _ in range(5)]
 
 
 def test_csv_has_every_candidate(days: Path, run: Run) -> None:
@@ -295,6 +310,7 @@ def test_csv_has_every_candidate(days: Path, run: Run) -> None:
     assert rows == [{"sensor": "arm_ft", **row} for row in _rows(FOLDER / "candidates.csv")]
     assert [row["data_set"] for row in rows] == [
         *(n for n in ("grid", "random", "grid + random") for _ in range(4)),
+        *("grid", "random", "grid + random"),
         "workbench",
     ]
 
@@ -304,10 +320,13 @@ def test_the_table_shows_the_choice_and_what_to_expect(days: Path, run: Run) -> 
     done = run("study", *FILES, *QUICK, "-o", "out")
     assert done.code == 0
     shown = " ".join(done.out.split())
-    assert "arm_ft (SIM001): 12 matrices of 3 data sets, judged on 599 samples that were not fitted" in shown
+    assert (
+        "arm_ft (SIM001): 12 matrices of 3 data sets and 3 generative fits, judged on 599 samples that were not fitted"
+    ) in shown
     for text in (
         "mean contact force where nothing touches",
         "best candidate of every axis",
+        "loads that were not fitted: pushes of 50 N with levers up to 0.3 m",
         "what to expect on another session, offset first-second",
         "what to expect on another session, offset fitted",
         f"tables, figures and calibrations are in {FOLDER}",
@@ -337,8 +356,8 @@ def test_the_log_tells_every_step(days: Path, run: Run) -> None:
         "INFO: studying arm_ft (SIM001)",
         "INFO: fitting 3 combinations of data sets, 2 types, 2 lambdas",
     ]
-    assert "INFO: judging 13 matrices on 2 intervals, offset fitted" in log
-    assert log[-1] == "INFO: drawing figures"
+    assert "INFO: judging 16 matrices on 2 intervals, offset fitted" in log
+    assert [line for line in log if line.startswith("INFO")][-1] == "INFO: drawing figures"
 
 
 def test_folders_above_the_new_one_are_made(days: Path, run: Run) -> None:
@@ -367,15 +386,14 @@ def test_the_same_files_give_the_same_tables(days: Path, run: Run) -> None:
 
 
 def test_a_lambda_is_what_calibrate_calls_so(days: Path, run: Run) -> None:
-    """Typed for a study of one file or for a calibration of it, a lambda gives the same matrix; a sixth does not."""
-    words = ("--type", "OnTdTO", "--lambda", "6e5", "-o", "out", "--format", "json")
-    (sensor,) = run("study", "move_cold.toml", *VALIDATION, *words).result()["sensors"]
-    assert sensor["modes"][0]["best"]["lambda_counts2"] == 6e5
-    studied = read_calibration(FOLDER / "best_offset_first_second.json")
-    matrices = {}
+    """Typed for a study of one file or for a calibration of it, a lambda gives the same fit; a sixth does not."""
+    assert run("study", "move_cold.toml", *VALIDATION, "--type", "OnTdTO", "--lambda", "6e5", "-o", "out").code == 0
+    (row,) = [row for row in _rows(FOLDER / TABLES[2]) if row["type"] == "OnTdTO"]
+    studied = np.array([float(row[component]) for component in WRENCH_COMPONENTS])
+    offsets = {}
     for regularisation in ("6e5", "1e5"):
         words = ("--type", "OnTdTO", "--lambda", regularisation, "-o", f"{regularisation}.json")
         assert run("calibrate", "move_cold.toml", *words).code == 0
-        matrices[regularisation] = read_calibration(Path(f"{regularisation}.json")).matrix
-    np.testing.assert_allclose(studied.matrix, matrices["6e5"], rtol=0.0, atol=1e-9 * np.abs(studied.matrix).max())
-    assert np.abs(studied.matrix - matrices["1e5"]).max() > 1e-6 * np.abs(studied.matrix).max()
+        offsets[regularisation] = read_calibration(Path(f"{regularisation}.json")).offset
+    np.testing.assert_allclose(studied, offsets["6e5"], rtol=0.0, atol=1e-9 * np.abs(studied).max())
+    assert np.abs(studied - offsets["1e5"]).max() > 1e-6 * np.abs(studied).max()

@@ -77,7 +77,7 @@ def test_joint_torques_are_in_every_form(arm: Path, run: Run) -> None:
     shown = run("validate", PARQUET, "-c", "fitted.json").out
     assert "joint torques estimated from it, less those of the model" in shown
     for row in rows.values():
-        assert f"{row['rmse']:.3f} ±{row['rmse_error']:.3f}" in shown
+        assert f"{row['rmse']:.3f} ±{row['rmse_half_width_95']:.3f}" in shown
 
 
 def test_it_is_said_where_no_torque_depends_on_the_sensor(arm: Path, run: Run) -> None:
@@ -126,7 +126,7 @@ def test_what_is_left_out_is_warned_of_and_every_row_counts_its_own_samples(arm:
     counts = {(row["candidate"], row["offset"]): row["samples"] for row in done.result()["contact_forces"]}
     assert len(set(counts.values())) == 2
     shown = run("validate", PARQUET, "-c", "fitted.json").out
-    assert "free sub-model arm_ft; per axis" in shown
+    assert "free sub-model arm_ft; force: mean norm ± half its 95 % interval; per axis" in shown
     table = shown[: shown.index("joint torques")].splitlines()
     rows = [line.split() for line in table if line.startswith((" prior", " fitted.json"))]
     (headings,) = (line.split() for line in table if line.startswith(" candidate"))

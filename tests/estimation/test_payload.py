@@ -50,7 +50,7 @@ def _reading(acceleration: np.ndarray, direction: MeasureDirection) -> np.ndarra
 def test_exact_data_give_the_exact_load(direction: MeasureDirection) -> None:
     """Mass, centre of mass and bias come back for both senses of the reading."""
     acceleration = _poses(8, 1)
-    payload = identify_payload(_reading(acceleration, direction), acceleration, direction=direction)
+    payload = identify_payload(_reading(acceleration, direction), acceleration, np.arange(8.0), direction=direction)
     assert payload.mass == pytest.approx(MASS, abs=EXACT)
     np.testing.assert_allclose(payload.centre_of_mass, CENTRE, atol=EXACT)
     np.testing.assert_allclose(payload.bias, BIAS, atol=EXACT)
@@ -63,7 +63,7 @@ def test_the_wrong_sense_is_refused() -> None:
     acceleration = _poses(8, 2)
     reading = _reading(acceleration, MeasureDirection.CHILD_TO_PARENT)
     with pytest.raises(FitError, match="positive"):
-        identify_payload(reading, acceleration, direction=MeasureDirection.PARENT_TO_CHILD)
+        identify_payload(reading, acceleration, np.arange(8.0), direction=MeasureDirection.PARENT_TO_CHILD)
 
 
 def test_standard_errors_are_those_of_repeated_measurements() -> None:
@@ -75,6 +75,7 @@ def test_standard_errors_are_those_of_repeated_measurements() -> None:
         identify_payload(
             clean + rng.normal(size=clean.shape) * [0.2, 0.2, 0.2, 0.01, 0.01, 0.01],
             acceleration,
+            None,
             direction=MeasureDirection.CHILD_TO_PARENT,
         )
         for _ in range(300)
@@ -97,13 +98,15 @@ def test_standard_errors_are_those_of_repeated_measurements() -> None:
 def test_too_few_turns_are_refused(acceleration: np.ndarray) -> None:
     """Poses that leave the centre of mass open are an error that says what to do."""
     with pytest.raises(FitError, match="turn the sensor about two axes"):
-        identify_payload(np.zeros((len(acceleration), 6)), acceleration, direction=MeasureDirection.CHILD_TO_PARENT)
+        identify_payload(
+            np.zeros((len(acceleration), 6)), acceleration, None, direction=MeasureDirection.CHILD_TO_PARENT
+        )
 
 
 def test_shapes_are_checked() -> None:
     """Arrays that do not fit each other are refused."""
     with pytest.raises(ShapeError, match="expected reading"):
-        identify_payload(np.zeros((5, 6)), np.zeros((4, 3)), direction=MeasureDirection.CHILD_TO_PARENT)
+        identify_payload(np.zeros((5, 6)), np.zeros((4, 3)), None, direction=MeasureDirection.CHILD_TO_PARENT)
 
 
 @pytest.mark.real_data
@@ -126,6 +129,7 @@ def test_a_real_wrist_sensors_load(data_dir: Path) -> None:
     payload = identify_payload(
         table.signal("wrench").values,
         -table.signal("gravity").values,
+        None,
         direction=MeasureDirection.CHILD_TO_PARENT,
     )
     assert payload.count == 24

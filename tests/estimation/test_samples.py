@@ -309,7 +309,8 @@ def test_samples_belong_together_and_stay() -> None:
     with refused(ShapeError, r"reference: expected an array of shape \(100, 6\), got \(99, 6\)"):
         replace(samples, reference=samples.reference[1:])
     with refused(ShapeError, r"reading: expected an array of shape \(99, n\), got \(100, 6\)"):
-        replace(samples, stamp_ns=samples.stamp_ns[1:], reference=samples.reference[1:])
+        shorter = {"reference": samples.reference[1:], "flattening": samples.flattening[1:]}
+        replace(samples, stamp_ns=samples.stamp_ns[1:], **shorter)
     for held in (samples.stamp_ns, samples.reference, samples.reading.values):
         with pytest.raises(ValueError, match="read-only"):
             held[0] = 0

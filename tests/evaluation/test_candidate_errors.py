@@ -95,16 +95,22 @@ def test_by_hand(evaluator: Evaluator) -> None:
     np.testing.assert_allclose(scatter.force_mean, [2.5, 0.5])
 
 
+def _scatter_of_blocks(values: FloatArray) -> float:
+    means = [block.mean() for block in np.array_split(values, min(10, len(values)))]
+    return float(np.std(means, ddof=1) / np.sqrt(len(means))) if len(means) > 1 else np.nan
+
+
 def _assert_as_one_at_a_time(problem: Problem, errors: CandidateErrors) -> None:
     pooled, scatter = errors.pooled(), errors.standard_error()
     assert len(problem.matrices) == len(pooled.force_mean) > 0
     for k in range(len(problem.matrices)):
         wrenches = problem.wrenches(k)
-        alone = wrench_errors(wrenches, problem.reference)
+        alone = wrench_errors(wrenches, problem.reference, np.arange(float(len(wrenches))))
         absolute = np.abs(wrenches - problem.reference).mean(axis=0)
         np.testing.assert_allclose(pooled.mean_absolute[k], absolute, rtol=0, atol=problem.rounding)
         found = (pooled.force_mean[k], pooled.moment_mean[k], scatter.force_mean[k], scatter.moment_mean[k])
-        expected = (alone.force_mean, alone.moment_mean, alone.force_mean_error, alone.moment_mean_error)
+        norms = (np.linalg.norm((wrenches - problem.reference)[:, axes], axis=1) for axes in (slice(3), slice(3, 6)))
+        expected = (alone.force_mean, alone.moment_mean, *(_scatter_of_blocks(norm) for norm in norms))
         np.testing.assert_allclose(found, expected, rtol=0, atol=problem.rounding, equal_nan=True)
 
 
@@ -112,7 +118,7 @@ def _assert_as_one_at_a_time(problem: Problem, errors: CandidateErrors) -> None:
 @pytest.mark.parametrize("samples", [1, 2, 11, 256, 2560, 2561, 5119])
 @pytest.mark.parametrize("candidates", [1, 5])
 def test_as_one_candidate_at_a_time(evaluator: Evaluator, samples: int, candidates: int) -> None:
-    """The means, and their standard errors, that `wrench_errors` gives; blocks of time of 256 samples and around."""
+    """The means that `wrench_errors` gives, and the scatter of ten blocks; blocks of time of 256 samples and around."""
     problem = _problem(samples, candidates)
     _assert_as_one_at_a_time(problem, problem.judge(evaluator))
 

@@ -332,7 +332,7 @@ def test_a_gap_stays_in_its_sample(spoil: Callable[[Free], ContactForces]) -> No
     others = np.arange(len(whole)) != GAP
     assert np.isnan(found[GAP]).all()
     np.testing.assert_array_equal(found[others], whole[others])
-    assert errors_from_zero(found).count == len(whole) - 1
+    assert errors_from_zero(found, np.arange(float(len(found)))).count == len(whole) - 1
 
 
 def test_a_candidate_with_a_gap_leaves_the_others_whole() -> None:
@@ -484,10 +484,12 @@ def test_a_wrong_matrix_shows_in_a_simulated_recording(
     whole = np.isfinite(found.of("true")).all(axis=1)
     assert whole.mean() > 0.9
     _require_same((found.of("wrong") - found.of("true"))[whole], added[whole], scale=500.0)
-    judged = {name: errors_from_zero(found.of(name)) for name in found.candidates}
+    time = 0.01 * np.arange(len(whole))
+    judged = {name: errors_from_zero(found.of(name), time) for name in found.candidates}
     assert judged["wrong"].force_mean > 50.0 * judged["true"].force_mean
-    assert 0.0 < judged["wrong"].force_mean_error < 0.2 * judged["wrong"].force_mean
-    of_foot = errors_from_zero(lame.of("true")).force_mean / judged["true"].force_mean
+    # 19 s of slow motion, with which the error changes: a third of the mean is open
+    assert 0.0 < judged["wrong"].force_mean_error < 0.5 * judged["wrong"].force_mean
+    of_foot = errors_from_zero(lame.of("true"), time).force_mean / judged["true"].force_mean
     if mode is MEASURED:
         assert of_foot > 10.0
         return

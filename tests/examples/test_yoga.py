@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import math
 import subprocess
 import sys
 from dataclasses import replace
@@ -21,6 +20,7 @@ from forcetorque.analysis import (
     evaluate,
 )
 from forcetorque.arrays import FloatArray
+from forcetorque.calibration.gate import examine
 from forcetorque.estimation import SensorSamples
 from forcetorque.experiment import Experiment, load_experiment
 from forcetorque.recording import Use
@@ -39,33 +39,49 @@ def _load(path: Path, data_dir: Path, tmp_path: Path) -> Experiment:
     return load_experiment(copy)
 
 
-def _verdicts(experiment: Experiment) -> tuple[dict[tuple[str, str], CandidateErrors], float]:
+def _verdicts(experiment: Experiment) -> dict[tuple[str, str], CandidateErrors]:
     sensor = experiment.sensors[0]
     calibration = calibrate_sensor(SensorRun(experiment, sensor), code_version="test", created="test")
     verdicts = evaluate(SensorRun(experiment, sensor), {"new": calibration}).verdicts
-    return {(v.candidate, v.offset): v for v in verdicts}, calibration.lambda_counts2
+    return {(v.candidate, v.offset): v for v in verdicts}
 
 
-@pytest.mark.parametrize("path", [YOGA[0], YOGA[1], YOGA[3]], ids=lambda path: path.name)
+@pytest.mark.parametrize("path", YOGA, ids=lambda path: path.name)
 def test_no_worse_than_the_prior(path: Path, data_dir: Path, tmp_path: Path) -> None:
-    """On judged data the force error with the chosen lambda is at most that of the prior, offset as fitted."""
-    verdicts, _ = _verdicts(_load(path, data_dir, tmp_path))
-    prior, new = verdicts["prior", "fitted"], verdicts["new", "fitted"]
-    assert new.samples > 1000
-    assert new.force_error_mean_N <= prior.force_error_mean_N
-    assert new.moment_error_mean_Nm <= prior.moment_error_mean_Nm
+    """On judged data neither force nor moment error is above that of the prior, with either offset."""
+    verdicts = _verdicts(_load(path, data_dir, tmp_path))
+    for offset in ("fitted", "judged-mean"):
+        prior, new = verdicts["prior", offset], verdicts["new", offset]
+        assert new.samples > 1000
+        assert new.force_error_mean_N <= prior.force_error_mean_N
+        assert new.moment_error_mean_Nm <= prior.moment_error_mean_Nm
 
 
-def test_a_quiet_half_may_give_a_force_a_little_worse_than_the_prior(data_dir: Path, tmp_path: Path) -> None:
-    """Quiet data excite little: the force error rises by 0.02 N, an eighth of its standard error; moments gain."""
-    verdicts, regularisation = _verdicts(_load(YOGA[2], data_dir, tmp_path))
+@pytest.mark.parametrize("path", YOGA, ids=lambda path: path.name)
+def test_the_legs_log_raises_no_doubt(path: Path, data_dir: Path, tmp_path: Path) -> None:
+    """Fitted while it moves or is nearly static: the leg's sensor is one, and the masses beyond it are right."""
+    experiment = _load(path, data_dir, tmp_path)
+    parts = SensorRun(experiment, "r_leg_ft_sensor").samples(Use.CALIBRATION)
+    assert examine([part.data_set for part in parts], experiment.sensors[0].prior) == ()
+
+
+def test_the_free_foots_log_is_in_doubt(data_dir: Path, tmp_path: Path) -> None:
+    """It reads a fifth less than the model: what is fitted to that makes its reading of the robot's weight worse."""
+    experiment = _load(ROOT / "examples" / "10_icub_yoga_study.toml", data_dir, tmp_path)
+    parts = SensorRun(experiment, "r_foot_ft_sensor").samples(Use.CALIBRATION)
+    (doubt,) = examine([part.data_set for part in parts], experiment.sensor("r_foot_ft_sensor").prior)
+    assert doubt.kind == "scale"
+    assert "the gain changed by -2" in doubt.message
+
+
+def test_a_quiet_half_still_teaches(data_dir: Path, tmp_path: Path) -> None:
+    """Nearly static data: .86 to .71 N with the fitted offset, .76 to .47 N with the mean of what is judged."""
+    verdicts = _verdicts(_load(YOGA[2], data_dir, tmp_path))
     prior, new = verdicts["prior", "fitted"], verdicts["new", "fitted"]
-    assert regularisation == pytest.approx(8.41e4, rel=0.01)
-    assert (prior.force_error_mean_N, new.force_error_mean_N) == pytest.approx((0.861, 0.881), abs=0.002)
-    assert new.force_error_mean_N - prior.force_error_mean_N < 0.3 * new.force_error_standard_error_N
+    assert (prior.force_error_mean_N, new.force_error_mean_N) == pytest.approx((0.861, 0.711), abs=0.005)
     assert new.moment_error_mean_Nm < 0.7 * prior.moment_error_mean_Nm
     prior, new = verdicts["prior", "judged-mean"], verdicts["new", "judged-mean"]
-    assert new.force_error_mean_N < 0.85 * prior.force_error_mean_N
+    assert new.force_error_mean_N < 0.65 * prior.force_error_mean_N
 
 
 def test_the_edges_of_a_judged_interval_are_smoothed_as_its_middle_is(data_dir: Path, tmp_path: Path) -> None:
@@ -99,8 +115,7 @@ def _columns(samples: SensorSamples) -> FloatArray:
 
 def test_half_the_error_where_the_fitted_part_moves(data_dir: Path, tmp_path: Path) -> None:
     """Fitted on the moving half, the force error on the other is less than half of the prior's."""
-    verdicts, regularisation = _verdicts(_load(YOGA[0], data_dir, tmp_path))
-    assert math.isfinite(regularisation)
+    verdicts = _verdicts(_load(YOGA[0], data_dir, tmp_path))
     assert verdicts["new", "fitted"].force_error_mean_N < 0.5 * verdicts["prior", "fitted"].force_error_mean_N
 
 
@@ -110,7 +125,7 @@ def test_the_prior_reproduces_the_known_error(data_dir: Path, tmp_path: Path) ->
         text = path.read_text(encoding="utf-8")
         plain = tmp_path / "plain.toml"
         plain.write_text(text.replace("smoothing = ", "# smoothing = "))
-        verdicts, _ = _verdicts(_load(plain, data_dir, tmp_path))
+        verdicts = _verdicts(_load(plain, data_dir, tmp_path))
         assert verdicts["prior", "fitted"].force_error_mean_N == pytest.approx(seen, abs=0.15)
 
 

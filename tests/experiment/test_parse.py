@@ -78,7 +78,7 @@ def test_the_documented_file_is_one(tmp_path: Path) -> None:
     """The example of the documentation, with every optional key, is accepted as it stands."""
     parsed = _parse(tmp_path, _documented()[0])
     assert parsed.calibration.lambda_counts2 is None
-    assert parsed.calibration.type == "OnTdTO"
+    assert parsed.calibration.type == "generative"
     assert parsed.processing.smoothing is not None
     assert (parsed.interval[0].kind, parsed.interval[0].session) == ("balancing support", "day 3")
     assert (parsed.trial.condition, parsed.trial.number) == ("2 N m", 1)
@@ -203,13 +203,17 @@ TABLES = {
     'kind = "state_ext"': (r"recording.stream\[1\]", "joints, kind, name, port"),
     "[[sensor]]": (
         r"sensor\[0\]",
-        "allowed_gains, amplifier_gain, frame, joint, limit_counts, measure_direction, name, prior, serial, stream, "
-        "variable",
+        "allowed_gains, amplifier_gain, frame, full_scale, joint, limit_counts, measure_direction, name, prior, "
+        "serial, stream, variable",
     ),
     "[[support]]": (r"support\[0\]", "frame, gravity_direction, imu"),
     'label = "judge"': (r"interval\[1\]", "end_s, kind, label, session, start_s, support, use"),
     "[processing]": ("processing", "derivatives, smoothing"),
-    "[calibration]": ("calibration", "from_reference, lambda_counts2, offset, sphere_intervals, type, with_variables"),
+    "[calibration]": (
+        "calibration",
+        "accuracy, drift, from_reference, lambda_counts2, nonlinear, offset, repeatability, sphere_intervals, "
+        "type, with_variables",
+    ),
     'name = "small arm"': (
         "top level",
         "calibration, contact, estimation, interval, load, name, processing, recording, robot, schema, sensor, "

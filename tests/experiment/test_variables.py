@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from pathlib import Path
+from typing import Literal
 
 import numpy as np
 import pytest
@@ -13,6 +14,7 @@ from forcetorque.analysis import (
     SensorRun,
     calibrate_sensor,
 )
+from forcetorque.analysis.calibration_doubts import fit_doubts
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration import Calibration
 from forcetorque.errors import ExperimentError, FitError, ForceTorqueError, FormatError, RecordingError
@@ -42,7 +44,9 @@ INTERPOLATED = 1e-9
 """degC, V: rounding of stamps of 1e18 ns to seconds of the recording, times a few degrees per second."""
 
 
-def _fitted(experiment: Experiment, *, sensor: int = 0, regularisation: float | None = 0.0) -> Calibration:
+def _fitted(
+    experiment: Experiment, *, sensor: int = 0, regularisation: float | Literal["held-out"] | None = 0.0
+) -> Calibration:
     return calibrate_sensor(
         SensorRun(experiment, experiment.sensors[sensor]),
         code_version="1",
@@ -227,12 +231,12 @@ def test_a_first_calibration_needs_no_prior(warm: Path) -> None:
     assert _close(made.matrix, MOUNTED)
     assert _close(made.variables[0].coefficients, PER_DEGREE)
     with pytest.raises(FitError, match="lambda cannot be chosen without a prior matrix; give a prior, or lambda 0"):
-        _fitted(experiment, regularisation=None)
+        _fitted(experiment, regularisation="held-out")
 
 
 def test_lambda_is_chosen_with_the_temperature(warm: Path) -> None:
     """Data without noise trust no prior: the held-out choice keeps the matrix exact to a thousandth of its error."""
-    made = _fitted(load_experiment(with_variables(warm / PARQUET, TEMPERATURE)), regularisation=None)
+    made = _fitted(load_experiment(with_variables(warm / PARQUET, TEMPERATURE)), regularisation="held-out")
     assert made.prior is not None
     assert "held-out" in made.selection.rule
     assert np.abs(made.matrix - MOUNTED).max() < 1e-3 * np.abs(made.prior.matrix - MOUNTED).max()
@@ -246,9 +250,14 @@ def test_a_constant_is_refused(warm: Path) -> None:
     still = replace(temperature, values=np.full_like(temperature.values, 31.5))
     put(warm, replace(stream, signals={**stream.signals, "temperature": still}))
     experiment = load_experiment(with_variables(warm / PARQUET, TEMPERATURE))
-    for regularisation in (0.0, 100.0, None):
+    for regularisation in (0.0, 100.0, "held-out"):
         with pytest.raises(FitError, match="'temperature': its value is 31.5 degC throughout .* or a type without var"):
             _fitted(experiment, regularisation=regularisation)
+    made = _fitted(experiment, regularisation=None)  # the default keeps what was expected of it, and says so
+    assert np.abs(made.variables[0].coefficients).max() < 1e-9
+    assert made.variables[0].standard_error is not None
+    assert made.variables[0].standard_error.min() > 0.0
+    assert any("temperature is 31.5 degC throughout" in doubt for doubt in fit_doubts(made))
 
 
 def test_a_sensor_without_variables_stands_beside_one_with(warm: Path) -> None:
@@ -342,10 +351,10 @@ def test_what_does_not_fit_is_refused(warm: Path, name: str) -> None:
 
 
 def test_intervals_have_a_kind_and_a_session(warm: Path) -> None:
-    """What an interval is to a study stands in the file; each is its label where it does not."""
+    """What an interval is to a study stands in the file; else its kind is its label, and its session the recording."""
     edit(warm / PARQUET, 'label = "fit"\n', 'label = "fit"\nkind = "grid"\nsession = "day 3"\n')
     roles = load_experiment(warm / PARQUET).roles
     assert {label: (role.kind, role.session) for label, role in roles.items()} == {
         "fit": ("grid", "day 3"),
-        "judge": ("judge", "judge"),
+        "judge": ("judge", None),
     }

@@ -13,7 +13,7 @@ from forcetorque.analysis import (
     calibrate_sensor,
     evaluate,
 )
-from forcetorque.errors import ForceTorqueError
+from forcetorque.errors import ExperimentError, ForceTorqueError
 from forcetorque.experiment import load_experiment
 from forcetorque.recording import Use
 
@@ -57,6 +57,7 @@ name = "wrist"
 stream = "poses"
 serial = "FT1"
 prior = "identity"
+full_scale = [100.0, 100.0, 200.0, 10.0, 10.0, 10.0]
 
 [[interval]]
 label = "fit"
@@ -123,6 +124,21 @@ def test_a_distorted_wrist_sensor_is_mended_by_a_known_load(tmp_path: Path) -> N
     assert verdicts["new", "fitted"].force_error_mean_N < 0.5 * verdicts["prior", "fitted"].force_error_mean_N
 
 
+def test_a_wrench_in_place_of_counts_needs_its_full_scale(tmp_path: Path) -> None:
+    """N and N m cannot be weighed against each other without; an accuracy says as much."""
+    given = f"mass_kg = {MASS}\ncentre_of_mass_m = {CENTRE.tolist()}\n"
+    line = "full_scale = [100.0, 100.0, 200.0, 10.0, 10.0, 10.0]\n"
+    text = TEXT.replace("\n[recording]", f"{given}\n[recording]").replace(line, "")
+    experiment = load_experiment(_write(tmp_path, text=text))
+    with pytest.raises(ExperimentError, match=r"sensor 'wrist': expected full_scale .* or accuracy of \[calibration\]"):
+        calibrate_sensor(SensorRun(experiment, experiment.sensors[0]), code_version="1", created="now")
+    stated = text + "\n[calibration]\naccuracy = { force_N = 0.1, moment_Nm = 0.01 }\n"
+    experiment = load_experiment(_write(tmp_path, text=stated))
+    made = calibrate_sensor(SensorRun(experiment, experiment.sensors[0]), code_version="1", created="now")
+    assert made.posterior is not None
+    assert made.posterior.accuracy.tolist() == [0.1, 0.1, 0.1, 0.01, 0.01, 0.01]
+
+
 PER_VOLT = np.array([0.8, -0.5, 1.5, 0.02, 0.03, -0.01])
 """What a volt adds to the reading; N/V, N m/V."""
 PER_DEGREE = np.array([-0.05, 0.1, 0.2, 0.002, -0.001, 0.003])
@@ -158,9 +174,7 @@ def _write_with_supply(folder: Path, *, column: str) -> Path:
     """The same poses with a supply voltage and a current in the table and a room temperature in another, slower one."""
     text = TEXT.replace("\n[recording]", f"mass_kg = {MASS}\ncentre_of_mass_m = {CENTRE.tolist()}\n\n[recording]")
     text = text.replace("\n[[sensor]]", f"{SCALARS}{THERMOMETER}\n[[sensor]]")
-    text = text.replace(
-        'prior = "identity"\n', 'prior = "identity"\n' + VARIABLES.replace('"supply"\n\n', f'"{column}"\n\n')
-    )
+    text = text.replace("\n[[interval]]", VARIABLES.replace('"supply"\n\n', f'"{column}"\n\n') + "\n[[interval]]", 1)
     path = _write(folder, text=text)
     header, *lines = (folder / "poses.csv").read_text().splitlines()
     rows = np.array([[float(word) for word in line.split(",")] for line in lines])

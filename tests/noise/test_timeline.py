@@ -55,6 +55,14 @@ def test_two_means_at_one_instant_are_no_reason_to_fail() -> None:
     assert np.isfinite(log_determinant)
 
 
+def test_a_single_mean_has_a_variance() -> None:
+    """That of both noises, be there no neighbour."""
+    noise = SlowNoise(time_constant_s=5.0, ratio=3.0)
+    product, log_determinant = Timeline.of([7.0], share=[0.5]).product(np.array([[2.0, 1.0]]), noise)
+    np.testing.assert_allclose(product, np.array([[4.0, 2.0], [2.0, 1.0]]) / 5.0)
+    assert log_determinant == pytest.approx(np.log(5.0))
+
+
 def test_what_is_no_timeline_is_refused() -> None:
     """Each with its reason."""
     with pytest.raises(FitError, match="do not fall"):

@@ -18,6 +18,7 @@ from matplotlib.image import imread
 from matplotlib.text import Text
 
 from forcetorque.analysis import (
+    LearntDirection,
     SensorSphere,
     TrialGroup,
     TrialSphere,
@@ -34,10 +35,12 @@ from forcetorque.report.figures import (
     index_figure,
     lambda_difference_figure,
     lambda_force_figure,
+    learnt_figure,
     residual_figure,
     space_figure,
     sphere_figure,
 )
+from forcetorque.spatial import WRENCH_COMPONENTS
 
 LAMBDAS = np.array([0, 1, 5, 10, 50, 100, 1e3, 5e3, 1e4, 5e4, 1e5, 5e5, 1e6])
 """Those of the thesis, table 5.5; counts2."""
@@ -130,6 +133,25 @@ def _excitation(rng: np.random.Generator) -> bytes:
     return excitation_figure(*excitation_of_sensors(rng, 6, 12))
 
 
+def learnt_of(rng: np.random.Generator) -> tuple[LearntDirection, ...]:
+    """What some recordings taught of every direction: more of some, less of others."""
+    return tuple(
+        LearntDirection(
+            direction=name,
+            force_error_before_N=before,
+            force_error_after_N=before * (1.05 - share),
+            moment_error_before_Nm=0.05 * before,
+            moment_error_after_Nm=0.05 * before * (1.05 - share),
+            learnt=share,
+        )
+        for name, before, share in zip(WRENCH_COMPONENTS, rng.uniform(0.03, 0.06, 6), rng.uniform(0, 1, 6), strict=True)
+    )
+
+
+def _learnt(rng: np.random.Generator) -> bytes:
+    return learnt_figure({"one recording": learnt_of(rng), "all": learnt_of(rng)})
+
+
 def _held_out(rng: np.random.Generator) -> bytes:
     finite, lambdas = LAMBDAS, np.append(10.0 ** np.arange(-2.0, 9.0), np.inf)
     curves = {
@@ -176,6 +198,7 @@ FIGURES: dict[str, Callable[[np.random.Generator], bytes]] = {
     "residual": _residual,
     "excitation": _excitation,
     "held out": _held_out,
+    "learnt": _learnt,
     "index": _index,
 }
 """A figure of every kind that is drawn from plain arrays, of random data."""

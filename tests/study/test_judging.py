@@ -36,7 +36,7 @@ def _by_samples(models: Sequence[WrenchModel], sets: Sequence[ValidationSet], so
     verdicts = []
     for model in models:
         errors = np.concatenate([errors_by_samples(model, one, source) for one in sets])
-        verdicts.append(wrench_errors(errors, np.zeros_like(errors)))
+        verdicts.append(wrench_errors(errors, np.zeros_like(errors), np.arange(float(len(errors)))))
     return PooledErrors(
         mean_absolute=np.array([v.mean_absolute for v in verdicts]),
         force_mean=np.array([v.force_mean for v in verdicts]),

@@ -6,6 +6,8 @@ from forcetorque.analysis.acceptance_file import AcceptanceFile, read_acceptance
 from forcetorque.analysis.applicability import by_sensor, one_per_sensor
 from forcetorque.analysis.assessment import Assessment, Demands, assess
 from forcetorque.analysis.calibrate import calibrate_sensor
+from forcetorque.analysis.campaign import Campaign, Runs
+from forcetorque.analysis.campaign_interval import CampaignInterval
 from forcetorque.analysis.candidate import JudgedCandidate
 from forcetorque.analysis.compare import Comparison, compare
 from forcetorque.analysis.contact_forces import (
@@ -17,8 +19,12 @@ from forcetorque.analysis.contact_forces import (
 from forcetorque.analysis.corrections import corrections_of
 from forcetorque.analysis.criterion import Bound, Criterion
 from forcetorque.analysis.estimate import IntervalEstimates, estimate_experiment
-from forcetorque.analysis.estimate_summary import EstimateSummary, summarise_estimates
-from forcetorque.analysis.evaluate import CandidateErrors, Evaluation, evaluate
+from forcetorque.analysis.estimate_summary import (
+    EstimateSummary,
+    estimates_of_recordings,
+    summarise_estimates,
+)
+from forcetorque.analysis.evaluate import CandidateErrors, Evaluation, RecordingErrors, evaluate
 from forcetorque.analysis.experiment_assessment import ExperimentAssessment, assess_experiment
 from forcetorque.analysis.export import (
     export_coefficients,
@@ -44,10 +50,12 @@ from forcetorque.analysis.inspect import (
 from forcetorque.analysis.interval_quality import IntervalQuality
 from forcetorque.analysis.joint_torques import JointTorqueErrors, JointTorques, joint_torques
 from forcetorque.analysis.judged import JudgedWrenches
+from forcetorque.analysis.learnt import LITTLE_LEARNT, LearntDirection, learnt_directions, learnt_words
 from forcetorque.analysis.payload import WeighedLoad, weigh_load
 from forcetorque.analysis.population import read_population
 from forcetorque.analysis.prior_comparison import Independence, PriorComparison, compare_with_prior
 from forcetorque.analysis.reading import Correction
+from forcetorque.analysis.recording_moments import recording_moments, store_moments
 from forcetorque.analysis.samples import IntervalSamples
 from forcetorque.analysis.sensor_calibration import (
     SensorCalibration,
@@ -69,11 +77,19 @@ from forcetorque.analysis.validate import Validation, validate
 from forcetorque.analysis.verdict import VerdictLine
 
 __all__ = [
+    "LITTLE_LEARNT",
+    "LearntDirection",
+    "learnt_directions",
+    "learnt_words",
+    "recording_moments",
+    "store_moments",
     "Acceptance",
     "AcceptanceFile",
     "Assessment",
     "BestCandidate",
     "Bound",
+    "Campaign",
+    "CampaignInterval",
     "CandidateErrors",
     "Comparison",
     "ContactForceErrors",
@@ -100,6 +116,8 @@ __all__ = [
     "JudgedCandidate",
     "JudgedWrenches",
     "PriorComparison",
+    "RecordingErrors",
+    "Runs",
     "SensorCalibration",
     "SensorCalibrations",
     "SensorGains",
@@ -132,6 +150,7 @@ __all__ = [
     "data_doubts",
     "doubtful_spans",
     "estimate_experiment",
+    "estimates_of_recordings",
     "evaluate",
     "export_coefficients",
     "export_icub_matrix",

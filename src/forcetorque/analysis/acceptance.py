@@ -4,36 +4,44 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from typing import Literal, Self
+from dataclasses import replace
+from typing import ClassVar, Literal, Self
 
 from pydantic import Field, model_validator
 
 from forcetorque.analysis.acceptance_file import AcceptanceFile
+from forcetorque.analysis.campaign import Campaign, Runs
 from forcetorque.analysis.criteria import Subject, criteria_of
-from forcetorque.analysis.criterion import Bound, Criterion
+from forcetorque.analysis.criterion import Bound, Criterion, RecordingCriterion
 from forcetorque.analysis.evaluate import doubts_about_choice
-from forcetorque.analysis.sensor_run import SensorRun
-from forcetorque.analysis.static_checks import StaticChecks, check
+from forcetorque.analysis.static_checks import RecordingChecks, StaticChecks, check
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration import Calibration
-from forcetorque.result import Result, Table, finite_or_none
+from forcetorque.recording import Use
+from forcetorque.result import Result, Table, finite_or_none, with_first_column
 
 
 class Acceptance(Result):
     """Which criteria sensors meet, and everything that was measured of them without one."""
 
+    of_several: ClassVar[tuple[str, ...]] = ("recordings", "recordings_measured")
+
     schema_name: Literal["forcetorque/accept/1"] = Field(default="forcetorque/accept/1", alias="schema")
     """Form of the result."""
     experiment: str
-    """Name of the experiment."""
+    """Name of the experiment; of several recordings their names, apart by semicolons."""
     specification: str
     """Name of the specification."""
     accepted: bool = False
     """Whether every criterion holds for every sensor; made from the criteria, whatever is given."""
     criteria: tuple[Criterion, ...]
-    """One per sensor and limit."""
+    """One per sensor and limit: of errors of all recordings pooled, or of the worst recording."""
+    recordings: tuple[RecordingCriterion, ...] = ()
+    """The same of every recording by itself, which decides nothing; none where there is one recording."""
     measured: tuple[StaticChecks, ...]
-    """One per sensor, with or without limits."""
+    """One per sensor, with or without limits; of several recordings they stand in `recordings_measured`."""
+    recordings_measured: tuple[RecordingChecks, ...] = ()
+    """One per sensor and recording; none where there is one recording."""
 
     @model_validator(mode="after")
     def _accept_what_passes(self) -> Self:
@@ -62,7 +70,13 @@ class Acceptance(Result):
         for sensor in dict.fromkeys(criterion.sensor for criterion in self.criteria):
             criteria = [criterion for criterion in self.criteria if criterion.sensor == sensor]
             first = criteria[0]
-            yield criteria_table(criteria, f"{self.experiment}: {first.sensor} ({first.serial}), {first.candidate}")
+            apart = [criterion for criterion in self.recordings if criterion.sensor == sensor]
+            count = len({criterion.recording for criterion in apart})
+            where = f"{count} recordings" if apart else self.experiment
+            yield criteria_table(criteria, f"{where}: {first.sensor} ({first.serial}), {first.candidate}")
+            if apart:
+                table = criteria_table(apart, f"{first.sensor} ({first.serial}), each recording by itself")
+                yield with_first_column(table, "recording", [criterion.recording for criterion in apart])
         passed = sum(criterion.passed for criterion in self.criteria)
         verdict = "accepted" if self.accepted else "NOT accepted"
         yield f"{verdict} by {self.specification!r}: {passed} of {len(self.criteria)} criteria hold"
@@ -99,7 +113,7 @@ def _cells(criterion: Criterion) -> tuple[str, ...]:
 
 
 def accept(
-    run: SensorRun,
+    runs: Runs,
     spec: AcceptanceFile,
     calibration: tuple[str, Calibration] | None = None,
     *,
@@ -109,7 +123,8 @@ def accept(
     """Judge a sensor and its calibration, or its prior, by every limit of an acceptance file.
 
     Args:
-        run: The sensor.
+        runs: The sensor in one recording, or in several: their errors are pooled; of what is measured in each by itself
+            (recording, offset, matrix, population) the worst counts.
         spec: Content of the acceptance file.
         calibration: Name and calibration; the prior is judged if left out.
         others: Calibrations of the other sensors by name, for `[validate]` with other sensors as measured.
@@ -121,13 +136,37 @@ def accept(
     Raises:
         ForceTorqueError: If a limit is stated for what cannot be measured; the message names its table.
     """
-    checks = check(run, calibration, population=population)
-    subject = Subject(run=run, calibration=calibration, others=others or {}, checks=checks)
+    campaign = Campaign.of(runs)
+    several = len(campaign.runs) > 1
+    subjects = []
+    for run in campaign.runs:
+        with campaign.stated(run):
+            checks = check(run, calibration, population=population)
+        subjects.append(
+            Subject(campaign=campaign, run=run, calibration=calibration, others=others or {}, checks=checks)
+        )
     judges_errors = spec.evaluate is not None or spec.improvement is not None or spec.validate_ is not None
+    judged = campaign.runs_with(Use.VALIDATION) if calibration and judges_errors else ()
     return Acceptance(
-        experiment=run.experiment.name,
+        experiment="; ".join(campaign.recordings),
         specification=spec.name,
-        criteria=tuple(criteria_of(subject, spec)),
-        measured=(checks,),
-        warnings=tuple(doubts_about_choice(run, *calibration)) if calibration and judges_errors else (),
+        criteria=tuple(criteria_of(subjects, spec)),
+        recordings=tuple(row for subject in subjects for row in _apart(subject, spec)) if several else (),
+        measured=() if several else (subjects[0].checks,),
+        recordings_measured=tuple(
+            RecordingChecks(recording_name=campaign.recording(subject.run), **dict(subject.checks))
+            for subject in (subjects if several else ())
+        ),
+        warnings=tuple(words for run in judged if calibration for words in doubts_about_choice(run, *calibration)),
     )
+
+
+def _apart(subject: Subject, spec: AcceptanceFile) -> Iterator[RecordingCriterion]:
+    """What one recording shows by itself, without what only the calibration says."""
+    absent = {"uncertainty": None, "excitation": None}
+    if not subject.run.has(Use.VALIDATION):
+        absent |= {"evaluate": None, "improvement": None, "validate_": None}
+    alone = replace(subject, campaign=Campaign(subject.run))
+    for criterion in criteria_of([alone], spec.model_copy(update=absent)):
+        stated = criterion.model_dump(exclude={"passed"})
+        yield RecordingCriterion(recording=subject.campaign.recording(subject.run), **stated)

@@ -210,6 +210,23 @@ class Excitation(_Limits):
     """Largest over smallest deviation over the raw directions; at most."""
 
 
+class Learnt(_Limits):
+    """By how much the recordings made the uncertainty of loads along each direction narrower, 0 to 1; at least."""
+
+    fx: _Share | None = None
+    """Forces along x."""
+    fy: _Share | None = None
+    """Forces along y."""
+    fz: _Share | None = None
+    """Forces along z."""
+    tx: _Share | None = None
+    """Moments about x."""
+    ty: _Share | None = None
+    """Moments about y."""
+    tz: _Share | None = None
+    """Moments about z."""
+
+
 class AcceptanceFile(Table):
     """The whole file."""
 
@@ -234,7 +251,9 @@ class AcceptanceFile(Table):
     uncertainty: Uncertainty | None = None
     """Standard errors."""
     excitation: Excitation | None = None
-    """What the data moved."""
+    """What the data moved, in raw directions."""
+    learnt: Learnt | None = None
+    """What the data taught of loads; for calibrations of the generative model."""
 
     @model_validator(mode="after")
     def _states_something(self) -> AcceptanceFile:

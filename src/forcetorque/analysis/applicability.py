@@ -3,14 +3,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Iterator, Mapping
 
 import numpy as np
 
-from forcetorque.calibration import Calibration
+from forcetorque.calibration import Calibration, FittedInterval
 from forcetorque.errors import ExperimentError
 from forcetorque.experiment.content import Experiment, ExperimentSensor
 from forcetorque.experiment.inputs import stated_in
+from forcetorque.recording import Interval
 
 
 def require_fit(name: str, calibration: Calibration, experiment: Experiment, sensor: ExperimentSensor) -> None:
@@ -102,6 +103,31 @@ def one_per_sensor(
             first, second = list(group)[:2]
             raise ExperimentError(f"{second}: {first} calibrates {sensor!r} too; give one")
     return {sensor: next(iter(group.items())) for sensor, group in groups.items()}
+
+
+def overlapping(
+    experiment: Experiment, intervals: Iterable[Interval], calibration: Calibration, used: Iterable[FittedInterval]
+) -> Iterator[tuple[str, str]]:
+    """Find what a calibration was made on among intervals.
+
+    Stamps of two recordings may count from their starts, so those of another experiment count only where the files of
+    this recording went into the calibration too.
+
+    Args:
+        experiment: The experiment.
+        intervals: Intervals of its recording.
+        calibration: The calibration.
+        used: Intervals that it was fitted or chosen on.
+
+    Yields:
+        Label of an interval, and of one that was used and overlaps it.
+    """
+    log_went_in = experiment.log_sha256 <= set(calibration.provenance.inputs_sha256.values())
+    for interval in intervals:
+        for earlier in used:
+            same = log_went_in or earlier.experiment in (None, experiment.name)
+            if same and interval.start_ns < earlier.end_ns and earlier.start_ns < interval.end_ns:
+                yield interval.label, earlier.label
 
 
 def _refuse_other_reading(

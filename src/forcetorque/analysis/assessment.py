@@ -18,6 +18,7 @@ from forcetorque.analysis.criterion import Criterion
 from forcetorque.analysis.evaluate import CandidateErrors, doubts, evaluate, require_unseen
 from forcetorque.analysis.joint_torques import JointTorqueErrors, joint_torques
 from forcetorque.analysis.judged import JudgedWrenches
+from forcetorque.analysis.learnt import LearntDirection, learnt_directions
 from forcetorque.analysis.prior_comparison import Independence, PriorComparison, compare_with_prior, independence
 from forcetorque.analysis.sensor_run import SensorRun
 from forcetorque.analysis.sensor_sphere import SensorSphere
@@ -62,6 +63,8 @@ class Assessment(Row):
     """Criteria of the acceptance file."""
     calibrations: dict[str, Calibration]
     """Calibrations of the sensor, with their uncertainty, excitation and choice of lambda, by file."""
+    learnt: dict[str, tuple[LearntDirection, ...]] = Field(default_factory=dict)
+    """What the recordings taught each of those that are fitted by the generative model towards a prior, by file."""
     warnings: tuple[str, ...]
     """What makes a verdict flatter or doubtful."""
     not_judged: dict[str, str]
@@ -151,6 +154,7 @@ def assess(
         static=static,
         criteria=criteria,
         calibrations=dict(calibrations),
+        learnt={file: rows for file, one in calibrations.items() if (rows := learnt_directions(one)) is not None},
         warnings=_warnings(run, unseen, names, tried),
         not_judged=tried.reasons,
         left_out=tuple(

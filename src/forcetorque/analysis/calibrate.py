@@ -1,197 +1,67 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Calibrate a sensor of an experiment: from its samples to the artefact."""
+"""Calibrate a sensor: by the generative model, or by a type of the thesis where one is asked for."""
 
 from __future__ import annotations
 
-import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
+from typing import Literal
 
-import numpy as np
-
-from forcetorque.analysis.samples import IntervalSamples
-from forcetorque.analysis.sensor_run import SensorRun
-from forcetorque.calibration import (
-    RULE,
-    CalibratedVariable,
-    Calibration,
-    CalibrationFit,
-    EstimationType,
-    FittedInterval,
-    Prior,
-    Provenance,
-    Selection,
-    SensorIdentity,
-    Validity,
-    calibrate,
-)
-from forcetorque.experiment.content import Experiment, ExperimentSensor
-from forcetorque.recording import Use
+from forcetorque.analysis.campaign import Campaign, Runs
+from forcetorque.analysis.generative_calibration import generative_calibration
+from forcetorque.analysis.recording_moments import recording_moments
+from forcetorque.analysis.thesis_calibration import thesis_calibration
+from forcetorque.calibration import Calibration, EstimationType, RecordingMoments
+from forcetorque.errors import FitError
 
 
 def calibrate_sensor(
-    run: SensorRun,
+    runs: Runs | None,
     *,
     code_version: str,
     created: str,
-    regularisation: float | None = None,
-    kind: EstimationType | None = None,
+    moments: Sequence[RecordingMoments] = (),
+    regularisation: float | Literal["held-out"] | None = None,
+    kind: EstimationType | Literal["generative"] | None = None,
+    nonlinear: bool | None = None,
 ) -> Calibration:
-    """Fit a sensor on the calibration intervals of an experiment.
+    """Fit a sensor on the calibration intervals of any number of recordings.
 
     Args:
-        run: The sensor.
+        runs: The sensor, in one experiment or several; None where moments are all there is.
         code_version: Version of this library, for the record.
         created: Date and time, ISO 8601, for the record.
-        regularisation: Lambda; counts2; None to choose it on held-out blocks.
-        kind: Estimation type; None for that of the experiment.
+        moments: What was kept of other recordings, for the generative model.
+        regularisation: Lambda of a type of the thesis; counts2; `held-out` to choose it on held-out data; None for what
+            the experiment says.
+        kind: `generative`, or an estimation type of the thesis; None for what the experiment says, which is the
+            generative model unless it names a type or a lambda, or one is given here.
+        nonlinear: Whether quadratic terms may correct readings; None for what the experiment says.
 
     Returns:
         The calibration, with everything that tells how far to trust it.
+
+    Raises:
+        FitError: If the data cannot be those of the sensor under the modelled load, or do not determine the fit; or
+            moments are to be fitted by a type of the thesis, which needs samples; or quadratic terms are asked for of
+            such a type, or of a single recording.
     """
-    experiment, sensor = run.experiment, run.sensor
-    if kind is None:
-        kind = experiment.fit_options.kind(has_variables=bool(sensor.variables))
-    parts = run.samples(Use.CALIBRATION, variables=_variable_names(sensor) if kind.with_variables else ())
-    result = calibrate(
-        [part.data_set for part in parts],
-        sensor.prior,
-        regularisation=regularisation,
-        kind=kind,
-        variables=[variable.linear for variable in sensor.variables] if kind.with_variables else (),
-        sphere=experiment.sphere_intervals,
-    )
-    return artefact(
-        result,
-        parts,
-        sensor=sensor,
-        identity=identity_of(experiment, sensor),
+    if runs is None:
+        return generative_calibration(moments, code_version=code_version, created=created, nonlinear=nonlinear)
+    campaign = Campaign.of(runs)
+    experiment = campaign.runs[0].experiment
+    options = experiment.fit_options
+    if kind == "generative" or (kind is None and regularisation is None and options.generative):
+        recordings = [*moments, *recording_moments(campaign)]
+        return generative_calibration(recordings, code_version=code_version, created=created, nonlinear=nonlinear)
+    if nonlinear:
+        raise FitError("nonlinear: the types of the thesis are linear; leave out the estimation type and lambda")
+    if moments:
+        raise FitError("stored moments are fitted by the generative model; leave out the estimation type and lambda")
+    given = experiment.regularisation if regularisation is None else regularisation
+    return thesis_calibration(
+        campaign,
+        options.kind(has_variables=bool(campaign.sensor.variables)) if kind is None else kind,
+        regularisation=None if given == "held-out" else given,
         code_version=code_version,
         created=created,
-        experiment=experiment.name,
-        inputs_sha256=experiment.inputs_sha256,
-    )
-
-
-def artefact(
-    result: CalibrationFit,
-    parts: Sequence[IntervalSamples],
-    *,
-    sensor: ExperimentSensor,
-    identity: SensorIdentity,
-    code_version: str,
-    created: str,
-    experiment: str,
-    inputs_sha256: Mapping[str, str],
-) -> Calibration:
-    """Make the calibration that a fit leaves on disk.
-
-    Args:
-        result: The fit.
-        parts: The fitted samples.
-        sensor: The sensor.
-        identity: Which sensor it is.
-        code_version: Version of this library, for the record.
-        created: Date and time, ISO 8601, for the record.
-        experiment: Name of the experiment.
-        inputs_sha256: SHA-256 of every input file, by its path.
-
-    Returns:
-        The calibration.
-    """
-    errors, kept = result.standard_errors, math.isinf(result.fit.regularisation)
-    return Calibration(
-        sensor=identity,
-        matrix=result.fit.matrix,
-        offset=result.fit.offset,
-        variables=_variables(parts, result),
-        estimation_type=result.estimation.kind.name,
-        raw_offset_counts=result.estimation.raw_offset,
-        matrix_standard_error=None if errors is None or kept else errors.matrix,
-        offset_standard_error=None if errors is None else errors.offset,
-        residual_rms=result.fit.residual,
-        lambda_counts2=result.fit.regularisation,
-        prior=None
-        if sensor.prior is None or result.prior_offset is None or sensor.prior_source is None
-        else Prior(matrix=sensor.prior, offset=result.prior_offset, source=sensor.prior_source),
-        validity=_validity(parts, result),
-        selection=_selection(result),
-        provenance=Provenance(
-            code_version=code_version,
-            created=created,
-            experiment=experiment,
-            intervals=tuple(
-                FittedInterval(label=p.interval.label, start_ns=p.interval.start_ns, end_ns=p.interval.end_ns)
-                for p in parts
-            ),
-            samples=sum(len(p.samples) for p in parts),
-            dropped=sum(p.samples.dropped for p in parts),
-            inputs_sha256=dict(inputs_sha256),
-        ),
-    )
-
-
-def identity_of(experiment: Experiment, sensor: ExperimentSensor) -> SensorIdentity:
-    """Tell which sensor it is, where it is mounted and how it reads.
-
-    Args:
-        experiment: The experiment.
-        sensor: One of its sensors.
-
-    Returns:
-        Its identity.
-    """
-    tag = experiment.model.sensor(sensor.name)
-    return SensorIdentity(
-        name=sensor.name,
-        serial=sensor.serial,
-        robot=experiment.model.name,
-        frame=tag.frame.value,
-        measure_direction=tag.direction,
-    )
-
-
-def _variable_names(sensor: ExperimentSensor) -> list[str]:
-    return [variable.linear.name for variable in sensor.variables]
-
-
-def _variables(parts: Sequence[IntervalSamples], result: CalibrationFit) -> tuple[CalibratedVariable, ...]:
-    values, model = np.concatenate([p.samples.variables for p in parts]), result.fit.model
-    return tuple(
-        CalibratedVariable(
-            name=variable.name,
-            unit=variable.unit,
-            reference_value=float(model.reference_values[k]),
-            coefficients=model.coefficients[:, k],
-            standard_error=None if result.standard_errors is None else result.standard_errors.coefficients[:, k],
-            prior=variable.prior,
-            minimum=float(values[:, k].min()),
-            maximum=float(values[:, k].max()),
-        )
-        for k, variable in enumerate(result.estimation.variables)
-    )
-
-
-def _validity(parts: Sequence[IntervalSamples], result: CalibrationFit) -> Validity:
-    raw, excitation = np.concatenate([p.raw for p in parts]), result.fit.excitation
-    return Validity(
-        raw_minimum_counts=raw.min(axis=0),
-        raw_maximum_counts=raw.max(axis=0),
-        reference_deviation=excitation.reference_deviation,
-        rank=excitation.rank,
-        condition=excitation.condition if math.isfinite(excitation.condition) else None,
-        directions=excitation.directions,
-        variance_counts2=excitation.variance,
-        explained=excitation.explained,
-        excited=excitation.excited,
-    )
-
-
-def _selection(result: CalibrationFit) -> Selection:
-    if result.curve is None:
-        return Selection(rule="given")
-    return Selection(
-        rule=RULE,
-        lambda_counts2=tuple(float(v) for v in result.curve.regularisations),
-        held_out_rmse=tuple(float(v) for v in result.curve.held_out_error),
-        worst_ratio_to_prior=tuple(float(v) for v in result.curve.worst_ratio),
     )

@@ -6,7 +6,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from forcetorque.calibration import Calibration
+from forcetorque.calibration import GENERATIVE, Calibration, SessionOffset
 from forcetorque.result import COMPONENTS, Table, number, with_error
 from forcetorque.spatial import WRENCH_COMPONENTS, WRENCH_UNITS
 
@@ -24,12 +24,17 @@ def calibration_blocks(calibration: Calibration) -> Iterator[Table | str]:
     yield (
         f"{sensor.name} ({sensor.serial}): {source.samples} samples of "
         f"{', '.join(interval.label for interval in source.intervals)}, {source.dropped} left out; "
-        f"{calibration.estimation_type}, lambda {_lambda_text(calibration)}"
+        f"{_estimator_text(calibration)}"
     )
     yield _matrix_table(calibration)
     if calibration.variables:
         yield _variable_table(calibration)
-    yield _excitation_table(calibration)
+    if calibration.nonlinear is not None:
+        yield from calibration.nonlinear.successes()
+    if len(calibration.sessions) > 1:
+        yield session_table(calibration)
+    if calibration.estimation_type != GENERATIVE:
+        yield _excitation_table(calibration)
 
 
 def component_records(calibration: Calibration) -> Iterator[dict[str, object]]:
@@ -56,6 +61,49 @@ def component_records(calibration: Calibration) -> Iterator[dict[str, object]]:
         yield line | {"lambda_counts2": calibration.lambda_counts2, "samples": calibration.provenance.samples}
 
 
+def _estimator_text(calibration: Calibration) -> str:
+    posterior = calibration.posterior
+    if posterior is None:
+        return f"{calibration.estimation_type}, lambda {_lambda_text(calibration)}"
+    accuracy = posterior.accuracy
+    return (
+        f"generative model, accuracy of the reference {accuracy[:3].max():.3g} N and {accuracy[3:].max():.3g} N m, "
+        f"repeatability {posterior.repeatability:g}"
+    )
+
+
+def _error_words(calibration: Calibration) -> str:
+    return "one standard error" if calibration.posterior is not None else "one standard error, by blocks"
+
+
+def session_table(calibration: Calibration, name: str = "") -> Table:
+    """Show the offset of every session, and its drift where it was fitted.
+
+    Args:
+        calibration: The calibration.
+        name: Name of the calibration, for the caption; left out if empty.
+
+    Returns:
+        A row per session, and one per drift.
+    """
+    start = f"{name}: " if name else ""
+    return Table(
+        caption=f"{start}offset of every session, ± {_error_words(calibration)}",
+        headings=("session", *COMPONENTS),
+        rows=tuple(row for session in calibration.sessions for row in _session_rows(session)),
+    )
+
+
+def _session_rows(session: SessionOffset) -> Iterator[tuple[str, ...]]:
+    errors = [None] * len(COMPONENTS) if session.standard_error is None else session.standard_error.tolist()
+    yield (
+        session.name,
+        *(with_error(value, error, digits=3) for value, error in zip(session.offset, errors, strict=True)),
+    )
+    if session.drift_per_s is not None:
+        yield f"{session.name}, added per hour", *(number(3600.0 * value, 3) for value in session.drift_per_s)
+
+
 def _lambda_text(calibration: Calibration) -> str:
     value = calibration.lambda_counts2
     if value is None:
@@ -68,8 +116,8 @@ def _matrix_table(calibration: Calibration) -> Table:
     channels = (f"ch{j}" for j in range(calibration.matrix.shape[1]))
     spread = calibration.offset_standard_error
     return Table(
-        caption="matrix and offset",
-        headings=("per 1000 counts", *channels, "offset", "± by blocks", "residual RMS"),
+        caption=f"matrix and offset, ± {_error_words(calibration)}",
+        headings=("per 1000 counts", *channels, "offset", "±", "residual RMS"),
         rows=tuple(
             (
                 component,
@@ -97,7 +145,7 @@ def _variable_table(calibration: Calibration) -> Table:
             )
         )
     return Table(
-        caption="what one unit of a variable adds, ± by blocks",
+        caption=f"what one unit of a variable adds, ± {_error_words(calibration)}",
         headings=("variable", "from", "fitted range", *COMPONENTS),
         rows=tuple(lines),
     )

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 import numpy as np
 
 from forcetorque.analysis.reading import Correction
-from forcetorque.calibration import Calibration, Prior, WrenchModel
+from forcetorque.calibration import Calibration
 from forcetorque.evaluation import Offset
 from forcetorque.recording import Use
 from forcetorque.result import Row, Shown
@@ -104,10 +104,11 @@ def judged_candidates(run: SensorRun, calibrations: Mapping[str, Calibration]) -
     fitted: list[JudgedCandidate] = []
     for name, calibration in calibrations.items():
         prior = calibration.prior
-        shared = None if prior is None else next((one for one in priors if _same(prior, one.correction.model)), None)
-        if prior is not None and shared is None:
+        read = None if prior is None else Correction.of_prior(name, prior, calibration.sessions)
+        shared = None if read is None else next((one for one in priors if _same(read, one.correction)), None)
+        if read is not None and shared is None:
             label = PRIOR if len(calibrations) == 1 else f"{PRIOR} of {name}"
-            shared = JudgedCandidate(name=label, correction=Correction.of_prior(name, prior), prior=None)
+            shared = JudgedCandidate(name=label, correction=read, prior=None)
             priors.append(shared)
         correction = Correction.of(name, calibration)
         fitted.append(JudgedCandidate(name=name, correction=correction, prior=shared.name if shared else None))
@@ -144,7 +145,9 @@ def uncalibrated(run: SensorRun) -> Correction:
     )
 
 
-def _same(prior: Prior, model: WrenchModel) -> bool:
+def _same(one: Correction, other: Correction) -> bool:
+    if one.sessions.keys() != other.sessions.keys() or not np.array_equal(one.model.matrix, other.model.matrix):
+        return False
     # the last bits of a mean depend on where its numbers lie in memory
-    close = np.allclose(prior.offset, model.offset, rtol=0.0, atol=_SAME_OFFSET)
-    return close and np.array_equal(prior.matrix, model.matrix)
+    pairs = [(one.model.offset, other.model.offset), *((one.sessions[k], other.sessions[k]) for k in one.sessions)]
+    return all(np.allclose(*pair, rtol=0.0, atol=_SAME_OFFSET) for pair in pairs)

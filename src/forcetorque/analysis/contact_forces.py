@@ -8,13 +8,25 @@ from typing import Annotated
 
 import numpy as np
 
-from forcetorque.analysis.contact_wrenches import ContactWrenches, contact_wrenches
+from forcetorque.analysis.campaign import Campaign, Runs
+from forcetorque.analysis.contact_wrenches import ContactWrenches, contact_wrenches, pooled_contacts
 from forcetorque.analysis.free_sub_model import FreeSubModel
-from forcetorque.analysis.sensor_run import SensorRun
 from forcetorque.calibration import Calibration
 from forcetorque.errors import ExperimentError
 from forcetorque.evaluation import Offset, OtherSensors, errors_from_zero
-from forcetorque.result import Result, Row, Shown, ShownWrench, Table, WrenchValues, finite_or_none, table_of
+from forcetorque.experiment.content import ExperimentSensor
+from forcetorque.recording import Use
+from forcetorque.result import (
+    Result,
+    Row,
+    Shown,
+    ShownWrench,
+    Table,
+    WrenchValues,
+    finite_or_none,
+    table_of,
+    with_first_column,
+)
 from forcetorque.spatial import WRENCH_COMPONENTS
 
 
@@ -37,10 +49,12 @@ class ContactForceErrors(Row):
     """Candidate that is the prior of a calibration file; null for a prior, and where the file has none."""
     samples: Annotated[int, Shown("samples")]
     """Number of judged samples."""
-    force_mean_N: Annotated[float, Shown("force", "N", digits=2, error="force_mean_error_N")]
+    force_mean_N: Annotated[float, Shown("force", "N", digits=2, error="force_mean_half_width_95_N")]
     """Mean norm of the force."""
     force_mean_error_N: float | None
-    """Standard error of that mean, from blocks of time."""
+    """Standard error of that mean; none for one sample."""
+    force_mean_half_width_95_N: float | None
+    """Half-width of its 95 % interval; none where it cannot be told."""
     moment_mean_Nm: Annotated[float, Shown("moment", "N m", digits=3)]
     """Mean norm of the moment."""
     mean_absolute: Annotated[WrenchValues, ShownWrench(digits=3)]
@@ -90,8 +104,15 @@ class ContactForces(Result):
         yield from contact_force_blocks(self.verdicts, self.best)
 
 
+class RecordingContactForces(ContactForceErrors):
+    """The same on one of several recordings."""
+
+    recording: str
+    """Name of the recording, unique in the campaign: that of the experiment, with the file where several have it."""
+
+
 def contact_forces(
-    run: SensorRun,
+    runs: Runs,
     calibrations: Mapping[str, Calibration],
     *,
     others: Mapping[str, Calibration] | None = None,
@@ -102,7 +123,7 @@ def contact_forces(
     """Judge candidates of a sensor by the contact wrench of a sub-model that nothing touches.
 
     Args:
-        run: The sensor; the validation intervals are judged.
+        runs: The sensor in one recording, or in several, whose errors are pooled; the validation intervals are judged.
         calibrations: Calibrations of that sensor by name; their priors are judged too, or that of the experiment where
             there is none.
         others: Calibrations of the other sensors by name, for the mode `measured`; where there is none, their prior.
@@ -117,25 +138,31 @@ def contact_forces(
     Raises:
         ExperimentError: If there is nothing to judge, or an interval has no support.
     """
-    free = FreeSubModel.of(run, others=others, other_sensors=other_sensors, sub_model=sub_model, contact=contact)
-    return contact_forces_of(free, calibrations)
+    campaign = Campaign.of(runs)
+    recordings = {}
+    for run in campaign.runs_with(Use.VALIDATION):
+        with campaign.stated(run):
+            free = FreeSubModel.of(
+                run, others=others, other_sensors=other_sensors, sub_model=sub_model, contact=contact
+            )
+            recordings[campaign.recording(run)] = contact_wrenches(free, calibrations)
+    return contact_forces_of(campaign.sensor, pooled_contacts(recordings))
 
 
-def contact_forces_of(free: FreeSubModel, calibrations: Mapping[str, Calibration]) -> ContactForces:
-    """Judge candidates of a sensor by the contact wrench of a given sub-model.
+def contact_forces_of(sensor: ExperimentSensor, contacts: ContactWrenches) -> ContactForces:
+    """Judge candidates of a sensor by given contact wrenches.
 
     Args:
-        free: The sub-model.
-        calibrations: Calibrations of the sensor by name.
+        sensor: The sensor.
+        contacts: Contact wrenches by every candidate.
 
     Returns:
         The same as `contact_forces`.
 
     Raises:
-        ExperimentError: If there is nothing to judge, or an interval has no support.
+        ExperimentError: If there is nothing to judge.
     """
-    contacts = contact_wrenches(free, calibrations)
-    verdicts = tuple(_rows(free.run, contacts))
+    verdicts = tuple(contact_force_rows(sensor, contacts))
     if not verdicts:
         raise ExperimentError(f"nothing can be judged: {'; '.join(contacts.left_out)}")
     return ContactForces(
@@ -147,31 +174,47 @@ def contact_forces_of(free: FreeSubModel, calibrations: Mapping[str, Calibration
 
 
 def contact_force_blocks(
-    verdicts: Sequence[ContactForceErrors], best: Sequence[BestCandidate]
+    verdicts: Sequence[ContactForceErrors],
+    best: Sequence[BestCandidate],
+    recordings: Sequence[RecordingContactForces] = (),
 ) -> Iterator[Table | str]:
     """Show contact forces of any number of sensors.
 
     Args:
         verdicts: The rows.
         best: Best candidates; said where there are several to choose from.
+        recordings: The rows of every recording by itself, where there are several.
 
     Yields:
-        A table per sensor, and a sentence per sensor and offset.
+        A table per sensor, one of its recordings, and a sentence per sensor and offset.
     """
     for sensor in dict.fromkeys(row.sensor for row in verdicts):
         yield _table([row for row in verdicts if row.sensor == sensor])
+        apart = [row for row in recordings if row.sensor == sensor]
+        if apart:
+            table = table_of(apart, f"{sensor} ({apart[0].serial}), each recording by itself")
+            yield with_first_column(table, "recording", [row.recording for row in apart])
     if len({row.candidate for row in verdicts}) > 1:
         yield from (candidate.sentence for candidate in best)
 
 
-def _rows(run: SensorRun, contacts: ContactWrenches) -> Iterator[ContactForceErrors]:
+def contact_force_rows(sensor: ExperimentSensor, contacts: ContactWrenches) -> Iterator[ContactForceErrors]:
+    """Sum up contact wrenches.
+
+    Args:
+        sensor: The sensor.
+        contacts: Contact wrenches by every candidate.
+
+    Yields:
+        A row per candidate and offset that has samples without gaps.
+    """
     for (index, offset), wrenches in contacts.wrenches.items():
         if np.isnan(wrenches).any(axis=1).all():
             continue
-        candidate, errors = contacts.candidates[index], errors_from_zero(wrenches)
+        candidate, errors = contacts.candidates[index], errors_from_zero(wrenches, contacts.time_s[index, offset])
         yield ContactForceErrors(
-            sensor=run.sensor.name,
-            serial=run.sensor.serial,
+            sensor=sensor.name,
+            serial=sensor.serial,
             sub_model=contacts.sub_model,
             candidate=candidate.name,
             offset=candidate.offset(offset),
@@ -180,6 +223,7 @@ def _rows(run: SensorRun, contacts: ContactWrenches) -> Iterator[ContactForceErr
             samples=errors.count,
             force_mean_N=errors.force_mean,
             force_mean_error_N=finite_or_none(errors.force_mean_error),
+            force_mean_half_width_95_N=finite_or_none(errors.force_mean_half_width),
             moment_mean_Nm=errors.moment_mean,
             mean_absolute=errors.mean_absolute,
         )
@@ -205,6 +249,6 @@ def _table(rows: Sequence[ContactForceErrors]) -> Table:
     return table_of(
         rows,
         f"{row.sensor} ({row.serial}): contact wrench of the free sub-model {row.sub_model}{count}; "
-        "per axis: mean absolute value",
+        "force: mean norm ± half its 95 % interval; per axis: mean absolute value",
         leave_out={"samples"} if alike else (),
     )

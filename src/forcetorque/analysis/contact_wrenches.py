@@ -16,7 +16,9 @@ from forcetorque.calibration import Calibration
 from forcetorque.evaluation import ContactForceValidation, Offset
 from forcetorque.evaluation import contact_forces as forces_of_readings
 from forcetorque.experiment.inputs import stated_in
+from forcetorque.noise import one_after_another
 from forcetorque.recording import Interval, Use
+from forcetorque.recording.alignment import seconds_since
 from forcetorque.robot import Wrenches
 
 
@@ -31,6 +33,8 @@ class ContactWrenches:
     wrenches: Mapping[tuple[int, Offset], FloatArray]
     """Wrenches by the place of the candidate, because a calibration may be called `prior` too, and by the offset that
     is asked for; shape (n, 6) each; N, N m; NaN in gaps."""
+    time_s: Mapping[tuple[int, Offset], FloatArray]
+    """Instants of these, since the start of the recording; shape (n,) each; s."""
     left_out: tuple[str, ...]
     """What could not be judged of the intervals, in words."""
 
@@ -51,6 +55,7 @@ def contact_wrenches(free: FreeSubModel, calibrations: Mapping[str, Calibration]
     run = free.run
     candidates = run.candidates(calibrations)
     wrenches: dict[tuple[int, Offset], list[FloatArray]] = {}
+    times: dict[tuple[int, Offset], list[FloatArray]] = {}
     left_out: dict[str, None] = {}
     name = ""
     for interval in run.intervals(Use.VALIDATION):
@@ -68,12 +73,43 @@ def contact_wrenches(free: FreeSubModel, calibrations: Mapping[str, Calibration]
             words = gap_words(f"contact force by {candidates[index].name}", interval, judged)
             left_out |= {} if words is None else {words: None}
             for offset, errors in judged.items():
+                times.setdefault((index, offset), []).append(
+                    seconds_since(instants.judged_ns, run.experiment.recording.start_ns)
+                )
                 wrenches.setdefault((index, offset), []).append(errors)
     return ContactWrenches(
         sub_model=name,
         candidates=candidates,
         wrenches={key: np.concatenate(pieces) for key, pieces in wrenches.items()},
+        time_s={key: np.concatenate(pieces) for key, pieces in times.items()},
         left_out=tuple(left_out),
+    )
+
+
+def pooled_contacts(recordings: Mapping[str, ContactWrenches]) -> ContactWrenches:
+    """Put together what several recordings say.
+
+    Args:
+        recordings: Wrenches by name of the recording, candidates in the same order.
+
+    Returns:
+        All of them, one recording after the other; the same where there is one.
+    """
+    first = next(iter(recordings.values()))
+    if len(recordings) == 1:
+        return first
+    pieces: dict[tuple[int, Offset], list[FloatArray]] = {}
+    times: dict[tuple[int, Offset], list[FloatArray]] = {}
+    for contacts in recordings.values():
+        for key, wrenches in contacts.wrenches.items():
+            pieces.setdefault(key, []).append(wrenches)
+            times.setdefault(key, []).append(contacts.time_s[key])
+    return ContactWrenches(
+        sub_model=first.sub_model,
+        candidates=first.candidates,
+        wrenches={key: np.concatenate(several) for key, several in pieces.items()},
+        time_s={key: one_after_another(several) for key, several in times.items()},
+        left_out=tuple(f"{name}: {words}" for name, contacts in recordings.items() for words in contacts.left_out),
     )
 
 

@@ -3,18 +3,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TypeVar
 
 import numpy as np
 
 from forcetorque.analysis import acceptance_file as limits
+from forcetorque.analysis.campaign import Campaign
 from forcetorque.analysis.candidate import PRIOR
 from forcetorque.analysis.contact_forces import ContactForceErrors, contact_forces
 from forcetorque.analysis.criterion import Bound, Criterion, Judge
 from forcetorque.analysis.evaluate import CandidateErrors, evaluate
 from forcetorque.analysis.interval_quality import IntervalQuality
+from forcetorque.analysis.learnt import learnt_directions
 from forcetorque.analysis.sensor_run import SensorRun
 from forcetorque.analysis.static_checks import StaticChecks
 from forcetorque.calibration import Calibration
@@ -27,10 +29,12 @@ _Checked = TypeVar("_Checked")
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Subject:
-    """What is judged."""
+    """What is judged, as one recording shows it."""
 
+    campaign: Campaign
+    """The sensor in all recordings, whose errors are judged together."""
     run: SensorRun
-    """The sensor."""
+    """The sensor in one of them."""
     calibration: tuple[str, Calibration] | None
     """Name and calibration; None to judge the prior."""
     others: Mapping[str, Calibration]
@@ -76,11 +80,13 @@ class Subject:
         return value
 
 
-def criteria_of(subject: Subject, spec: limits.AcceptanceFile) -> Iterator[Criterion]:
+def criteria_of(subjects: Sequence[Subject], spec: limits.AcceptanceFile) -> Iterator[Criterion]:
     """Hold what is judged to every limit of an acceptance file.
 
+    Errors of all recordings are pooled; of what is measured in every recording by itself the worst counts.
+
     Args:
-        subject: What is judged.
+        subjects: What is judged, in every recording.
         spec: Content of the acceptance file.
 
     Yields:
@@ -94,15 +100,35 @@ def criteria_of(subject: Subject, spec: limits.AcceptanceFile) -> Iterator[Crite
         if stated is None:
             continue
         try:
-            yield from criteria(subject, stated)
+            if table in _OF_RECORDING:
+                yield from _worst(criteria, stated, subjects)
+            else:
+                yield from criteria(subjects[0], stated)
         except ForceTorqueError as error:
-            name = subject.run.sensor.name
+            name = subjects[0].run.sensor.name
             raise type(error)(f"sensor {name!r}: [{table}] cannot be judged: {error}") from error
+
+
+def _worst(
+    criteria: Callable[..., Iterable[Criterion]], stated: object, subjects: Sequence[Subject]
+) -> Iterator[Criterion]:
+    """Of every criterion the recording that is nearest to its limit or farthest beyond."""
+    by_recording = {}
+    for subject in subjects:
+        with subject.campaign.stated(subject.run):
+            by_recording[subject.campaign.recording(subject.run)] = list(criteria(subject, stated))
+    for several in zip(*by_recording.values(), strict=True):
+        values = [criterion.measured for criterion in several]
+        worst = several[values.index((max if several[0].bound is Bound.AT_MOST else min)(values))]
+        if len(set(values)) > 1:
+            recording = list(by_recording)[several.index(worst)]
+            worst = worst.model_copy(update={"note": ", ".join(filter(None, (worst.note, recording)))})
+        yield worst
 
 
 def _evaluated(subject: Subject, offset: str) -> tuple[CandidateErrors, CandidateErrors]:
     """Errors of the prior, or again of the calibration where there is none, and of the calibration."""
-    verdicts = evaluate(subject.run, dict([subject.fitted()])).verdicts
+    verdicts = evaluate(subject.campaign, dict([subject.fitted()])).verdicts
     rows = [row for row in verdicts if row.offset == offset]
     return rows[0], rows[-1]
 
@@ -142,7 +168,7 @@ def _contact_errors(subject: Subject, stated: limits.Validate) -> ContactForceEr
     """Contact wrench of what is judged, with the offset that is asked for, where nothing touches."""
     candidates = {} if subject.calibration is None else dict([subject.calibration])
     forces = contact_forces(
-        subject.run, candidates, others=subject.others, other_sensors=OtherSensors(stated.other_sensors)
+        subject.campaign, candidates, others=subject.others, other_sensors=OtherSensors(stated.other_sensors)
     )
     name = next(iter(candidates), PRIOR)
     # a prior that no data gave an offset is judged with what it has, none, where its own is asked for
@@ -249,6 +275,17 @@ def _excitation(subject: Subject, stated: limits.Excitation) -> Iterator[Criteri
     yield from subject.judge.at_limit("excitation.condition", condition, stated.condition, count=n)
 
 
+def _learnt(subject: Subject, stated: limits.Learnt) -> Iterator[Criterion]:
+    name, fitted = subject.fitted()
+    directions = learnt_directions(fitted)
+    if directions is None:
+        raise ExperimentError(f"calibration {name!r} is not a generative fit towards a prior, which alone tells it")
+    for row in directions:
+        limit = getattr(stated, row.direction)
+        n = fitted.provenance.samples
+        yield from subject.judge.at_limit(f"learnt.{row.direction}", row.learnt, limit, bound=Bound.AT_LEAST, count=n)
+
+
 _TABLES: dict[str, Callable[..., Iterable[Criterion]]] = {
     "evaluate": _evaluate,
     "improvement": _improvement,
@@ -259,5 +296,10 @@ _TABLES: dict[str, Callable[..., Iterable[Criterion]]] = {
     "offset": _offset,
     "uncertainty": _uncertainty,
     "excitation": _excitation,
+    "learnt": _learnt,
 }
 """What judges each table of the file."""
+
+_OF_RECORDING = {"matrix", "population", "recording", "offset"}
+"""Tables about what is measured in every recording by itself; the matrix with its readings' limit and, of a prior, its
+offset."""

@@ -55,6 +55,13 @@ class Criterion(Row):
         return self.measured <= self.limit if self.bound is Bound.AT_MOST else self.measured >= self.limit
 
 
+class RecordingCriterion(Criterion):
+    """The same on one of several recordings, for people: what is accepted is what they show together."""
+
+    recording: str
+    """Name of the recording, unique in the campaign: that of the experiment, with the file where several have it."""
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Judge:
     """Holds what was measured of one candidate of a sensor to limits."""

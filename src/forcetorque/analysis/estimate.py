@@ -127,7 +127,10 @@ def _over(
     for stream in (*_reading_streams(experiment, corrections), *(e.stream for e in present if e.stream)):
         require_overlap(source, experiment.recording.stream(stream))
     measured = Wrenches.of(
-        {sensor.name: wrench_at(experiment, sensor, corrections[sensor.name], at_ns) for sensor in experiment.sensors}
+        {
+            sensor.name: wrench_at(experiment, sensor, corrections[sensor.name], at_ns, interval=interval)
+            for sensor in experiment.sensors
+        }
     )
     estimates = estimate(
         question, joints, root, measured=measured, known=_known(experiment, question, present, at_ns), progress=progress

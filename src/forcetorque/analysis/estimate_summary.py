@@ -5,14 +5,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, ClassVar, Literal
 
 import numpy as np
 from pydantic import Field
 
 from forcetorque.analysis.estimate import IntervalEstimates
 from forcetorque.analysis.reading import Correction
-from forcetorque.arrays import FloatArray
+from forcetorque.arrays import FloatArray, IntArray
 from forcetorque.evaluation import WrenchErrors, wrench_errors
 from forcetorque.exchange.estimates_table import EstimatedSpan, write_estimates
 from forcetorque.experiment import Experiment
@@ -29,10 +29,12 @@ class ContactSummary(Row):
     """Name of the contact."""
     samples: Annotated[int, Shown("samples")]
     """Number of samples with an estimate."""
-    force_mean_N: Annotated[float | None, Shown("force", "N", digits=2, error="force_standard_error_N")]
+    force_mean_N: Annotated[float | None, Shown("force", "N", digits=2, error="force_half_width_95_N")]
     """Mean norm of the force."""
     force_standard_error_N: float | None
-    """Standard error of that mean, from ten contiguous blocks."""
+    """Standard error of that mean; none for one sample."""
+    force_half_width_95_N: float | None
+    """Half-width of its 95 % interval; none where it cannot be told."""
     force_largest_N: Annotated[float | None, Shown("largest", "N", digits=2)]
     """Largest norm of the force."""
     moment_mean_Nm: Annotated[float | None, Shown("moment", "N m", digits=3)]
@@ -58,11 +60,9 @@ class SubModelSummary(Row):
     """Groups of unknowns that cannot be told apart."""
 
 
-class EstimateSummary(Result):
-    """What touches the robot over the intervals of an experiment, and how well its equations determine that."""
+class EstimatedRecording(Row):
+    """The estimates of one of several recordings."""
 
-    schema_name: Literal["forcetorque/estimate/1"] = Field(default="forcetorque/estimate/1", alias="schema")
-    """Form of the result."""
     experiment: str
     """Name of the experiment."""
     file: str | None
@@ -78,30 +78,59 @@ class EstimateSummary(Result):
     left_out: tuple[str, ...]
     """What the log does not allow to estimate."""
 
+
+class EstimateSummary(Result):
+    """What touches the robot over the intervals of an experiment, and how well its equations determine that."""
+
+    of_several: ClassVar[tuple[str, ...]] = ("recordings",)
+
+    schema_name: Literal["forcetorque/estimate/1"] = Field(default="forcetorque/estimate/1", alias="schema")
+    """Form of the result."""
+    experiment: str
+    """Name of the experiment; of several recordings their names, apart by semicolons."""
+    file: str | None
+    """File with every sample, where one was written."""
+    rows: int
+    """Number of samples, which are its rows."""
+    readings: dict[str, str]
+    """By sensor, how its reading became a wrench."""
+    contacts: tuple[ContactSummary, ...]
+    """One per interval and contact."""
+    parts: tuple[SubModelSummary, ...]
+    """One per interval and sub-model."""
+    left_out: tuple[str, ...]
+    """What the log does not allow to estimate."""
+    recordings: tuple[EstimatedRecording, ...] = ()
+    """Of several recordings one each, where these things then stand; none where there is one recording."""
+
     def blocks(self) -> Iterator[Table | str]:
-        """Give a table of the contacts and one of the sub-models.
+        """Give a table of the contacts and one of the sub-models, of one recording after the other.
 
         Yields:
             Tables and sentences.
         """
-        if self.contacts:
-            yield table_of(self.contacts, self.experiment)
-        if self.parts:
-            yield table_of(self.parts, "")
-        for row in self.parts:
-            for group in row.ambiguous:
-                yield f"{row.part}, {row.interval}: cannot tell apart {', '.join(group)}"
-        yield "force and moment: mean norms of what the environment does to the robot, in the contact frame"
-        if self.file is not None:
-            yield f"{self.rows} rows written to {self.file}"
+        for recording in self.recordings or (self,):
+            yield from _tables(recording)
+        yield (
+            "force and moment: mean norms of what the environment does to the robot, in the contact frame, "
+            "± half a 95 % interval"
+        )
+        for recording in self.recordings or (self,):
+            if recording.file is not None:
+                yield f"{recording.rows} rows written to {recording.file}"
 
     def records(self) -> list[dict[str, object]]:
         """Give the contacts as lines.
 
         Returns:
-            A line per interval and contact.
+            A line per interval and contact; of several recordings with the name of the experiment and the file.
         """
-        return [row.flat() for row in self.contacts]
+        several = [
+            {"experiment": recording.experiment, "file": recording.file, **row.flat()}
+            for recording in self.recordings
+            for row in recording.contacts
+        ]
+        return several or [row.flat() for row in self.contacts]
 
     def columns(self) -> list[str]:
         """Name the columns of the lines.
@@ -109,7 +138,42 @@ class EstimateSummary(Result):
         Returns:
             The same where nothing could be estimated.
         """
-        return list(ContactSummary.model_fields)
+        return [*(("experiment", "file") if self.recordings else ()), *ContactSummary.model_fields]
+
+
+def _tables(recording: EstimateSummary | EstimatedRecording) -> Iterator[Table | str]:
+    if recording.contacts:
+        yield table_of(recording.contacts, recording.experiment)
+    if recording.parts:
+        yield table_of(recording.parts, "")
+    for row in recording.parts:
+        for group in row.ambiguous:
+            yield f"{row.part}, {row.interval}: cannot tell apart {', '.join(group)}"
+
+
+def estimates_of_recordings(summaries: Mapping[str, EstimateSummary]) -> EstimateSummary:
+    """Put what several recordings amount to together; nothing is pooled, as every one has samples of its own.
+
+    Args:
+        summaries: Summaries by name of the experiment file.
+
+    Returns:
+        One that holds them all.
+    """
+    return EstimateSummary(
+        experiment="; ".join(summary.experiment for summary in summaries.values()),
+        file=None,
+        rows=sum(summary.rows for summary in summaries.values()),
+        readings={},
+        contacts=(),
+        parts=(),
+        left_out=(),
+        recordings=tuple(
+            EstimatedRecording(**{name: getattr(summary, name) for name in EstimatedRecording.model_fields})
+            for summary in summaries.values()
+        ),
+        warnings=tuple(f"{name}: {words}" for name, summary in summaries.items() for words in summary.warnings),
+    )
 
 
 def summarise_estimates(
@@ -160,13 +224,14 @@ def _for_table(experiment: Experiment, span: IntervalEstimates) -> EstimatedSpan
 
 def _contacts(span: IntervalEstimates) -> Iterator[ContactSummary]:
     for name in span.estimates.layout.contacts:
-        samples, norms = _norms(span.estimates.contact(name))
+        samples, norms = _norms(span.estimates.contact(name), span.stamp_ns)
         yield ContactSummary(
             interval=span.interval.label,
             contact=name,
             samples=samples,
             force_mean_N=None if norms is None else norms.force_mean,
             force_standard_error_N=None if norms is None else finite_or_none(norms.force_mean_error),
+            force_half_width_95_N=None if norms is None else finite_or_none(norms.force_mean_half_width),
             force_largest_N=None if norms is None else norms.force_largest,
             moment_mean_Nm=None if norms is None else norms.moment_mean,
         )
@@ -176,7 +241,7 @@ def _parts(span: IntervalEstimates) -> Iterator[SubModelSummary]:
     estimates = span.estimates
     for k, name in enumerate(estimates.layout.parts):
         whole = np.isfinite(estimates.residual[:, k]).all(axis=1)
-        _, norms = _norms(estimates.residual[:, k])
+        _, norms = _norms(estimates.residual[:, k], span.stamp_ns)
         condition = estimates.condition[:, k][np.isfinite(estimates.condition[:, k])]
         yield SubModelSummary(
             interval=span.interval.label,
@@ -189,7 +254,10 @@ def _parts(span: IntervalEstimates) -> Iterator[SubModelSummary]:
         )
 
 
-def _norms(wrench: FloatArray) -> tuple[int, WrenchErrors | None]:
+def _norms(wrench: FloatArray, stamp_ns: IntArray) -> tuple[int, WrenchErrors | None]:
     """Number of samples without a gap, and their norms: errors against nothing touching."""
-    whole = wrench[np.isfinite(wrench).all(axis=1)]
-    return len(whole), wrench_errors(whole, np.zeros_like(whole)) if len(whole) else None
+    complete = np.isfinite(wrench).all(axis=1)
+    whole, stamps = wrench[complete], stamp_ns[complete]
+    if not len(whole):
+        return 0, None
+    return len(whole), wrench_errors(whole, np.zeros_like(whole), seconds_since(stamps, int(stamps[0])))

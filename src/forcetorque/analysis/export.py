@@ -11,7 +11,7 @@ import numpy as np
 from forcetorque.analysis.export_rows import Export, ExportedCalibration
 from forcetorque.arrays import FloatArray, require_shape
 from forcetorque.calibration import Calibration
-from forcetorque.errors import ExperimentError
+from forcetorque.errors import ExperimentError, FormatError
 from forcetorque.exchange.calibration_table import write_calibration_table
 from forcetorque.exchange.coefficient_table import write_coefficient_table
 from forcetorque.exchange.export_format import ExportFormat
@@ -39,6 +39,7 @@ def export_icub_matrix(
         ExperimentError: If the matrix is not per count.
         FormatError: If a full scale cannot hold its row.
     """
+    _require_linear({name: calibration}, ExportFormat.ICUB_MATRIX)
     with stated_in(name):
         if (serial := serial_number_in_name(output)) is not None:
             calibration.require_serial(serial)
@@ -73,6 +74,9 @@ def export_wholebodydynamics(
     Returns:
         What the file holds.
     """
+    _require_linear(calibrations, ExportFormat.WHOLEBODYDYNAMICS)
+    if stream is not None:
+        _require_linear({"the stream's calibration": stream}, ExportFormat.WHOLEBODYDYNAMICS)
     corrections = {}
     for name, calibration in calibrations.items():
         with stated_in(name):
@@ -98,6 +102,7 @@ def export_table(calibrations: Mapping[str, Calibration], output: Path) -> Expor
     Returns:
         What the file holds.
     """
+    _require_linear(calibrations, ExportFormat.CSV)
     write_calibration_table(output, calibrations.values())
     entries = [_entry(name, calibration, matrix=calibration.matrix) for name, calibration in calibrations.items()]
     return _export(ExportFormat.CSV, output, entries)
@@ -113,12 +118,23 @@ def export_coefficients(calibrations: Mapping[str, Calibration], output: Path) -
     Returns:
         What the file holds.
     """
+    _require_linear(calibrations, ExportFormat.COEFFICIENTS)
     write_coefficient_table(output, calibrations.values())
     entries = [
         _entry(name, calibration, matrix=calibration.matrix, offset_stored=False)
         for name, calibration in calibrations.items()
     ]
     return _export(ExportFormat.COEFFICIENTS, output, entries)
+
+
+def _require_linear(calibrations: Mapping[str, Calibration], form: ExportFormat) -> None:
+    """Refuse what the file has no place for: without its quadratic terms such a calibration reads wrongly."""
+    for name, calibration in calibrations.items():
+        if calibration.quadratic is not None:
+            raise FormatError(
+                f"{name}: expected a linear calibration for --to {form}, which has no place for quadratic terms; "
+                "fit again with `calibrate --linear`"
+            )
 
 
 def _largest_in_range(matrix: FloatArray, calibration: Calibration) -> FloatArray:
@@ -146,6 +162,7 @@ def _entry(
         matrix=matrix,
         offset=calibration.offset,
         offset_stored=offset_stored,
+        session=calibration.sessions[-1].name if len(calibration.sessions) > 1 else None,
         variables={variable.name: variable.coefficients for variable in calibration.variables},
         variables_stored=variables_stored,
     )
@@ -165,6 +182,8 @@ def _doubts(form: ExportFormat, entry: ExportedCalibration) -> Iterator[str]:
     """What the file does not hold, or the robot does not take from it."""
     if not entry.offset_stored:
         yield f"{entry.calibration}: offset {entry.offset_text}: {form.offset_handling}"
+    if entry.session is not None:
+        yield f"{entry.calibration}: its offset is of the last session, {entry.session!r}; others have their own"
     if entry.variables and not entry.variables_stored:
         names = ", ".join(entry.variables)
         yield f"{entry.calibration}: the coefficients of {names} are not in this file: --to coefficients"

@@ -30,6 +30,8 @@ class ExportedCalibration(Row):
     """Offset that goes with the matrix, to be added; N, N m."""
     offset_stored: bool
     """Whether the file holds the offset."""
+    session: str | None = None
+    """Session whose offset it is, the last one; None for a calibration of one session."""
     variables: dict[str, WrenchValues]
     """Coefficients of each linear variable that go with the matrix; N, N m per unit."""
     variables_stored: bool

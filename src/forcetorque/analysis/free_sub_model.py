@@ -107,5 +107,5 @@ class FreeSubModel:
         for name in sensors:
             sensor = experiment.sensor(name)
             require_overlap(self.run.stream, experiment.recording.stream(sensor.stream))
-            wrenches[name] = wrench_at(experiment, sensor, self.corrections[name], at_ns)
+            wrenches[name] = wrench_at(experiment, sensor, self.corrections[name], at_ns, interval=interval)
         return wrenches

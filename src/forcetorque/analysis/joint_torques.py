@@ -8,12 +8,13 @@ from typing import Annotated, Literal
 
 import numpy as np
 
+from forcetorque.analysis.campaign import Campaign, Runs
 from forcetorque.analysis.candidate import JudgedRow
 from forcetorque.analysis.free_sub_model import FreeSubModel
-from forcetorque.analysis.sensor_run import SensorRun
-from forcetorque.analysis.torque_samples import JudgedTorques, judged_torques
+from forcetorque.analysis.torque_samples import JudgedTorques, judged_torques, pooled_torques
 from forcetorque.calibration import Calibration
 from forcetorque.evaluation import OtherSensors, torque_errors
+from forcetorque.recording import Use
 from forcetorque.result import Result, Shown, Table, finite_or_none, table_of
 from forcetorque.robot import JointType
 
@@ -27,22 +28,35 @@ class JointTorqueErrors(JudgedRow):
     """Unit of its torque: N for a prismatic joint."""
     samples: Annotated[int, Shown("samples")]
     """Number of judged samples."""
-    rmse: Annotated[float, Shown("RMSE", digits=3, error="rmse_error")]
+    rmse: Annotated[float, Shown("RMSE", digits=3, error="rmse_half_width_95")]
     """Root mean square of estimated torque less that of the rigid-body model."""
     rmse_error: float | None
-    """Standard error of that root, from blocks of time."""
-    mean: Annotated[float, Shown("mean", digits=3, error="mean_error")]
+    """Standard error of that root; none for one sample."""
+    rmse_half_width_95: float | None
+    """Half-width of its 95 % interval; none where it cannot be told."""
+    mean: Annotated[float, Shown("mean", digits=3, error="mean_half_width_95")]
     """Mean of estimated torque less that of the model."""
     mean_error: float | None
-    """Standard error of that mean, from blocks of time."""
+    """Standard error of that mean; none for one sample."""
+    mean_half_width_95: float | None
+    """Half-width of its 95 % interval; none where it cannot be told."""
     largest: Annotated[float, Shown("largest", digits=3)]
     """Largest magnitude of estimated torque less that of the model."""
     logged_samples: int | None
     """Number of samples with a logged torque; null where none can be compared."""
-    logged_rmse: Annotated[float | None, Shown("RMSE from logged", digits=3, error="logged_rmse_error")]
+    logged_rmse: Annotated[float | None, Shown("RMSE from logged", digits=3, error="logged_rmse_half_width_95")]
     """Root mean square of estimated torque less the logged one."""
     logged_rmse_error: float | None
-    """Standard error of that root, from blocks of time."""
+    """Standard error of that root; none for one sample."""
+    logged_rmse_half_width_95: float | None
+    """Half-width of its 95 % interval; none where it cannot be told."""
+
+
+class RecordingJointTorques(JointTorqueErrors):
+    """The same on one of several recordings."""
+
+    recording: str
+    """Name of the recording, unique in the campaign: that of the experiment, with the file where several have it."""
 
 
 class JointTorques(Result):
@@ -66,7 +80,7 @@ class JointTorques(Result):
 
 
 def joint_torques(
-    run: SensorRun,
+    runs: Runs,
     calibrations: Mapping[str, Calibration],
     *,
     others: Mapping[str, Calibration] | None = None,
@@ -81,7 +95,7 @@ def joint_torques(
     contact.
 
     Args:
-        run: The sensor; the validation intervals are judged.
+        runs: The sensor in one recording, or in several, whose errors are pooled; the validation intervals are judged.
         calibrations: Calibrations of that sensor by name; their priors are judged too, or that of the experiment where
             there is none.
         others: Calibrations of the other sensors by name, for the mode `measured`; where there is none, their prior.
@@ -95,23 +109,29 @@ def joint_torques(
     Raises:
         ExperimentError: If an interval has no support.
     """
-    free = FreeSubModel.of(run, others=others, other_sensors=other_sensors, sub_model=sub_model, contact=contact)
-    return joint_torques_of(free, calibrations)
+    campaign = Campaign.of(runs)
+    recordings = {}
+    for run in campaign.runs_with(Use.VALIDATION):
+        with campaign.stated(run):
+            free = FreeSubModel.of(
+                run, others=others, other_sensors=other_sensors, sub_model=sub_model, contact=contact
+            )
+            recordings[campaign.recording(run)] = judged_torques(free, calibrations)
+    return joint_torques_of(campaign, pooled_torques(recordings))
 
 
-def joint_torques_of(free: FreeSubModel, calibrations: Mapping[str, Calibration]) -> JointTorques:
-    """Judge candidates of a sensor by joint torques, with a given sub-model free.
+def joint_torques_of(campaign: Campaign, torques: JudgedTorques) -> JointTorques:
+    """Judge candidates of a sensor by given errors of joint torques.
 
     Args:
-        free: The sub-model.
-        calibrations: Calibrations of the sensor by name.
+        campaign: The sensor.
+        torques: Errors by every candidate.
 
     Returns:
         The same as `joint_torques`.
     """
-    torques = judged_torques(free, calibrations)
     return JointTorques(
-        verdicts=tuple(_rows(free.run, torques)),
+        verdicts=tuple(_rows(campaign, torques)),
         left_out=torques.left_out,
         warnings=tuple(f"left out: {words}" for words in torques.left_out),
     )
@@ -129,7 +149,8 @@ def joint_torque_table(rows: Sequence[JointTorqueErrors]) -> Table:
     ordered = sorted(rows, key=_place(rows))
     return table_of(
         ordered,
-        f"{rows[0].sensor} ({rows[0].serial}): joint torques estimated from it, less those of the model",
+        f"{rows[0].sensor} ({rows[0].serial}): joint torques estimated from it, less those of the model; "
+        "± half a 95 % interval",
         leave_out={"logged_rmse"} if all(row.logged_rmse is None for row in rows) else (),
     )
 
@@ -140,16 +161,18 @@ def _place(rows: Sequence[JointTorqueErrors]) -> Callable[[JointTorqueErrors], t
     return lambda row: (joints.index(row.joint), offsets.index(row.offset))
 
 
-def _rows(run: SensorRun, torques: JudgedTorques) -> Iterator[JointTorqueErrors]:
+def _rows(campaign: Campaign, torques: JudgedTorques) -> Iterator[JointTorqueErrors]:
+    joints = {name: joint for run in campaign.runs for name, joint in run.experiment.model.joints.items()}
     for key, samples in torques.samples.items():
         if np.isnan(samples.from_model).all():
             continue
-        candidate, errors = torques.candidates[key.candidate], torque_errors(samples.from_model)
-        logged = None if np.isnan(samples.from_logged).all() else torque_errors(samples.from_logged)
-        prismatic = run.experiment.model.joints[key.joint].type is JointType.PRISMATIC
+        candidate, errors = torques.candidates[key.candidate], torque_errors(samples.from_model, samples.time_s)
+        none_logged = np.isnan(samples.from_logged).all()
+        logged = None if none_logged else torque_errors(samples.from_logged, samples.logged_time_s)
+        prismatic = joints[key.joint].type is JointType.PRISMATIC
         yield JointTorqueErrors(
-            sensor=run.sensor.name,
-            serial=run.sensor.serial,
+            sensor=campaign.sensor.name,
+            serial=campaign.sensor.serial,
             candidate=candidate.name,
             offset=candidate.offset(key.offset),
             offset_source=candidate.offset_source(key.offset),
@@ -159,10 +182,13 @@ def _rows(run: SensorRun, torques: JudgedTorques) -> Iterator[JointTorqueErrors]
             samples=errors.count,
             rmse=errors.rmse,
             rmse_error=finite_or_none(errors.rmse_error),
+            rmse_half_width_95=finite_or_none(errors.rmse_half_width),
             mean=errors.mean,
             mean_error=finite_or_none(errors.mean_error),
+            mean_half_width_95=finite_or_none(errors.mean_half_width),
             largest=errors.largest,
             logged_samples=None if logged is None else logged.count,
             logged_rmse=None if logged is None else logged.rmse,
             logged_rmse_error=None if logged is None else finite_or_none(logged.rmse_error),
+            logged_rmse_half_width_95=None if logged is None else finite_or_none(logged.rmse_half_width),
         )

@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from forcetorque.analysis.candidate import JudgedCandidate
-from forcetorque.analysis.reading import Readings
 from forcetorque.arrays import FloatArray, require_shape
 from forcetorque.calibration import Calibration
 from forcetorque.evaluation import Offset, offset_removed
@@ -75,14 +74,14 @@ def judged_wrenches(run: SensorRun, calibrations: Mapping[str, Calibration]) -> 
     candidates = run.candidates(calibrations)
     needed = {name for candidate in candidates for name in candidate.correction.variables}
     parts = [run.interval_samples(interval, variables=needed) for interval in run.intervals(Use.VALIDATION)]
-    readings = Readings.joined([part.readings for part in parts])
+    spans = [(part.interval, part.readings) for part in parts]
     for candidate in candidates:
         matrix = candidate.correction.model.matrix
-        require_shape(matrix, name=f"{candidate.name}: matrix", shape=(6, readings.raw.shape[1]))
+        require_shape(matrix, name=f"{candidate.name}: matrix", shape=(6, run.channels))
     stamps = np.concatenate([part.samples.stamp_ns for part in parts])
     return JudgedWrenches(
         time_s=seconds_since(stamps, run.experiment.recording.start_ns),
         reference=np.concatenate([part.samples.reference for part in parts]),
-        measured=tuple((candidate.name, readings.wrench(candidate.correction)) for candidate in candidates),
+        measured=tuple((candidate.name, run.read(spans, candidate.correction)) for candidate in candidates),
         candidates=candidates,
     )

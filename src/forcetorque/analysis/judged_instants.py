@@ -34,6 +34,12 @@ class JudgedInstants:
         first: BoolArray = stamps < stamps[0] + round(OFFSET_S * 1e9)
         return first
 
+    @property
+    def judged_ns(self) -> IntArray:
+        """Instants of the later samples, which are judged; shape (m,); ns."""
+        later: IntArray = self.at_ns[self.samples.inside][~self.first]
+        return later
+
     def with_offset(self, error: FloatArray, source: Offset) -> FloatArray:
         """Take off the mean error of the first second where the offset is to come from there.
 

@@ -29,11 +29,15 @@ class WeighedLoad(Result):
     mass_kg: float
     """Mass."""
     mass_standard_error_kg: float
-    """Its standard error, as far as residuals are independent."""
+    """Its standard error."""
+    mass_half_width_95_kg: float
+    """Half-width of its 95 % interval."""
     centre_of_mass_m: AxisValues
     """Centre of mass in the sensor's frame."""
     centre_of_mass_standard_error_m: AxisValues
     """Its standard error."""
+    centre_of_mass_half_width_95_m: AxisValues
+    """Half-widths of its 95 % intervals."""
     bias: WrenchValues
     """Reading without load; N, N m."""
     residual_rms: WrenchValues
@@ -45,12 +49,13 @@ class WeighedLoad(Result):
         Yields:
             A sentence and a table.
         """
-        mass = with_error(self.mass_kg, self.mass_standard_error_kg, digits=4)
+        mass = with_error(self.mass_kg, self.mass_half_width_95_kg, digits=4)
         centre = ", ".join(
             with_error(1e3 * position, 1e3 * error, digits=2)
-            for position, error in zip(self.centre_of_mass_m, self.centre_of_mass_standard_error_m, strict=True)
+            for position, error in zip(self.centre_of_mass_m, self.centre_of_mass_half_width_95_m, strict=True)
         )
-        yield f"{self.sensor} ({self.serial}), {self.samples} samples: {mass} kg at ({centre}) mm"
+        source = f"{self.sensor} ({self.serial}), {self.samples} samples"
+        yield f"{source}: {mass} kg at ({centre}) mm, ± half a 95 % interval"
         lines = (("bias", self.bias), ("residual RMS", self.residual_rms))
         yield Table(
             caption="",
@@ -90,8 +95,10 @@ def weigh_load(run: SensorRun) -> WeighedLoad:
         samples=payload.count,
         mass_kg=payload.mass,
         mass_standard_error_kg=payload.mass_error,
+        mass_half_width_95_kg=payload.mass_half_width,
         centre_of_mass_m=payload.centre_of_mass,
         centre_of_mass_standard_error_m=payload.centre_of_mass_error,
+        centre_of_mass_half_width_95_m=payload.centre_of_mass_half_width,
         bias=payload.bias,
         residual_rms=payload.residual_rms,
     )

@@ -4,15 +4,16 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from typing import Self
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray, IntArray, require_shape
-from forcetorque.calibration import Calibration, Prior, WrenchModel, recover_raw
+from forcetorque.arrays import BoolArray, FloatArray, IntArray, require_shape
+from forcetorque.calibration import Calibration, Prior, SessionOffset, WrenchModel, recover_raw
 from forcetorque.errors import ExperimentError
 from forcetorque.experiment import Experiment, ExperimentSensor
+from forcetorque.recording import Interval
 from forcetorque.recording.alignment import interpolate
 
 
@@ -30,6 +31,8 @@ class Correction:
     """Variables of the sensor that the model needs, in its order."""
     removes_offset: bool = True
     """Whether data gave its offset; without, its wrenches have whatever offset the sensor has."""
+    sessions: Mapping[str, FloatArray] = field(default_factory=dict)
+    """Offset of every session that was fitted, by its name; shape (6,); N, N m."""
 
     @classmethod
     def of(cls, name: str, calibration: Calibration) -> Self:
@@ -43,21 +46,40 @@ class Correction:
             The correction.
         """
         variables = tuple(variable.name for variable in calibration.variables)
-        return cls(model=calibration.model, source=name, variables=variables)
+        sessions = {session.name: session.offset for session in calibration.sessions}
+        return cls(model=calibration.model, source=name, variables=variables, sessions=sessions)
 
     @classmethod
-    def of_prior(cls, name: str, prior: Prior) -> Self:
-        """Read by the prior of a calibration, with the offset that the calibration carries for it.
+    def of_prior(cls, name: str, prior: Prior, sessions: Sequence[SessionOffset] = ()) -> Self:
+        """Read by the prior of a calibration, with the offsets that the calibration carries for it.
 
         Args:
             name: Name of the calibration.
             prior: Its prior.
+            sessions: Its sessions.
 
         Returns:
             The correction.
         """
-        model = WrenchModel(matrix=prior.matrix, offset=prior.offset)
-        return cls(model=model, source=f"the prior {prior.source}, offset of the data that {name} was fitted on")
+        return cls(
+            model=WrenchModel(matrix=prior.matrix, offset=prior.offset),
+            source=f"the prior {prior.source}, offset of the data that {name} was fitted on",
+            sessions={one.name: one.prior_offset for one in sessions if one.prior_offset is not None},
+        )
+
+    def in_session(self, names: Sequence[str]) -> Self:
+        """Give the correction with the offset of a session.
+
+        Args:
+            names: Names under which the session may be known, the most special first (`Experiment.session_names`).
+
+        Returns:
+            The correction with the offset of that session; the same where it was not fitted.
+        """
+        for name in names:
+            if name in self.sessions:
+                return replace(self, model=replace(self.model, offset=self.sessions[name]))
+        return self
 
     @classmethod
     def without_offset(cls, sensor: ExperimentSensor) -> Self:
@@ -119,21 +141,17 @@ class Readings:
             raise ExperimentError(f"sensor {sensor.name!r}: recovering raw counts needs the prior matrix")
         return cls(logged=logged, raw=recover_raw(logged, sensor.prior), variables=variables)
 
-    @classmethod
-    def joined(cls, parts: Sequence[Readings]) -> Self:
-        """Put readings one after the other.
+    def at(self, chosen: BoolArray) -> Self:
+        """Pick some instants.
 
         Args:
-            parts: Readings of one sensor with the same variables, at least one.
+            chosen: Which; shape (n,).
 
         Returns:
-            All of them.
+            The readings there.
         """
-        return cls(
-            logged=np.concatenate([part.logged for part in parts]),
-            raw=np.concatenate([part.raw for part in parts]),
-            variables={name: np.concatenate([part.variables[name] for part in parts]) for name in parts[0].variables},
-        )
+        variables = {name: values[chosen] for name, values in self.variables.items()}
+        return replace(self, logged=self.logged[chosen], raw=self.raw[chosen], variables=variables)
 
     def wrench(self, correction: Correction) -> FloatArray:
         """Read the sensor.
@@ -151,7 +169,14 @@ class Readings:
         return correction.model.wrench(values, np.stack(columns, axis=-1) if columns else None)
 
 
-def wrench_at(experiment: Experiment, sensor: ExperimentSensor, correction: Correction, at_ns: IntArray) -> FloatArray:
+def wrench_at(
+    experiment: Experiment,
+    sensor: ExperimentSensor,
+    correction: Correction,
+    at_ns: IntArray,
+    *,
+    interval: Interval | None = None,
+) -> FloatArray:
     """Give what a sensor measured at given instants.
 
     Args:
@@ -159,6 +184,8 @@ def wrench_at(experiment: Experiment, sensor: ExperimentSensor, correction: Corr
         sensor: One of its sensors.
         correction: How it is read.
         at_ns: Instants; shape (n,); ns.
+        interval: Interval whose session gives the offset, also at the instants around it that a filter takes; None to
+            go by the interval that each instant lies in.
 
     Returns:
         Wrenches in its frame and direction; shape (n, 6); N, N m; NaN in gaps and while the board is saturated.
@@ -166,4 +193,12 @@ def wrench_at(experiment: Experiment, sensor: ExperimentSensor, correction: Corr
     stream = experiment.recording.stream(sensor.stream)
     logged = np.where(stream.held[:, None], np.nan, stream.signal(sensor.quantity).values)
     variables = {name: sensor.variable(name).source.at(experiment.recording, at_ns) for name in correction.variables}
-    return Readings.of(sensor, interpolate(stream, logged, at_ns), variables).wrench(correction)
+    readings = Readings.of(sensor, interpolate(stream, logged, at_ns), variables)
+    if interval is not None:
+        return readings.wrench(correction.in_session(experiment.session_names(interval.label)))
+    wrench = readings.wrench(correction.in_session(experiment.session_names(None)))
+    for span in experiment.recording.intervals if correction.sessions else ():
+        inside = span.holds(at_ns)
+        own = correction.in_session(experiment.session_names(span.label))
+        wrench[inside] = readings.at(inside).wrench(own)
+    return wrench

@@ -43,6 +43,8 @@ class IntervalSamples:
             raw=self.raw,
             reference=self.samples.reference,
             variables=self.samples.variables,
+            time_s=self.samples.stamp_ns * 1e-9,
+            flattening=self.samples.flattening,
         )
 
 

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Annotated, Literal
@@ -11,15 +11,17 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from forcetorque.analysis.calibrate import calibrate_sensor
+from forcetorque.analysis.calibration_doubts import fit_doubts
 from forcetorque.analysis.calibration_tables import calibration_blocks, component_records
+from forcetorque.analysis.campaign import Campaign, Runs
 from forcetorque.analysis.findings import doubtful_spans
+from forcetorque.analysis.learnt import LearntDirection, learnt_directions, learnt_words
 from forcetorque.analysis.sensor_run import SensorRun
 from forcetorque.array_field import ArrayField
 from forcetorque.arrays import FloatArray
-from forcetorque.calibration import Calibration, EstimationType, write_calibration
+from forcetorque.calibration import Calibration, EstimationType, RecordingMoments, write_calibration
 from forcetorque.recording import Use
-from forcetorque.result import Result, Row, Table
-from forcetorque.spatial import WRENCH_COMPONENTS
+from forcetorque.result import Result, Row, Table, table_of
 
 
 class SensorCalibration(Row):
@@ -31,6 +33,8 @@ class SensorCalibration(Row):
     """Its content."""
     secondary_matrix: Annotated[FloatArray, ArrayField((6, 6))] | None
     """`C C_prior^-1`, for a stream that is calibrated with the prior."""
+    learnt: tuple[LearntDirection, ...] | None
+    """What the recordings taught of every load direction; None for a type of the thesis, or without a prior."""
 
 
 class SensorCalibrations(Result):
@@ -42,6 +46,8 @@ class SensorCalibrations(Result):
     """Name of the experiment."""
     calibrations: tuple[SensorCalibration, ...]
     """One per sensor that could be fitted."""
+    figure: str | None = None
+    """File of the figure of what the recordings taught; none where none was drawn."""
 
     def save(self) -> None:
         """Write every calibration to its file, in folders that are made where they are missing."""
@@ -58,7 +64,12 @@ class SensorCalibrations(Result):
         """
         for entry in self.calibrations:
             yield from calibration_blocks(entry.calibration)
+            if entry.learnt:
+                yield table_of(entry.learnt, "what the recordings taught: error that a unit load makes, one s.d.")
+                yield learnt_words(entry.learnt)
             yield f"written to {entry.file}"
+        if self.figure is not None:
+            yield f"drawn to {self.figure}"
 
     def records(self) -> list[dict[str, object]]:
         """Give matrices, offsets and coefficients as flat lines.
@@ -70,35 +81,52 @@ class SensorCalibrations(Result):
 
 
 def calibrate_for_file(
-    run: SensorRun,
+    runs: Runs | None,
     file: Path | str,
     *,
     code_version: str,
     created: str,
-    regularisation: float | None = None,
-    kind: EstimationType | None = None,
+    moments: Sequence[RecordingMoments] = (),
+    regularisation: float | Literal["held-out"] | None = None,
+    kind: EstimationType | Literal["generative"] | None = None,
+    nonlinear: bool | None = None,
 ) -> SensorCalibrations:
     """Fit a sensor, and say what makes the calibration doubtful.
 
     Args:
-        run: The sensor.
+        runs: The sensor, in one experiment or several.
         file: File that `save` of the result writes.
         code_version: As of `calibrate_sensor`.
         created: As of `calibrate_sensor`.
+        moments: As of `calibrate_sensor`.
         regularisation: As of `calibrate_sensor`.
         kind: As of `calibrate_sensor`.
+        nonlinear: As of `calibrate_sensor`.
 
     Returns:
         The calibration, which no file holds yet.
     """
     calibration = calibrate_sensor(
-        run, code_version=code_version, created=created, regularisation=regularisation, kind=kind
+        runs,
+        code_version=code_version,
+        created=created,
+        moments=moments,
+        regularisation=regularisation,
+        kind=kind,
+        nonlinear=nonlinear,
     )
-    entry = SensorCalibration(file=str(file), calibration=calibration, secondary_matrix=calibration.secondary_matrix())
+    entry = SensorCalibration(
+        file=str(file),
+        calibration=calibration,
+        secondary_matrix=calibration.secondary_matrix(),
+        learnt=learnt_directions(calibration),
+    )
+    campaign = None if runs is None else Campaign.of(runs)
+    doubts = [sentence for run in (campaign.runs if campaign else ()) for sentence in data_doubts(run)]
     return SensorCalibrations(
-        experiment=run.experiment.name,
+        experiment=calibration.provenance.experiment,
         calibrations=(entry,),
-        warnings=(*data_doubts(run), *_fit_doubts(entry)),
+        warnings=(*doubts, *fit_doubts(calibration)),
     )
 
 
@@ -123,21 +151,4 @@ def data_doubts(run: SensorRun) -> Iterator[str]:
         yield (
             f"interval {interval.label!r}: {finding.stream} {finding.kind} at {start:.2f}-{end:.2f} s: "
             f"{finding.message}"
-        )
-
-
-def _fit_doubts(entry: SensorCalibration) -> Iterator[str]:
-    sensor, excited = entry.calibration.sensor.name, entry.calibration.validity.excited
-    if entry.secondary_matrix is not None:
-        diagonal = zip(WRENCH_COMPONENTS, entry.secondary_matrix.diagonal(), strict=True)
-        turned = [component for component, own in diagonal if own < 0.0]
-        if turned:
-            yield (
-                f"{sensor}: {', '.join(turned)} come(s) out with the sign of the prior reversed; "
-                "is gravity_direction or measure_direction the right way round?"
-            )
-    if unexcited := excited.count(False):
-        yield (
-            f"{sensor}: the loads leave {unexcited} of {len(excited)} raw directions unexcited; along them the matrix "
-            "is the prior's or noise"
         )

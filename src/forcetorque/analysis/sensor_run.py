@@ -6,6 +6,8 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Hashable, Mapping, Sequence
 from typing import TypeVar, cast
 
+import numpy as np
+
 from forcetorque.analysis.applicability import require_fit
 from forcetorque.analysis.candidate import JudgedCandidate, judged_candidates, uncalibrated
 from forcetorque.analysis.judged import JudgedWrenches, judged_wrenches
@@ -13,7 +15,7 @@ from forcetorque.analysis.judged_instants import JudgedInstants
 from forcetorque.analysis.reading import Correction, Readings, wrench_at
 from forcetorque.analysis.samples import IntervalSamples, readings_over, samples_over
 from forcetorque.arrays import FloatArray
-from forcetorque.calibration import Calibration
+from forcetorque.calibration import Calibration, SensorIdentity
 from forcetorque.errors import ExperimentError
 from forcetorque.estimation.picked import padded_samples
 from forcetorque.estimation.samples import robot_motion_at
@@ -47,6 +49,35 @@ class SensorRun:
     def stream(self) -> Stream:
         """The stream that holds its reading."""
         return self.experiment.recording.stream(self.sensor.stream)
+
+    @property
+    def identity(self) -> SensorIdentity:
+        """Which sensor it is, where it is mounted and how it reads."""
+        tag = self.experiment.model.sensor(self.sensor.name)
+        return SensorIdentity(
+            name=self.sensor.name,
+            serial=self.sensor.serial,
+            robot=self.experiment.model.name,
+            frame=tag.frame.value,
+            measure_direction=tag.direction,
+        )
+
+    @property
+    def channels(self) -> int:
+        """Number of channels of a raw reading, logged or recovered through the prior."""
+        prior, logged = self.sensor.prior, self.stream.signal(self.sensor.quantity).values
+        return int(logged.shape[1] if self.sensor.quantity == "raw" or prior is None else prior.shape[1])
+
+    def has(self, use: Use) -> bool:
+        """Tell whether the recording has an interval of a use.
+
+        Args:
+            use: The use.
+
+        Returns:
+            Whether it has.
+        """
+        return any(interval.use is use for interval in self.experiment.recording.intervals)
 
     def intervals(self, use: Use) -> tuple[Interval, ...]:
         """Give the intervals of one use.
@@ -166,7 +197,25 @@ class SensorRun:
         Returns:
             Wrenches; shape (n, 6); N, N m; NaN in gaps.
         """
-        return wrench_at(self.experiment, self.sensor, correction, self.instants(interval).at_ns)
+        at_ns = self.instants(interval).at_ns
+        return wrench_at(self.experiment, self.sensor, correction, at_ns, interval=interval)
+
+    def read(self, spans: Sequence[tuple[Interval, Readings]], correction: Correction) -> FloatArray:
+        """Read the sensor over intervals, each with the offset of its session.
+
+        Args:
+            spans: Intervals with the readings in them, at least one.
+            correction: How it is read.
+
+        Returns:
+            Wrenches, one interval after the other; shape (n, 6); N, N m.
+        """
+        return np.concatenate(
+            [
+                readings.wrench(correction.in_session(self.experiment.session_names(interval.label)))
+                for interval, readings in spans
+            ]
+        )
 
     def uncalibrated(self) -> Correction:
         """Read the sensor by the prior of the experiment, or take the logged wrench.

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from forcetorque.analysis.applicability import overlapping
 from forcetorque.analysis.candidate import PRIOR
 from forcetorque.analysis.reading import Correction, Readings
 from forcetorque.analysis.sensor_run import SensorRun
@@ -111,12 +112,12 @@ def sensor_spheres(
         corrections = _corrections(run, calibrations)
         reason = _no_reference(run, intervals)
         needed = {variable for _, correction, _ in corrections for variable in correction.variables}
-        readings, reference = _collected(run, intervals, needed, with_reference=reason is None)
+        spans, reference = _collected(run, intervals, needed, with_reference=reason is None)
         mass = _one_mass(run, intervals)
     spheres = []
     for name, correction, calibration in corrections:
         with stated_in(f"{where}, {name}"):
-            wrench = readings.wrench(correction)
+            wrench = run.read(spans, correction)
             analysis = _analysed(wrench, reference, gravity=run.experiment.processing.gravity, mass=mass)
         spheres.append(
             SensorSphere(
@@ -124,7 +125,7 @@ def sensor_spheres(
                 serial=run.sensor.serial,
                 candidate=name,
                 intervals=tuple(interval.label for interval in intervals),
-                fitted_on=_fitted_on(calibration, intervals),
+                fitted_on=_fitted_on(run, calibration, intervals),
                 no_reference=reason,
                 force=wrench[:, :3],
                 reference=None if reference is None else reference[:, :3],
@@ -184,13 +185,13 @@ def _question(run: SensorRun, interval: Interval) -> Question:
 
 def _collected(
     run: SensorRun, intervals: Sequence[Interval], variables: Collection[str], *, with_reference: bool
-) -> tuple[Readings, FloatArray | None]:
-    """Readings and references of all intervals, one after the other."""
+) -> tuple[list[tuple[Interval, Readings]], FloatArray | None]:
+    """Readings of every interval, and references one after the other."""
     if not with_reference:
-        return Readings.joined([run.interval_readings(interval, variables=variables) for interval in intervals]), None
+        return [(interval, run.interval_readings(interval, variables=variables)) for interval in intervals], None
     samples = [run.interval_samples(interval, variables=variables) for interval in intervals]
     reference = np.concatenate([one.samples.reference for one in samples])
-    return Readings.joined([one.readings for one in samples]), reference
+    return [(one.interval, one.readings) for one in samples], reference
 
 
 def _analysed(
@@ -227,10 +228,8 @@ def _mass(run: SensorRun, interval: Interval) -> float | None:
     return mass if mass > 0.0 else None
 
 
-def _fitted_on(calibration: Calibration | None, intervals: Sequence[Interval]) -> tuple[str, ...]:
-    fitted = () if calibration is None else calibration.provenance.intervals
-    return tuple(
-        interval.label
-        for interval in intervals
-        if any(interval.start_ns < other.end_ns and other.start_ns < interval.end_ns for other in fitted)
-    )
+def _fitted_on(run: SensorRun, calibration: Calibration | None, intervals: Sequence[Interval]) -> tuple[str, ...]:
+    if calibration is None:
+        return ()
+    pairs = overlapping(run.experiment, intervals, calibration, calibration.provenance.intervals)
+    return tuple(dict.fromkeys(label for label, _ in pairs))

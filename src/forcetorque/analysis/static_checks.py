@@ -93,6 +93,13 @@ class StaticChecks(Row):
         return smaller
 
 
+class RecordingChecks(StaticChecks):
+    """The same in one of several recordings."""
+
+    recording_name: str
+    """Name of the recording, unique in the campaign: that of the experiment, with the file where several have it."""
+
+
 def check(
     run: SensorRun,
     calibration: tuple[str, Calibration] | None = None,

@@ -7,8 +7,10 @@ from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import combinations
 
+from forcetorque.analysis.campaign_interval import CampaignInterval
 from forcetorque.analysis.study_calibrations import CalibrationMaker
-from forcetorque.analysis.study_data import StudyData, StudyInterval
+from forcetorque.analysis.study_data import StudyData
+from forcetorque.analysis.study_generative import generative_fits
 from forcetorque.calibration import Calibration, EstimationType
 from forcetorque.errors import ExperimentError, known_names
 from forcetorque.evaluation import KNOWN_BEFORE
@@ -28,6 +30,8 @@ class SensorStudy:
     """The study."""
     calibrations: Mapping[str, Calibration]
     """Best candidates: by magnitude and by axis, with the offset from the first second and with the fitted one."""
+    left_out: tuple[str, ...]
+    """Types that a combination cannot give, with the reason."""
 
 
 def study_sensor(
@@ -69,26 +73,38 @@ def study_sensor(
             "files state none; give [[sensor.variable]], or ask for a type without"
         )
     drawing = data.sphere if sphere is None else tuple(sphere)
+    named = combinations_of(data.calibration) if data_sets is None else _resolved(data.calibration, data_sets)
+    generative = generative_fits(data, named, code_version=code_version, created=created)
     study = run_study(
         [interval.data_set for interval in data.calibration],
-        combinations_of(data.calibration) if data_sets is None else _resolved(data.calibration, data_sets),
+        named,
         [interval.validation_set for interval in data.validation],
         prior=data.sensor.prior,
         variables=[variable.linear for variable in data.sensor.variables],
         kinds=chosen_kinds,
         lambdas=lambdas,
         sphere=drawing,
+        generative=generative.candidates,
+        truth=data.truth,
         progress=progress,
     )
-    maker = CalibrationMaker(data=data, study=study, sphere=drawing, code_version=code_version, created=created)
+    maker = CalibrationMaker(
+        data=data,
+        study=study,
+        generative=generative.calibrations,
+        sphere=drawing,
+        code_version=code_version,
+        created=created,
+    )
     calibrations = {}
     for offset in KNOWN_BEFORE:
         calibrations[f"best_offset_{offset.replace('-', '_')}"] = maker.by_magnitude(offset)
         calibrations[f"best_by_axis_offset_{offset.replace('-', '_')}"] = maker.by_axis(offset)
-    return SensorStudy(data=data, study=study, calibrations=calibrations)
+    left_out = (*study.fits.left_out, *generative.left_out)
+    return SensorStudy(data=data, study=study, calibrations=calibrations, left_out=left_out)
 
 
-def combinations_of(intervals: Sequence[StudyInterval]) -> dict[str, tuple[str, ...]]:
+def combinations_of(intervals: Sequence[CampaignInterval]) -> dict[str, tuple[str, ...]]:
     """Combine the kinds of data in every way.
 
     Args:
@@ -115,7 +131,9 @@ def combinations_of(intervals: Sequence[StudyInterval]) -> dict[str, tuple[str, 
     }
 
 
-def _resolved(intervals: Sequence[StudyInterval], data_sets: Mapping[str, Sequence[str]]) -> dict[str, tuple[str, ...]]:
+def _resolved(
+    intervals: Sequence[CampaignInterval], data_sets: Mapping[str, Sequence[str]]
+) -> dict[str, tuple[str, ...]]:
     """From labels and kinds to labels."""
     labels, kinds = [interval.label for interval in intervals], {interval.kind for interval in intervals}
     for name, words in data_sets.items():

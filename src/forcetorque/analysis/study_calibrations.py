@@ -3,19 +3,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
-from forcetorque.analysis.calibrate import artefact
 from forcetorque.analysis.study_data import StudyData
+from forcetorque.analysis.thesis_calibration import artefact
 from forcetorque.arrays import FloatArray
-from forcetorque.calibration import Calibration, FittedInterval, Selection, calibrate
+from forcetorque.calibration import Calibration, Selection, SessionOffset, calibrate
 from forcetorque.evaluation import Offset
 from forcetorque.spatial import WRENCH_COMPONENTS
-from forcetorque.study import Candidate, Study, assembled
+from forcetorque.study import Candidate, GenerativeCandidate, Study, assembled
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -26,6 +26,8 @@ class CalibrationMaker:
     """What was studied."""
     study: Study
     """The study."""
+    generative: Mapping[str, Calibration]
+    """Generative fits, by combination."""
     sphere: tuple[str, ...] | None
     """Labels of the intervals that draw the sphere."""
     code_version: str
@@ -45,7 +47,7 @@ class CalibrationMaker:
         best = self.study.choices[offset].by_magnitude
         value = self.study.judgements[offset].over().force_mean[best]
         rule = f"smallest mean contact force, offset {offset}: {value:.4g} N by {self.study.name(best)}"
-        return self._of(self.study.fits.candidates[best], rule)
+        return self._of(self.study.candidates[best], rule)
 
     def by_axis(self, offset: Offset) -> Calibration:
         """Make the calibration of which every axis has the smallest mean absolute value.
@@ -59,15 +61,24 @@ class CalibrationMaker:
         rows = self.study.choices[offset].by_axis
         words = "; ".join(f"{c} by {self.study.name(k)}" for c, k in zip(WRENCH_COMPONENTS, rows, strict=True))
         rule = f"smallest mean absolute value of every axis, offset {offset}: {words}"
-        best = {index: self._of(self.study.fits.candidates[index], rule) for index in dict.fromkeys(rows)}
+        best = {index: self._of(self.study.candidates[index], rule) for index in dict.fromkeys(rows)}
         joined = joined_by_axis([best[index] for index in rows])
         fitted = {interval.label for interval in joined.provenance.intervals}
         parts = [interval.part for interval in self.data.calibration if interval.label in fitted]
         counted = {"samples": sum(len(p.samples) for p in parts), "dropped": sum(p.samples.dropped for p in parts)}
         return joined.model_copy(update={"provenance": joined.provenance.model_copy(update=counted)})
 
-    def _of(self, candidate: Candidate, rule: str) -> Calibration:
-        """Fit the candidate again, with everything that an artefact tells."""
+    def _of(self, candidate: Candidate | GenerativeCandidate, rule: str) -> Calibration:
+        """Make the artefact of a candidate."""
+        if isinstance(candidate, GenerativeCandidate):
+            calibration = self.generative[candidate.data_set]
+        else:
+            calibration = self._again(candidate)
+        judged = tuple(interval.fitted for interval in self.data.validation)
+        return calibration.model_copy(update={"selection": Selection(rule=rule, chosen_on=judged)})
+
+    def _again(self, candidate: Candidate) -> Calibration:
+        """Fit a candidate of the thesis' types again, with everything that an artefact tells."""
         combination = next(c for c in self.study.fits.combinations if c.name == candidate.data_set)
         intervals = [interval for interval in self.data.calibration if interval.label in combination.labels]
         linear = [variable.linear for variable in self.data.sensor.variables]
@@ -81,9 +92,9 @@ class CalibrationMaker:
             variables=() if without else linear,
             sphere=drawing,
         )
-        calibration = artefact(
+        return artefact(
             result,
-            [replace(i.part, interval=replace(i.part.interval, label=i.label)) for i in intervals],
+            intervals,
             sensor=self.data.sensor,
             identity=self.data.identity,
             code_version=self.code_version,
@@ -91,11 +102,6 @@ class CalibrationMaker:
             experiment="; ".join(self.data.experiments),
             inputs_sha256=self.data.inputs_sha256,
         )
-        judged = tuple(
-            FittedInterval(label=i.label, start_ns=i.part.interval.start_ns, end_ns=i.part.interval.end_ns)
-            for i in self.data.validation
-        )
-        return calibration.model_copy(update={"selection": Selection(rule=rule, chosen_on=judged)})
 
 
 def joined_by_axis(rows: Sequence[Calibration]) -> Calibration:
@@ -106,8 +112,11 @@ def joined_by_axis(rows: Sequence[Calibration]) -> Calibration:
 
     Returns:
         The calibration. Its validity is that of the one among them whose data excite the fewest directions. The
-        offsets have no standard errors where one was moved to another reference value.
+        offsets have no standard errors where one was moved to another reference value. There is a posterior only where
+        all rows are of one generative fit.
     """
+    if rows[0].posterior is not None and all(one is rows[0] for one in rows):
+        return rows[0]
     models = [one.model for one in rows]
     reference = next((m.reference_values for m in models if len(m.reference_values)), np.zeros(0))
     model = assembled(models, range(6), reference)
@@ -117,6 +126,8 @@ def joined_by_axis(rows: Sequence[Calibration]) -> Calibration:
     update: dict[str, Any] = {
         "matrix": model.matrix,
         "offset": model.offset,
+        "sessions": _sessions(rows, reference),
+        "posterior": None,
         "variables": tuple(
             variable.model_copy(
                 update={
@@ -135,6 +146,24 @@ def joined_by_axis(rows: Sequence[Calibration]) -> Calibration:
         "provenance": weakest.provenance.model_copy(update={"intervals": tuple(intervals.values())}),
     }
     return weakest.model_copy(update=update)
+
+
+def _sessions(rows: Sequence[Calibration], reference: FloatArray) -> tuple[SessionOffset, ...]:
+    """Offsets of all sessions that a row knows, each put together as the matrix is."""
+    names = dict.fromkeys(session.name for one in rows for session in one.sessions)
+    sessions = []
+    for name in names:
+        here = [one.in_session(name) for one in rows]
+        priors = [session.prior_offset for one in rows for session in one.sessions if session.name == name]
+        sessions.append(
+            SessionOffset(
+                name=name,
+                offset=assembled([one.model for one in here], range(6), reference).offset,
+                standard_error=_diagonal([_offset_error(one, reference) for one in here]),
+                prior_offset=priors[0],
+            )
+        )
+    return tuple(sessions)
 
 
 def _error_of(calibration: Calibration, variable: int) -> FloatArray | None:

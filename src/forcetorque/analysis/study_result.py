@@ -10,10 +10,11 @@ from pydantic import Field
 
 from forcetorque.analysis.study import SensorStudy
 from forcetorque.analysis.study_rows import AxisChoice, ChosenCandidate, FittedCombination, ModeChoice, SessionChoice
-from forcetorque.evaluation import KNOWN_BEFORE, Offset
+from forcetorque.analysis.study_unfitted import unfitted_load, unfitted_warnings
+from forcetorque.evaluation import KNOWN_BEFORE, LEVER_M, PUSH_N, Offset
 from forcetorque.result import COMPONENTS, Result, Row, Table, number, table_of, with_error
 from forcetorque.spatial import WRENCH_COMPONENTS
-from forcetorque.study import CONVENTION, Study, tables
+from forcetorque.study import CONVENTION, FAR_SD, WORKBENCH, Study, tables
 
 
 class StudiedSensor(Row):
@@ -26,7 +27,9 @@ class StudiedSensor(Row):
     folder: str | None
     """Folder of its files, where they were written."""
     candidates: int
-    """Number of fitted matrices, without the workbench's."""
+    """Number of matrices fitted by the types of the thesis."""
+    generative: int
+    """Number of generative fits, one per combination that allows it."""
     validation_samples: int
     """Samples that they were judged on."""
     combinations: tuple[FittedCombination, ...]
@@ -49,11 +52,12 @@ class StudiedSensor(Row):
             Tables and sentences.
         """
         yield (
-            f"{self.sensor} ({self.serial}): {self.candidates} matrices of {len(self.combinations)} data sets, "
-            f"judged on {self.validation_samples} samples that were not fitted"
+            f"{self.sensor} ({self.serial}): {self.candidates} matrices of {len(self.combinations)} data sets and "
+            f"{self.generative} generative fits, judged on {self.validation_samples} samples that were not fitted"
         )
         yield self._best()
         yield self._by_axis()
+        yield from self._unfitted()
         for mode in self.modes:
             if mode.across_sessions:
                 caption = f"what to expect on another session, offset {mode.offset}"
@@ -93,6 +97,29 @@ class StudiedSensor(Row):
                 for row in mode.by_axis
             ),
         )
+
+    def _unfitted(self) -> Iterator[Table]:
+        """Give the choices at loads that were not fitted, where anything is known of them."""
+        chosen = [(WORKBENCH, "", self.workbench.unfitted)] if self.workbench is not None else []
+        for mode in self.modes:
+            chosen.append((mode.best.name, mode.offset, mode.best.unfitted))
+            chosen.append(("by axis", mode.offset, mode.by_axis_unfitted))
+        known = any(load.push_force_N is not None or load.deviation_sd is not None for _, _, load in chosen)
+        if known:
+            yield Table(
+                caption=f"loads that were not fitted: pushes of {PUSH_N:g} N with levers up to {LEVER_M:g} m",
+                headings=("candidate", "offset", "error, N", "error, N m", "from the default, s.d."),
+                rows=tuple(
+                    (
+                        name,
+                        offset,
+                        number(load.push_force_N, 3),
+                        number(load.push_moment_Nm, 4),
+                        number(load.deviation_sd, 1) + (" far" if (load.deviation_sd or 0.0) > FAR_SD else ""),
+                    )
+                    for name, offset, load in chosen
+                ),
+            )
 
 
 class Studies(Result):
@@ -143,6 +170,7 @@ def studied_sensor(study: SensorStudy) -> StudiedSensor:
         serial=identity.serial,
         folder=None,
         candidates=len(core.fits.candidates),
+        generative=len(core.generative),
         validation_samples=int(judged.errors.count.sum()),
         combinations=tuple(
             FittedCombination(
@@ -154,7 +182,7 @@ def studied_sensor(study: SensorStudy) -> StudiedSensor:
             )
             for combination in core.fits.combinations
         ),
-        left_out=tuple(core.fits.left_out),
+        left_out=study.left_out,
         workbench=None if core.workbench is None else _chosen(core, Offset.FIRST_SECOND, len(core.models) - 1),
         modes=tuple(_mode(core, offset) for offset in KNOWN_BEFORE),
         files=(),
@@ -169,13 +197,15 @@ def study_warnings(study: SensorStudy) -> tuple[str, ...]:
         study: The study.
 
     Returns:
-        A sentence per session that is fitted and judged, and one per type that a combination cannot give.
+        A sentence per session that is fitted and judged, one per type that a combination cannot give, and one per
+        choice that makes the sensor worse, or may, at loads that were not fitted.
     """
     fitted = {interval.session for interval in study.data.calibration}
     both = sorted({interval.session for interval in study.data.validation} & fitted)
     return (
         *(f"session {name!r} is fitted and judged: its score is not what another session gives" for name in both),
-        *(f"left out: {sentence}" for sentence in study.study.fits.left_out),
+        *(f"left out: {sentence}" for sentence in study.left_out),
+        *unfitted_warnings(study),
     )
 
 
@@ -193,6 +223,7 @@ def _mode(study: Study, offset: Offset) -> ModeChoice:
             )
             for axis, (component, index) in enumerate(zip(WRENCH_COMPONENTS, choice.by_axis, strict=True))
         ),
+        by_axis_unfitted=unfitted_load(study, choice.by_axis),
         across_sessions=tuple(
             SessionChoice(
                 session=score.session,
@@ -210,6 +241,7 @@ def _mode(study: Study, offset: Offset) -> ModeChoice:
 
 def _chosen(study: Study, offset: Offset, index: int) -> ChosenCandidate:
     pooled, spread = study.judgements[offset].over(), study.judgements[offset].part().standard_error()
+    # a generative fit, and the workbench, have no lambda
     candidate = study.fits.candidates[index] if index < len(study.fits.candidates) else None
     return ChosenCandidate(
         name=study.name(index),
@@ -220,4 +252,5 @@ def _chosen(study: Study, offset: Offset, index: int) -> ChosenCandidate:
         force_mean_error_N=float(spread.force_mean[index]),
         moment_mean_Nm=float(pooled.moment_mean[index]),
         mean_absolute=pooled.mean_absolute[index],
+        unfitted=unfitted_load(study, (index,) * 6),
     )

@@ -24,13 +24,25 @@ class FittedCombination(Row):
     """Number of raw channels."""
 
 
+class UnfittedLoad(Row):
+    """What a matrix makes of pushes of 50 N in random directions, with levers up to 0.3 m."""
+
+    push_force_N: float | None
+    """Mean norm of the force error; None where the true matrix is not known."""
+    push_moment_Nm: float | None
+    """Mean norm of the moment error; None where the true matrix is not known."""
+    deviation_sd: float | None
+    """How far it reads them from the generative fit of the same data, in standard deviations that this predicts: the
+    largest component; None where there is no such fit."""
+
+
 class ChosenCandidate(Row):
     """A candidate, or the workbench matrix, with its mean contact force over all validation data."""
 
     name: str
     """Data set, type and lambda of (5.4); `workbench` for the prior."""
     lambda_counts2: float | None
-    """Lambda of (5.4), as `calibrate` counts it; counts2."""
+    """Lambda of (5.4), as `calibrate` counts it; counts2; None, as the next two, for a generative fit and the prior."""
     table_lambda_counts2: float | None
     """The same as the tables of the thesis count it, a sixth; counts2."""
     relative_lambda: float | None
@@ -43,6 +55,8 @@ class ChosenCandidate(Row):
     """Mean norm of the contact moment."""
     mean_absolute: WrenchValues
     """Mean absolute value per component; N, N m."""
+    unfitted: UnfittedLoad
+    """What it makes of loads that were not fitted."""
 
 
 class AxisChoice(Row):
@@ -86,5 +100,7 @@ class ModeChoice(Row):
     """Smallest mean contact force."""
     by_axis: tuple[AxisChoice, ...]
     """Smallest mean absolute value of every component."""
+    by_axis_unfitted: UnfittedLoad
+    """What the matrix of these rows makes of loads that were not fitted."""
     across_sessions: tuple[SessionChoice, ...]
     """The same choice, made and scored on different sessions; empty if there is only one."""

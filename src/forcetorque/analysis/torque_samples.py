@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -18,8 +18,9 @@ from forcetorque.calibration import Calibration
 from forcetorque.estimation import Estimates, estimate
 from forcetorque.evaluation import KNOWN_BEFORE, Offset, TorqueMap, torque_map
 from forcetorque.experiment.inputs import stated_in
+from forcetorque.noise import one_after_another
 from forcetorque.recording import Interval, Use
-from forcetorque.recording.alignment import interpolate, require_overlap
+from forcetorque.recording.alignment import interpolate, require_overlap, seconds_since
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -42,6 +43,10 @@ class TorqueSamples:
     """Estimated torque less that of the rigid-body model; shape (n,)."""
     from_logged: FloatArray
     """Estimated torque less the logged one, over the intervals in which there is one; shape (m,)."""
+    time_s: FloatArray
+    """Instants of the former since the start of the recording; shape (n,); s."""
+    logged_time_s: FloatArray
+    """Instants of the latter; shape (m,); s."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -92,10 +97,37 @@ def judged_torques(free: FreeSubModel, calibrations: Mapping[str, Calibration]) 
     )
 
 
-def _joined(pieces: Sequence[TorqueSamples]) -> TorqueSamples:
+def pooled_torques(recordings: Mapping[str, JudgedTorques]) -> JudgedTorques:
+    """Put together what several recordings say.
+
+    Args:
+        recordings: Errors by name of the recording, candidates in the same order.
+
+    Returns:
+        All of them, one recording after the other; the same where there is one.
+    """
+    first = next(iter(recordings.values()))
+    if len(recordings) == 1:
+        return first
+    pieces: dict[TorqueKey, list[TorqueSamples]] = {}
+    for torques in recordings.values():
+        for key, samples in torques.samples.items():
+            pieces.setdefault(key, []).append(samples)
+    return JudgedTorques(
+        candidates=first.candidates,
+        samples={key: _joined(samples, instants=one_after_another) for key, samples in pieces.items()},
+        left_out=tuple(f"{name}: {words}" for name, torques in recordings.items() for words in torques.left_out),
+    )
+
+
+def _joined(
+    pieces: Sequence[TorqueSamples], *, instants: Callable[[Sequence[FloatArray]], FloatArray] = np.concatenate
+) -> TorqueSamples:
     return TorqueSamples(
         from_model=np.concatenate([samples.from_model for samples in pieces]),
         from_logged=np.concatenate([samples.from_logged for samples in pieces]),
+        time_s=instants([samples.time_s for samples in pieces]),
+        logged_time_s=instants([samples.logged_time_s for samples in pieces]),
     )
 
 
@@ -109,6 +141,7 @@ def _over(
     measured = free.measured(scheme.sensors[1:], interval)
     others = {name: wrench - model.expected_of(name) for name, wrench in measured.items()}
     logged = _logged(run, interval, scheme.logged)
+    time = seconds_since(instants.judged_ns, run.experiment.recording.start_ns)
     for offset in KNOWN_BEFORE:
         by_others = np.zeros((len(instants.at_ns), len(scheme.joints)))
         for name, error in others.items():
@@ -122,6 +155,8 @@ def _over(
                     TorqueSamples(
                         from_model=instants.judged(torque[:, None])[:, 0],
                         from_logged=np.empty(0) if off is None else instants.judged(off[:, None])[:, 0],
+                        time_s=time,
+                        logged_time_s=np.empty(0) if off is None else time,
                     ),
                 )
 

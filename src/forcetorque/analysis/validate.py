@@ -4,31 +4,43 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import Literal
+from typing import ClassVar, Literal
 
 from pydantic import Field
 
+from forcetorque.analysis.campaign import Campaign, Runs
 from forcetorque.analysis.contact_forces import (
     BestCandidate,
     ContactForceErrors,
+    RecordingContactForces,
     contact_force_blocks,
+    contact_force_rows,
     contact_forces_of,
 )
+from forcetorque.analysis.contact_wrenches import ContactWrenches, contact_wrenches, pooled_contacts
 from forcetorque.analysis.free_sub_model import FreeSubModel
-from forcetorque.analysis.joint_torques import JointTorqueErrors, joint_torque_table, joint_torques_of
-from forcetorque.analysis.sensor_run import SensorRun
+from forcetorque.analysis.joint_torques import (
+    JointTorqueErrors,
+    RecordingJointTorques,
+    joint_torque_table,
+    joint_torques_of,
+)
+from forcetorque.analysis.torque_samples import JudgedTorques, judged_torques, pooled_torques
 from forcetorque.calibration import Calibration
 from forcetorque.evaluation import Offset, OtherSensors
+from forcetorque.recording import Use
 from forcetorque.result import Result, Table
 
 
 class Validation(Result):
     """Contact forces and joint torques of sensors, by their calibrations and the priors that those came from."""
 
+    of_several: ClassVar[tuple[str, ...]] = ("recordings", "recording_torques")
+
     schema_name: Literal["forcetorque/validate/1"] = Field(default="forcetorque/validate/1", alias="schema")
     """Form of the result."""
     experiment: str
-    """Name of the experiment."""
+    """Name of the experiment; of several recordings their names, apart by semicolons."""
     other_sensors: Literal["model", "measured"]
     """What the other sensors of the sub-model were taken to read."""
     contact_forces: tuple[ContactForceErrors, ...]
@@ -37,6 +49,10 @@ class Validation(Result):
     """One per sensor and offset."""
     joint_torques: tuple[JointTorqueErrors, ...]
     """One per sensor, candidate, offset and joint that depends on the sensor."""
+    recordings: tuple[RecordingContactForces, ...] = ()
+    """Contact forces of every recording by itself; none where there is one."""
+    recording_torques: tuple[RecordingJointTorques, ...] = ()
+    """Joint torques of every recording by itself; none where there is one."""
     left_out: tuple[str, ...]
     """Torques that the log does not allow to estimate, and what gaps and short intervals leave out, in words."""
 
@@ -46,7 +62,7 @@ class Validation(Result):
         Yields:
             Tables and sentences.
         """
-        yield from contact_force_blocks(self.contact_forces, self.best)
+        yield from contact_force_blocks(self.contact_forces, self.best, self.recordings)
         for sensor in dict.fromkeys(row.sensor for row in self.contact_forces):
             yield from self._without_offset(sensor)
             torques = [row for row in self.joint_torques if row.sensor == sensor]
@@ -57,10 +73,18 @@ class Validation(Result):
         """Give contact forces and joint torques as flat lines.
 
         Returns:
-            One line per row; `what` says which it is.
+            One line per row; `what` says which it is, and `recording`, where there are several, on which: empty where
+            they are pooled.
         """
-        forces: list[dict[str, object]] = [{"what": "contact_force", **row.flat()} for row in self.contact_forces]
-        return forces + [{"what": "joint_torque", **row.flat()} for row in self.joint_torques]
+        pooled: dict[str, object] = {"recording": ""} if self.recordings else {}
+        forces: list[dict[str, object]] = [{"what": "contact_force", **row.flat()} for row in self.recordings]
+        torques: list[dict[str, object]] = [{"what": "joint_torque", **row.flat()} for row in self.recording_torques]
+        return [
+            *({"what": "contact_force", **pooled, **row.flat()} for row in self.contact_forces),
+            *forces,
+            *({"what": "joint_torque", **pooled, **row.flat()} for row in self.joint_torques),
+            *torques,
+        ]
 
     def _without_offset(self, sensor: str) -> Iterator[str]:
         """Say what candidates are read by whose wrenches have whatever offset the sensor has."""
@@ -70,7 +94,7 @@ class Validation(Result):
 
 
 def validate(
-    run: SensorRun,
+    runs: Runs,
     calibrations: Mapping[str, Calibration],
     *,
     others: Mapping[str, Calibration] | None = None,
@@ -81,7 +105,7 @@ def validate(
     """Judge candidates of a sensor by contact force and joint torques where nothing touches.
 
     Args:
-        run: The sensor; the validation intervals are judged.
+        runs: The sensor in one recording, or in several, whose errors are pooled; the validation intervals are judged.
         calibrations: Calibrations of that sensor by name; their priors are judged too, or that of the experiment where
             there is none.
         others: Calibrations of the other sensors by name, for the mode `measured`; where there is none, their prior.
@@ -96,17 +120,42 @@ def validate(
     Raises:
         ExperimentError: If there is nothing to judge, or an interval has no support.
     """
-    free = FreeSubModel.of(run, others=others, other_sensors=other_sensors, sub_model=sub_model, contact=contact)
-    # torques need the motion of more joints, in which that of the contact force is found
-    torques = joint_torques_of(free, calibrations)
-    forces = contact_forces_of(free, calibrations)
-    left_out = tuple(dict.fromkeys(f"{run.sensor.name}: {words}" for words in (*forces.left_out, *torques.left_out)))
+    campaign = Campaign.of(runs)
+    contacts: dict[str, ContactWrenches] = {}
+    torques: dict[str, JudgedTorques] = {}
+    for run in campaign.runs_with(Use.VALIDATION):
+        with campaign.stated(run):
+            free = FreeSubModel.of(
+                run, others=others, other_sensors=other_sensors, sub_model=sub_model, contact=contact
+            )
+            # torques need the motion of more joints, in which that of the contact force is found
+            torques[campaign.recording(run)] = judged_torques(free, calibrations)
+            contacts[campaign.recording(run)] = contact_wrenches(free, calibrations)
+    judged = joint_torques_of(campaign, pooled_torques(torques))
+    forces = contact_forces_of(campaign.sensor, pooled_contacts(contacts))
+    name = campaign.sensor.name
+    left_out = tuple(dict.fromkeys(f"{name}: {words}" for words in (*forces.left_out, *judged.left_out)))
+    several = len(campaign.runs) > 1
     return Validation(
-        experiment=run.experiment.name,
+        experiment="; ".join(campaign.recordings),
         other_sensors=other_sensors.value,
         contact_forces=forces.verdicts,
         best=forces.best,
-        joint_torques=torques.verdicts,
+        joint_torques=judged.verdicts,
+        recordings=tuple(_forces_apart(campaign, contacts)) if several else (),
+        recording_torques=tuple(_torques_apart(campaign, torques)) if several else (),
         left_out=left_out,
         warnings=tuple(f"left out: {words}" for words in left_out),
     )
+
+
+def _forces_apart(campaign: Campaign, recordings: Mapping[str, ContactWrenches]) -> Iterator[RecordingContactForces]:
+    for name, contacts in recordings.items():
+        for row in contact_force_rows(campaign.sensor, contacts):
+            yield RecordingContactForces(recording=name, **dict(row))
+
+
+def _torques_apart(campaign: Campaign, recordings: Mapping[str, JudgedTorques]) -> Iterator[RecordingJointTorques]:
+    for name, torques in recordings.items():
+        for row in joint_torques_of(campaign, torques).verdicts:
+            yield RecordingJointTorques(recording=name, **dict(row))

@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Annotated, Literal
 
 from forcetorque.analysis.evaluate import CandidateErrors
+from forcetorque.analysis.learnt import LITTLE_LEARNT, learnt_words
 from forcetorque.analysis.prior_comparison import FEWEST_INDEPENDENT, PriorComparison
 from forcetorque.evaluation import Offset
 from forcetorque.result import Row, Shown, short_names, with_error
@@ -52,10 +53,12 @@ def verdict(assessment: Assessment) -> tuple[VerdictLine, ...]:
 def _lines(assessment: Assessment) -> Iterator[tuple[Tone, str]]:
     yield from _acceptance(assessment)
     yield from _errors(assessment)
+    yield from _doubts(assessment)
     yield from _independence(assessment)
     for warning in assessment.warnings:
         yield "caution", warning
     yield from _excitation(assessment)
+    yield from _learnt(assessment)
     yield from _saturation(assessment)
     yield from _sphere(assessment)
     for what, reason in assessment.not_judged.items():
@@ -72,7 +75,7 @@ def _acceptance(assessment: Assessment) -> Iterator[tuple[Tone, str]]:
         if failed:
             yield "bad", f"{name} is not accepted: {len(failed)} of {len(rows)} criteria fail: {', '.join(failed)}"
         else:
-            yield "good", f"{name} is accepted: all {len(rows)} criteria hold"
+            yield _unless_doubted("good", assessment, candidate), f"{name} is accepted: all {len(rows)} criteria hold"
 
 
 def _errors(assessment: Assessment) -> Iterator[tuple[Tone, str]]:
@@ -83,7 +86,7 @@ def _errors(assessment: Assessment) -> Iterator[tuple[Tone, str]]:
         if compared:
             constant = f"; {compared[0].constant:.2f} N is constant" if row.offset is Offset.FITTED else ""
             words = "; ".join(f"{one.quantity} error {_compared(one)}" for one in compared)
-            yield _tone(compared), start + words + constant
+            yield _unless_doubted(_tone(compared), assessment, row.candidate), start + words + constant
         elif row.candidate in assessment.calibrations:
             yield "unknown", f"{start}{_plain(row)}; it has no prior to compare it with"
         elif not assessment.calibrations:
@@ -96,9 +99,22 @@ def _errors(assessment: Assessment) -> Iterator[tuple[Tone, str]]:
         )
 
 
+def _doubts(assessment: Assessment) -> Iterator[tuple[Tone, str]]:
+    names = short_names(list(assessment.calibrations))
+    for file, calibration in assessment.calibrations.items():
+        for doubt in calibration.doubts:
+            yield "caution", f"{names[file]} was in doubt before it was fitted: {doubt}"
+
+
+def _unless_doubted(tone: Tone, assessment: Assessment, candidate: str) -> Tone:
+    """A reference that is wrong flatters the calibration that was fitted to it."""
+    calibration = assessment.calibrations.get(candidate)
+    return "caution" if tone == "good" and calibration is not None and calibration.doubts else tone
+
+
 def _plain(row: CandidateErrors) -> str:
-    force = with_error(row.force_error_mean_N, row.force_error_standard_error_N, digits=2)
-    moment = with_error(row.moment_error_mean_Nm, row.moment_error_standard_error_Nm, digits=3)
+    force = with_error(row.force_error_mean_N, row.force_error_half_width_95_N, digits=2)
+    moment = with_error(row.moment_error_mean_Nm, row.moment_error_half_width_95_Nm, digits=3)
     return f"force error {force} N, moment error {moment} N m"
 
 
@@ -136,12 +152,19 @@ def _excitation(assessment: Assessment) -> Iterator[tuple[Tone, str]]:
     names = short_names(list(assessment.calibrations))
     for file, calibration in assessment.calibrations.items():
         excited = calibration.validity.excited
-        if not all(excited):
+        if calibration.posterior is None and not all(excited):
             yield (
                 "caution",
                 f"{names[file]}: the fitted loads moved {sum(excited)} of {len(excited)} raw directions; along the "
                 "others the prior, or noise, decides",
             )
+
+
+def _learnt(assessment: Assessment) -> Iterator[tuple[Tone, str]]:
+    names = short_names(list(assessment.calibrations))
+    for file, rows in assessment.learnt.items():
+        if any(row.learnt < LITTLE_LEARNT for row in rows):
+            yield "caution", f"{names[file]}: {learnt_words(rows)}"
 
 
 def _saturation(assessment: Assessment) -> Iterator[tuple[Tone, str]]:

@@ -2,6 +2,7 @@
 """Calibration: data set to moments to fit, the choice of lambda, and the `Calibration` artefact."""
 
 from forcetorque.calibration.artefact import (
+    GENERATIVE,
     CalibratedVariable,
     Calibration,
     FittedInterval,
@@ -9,11 +10,12 @@ from forcetorque.calibration.artefact import (
     Provenance,
     Selection,
     SensorIdentity,
+    SessionOffset,
     Validity,
     read_calibration,
     write_calibration,
 )
-from forcetorque.calibration.calibrate import CalibrationFit, calibrate, estimation_of, sphere_labels
+from forcetorque.calibration.calibrate import CalibrationFit, HeldOut, calibrate, estimation_of, sphere_labels
 from forcetorque.calibration.data_set import DataSet
 from forcetorque.calibration.estimation import Estimation
 from forcetorque.calibration.estimation_type import (
@@ -24,17 +26,51 @@ from forcetorque.calibration.estimation_type import (
 )
 from forcetorque.calibration.excitation import Excitation, excitation_of
 from forcetorque.calibration.fit import MatrixFit, fit_matrix, require_determined
+from forcetorque.calibration.generative import (
+    Assumptions,
+    GenerativeFit,
+    WindowMeans,
+    corrected_fit,
+    disagreements,
+    fit_generative,
+    try_correction,
+)
 from forcetorque.calibration.held_out import RULE, LambdaCurve, choose_lambda
 from forcetorque.calibration.linear_variable import LinearVariable
 from forcetorque.calibration.moments import Moments, pooled
+from forcetorque.calibration.nonlinear_trial import NonlinearTrial
+from forcetorque.calibration.posterior import Posterior, RowNoise
+from forcetorque.calibration.quadratic_correction import QuadraticCorrection
 from forcetorque.calibration.raw import is_invertible, recover_raw
+from forcetorque.calibration.recording_moments import (
+    IntervalMoments,
+    RecordingMoments,
+    VariableDescription,
+    read_moments,
+    require_same_sensor,
+)
 from forcetorque.calibration.regression import Regression, solve
 from forcetorque.calibration.secondary import secondary_matrix, secondary_model
 from forcetorque.calibration.sphere import sphere_centre
 from forcetorque.calibration.wrench_model import WrenchModel
 
 __all__ = [
+    "require_same_sensor",
+    "read_moments",
+    "VariableDescription",
+    "RecordingMoments",
+    "IntervalMoments",
+    "corrected_fit",
+    "fit_generative",
+    "try_correction",
+    "NonlinearTrial",
+    "QuadraticCorrection",
+    "disagreements",
+    "WindowMeans",
+    "GenerativeFit",
+    "Assumptions",
     "ESTIMATION_TYPES",
+    "GENERATIVE",
     "RULE",
     "CalibratedVariable",
     "Calibration",
@@ -44,16 +80,20 @@ __all__ = [
     "EstimationType",
     "Excitation",
     "FittedInterval",
+    "HeldOut",
     "LambdaCurve",
     "LinearVariable",
     "MatrixFit",
     "Moments",
     "OffsetStrategy",
+    "Posterior",
     "Prior",
     "Provenance",
     "Regression",
+    "RowNoise",
     "Selection",
     "SensorIdentity",
+    "SessionOffset",
     "Validity",
     "WrenchModel",
     "calibrate",

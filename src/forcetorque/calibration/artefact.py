@@ -11,7 +11,6 @@ from typing import Annotated, Any, Final, Literal
 
 import numpy as np
 from pydantic import (
-    BaseModel,
     BeforeValidator,
     ConfigDict,
     Field,
@@ -23,18 +22,25 @@ from pydantic import (
 from pydantic_core import PydanticCustomError
 
 from forcetorque.array_field import ArrayField
-from forcetorque.arrays import FloatArray
+from forcetorque.arrays import BoolArray, FloatArray
 from forcetorque.atomic import write_bytes_atomically
+from forcetorque.calibration.nonlinear_trial import NonlinearTrial
+from forcetorque.calibration.part import Part
+from forcetorque.calibration.posterior import Posterior
+from forcetorque.calibration.quadratic_correction import QuadraticCorrection
 from forcetorque.calibration.secondary import secondary_matrix
 from forcetorque.calibration.wrench_model import WrenchModel
 from forcetorque.errors import FormatError, MissingFileError, RecordingError, SerialNumberError, ShapeError
 from forcetorque.spatial import MeasureDirection
 
-SCHEMA: Final = "forcetorque/calibration/2"
+SCHEMA: Final = "forcetorque/calibration/3"
 """Name and version of the file's form."""
 
-_WITHOUT_VARIABLES: Final = "forcetorque/calibration/1"
-"""The form before there were variables: the same without them, so it is read too."""
+_EARLIER: Final = ("forcetorque/calibration/1", "forcetorque/calibration/2")
+"""Forms before there were variables, and before sessions and posteriors: the same without, so they are read too."""
+
+GENERATIVE: Final = "generative"
+"""Name of the default estimator among the estimation types."""
 
 
 def _lambda_from_file(value: Any) -> Any:
@@ -51,11 +57,7 @@ Lambda = Annotated[
 """Lambda in counts2; `infinite`, which JSON has no number for, means that the prior was kept."""
 
 
-class _Part(BaseModel):
-    model_config = ConfigDict(extra="forbid", frozen=True, arbitrary_types_allowed=True)
-
-
-class SensorIdentity(_Part):
+class SensorIdentity(Part):
     """Which sensor, mounted where, read how."""
 
     name: str
@@ -70,7 +72,7 @@ class SensorIdentity(_Part):
     """Who acts on whom in the reading."""
 
 
-class Prior(_Part):
+class Prior(Part):
     """The matrix that the fit was pulled towards."""
 
     matrix: Annotated[FloatArray, ArrayField((6, None))]
@@ -81,7 +83,7 @@ class Prior(_Part):
     """File that it came from."""
 
 
-class CalibratedVariable(_Part):
+class CalibratedVariable(Part):
     """What a linear variable, such as temperature, adds to the wrench."""
 
     name: str
@@ -102,7 +104,7 @@ class CalibratedVariable(_Part):
     """Largest fitted value."""
 
 
-class Validity(_Part):
+class Validity(Part):
     """Where the fit is supported by data."""
 
     raw_minimum_counts: Annotated[FloatArray, ArrayField((None,))]
@@ -125,7 +127,24 @@ class Validity(_Part):
     """Whether the loads move the direction more than anything else does."""
 
 
-class FittedInterval(_Part):
+class SessionOffset(Part):
+    """Offset of one session: a stretch of time in which the sensor was not switched off."""
+
+    name: str
+    """Name of the session."""
+    offset: Annotated[FloatArray, ArrayField((6,))]
+    """Offset in wrench space; shape (6,); N, N m."""
+    standard_error: Annotated[FloatArray, ArrayField((6,), minimum=0.0)] | None
+    """Its standard error; N, N m."""
+    drift_per_s: Annotated[FloatArray, ArrayField((6,))] | None = None
+    """What is added to it per second; N/s, N m/s; None where it was taken as constant."""
+    drift_from_ns: int | None = None
+    """Instant from which the drift counts; ns on the recording's clock."""
+    prior_offset: Annotated[FloatArray, ArrayField((6,))] | None
+    """Offset that the same data give with the prior matrix; shape (6,); N, N m."""
+
+
+class FittedInterval(Part):
     """A stretch of time that was fitted."""
 
     label: str
@@ -134,9 +153,13 @@ class FittedInterval(_Part):
     """Start; ns on the recording's clock."""
     end_ns: int
     """End; ns on the recording's clock."""
+    session: str | None = None
+    """Session that it belongs to; None in files of earlier versions."""
+    experiment: str | None = None
+    """Experiment that it is of; None in files of earlier versions, where there was one."""
 
 
-class Selection(_Part):
+class Selection(Part):
     """How lambda came about."""
 
     rule: str
@@ -151,7 +174,7 @@ class Selection(_Part):
     """Intervals that were not fitted but that the choice was made on: a verdict on them flatters."""
 
 
-class Provenance(_Part):
+class Provenance(Part):
     """What the fit was made from."""
 
     code_version: str
@@ -170,39 +193,54 @@ class Provenance(_Part):
     """SHA-256 of every input file, by its path as the experiment file names it."""
 
 
-class Calibration(_Part):
-    """A fitted sensor: `wrench = matrix raw + sum of coefficients (variable - reference value) + offset`."""
+class Calibration(Part):
+    """A fitted sensor: `wrench = matrix raw + sum of coefficients (variable - reference value) + offset`.
+
+    Where there are quadratic terms, what they add at the load is taken off that.
+    """
 
     model_config = ConfigDict(extra="forbid", frozen=True, arbitrary_types_allowed=True, populate_by_name=True)
 
-    schema_name: Literal["forcetorque/calibration/2"] = Field(default=SCHEMA, alias="schema")
+    schema_name: Literal["forcetorque/calibration/3"] = Field(default=SCHEMA, alias="schema")
     """Form of the file."""
     sensor: SensorIdentity
     """The sensor."""
     matrix: Annotated[FloatArray, ArrayField((6, None))]
     """Calibration matrix; shape (6, c); N/count, N m/count."""
     offset: Annotated[FloatArray, ArrayField((6,))]
-    """Offset in wrench space, where every variable has its reference value; shape (6,); N, N m."""
+    """Offset of the last session, in wrench space, where every variable has its reference value; shape (6,); N, N m."""
+    sessions: tuple[SessionOffset, ...] = ()
+    """Offset of every session; none in files of earlier versions."""
     variables: tuple[CalibratedVariable, ...] = ()
     """Linear variables; none for a type without."""
+    quadratic: QuadraticCorrection | None = None
+    """Quadratic terms that correct readings; None for a linear calibration."""
+    nonlinear: NonlinearTrial | None = None
+    """Whether such a correction won on recordings that were not fitted; None where it was not asked for."""
     estimation_type: str = "OnTdTO"
-    """Estimation type of thesis 5.1.4; `by axis` where every row has its own, see `selection`."""
+    """`generative`, or a type of thesis 5.1.4; `by axis` where every row has its own, see `selection`."""
+    posterior: Posterior | None = None
+    """What the generative model knows, from which the error of any reading follows; None for the thesis' types."""
     raw_offset_counts: Annotated[FloatArray, ArrayField((None,))] | None = None
     """Raw reading without load that a sphere type found; shape (c,)."""
     matrix_standard_error: Annotated[FloatArray, ArrayField((6, None), minimum=0.0)] | None
-    """Standard error of the matrix by leaving out blocks, without the pull of the prior; None where it was kept."""
+    """Standard error of the matrix: of the posterior, or for the thesis' types by leaving out blocks, without the pull
+    of the prior; None where that was kept."""
     offset_standard_error: Annotated[FloatArray, ArrayField((6,), minimum=0.0)] | None
-    """Standard error of the offset by leaving out blocks; N, N m."""
+    """Standard error of the offset, likewise; N, N m."""
     residual_rms: Annotated[FloatArray, ArrayField((6,), minimum=0.0)]
     """Root mean square residual on the FITTED samples; N, N m."""
     lambda_counts2: Lambda | None
-    """Lambda of the fit, convention of thesis (5.4); None where every row has its own, see `selection`."""
+    """Lambda of a thesis' type, convention of thesis (5.4); None where every row has its own, see `selection`, and for
+    the generative model, which has none."""
     prior: Prior | None
     """Prior; None for the first calibration of a sensor."""
     validity: Validity
     """Where the fit is supported by data."""
     selection: Selection
     """How lambda came about."""
+    doubts: tuple[str, ...] = ()
+    """What makes the data doubtful that were fitted."""
     provenance: Provenance
     """What the fit was made from."""
 
@@ -215,14 +253,33 @@ class Calibration(_Part):
 
     @property
     def model(self) -> WrenchModel:
-        """Matrix, offset and coefficients of the variables."""
+        """Matrix, offset, coefficients of the variables, and quadratic terms."""
         coefficients = [variable.coefficients for variable in self.variables]
         return WrenchModel(
             matrix=self.matrix,
             offset=self.offset,
             coefficients=np.column_stack(coefficients) if coefficients else np.zeros((6, 0)),
             reference_values=np.array([variable.reference_value for variable in self.variables]),
+            quadratic=self.quadratic,
         )
+
+    def in_session(self, name: str) -> Calibration:
+        """Give the calibration with the offset of a session.
+
+        Args:
+            name: Name of the session.
+
+        Returns:
+            The calibration with that offset; the same where the session was not fitted.
+        """
+        for session in self.sessions:
+            if session.name == name:
+                prior = self.prior
+                if prior is not None and session.prior_offset is not None:
+                    prior = prior.model_copy(update={"offset": session.prior_offset})
+                update = {"offset": session.offset, "offset_standard_error": session.standard_error, "prior": prior}
+                return self.model_copy(update=update)
+        return self
 
     def apply(
         self, raw: Any, *, serial: str, variables: Mapping[str, Any] | None = None, allow_foreign: bool = False
@@ -245,6 +302,22 @@ class Calibration(_Part):
         """
         self.require_serial(serial, allow_foreign=allow_foreign)
         counts = np.asarray(raw, dtype=np.float64)
+        return self.model.wrench(counts, self._values(counts, variables))
+
+    def beyond_limits(self, raw: Any, *, variables: Mapping[str, Any] | None = None) -> BoolArray:
+        """Tell which readings are of loads outside those that the quadratic terms were fitted to.
+
+        Args:
+            raw: As of `apply`.
+            variables: As of `apply`.
+
+        Returns:
+            Whether the reading is corrected as at the limit, not at its own load; shape (...); False without terms.
+        """
+        counts = np.asarray(raw, dtype=np.float64)
+        return self.model.beyond(counts, self._values(counts, variables))
+
+    def _values(self, counts: FloatArray, variables: Mapping[str, Any] | None) -> FloatArray | None:
         given = {} if variables is None else variables
         names = [variable.name for variable in self.variables]
         if set(given) != set(names):
@@ -256,8 +329,7 @@ class Calibration(_Part):
         for name, value in zip(names, values, strict=True):
             if value.shape not in ((), counts.shape[:-1]):
                 raise ShapeError(f"variable {name!r}: expected shape () or {counts.shape[:-1]}, got {value.shape}")
-        stacked = np.stack([np.broadcast_to(v, counts.shape[:-1]) for v in values], axis=-1) if values else None
-        return self.model.wrench(counts, stacked)
+        return np.stack([np.broadcast_to(v, counts.shape[:-1]) for v in values], axis=-1) if values else None
 
     def require_serial(self, serial: str, *, allow_foreign: bool = False) -> None:
         """Refuse a sensor that is not the calibrated one.
@@ -276,7 +348,7 @@ class Calibration(_Part):
             )
 
     def secondary_matrix(self) -> FloatArray | None:
-        """Give the matrix that corrects a stream made with the prior (5.20).
+        """Give the matrix that corrects a stream made with the prior (5.20), for the linear part of the reading.
 
         Returns:
             `C C_prior^-1`; shape (6, 6); None where there is no prior or it has not six channels.
@@ -318,7 +390,7 @@ def read_calibration(path: Path | str) -> Calibration:
     except (json.JSONDecodeError, UnicodeDecodeError, RecursionError) as error:
         raise FormatError(f"{file}: expected JSON, got {error}") from error
     schema = content.get("schema") if isinstance(content, dict) else None
-    if schema == _WITHOUT_VARIABLES:
+    if schema in _EARLIER:
         content["schema"] = schema = SCHEMA
     if schema != SCHEMA:
         raise FormatError(f"{file}: expected the schema {SCHEMA!r}, got {schema!r}; fit again with this version")

@@ -6,6 +6,7 @@ from __future__ import annotations
 import math
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass
+from enum import StrEnum
 
 import numpy as np
 
@@ -14,12 +15,28 @@ from forcetorque.calibration.data_set import DataSet
 from forcetorque.calibration.estimation import Estimation
 from forcetorque.calibration.estimation_type import EstimationType, OffsetStrategy
 from forcetorque.calibration.fit import MatrixFit, fit_matrix, require_determined
-from forcetorque.calibration.held_out import BLOCKS, LambdaCurve, StandardErrors, choose_lambda, jackknife_errors
+from forcetorque.calibration.held_out import (
+    BLOCKS,
+    LambdaCurve,
+    StandardErrors,
+    choose_lambda,
+    fewest_samples,
+    jackknife_errors,
+)
 from forcetorque.calibration.linear_variable import LinearVariable
 from forcetorque.calibration.moments import Moments, pooled
 from forcetorque.calibration.regression import solve
 from forcetorque.calibration.sphere import sphere_centre
 from forcetorque.errors import FitError, ShapeError, known_names
+
+
+class HeldOut(StrEnum):
+    """What the blocks are on which lambda is chosen."""
+
+    RECORDINGS = "whole recordings"
+    """Each recording is a block: what is learnt in one must hold in the others."""
+    PIECES = "equal contiguous pieces of the intervals"
+    """There is one recording, or one that can be fitted alone."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -32,6 +49,8 @@ class CalibrationFit:
     """What was estimated: type, prior, variables, their reference values and the raw offset of the sphere types."""
     curve: LambdaCurve | None
     """Held-out error over lambda; None where lambda was given."""
+    held_out: HeldOut | None
+    """What was held out to choose it; None where lambda was given."""
     standard_errors: StandardErrors | None
     """Standard errors by leaving out blocks; None with one block."""
     prior_offset: FloatArray | None
@@ -52,7 +71,7 @@ def calibrate(
     Args:
         data_sets: Stretches of calibration data, at least one; they share one offset.
         prior: Matrix to stay close to; shape (6, c); None for a sensor without one.
-        regularisation: Lambda; counts2; None to choose it on held-out blocks.
+        regularisation: Lambda; counts2; None to choose it on held-out recordings, or pieces of a single one.
         kind: Estimation type; if None, one-shot, with variables from their reference values if there are any.
         variables: What the columns of `variables` in the data sets are.
         sphere: For the sphere types, labels of the data sets that draw the sphere; may be None if there is only one.
@@ -76,18 +95,21 @@ def calibrate(
     estimation = estimation_of(data_sets[0], prior, kind=kind, variables=variables, raw_offset=raw_offset)
     blocks = _blocks(data_sets)
     moments = pooled(blocks)
-    curve = None
+    curve = held_out = None
     if regularisation is None:
         if prior is None:
             raise FitError("lambda cannot be chosen without a prior matrix; give a prior, or lambda 0")
         require_determined(moments, estimation, 0.0)
-        curve = choose_lambda(blocks, estimation)
+        recordings = _recordings(data_sets)
+        held_out = HeldOut.RECORDINGS if len(recordings) > 1 else HeldOut.PIECES
+        curve = choose_lambda(recordings if held_out is HeldOut.RECORDINGS else blocks, estimation)
         regularisation = curve.chosen
     fit = fit_matrix(moments, estimation, regularisation)
     return CalibrationFit(
         fit=fit,
         estimation=estimation,
         curve=curve,
+        held_out=held_out,
         standard_errors=jackknife_errors(blocks, estimation, regularisation) if len(blocks) > 1 else None,
         prior_offset=None if prior is None else solve(moments, Estimation(prior=prior), math.inf).offset,
     )
@@ -166,3 +188,17 @@ def _blocks(data_sets: Sequence[DataSet]) -> list[Moments]:
         for data in data_sets
         for part in np.array_split(np.arange(len(data.raw)), min(pieces, max(len(data.raw), 1)))
     ]
+
+
+def _recordings(data_sets: Sequence[DataSet]) -> list[Moments]:
+    """Pool the data sets of every recording; one too short to be fitted alone goes with its neighbour."""
+    moments: dict[str, list[Moments]] = {}
+    for data in data_sets:
+        moments.setdefault(data.recording, []).append(Moments.of(data.raw, data.reference, data.variables))
+    blocks: list[Moments] = []
+    for recording in map(pooled, moments.values()):
+        if blocks and min(recording.count, blocks[-1].count) < fewest_samples(recording.channels):
+            blocks[-1] = pooled([blocks[-1], recording])
+        else:
+            blocks.append(recording)
+    return blocks

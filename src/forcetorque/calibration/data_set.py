@@ -23,6 +23,14 @@ class DataSet:
     """Reference wrenches; shape (n, 6); N, N m."""
     variables: Any = None
     """Linear variables; shape (n, v), an array also where None was given: v is then 0."""
+    time_s: Any = None
+    """Instants on the clock of the recording; shape (n,); s; None where they are not known."""
+    flattening: Any = None
+    """What a derivative window of twice the length takes from the reference; shape (n, 6); N, N m; None for nothing."""
+    session: str = ""
+    """Power-up: data sets of one session share an offset."""
+    recording: str = ""
+    """Recording whose clock and slow noise it shares with others."""
 
     def __post_init__(self) -> None:
         raw = read_only(self.raw, name="raw", shape=(None, None))
@@ -30,3 +38,6 @@ class DataSet:
         object.__setattr__(self, "raw", raw)
         object.__setattr__(self, "reference", read_only(self.reference, name="reference", shape=(len(raw), 6)))
         object.__setattr__(self, "variables", read_only(variables, name="variables", shape=(len(raw), None)))
+        for field, shape in (("time_s", (len(raw),)), ("flattening", (len(raw), 6))):
+            if getattr(self, field) is not None:
+                object.__setattr__(self, field, read_only(getattr(self, field), name=field, shape=shape))

@@ -11,8 +11,8 @@ import numpy as np
 from forcetorque.arrays import FloatArray, read_only
 from forcetorque.calibration.estimation import Estimation
 from forcetorque.calibration.excitation import Excitation, excitation_of
+from forcetorque.calibration.gate.reference_motion import require_moving_load
 from forcetorque.calibration.moments import Moments
-from forcetorque.calibration.reference_motion import require_moving_load
 from forcetorque.calibration.regression import Regression
 from forcetorque.calibration.wrench_model import WrenchModel
 from forcetorque.errors import FitError

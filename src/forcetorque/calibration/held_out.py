@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Lambda chosen on held-out blocks of the fitted data, and block-wise uncertainty.
 
-A slow motion has a few independent postures, not thousands of samples. Its blocks are contiguous
-stretches of time. Each block ALONE is fitted and judged, with its own offset, on all the others:
-that asks what a validation will ask, whether a fit on few postures holds on others. (Leaving one
-block out asks the reverse, whether a fit on nearly everything holds in between, and trusts the data
-too much.) The prior, with the offset of the same block, is judged likewise. Coefficients of variables,
-which a block alone does not know, are those that all fitted data have with the matrix.
+A slow motion has a few independent postures, not thousands of samples. Its blocks are contiguous stretches of
+time, or whole recordings where there are several, which differ in motion, day and temperature. Each block ALONE is
+fitted and judged, with its own offset, on all the others: that asks what a validation will ask, whether a fit on few
+postures holds on others. (Leaving one block out asks the reverse, whether a fit on nearly everything holds in
+between, and trusts the data too much.) The prior, with the offset of the same block, is judged likewise.
+Coefficients of variables, which a block alone does not know, are those that all fitted data have with the matrix.
 
 Blocks of one motion cannot see what the matrix does along directions that this motion does not load. There
 the readings hold noise alone, and the fit is the prior times lambda / (noise variance + lambda): lost, not
@@ -70,6 +70,18 @@ class LambdaCurve:
             object.__setattr__(self, field, read_only(getattr(self, field), name=field, shape=(None,)))
 
 
+def fewest_samples(channels: int) -> int:
+    """Tell how many samples a block needs at least to be fitted alone.
+
+    Args:
+        channels: Number of raw channels.
+
+    Returns:
+        One more than matrix and offset have unknowns in a row.
+    """
+    return channels + 2
+
+
 def candidate_lambdas(moments: Moments) -> FloatArray:
     """Spread candidates over all scales of the data, so that one grid serves every sensor.
 
@@ -111,7 +123,7 @@ def choose_lambda(blocks: Sequence[Moments], estimation: Estimation) -> LambdaCu
     """Choose lambda by `RULE`.
 
     Args:
-        blocks: Moments of contiguous stretches of the fitted data, at least two.
+        blocks: Moments of contiguous stretches of the fitted data, or of its recordings, at least two.
         estimation: Offset strategy, variables and prior, which must be given.
 
     Returns:
@@ -122,7 +134,7 @@ def choose_lambda(blocks: Sequence[Moments], estimation: Estimation) -> LambdaCu
     """
     if len(blocks) < 2:
         raise FitError(f"choosing lambda: expected at least two blocks of data, got {len(blocks)}; give a lambda")
-    smallest, least = min(block.count for block in blocks), blocks[0].channels + 2
+    smallest, least = min(block.count for block in blocks), fewest_samples(blocks[0].channels)
     if smallest < least:
         raise FitError(
             f"choosing lambda: expected at least {least} samples in each of {len(blocks)} blocks, which are fitted "

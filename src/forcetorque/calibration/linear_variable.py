@@ -23,8 +23,18 @@ class LinearVariable:
     """Value at which it contributes nothing; None to take that of the first sample."""
     prior: FloatArray | None = None
     """Coefficients to stay close to; shape (6,); N, N m per unit; None for no penalty."""
+    prior_deviation: FloatArray | None = None
+    """How far the coefficients may be from them; shape (6,); N, N m per unit; None for 0.5 % of full scale per degree,
+    and for any other unit one full scale over the range that was seen. Only the generative model asks."""
 
     def __post_init__(self) -> None:
+        if self.prior_deviation is not None:
+            deviation = read_only(self.prior_deviation, name=f"variable {self.name!r}: prior_deviation", shape=(6,))
+            if not (np.isfinite(deviation).all() and (deviation > 0.0).all()):
+                raise FitError(
+                    f"variable {self.name!r}: expected six prior deviations above 0, got {deviation.tolist()}"
+                )
+            object.__setattr__(self, "prior_deviation", deviation)
         if self.prior is not None:
             prior = read_only(self.prior, name=f"variable {self.name!r}: prior", shape=(6,))
             if not np.isfinite(prior).all():

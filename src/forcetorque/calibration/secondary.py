@@ -53,8 +53,10 @@ def secondary_model(new: WrenchModel, stream: WrenchModel) -> WrenchModel:
 
     Raises:
         ShapeError: If a matrix is not 6 x 6, or the stream depends on variables that the new model does not have.
-        FitError: If the matrix of the stream cannot be inverted.
+        FitError: If the matrix of the stream cannot be inverted, or a model has quadratic terms.
     """
+    if new.quadratic is not None or stream.quadratic is not None:
+        raise FitError("expected two linear models, got quadratic terms, which no matrix takes from one to the other")
     matrix = secondary_matrix(new.matrix, stream.matrix)
     if not len(stream.reference_values):
         return replace(new, matrix=matrix, offset=new.offset - matrix @ stream.offset)

@@ -1,14 +1,18 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The linear model of a sensor: `wrench = matrix raw + coefficients (variables - reference values) + offset`."""
+"""The model of a sensor: `wrench = matrix raw + coefficients (variables - reference values) + offset`.
+
+What is not linear is taken off that where it is known.
+"""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray, read_only, require_last_axis, require_shape
+from forcetorque.arrays import BoolArray, FloatArray, read_only, require_last_axis, require_shape
+from forcetorque.calibration.quadratic_correction import QuadraticCorrection
 from forcetorque.errors import ShapeError
 
 
@@ -32,6 +36,8 @@ class WrenchModel:
     """Wrench per unit of every variable; shape (6, v); N, N m per unit."""
     reference_values: FloatArray = field(default_factory=_no_values)
     """Values at which the variables contribute nothing; shape (v,)."""
+    quadratic: QuadraticCorrection | None = None
+    """What is taken off the wrench that these give; None for a linear sensor."""
 
     def __post_init__(self) -> None:
         variables = len(np.asarray(self.reference_values))
@@ -56,6 +62,23 @@ class WrenchModel:
         Raises:
             ShapeError: If the shapes are not these.
         """
+        reading = self._linear(raw, variables)
+        return reading if self.quadratic is None else self.quadratic.corrected(reading)
+
+    def beyond(self, raw: Any, variables: Any = None) -> BoolArray:
+        """Tell which readings are of loads outside those that the quadratic terms were fitted to.
+
+        Args:
+            raw: As of `wrench`.
+            variables: As of `wrench`.
+
+        Returns:
+            Whether the correction is that of the limit; shape (...); none of a linear sensor.
+        """
+        wrench = self.wrench(raw, variables)
+        return np.zeros(wrench.shape[:-1], dtype=np.bool_) if self.quadratic is None else self.quadratic.beyond(wrench)
+
+    def _linear(self, raw: Any, variables: Any) -> FloatArray:
         counts = np.asarray(raw, dtype=np.float64)
         require_last_axis(counts, name="raw", length=self.matrix.shape[1])
         wrench: FloatArray = counts @ self.matrix.T + self.offset
@@ -81,8 +104,8 @@ class WrenchModel:
         if own not in (0, variables):
             raise ShapeError(f"model: expected {variables} variables or none, got {own}")
         coefficients = self.coefficients if own else np.zeros((6, variables))
-        return WrenchModel(
-            matrix=self.matrix,
+        return replace(
+            self,
             offset=self.offset - self.coefficients @ self.reference_values,
             coefficients=coefficients,
             reference_values=np.zeros(variables),

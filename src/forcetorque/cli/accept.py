@@ -9,12 +9,12 @@ from typing import Annotated
 
 import typer
 
-from forcetorque.cli.options import CalibrationsOption, ExperimentArgument, FormatOption, PopulationOption
+from forcetorque.cli.options import CalibrationsOption, ExperimentsArgument, FormatOption, PopulationOption
 from forcetorque.cli.output import Format, show, start_logging
 
 
 def accept(
-    experiment: ExperimentArgument,
+    experiments: ExperimentsArgument,
     spec: Annotated[
         Path, typer.Option("--spec", help="Acceptance file (TOML) with the limits; see docs/acceptance.md.")
     ],
@@ -27,14 +27,15 @@ def accept(
     Example: forcetorque accept experiment.toml --spec limits.toml -c leg.json
     """
     from forcetorque import analysis
-    from forcetorque.cli.reading import read_calibrations, read_experiment
+    from forcetorque.cli.reading import campaign_of, read_calibrations, read_experiments
     from forcetorque.experiment.inputs import stated_in
 
     log = start_logging()
     stated = analysis.read_acceptance(spec)
     calibrations = read_calibrations(calibration)
     matrices = analysis.read_population(population) if population else None
-    content = read_experiment(experiment, log)
+    contents = read_experiments(experiments, log)
+    content = next(iter(contents.values()))
     chosen = analysis.one_per_sensor(content, calibrations)
     results = []
     for sensor in content.sensors:
@@ -42,9 +43,9 @@ def accept(
             continue
         log.info("judging %s", sensor.name)
         others = {name: other for place, (name, other) in chosen.items() if place != sensor.name}
+        campaign, judged = campaign_of(contents, sensor.name), chosen.get(sensor.name)
         with stated_in(str(spec)):
-            run, judged = analysis.SensorRun(content, sensor), chosen.get(sensor.name)
-            results.append(analysis.accept(run, stated, judged, others=others, population=matrices))
+            results.append(analysis.accept(campaign, stated, judged, others=others, population=matrices))
     result = analysis.Acceptance.together(results)
     show(result, output_format)
     if not result.accepted:

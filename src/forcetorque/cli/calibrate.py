@@ -3,81 +3,141 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
-from forcetorque.cli.options import ExperimentArgument, FormatOption, SensorOption
+from forcetorque.cli.options import FormatOption, SensorOption
 from forcetorque.cli.output import Format, refuse_standard_output, report_error, show, start_logging
 from forcetorque.errors import ExperimentError, FitError, ForceTorqueError
 
 if TYPE_CHECKING:
-    from forcetorque.experiment import Experiment, ExperimentSensor
+    from forcetorque.analysis import SensorCalibrations
+    from forcetorque.calibration import EstimationType, RecordingMoments
+    from forcetorque.experiment import Experiment
 
 
 def calibrate(
-    experiment: ExperimentArgument,
+    experiments: Annotated[
+        list[Path],
+        typer.Argument(
+            help="Experiment files (TOML), or files of moments (.json); all are fitted together. See docs/recording.md."
+        ),
+    ],
     output: Annotated[
         Path, typer.Option("--output", "-o", help="A .json file for one sensor, or a folder for one file per sensor.")
     ],
     sensor: SensorOption = None,
     regularisation: Annotated[
         str | None,
-        typer.Option("--lambda", help="Lambda in counts2, or `held-out`. Default: what the experiment file says."),
+        typer.Option(
+            "--lambda", help="Lambda of a thesis' type in counts2, or `held-out`. Default: what the experiment says."
+        ),
     ] = None,
     kind: Annotated[
         str | None,
-        typer.Option("--type", help="Estimation type, SnTdTO to OwTrTO. Default: what the experiment file says."),
+        typer.Option(
+            "--type",
+            help="`generative`, or a type of the thesis, SnTdTO to OwTrTO. Default: what the experiment says, else "
+            "generative.",
+        ),
+    ] = None,
+    nonlinear: Annotated[
+        bool | None,
+        typer.Option(
+            "--nonlinear/--linear",
+            help="Let quadratic terms correct readings where they win on recordings that were not fitted. Default: "
+            "what the experiment says, else not.",
+        ),
+    ] = None,
+    moments: Annotated[
+        Path | None,
+        typer.Option("--moments", help="Folder to keep what the fit needs of each recording, to be added to others."),
+    ] = None,
+    figure: Annotated[
+        Path | None,
+        typer.Option("--figure", help="PNG of what the recordings taught: errors of every load, before and after."),
     ] = None,
     output_format: FormatOption = Format.TABLE,
 ) -> None:
-    """Fit the matrix and offset of each sensor on the calibration intervals.
+    """Fit matrix and offset of each sensor to any number of recordings.
 
-    Example: forcetorque calibrate experiment.toml -o right_leg.json
+    Example: forcetorque calibrate cold.toml warm.toml -o calibrations
     """
     from datetime import UTC, datetime
     from importlib.metadata import version
 
     from forcetorque import analysis
-    from forcetorque.calibration import estimation_type
-    from forcetorque.cli.reading import read_experiment, sensors_named
+    from forcetorque.cli.figure_file import refuse_figure
+    from forcetorque.cli.reading import campaign_of, read_experiments, stored_moments
     from forcetorque.experiment.inputs import stated_in
 
     log = start_logging()
     refuse_standard_output("--output", output)
-    chosen_kind = None if kind is None else estimation_type(kind)
-    content = read_experiment(experiment, log)
-    sensors = sensors_named(content, sensor)
-    files = _files(output, sensors)
-    given = _lambda(regularisation, content)
+    refuse_figure(figure)
+    stored = stored_moments(experiments)
+    contents = read_experiments([path for path in experiments if path.suffix != ".json"], log)
+    names = _sensors(contents, stored, sensor)
+    files = _files(output, names)
+    given, chosen = _lambda(regularisation), _kind(kind)
     created = datetime.now(UTC).isoformat(timespec="seconds")
     results, refusals = [], []
-    for chosen, file in zip(sensors, files, strict=True):
-        log.info("fitting %s (%s)", chosen.name, chosen.serial)
-        run = analysis.SensorRun(content, chosen)
+    for (name, serial), file in zip(names, files, strict=True):
+        log.info("fitting %s (%s)", name, serial)
+        campaign = campaign_of(contents, name) if contents else None
+        own = [one for one in stored if one.sensor.name == name]
         try:
-            with stated_in(f"{experiment}: sensor {chosen.name!r}"):
+            with stated_in(f"{experiments[0]}: sensor {name!r}" if len(experiments) == 1 else f"sensor {name!r}"):
+                if moments is not None and campaign is not None:
+                    analysis.store_moments(campaign, moments)
                 results.append(
                     analysis.calibrate_for_file(
-                        run,
+                        campaign,
                         file,
                         code_version=version("forcetorque"),
                         created=created,
+                        moments=own,
                         regularisation=given,
-                        kind=chosen_kind,
+                        kind=chosen,
+                        nonlinear=nonlinear,
                     )
                 )
         except ForceTorqueError as error:  # a limb that stands still says nothing against the others
             refusals.append(error)
-            for sentence in analysis.data_doubts(run):  # what may be the reason
-                log.warning("%s", sentence)
+            for run in campaign.runs if campaign else ():
+                for sentence in analysis.data_doubts(run):  # what may be the reason
+                    log.warning("%s", sentence)
     if results:
         calibrations = analysis.SensorCalibrations.together(results)
         calibrations.save()
+        if figure is not None:
+            try:
+                calibrations = _drawn(calibrations, figure)
+            except ForceTorqueError as error:  # what was fitted is written and shown all the same
+                refusals.append(error)
         show(calibrations, output_format)
     _end(refusals)
+
+
+def _drawn(calibrations: SensorCalibrations, figure: Path) -> SensorCalibrations:
+    """Draw what the recordings taught of every sensor, and name the file in the result."""
+    from forcetorque.atomic import write_bytes_atomically
+    from forcetorque.report.figures import learnt_figure
+
+    learnt = {
+        f"{entry.calibration.sensor.name} ({entry.calibration.sensor.serial})": entry.learnt
+        for entry in calibrations.calibrations
+        if entry.learnt is not None
+    }
+    if not learnt:
+        raise ForceTorqueError(
+            f"--figure {figure}: expected a generative fit towards a prior, which tells what the recordings taught; "
+            "got none. Leave it out"
+        )
+    write_bytes_atomically(figure, learnt_figure(learnt))
+    return calibrations.model_copy(update={"figure": str(figure)})
 
 
 def _end(refusals: Sequence[ForceTorqueError]) -> None:
@@ -88,7 +148,18 @@ def _end(refusals: Sequence[ForceTorqueError]) -> None:
         raise typer.Exit(2)
 
 
-def _files(output: Path, sensors: Sequence[ExperimentSensor]) -> list[Path]:
+def _sensors(
+    contents: Mapping[Path, Experiment], stored: Sequence[RecordingMoments], names: Sequence[str] | None
+) -> list[tuple[str, str]]:
+    """Names and serial numbers of the sensors that are meant: those of the first file, or of the moments."""
+    from forcetorque.cli.reading import sensors_named
+
+    for content in contents.values():
+        return [(chosen.name, chosen.serial) for chosen in sensors_named(content, names)]
+    return list(dict.fromkeys((one.sensor.name, one.sensor.serial) for one in stored))
+
+
+def _files(output: Path, sensors: Sequence[tuple[str, str]]) -> list[Path]:
     from urllib.parse import quote
 
     if output.suffix == ".json":
@@ -100,14 +171,22 @@ def _files(output: Path, sensors: Sequence[ExperimentSensor]) -> list[Path]:
     if output.exists() and not output.is_dir():
         raise ExperimentError(f"--output {output}: expected a folder or a .json file, got another file")
     # quoted, because a name or a serial number may hold a slash
-    return [output / f"{quote(f'{sensor.name}_{sensor.serial}', safe=' ')}.json" for sensor in sensors]
+    return [output / f"{quote(f'{name}_{serial}', safe=' ')}.json" for name, serial in sensors]
 
 
-def _lambda(text: str | None, experiment: Experiment) -> float | None:
+def _kind(text: str | None) -> EstimationType | Literal["generative"] | None:
+    from forcetorque.calibration import estimation_type
+
     if text is None:
-        return experiment.regularisation
-    if text == "held-out":
         return None
+    return "generative" if text == "generative" else estimation_type(text)
+
+
+def _lambda(text: str | None) -> float | Literal["held-out"] | None:
+    if text is None:
+        return None
+    if text == "held-out":
+        return "held-out"
     try:
         value = float(text)
     except ValueError:

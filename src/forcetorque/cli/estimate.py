@@ -4,20 +4,34 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from forcetorque.cli.options import CalibrationsOption, ExperimentArgument, FormatOption
+from forcetorque.cli.options import CalibrationsOption, ExperimentsArgument, FormatOption
 from forcetorque.cli.output import Format, show, start_logging
 from forcetorque.errors import ForceTorqueError
 
+if TYPE_CHECKING:
+    from logging import Logger
+
+    from forcetorque.analysis import EstimateSummary
+    from forcetorque.calibration import Calibration
+    from forcetorque.experiment import Experiment
+
 
 def estimate(
-    experiment: ExperimentArgument,
-    output: Annotated[Path, typer.Option("--output", "-o", help="File for every sample, .parquet or .csv.")],
+    experiments: ExperimentsArgument,
+    output: Annotated[
+        Path,
+        typer.Option(
+            "--output",
+            "-o",
+            help="File for every sample, .parquet or .csv; of several experiments one each, NAME.EXPERIMENT.parquet.",
+        ),
+    ],
     calibration: CalibrationsOption = None,
     contacts: Annotated[
         list[str] | None,
@@ -38,25 +52,56 @@ def estimate(
     Example: forcetorque estimate experiment.toml -o estimates.parquet
     """
     from forcetorque import analysis
+    from forcetorque.analysis.campaign_recording import refuse_a_file_twice
     from forcetorque.cli.reading import read_calibrations, read_experiment
     from forcetorque.exchange.estimates_table import SUFFIXES
-    from forcetorque.experiment.contacts import contact_in_words
     from forcetorque.experiment.inputs import stated_in
 
     log = start_logging()
     _refuse_ending(output, SUFFIXES)
+    refuse_a_file_twice(experiments)
     calibrations = read_calibrations(calibration)
-    content = read_experiment(experiment, log)
-    with stated_in(str(experiment)):
-        named = [contact_in_words(words, content.model) for words in contacts] if contacts else None
-        corrections = analysis.corrections_of(content, calibrations)
-        for sensor, correction in corrections.items():
-            log.info("%s: %s", sensor, correction.source)
-        with _Progress() as progress:
-            spans = analysis.estimate_experiment(
-                content, corrections, contacts=named, length_scale=length_scale, progress=progress.show
-            )
-    show(analysis.summarise_estimates(content, corrections, spans, file=output), output_format)
+    summaries = {}
+    for path, file in _outputs(experiments, output).items():
+        # a recording goes when its estimates are written: there may be more of them than memory holds
+        content = read_experiment(path, log)
+        with stated_in(str(path)):
+            summaries[str(path)] = _estimated(content, calibrations, contacts, length_scale, file, log)
+    several = len(summaries) > 1
+    show(analysis.estimates_of_recordings(summaries) if several else summaries[str(experiments[0])], output_format)
+
+
+def _estimated(
+    content: Experiment,
+    calibrations: Mapping[str, Calibration],
+    contacts: Sequence[str] | None,
+    length_scale: float | None,
+    file: Path,
+    log: Logger,
+) -> EstimateSummary:
+    """Estimate over one experiment and write every sample."""
+    from forcetorque import analysis
+    from forcetorque.experiment.contacts import contact_in_words
+
+    named = [contact_in_words(words, content.model) for words in contacts] if contacts else None
+    corrections = analysis.corrections_of(content, calibrations)
+    for sensor, correction in corrections.items():
+        log.info("%s: %s", sensor, correction.source)
+    with _Progress() as progress:
+        spans = analysis.estimate_experiment(
+            content, corrections, contacts=named, length_scale=length_scale, progress=progress.show
+        )
+    return analysis.summarise_estimates(content, corrections, spans, file=file)
+
+
+def _outputs(experiments: Sequence[Path], output: Path) -> dict[Path, Path]:
+    """File for the samples of every experiment: the one that is named, or one each with its name before the ending."""
+    from forcetorque.experiment.recording_names import distinct_files
+
+    if len(experiments) == 1:
+        return {experiments[0]: output}
+    names = distinct_files(experiments)
+    return {path: output.with_suffix(f".{names[path].replace('/', '-')}{output.suffix}") for path in experiments}
 
 
 def _refuse_ending(output: Path, endings: Sequence[str]) -> None:

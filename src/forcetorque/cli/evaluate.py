@@ -8,12 +8,12 @@ from typing import Annotated
 
 import typer
 
-from forcetorque.cli.options import ExperimentArgument, FormatOption
+from forcetorque.cli.options import ExperimentsArgument, FormatOption
 from forcetorque.cli.output import Format, show, start_logging
 
 
 def evaluate(
-    experiment: ExperimentArgument,
+    experiments: ExperimentsArgument,
     calibration: Annotated[
         list[Path], typer.Option("--calibration", "-c", help="Calibration file; repeat to compare several.")
     ],
@@ -24,15 +24,16 @@ def evaluate(
     Example: forcetorque evaluate experiment.toml --calibration right_leg.json
     """
     from forcetorque import analysis
-    from forcetorque.cli.reading import read_calibrations, read_experiment
+    from forcetorque.cli.reading import campaign_of, read_calibrations, read_experiments
     from forcetorque.experiment.inputs import stated_in
 
     log = start_logging()
     calibrations = read_calibrations(calibration)
-    content = read_experiment(experiment, log)
+    contents = read_experiments(experiments, log)
     results = []
-    for sensor, group in analysis.by_sensor(content, calibrations).items():
+    for sensor, group in analysis.by_sensor(next(iter(contents.values())), calibrations).items():
         log.info("judging %s", sensor)
-        with stated_in(f"{experiment}: sensor {sensor!r}"):
-            results.append(analysis.evaluate(analysis.SensorRun(content, sensor), group))
+        campaign = campaign_of(contents, sensor)
+        with stated_in(f"{experiments[0]}: sensor {sensor!r}" if len(experiments) == 1 else f"sensor {sensor!r}"):
+            results.append(analysis.evaluate(campaign, group))
     show(analysis.Evaluation.together(results), output_format)

@@ -11,6 +11,9 @@ import typer
 from forcetorque.cli.output import Format
 
 ExperimentArgument = Annotated[Path, typer.Argument(help="Experiment file (TOML); see docs/recording.md.")]
+ExperimentsArgument = Annotated[
+    list[Path], typer.Argument(help="Experiment files (TOML) with the same sensors; see docs/recording.md.")
+]
 FormatOption = Annotated[Format, typer.Option("--format", help="Form of the result on standard output.")]
 SensorOption = Annotated[
     list[str] | None, typer.Option("--sensor", help="Sensor of the experiment; repeat for more. Default: all.")

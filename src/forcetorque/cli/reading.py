@@ -4,12 +4,16 @@
 from __future__ import annotations
 
 import logging
-from collections.abc import Collection, Iterable
+from collections.abc import Collection, Iterable, Mapping
+from contextlib import nullcontext
 from pathlib import Path
 
-from forcetorque.calibration import Calibration, read_calibration
+from forcetorque.analysis import Campaign, SensorRun
+from forcetorque.analysis.campaign_recording import refuse_a_file_twice
+from forcetorque.calibration import Calibration, RecordingMoments, read_calibration, read_moments
 from forcetorque.errors import ExperimentError, ForceTorqueError
 from forcetorque.experiment import Experiment, ExperimentSensor, load_experiment
+from forcetorque.experiment.inputs import stated_in
 from forcetorque.paths import real_path
 
 
@@ -28,6 +32,56 @@ def read_experiment(path: Path, log: logging.Logger) -> Experiment:
     for finding in experiment.recording.findings:
         log.warning("%s: %s", finding.stream, finding.message)
     return experiment
+
+
+def read_experiments(paths: Iterable[Path], log: logging.Logger) -> dict[Path, Experiment]:
+    """Read experiments and warn of what is known to be wrong with their recordings.
+
+    Args:
+        paths: Experiment files.
+        log: Where messages go.
+
+    Returns:
+        Experiments by file.
+
+    Raises:
+        ExperimentError: If a file comes twice.
+    """
+    files = list(paths)
+    refuse_a_file_twice(files)
+    return {path: read_experiment(path, log) for path in files}
+
+
+def campaign_of(experiments: Mapping[Path, Experiment], sensor: str) -> Campaign:
+    """Pool what several files hold of a sensor.
+
+    Args:
+        experiments: Experiments by file.
+        sensor: Name of the sensor.
+
+    Returns:
+        The sensor in all of them.
+
+    Raises:
+        ExperimentError: If a file lacks it, or has another one of that name.
+    """
+    runs = []
+    for path, experiment in experiments.items():
+        with stated_in(str(path)) if len(experiments) > 1 else nullcontext():
+            runs.append(SensorRun(experiment, sensor))
+    return Campaign(runs)
+
+
+def stored_moments(paths: Iterable[Path]) -> list[RecordingMoments]:
+    """Read the files of moments among files that are to be fitted.
+
+    Args:
+        paths: Experiment files, and files of moments, which end in .json.
+
+    Returns:
+        The moments.
+    """
+    return [read_moments(path) for path in paths if path.suffix == ".json"]
 
 
 def read_calibrations(paths: Iterable[Path] | None) -> dict[str, Calibration]:

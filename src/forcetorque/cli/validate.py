@@ -7,12 +7,12 @@ from typing import Annotated
 
 import typer
 
-from forcetorque.cli.options import CalibrationsOption, ExperimentArgument, FormatOption
+from forcetorque.cli.options import CalibrationsOption, ExperimentsArgument, FormatOption
 from forcetorque.cli.output import Format, OtherSensorsChoice, show, start_logging
 
 
 def validate(
-    experiment: ExperimentArgument,
+    experiments: ExperimentsArgument,
     calibration: CalibrationsOption = None,
     sensor: Annotated[
         list[str] | None,
@@ -43,13 +43,14 @@ def validate(
     Example: forcetorque validate experiment.toml -c right_leg.json
     """
     from forcetorque import analysis
-    from forcetorque.cli.reading import read_calibrations, read_experiment
+    from forcetorque.cli.reading import campaign_of, read_calibrations, read_experiments
     from forcetorque.evaluation import OtherSensors
     from forcetorque.experiment.inputs import stated_in
 
     log = start_logging()
     calibrations = read_calibrations(calibration)
-    content = read_experiment(experiment, log)
+    contents = read_experiments(experiments, log)
+    content = next(iter(contents.values()))
     groups = analysis.by_sensor(content, calibrations)
     names = sensor or groups or [known.name for known in content.sensors]
     results = []
@@ -58,9 +59,10 @@ def validate(
         rest = {file: one for other, group in groups.items() if other != name for file, one in group.items()}
         if others is OtherSensorsChoice.MEASURED:
             analysis.one_per_sensor(content, rest)
-        with stated_in(f"{experiment}: sensor {name!r}"):
+        campaign = campaign_of(contents, name)
+        with stated_in(f"{experiments[0]}: sensor {name!r}" if len(experiments) == 1 else f"sensor {name!r}"):
             validation = analysis.validate(
-                analysis.SensorRun(content, name),
+                campaign,
                 groups.get(name, {}),
                 others=rest,
                 other_sensors=OtherSensors(others.value),

@@ -61,6 +61,11 @@ class SensorSamples:
     """What the sensor read, `raw` or `wrench`; n samples."""
     reference: FloatArray
     """Expected wrench in the sensor's frame and direction; shape (n, 6); N, N m."""
+    flattening: FloatArray
+    """What a derivative window of twice the length would take from it; shape (n, 6); N, N m.
+
+    The window that is used has flattened the accelerations already, by about a third of that where motions are smooth.
+    """
     variables: FloatArray
     """Linear variables, in the order asked for; shape (n, v)."""
     dropped: int
@@ -71,7 +76,8 @@ class SensorSamples:
         stamps = np.array(self.stamp_ns, dtype=np.int64)
         stamps.setflags(write=False)
         object.__setattr__(self, "stamp_ns", stamps)
-        object.__setattr__(self, "reference", read_only(self.reference, name="reference", shape=(len(stamps), 6)))
+        for field in ("reference", "flattening"):
+            object.__setattr__(self, field, read_only(getattr(self, field), name=field, shape=(len(stamps), 6)))
         require_shape(self.reading.values, name="reading", shape=(len(stamps), None))
         object.__setattr__(self, "variables", read_only(self.variables, name="variables", shape=(len(stamps), None)))
 
@@ -118,13 +124,13 @@ def sensor_samples(
     source = recording.stream(stream)
     padded = padded_samples(recording, source, interval, processing.smoothing, apart=apart)
     at_ns = padded.stamp_ns
-    reference, joints = _reference(recording, model, sensor, source, interval.support, at_ns, processing)
+    reference, flattening, joints = _reference(recording, model, sensor, source, interval.support, at_ns, processing)
     reading = source.signal(quantity)
     values = np.where(source.held[padded.rows, None], np.nan, reading.values[padded.rows])
     extra = _variables(recording, source, variables, at_ns)
     # together, because a sample that only one of them lacks would give them different filters
-    both = padded.smoothed(np.hstack([values, reference, extra]))
-    values, reference, extra = np.split(both, [values.shape[1], values.shape[1] + 6], axis=1)
+    both = padded.smoothed(np.hstack([values, reference, flattening, extra]))
+    values, reference, flattening, extra = np.split(both, values.shape[1] + np.array([0, 6, 12]), axis=1)
     complete = np.isfinite(both).all(axis=1)
     if not complete.any():
         needed = ", ".join((*joints, *(f"{v.stream} {v.column}" for v in variables))) or "motion of the support"
@@ -137,6 +143,7 @@ def sensor_samples(
         stamp_ns=at_ns[padded.inside][complete],
         reading=replace(reading, values=values[complete]),
         reference=reference[complete],
+        flattening=flattening[complete],
         variables=extra[complete],
         dropped=padded.wanted - int(np.count_nonzero(complete)),
     )
@@ -156,14 +163,23 @@ def _reference(
     support: Support | MovingSupport,
     at_ns: IntArray,
     processing: Processing,
-) -> tuple[FloatArray, tuple[str, ...]]:
-    """Expected wrench of a sensor at given instants, and the joints that it needed."""
+) -> tuple[FloatArray, FloatArray, tuple[str, ...]]:
+    """Expected wrench of a sensor at given instants, what a longer window takes from it, and the joints it needed."""
     name = model.sensor(sensor).name
     question = Question(tree=build_tree(model, support.frame), expected=(name,), equations=())
-    joints, root = robot_motion_at(
-        recording, model, support, required_joints_of(question), source, at_ns, processing=processing
-    )
-    return estimate(question, joints, root).expected_of(name), joints.names
+    needed = required_joints_of(question)
+
+    def expected(how: Processing) -> tuple[FloatArray, tuple[str, ...]]:
+        joints, root = robot_motion_at(recording, model, support, needed, source, at_ns, processing=how)
+        return estimate(question, joints, root).expected_of(name), joints.names
+
+    reference, names = expected(processing)
+    if processing.logged_derivatives:
+        return reference, np.zeros_like(reference), names
+    window = processing.derivative_window
+    longer = replace(processing, derivative_window=replace(window, window_s=2.0 * window.window_s))
+    # near the end of a log there may be no room for the longer window
+    return reference, np.nan_to_num(reference - expected(longer)[0]), names
 
 
 def robot_motion_at(

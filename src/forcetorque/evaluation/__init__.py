@@ -25,11 +25,13 @@ from forcetorque.evaluation.model_findings import model_findings
 from forcetorque.evaluation.offset import KNOWN_BEFORE, Offset
 from forcetorque.evaluation.paired import PairedDifference, PairedMean, paired_difference
 from forcetorque.evaluation.population import FeaturePosition, PopulationPosition, position_in_population
+from forcetorque.evaluation.push_error import LEVER_M, PUSH_N, PushError, push_error, pushes
 from forcetorque.evaluation.static_checks import MatrixChecks, OffsetChange, matrix_checks, offset_change
 from forcetorque.evaluation.wrench_errors import WrenchErrors, errors_from_zero, offset_removed, wrench_errors
 
 __all__ = [
     "KNOWN_BEFORE",
+    "LEVER_M",
     "MARGIN",
     "Autocorrelation",
     "AxisResolution",
@@ -46,8 +48,10 @@ __all__ = [
     "OtherSensors",
     "PairedDifference",
     "PairedMean",
+    "PUSH_N",
     "PooledErrors",
     "PopulationPosition",
+    "PushError",
     "TorqueErrors",
     "TorqueMap",
     "WrenchErrors",
@@ -65,6 +69,8 @@ __all__ = [
     "offset_removed",
     "paired_difference",
     "position_in_population",
+    "push_error",
+    "pushes",
     "strongest_samples",
     "torque_errors",
     "torque_map",

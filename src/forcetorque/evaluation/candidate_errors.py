@@ -16,7 +16,9 @@ import numpy as np
 from forcetorque.arrays import FloatArray, IntArray, read_only
 from forcetorque.estimation import Evaluator
 from forcetorque.evaluation.candidate_inputs import CandidateInputs, checked_candidates
-from forcetorque.evaluation.wrench_errors import BLOCKS
+
+BLOCKS = 10
+"""Contiguous blocks of time whose means say how a mean scatters: neighbouring samples repeat each other."""
 
 _FEW = 10_000_000
 """Fewer samples times candidates than this take the readable evaluator no longer than loading the compiled one."""

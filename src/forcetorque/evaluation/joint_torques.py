@@ -22,7 +22,7 @@ import numpy as np
 
 from forcetorque.arrays import FloatArray, read_only, require_shape
 from forcetorque.errors import RobotError, ShapeError, known_names
-from forcetorque.evaluation.wrench_errors import error_of_mean
+from forcetorque.noise import mean_error
 from forcetorque.robot import BodyTree, JointMotion
 from forcetorque.robot.kinematics import body_poses
 from forcetorque.robot.sub_model import outboard_bodies, sub_models
@@ -141,21 +141,25 @@ class TorqueErrors:
     rmse: float
     """Root mean square error."""
     rmse_error: float
-    """Standard error of that root, from contiguous blocks; NaN for one."""
+    """Standard error of that root; NaN for one sample."""
+    rmse_half_width: float
+    """Half-width of its 95 % interval; infinite where it cannot be told."""
     mean: float
     """Mean error."""
     mean_error: float
-    """Standard error of that mean, from contiguous blocks; NaN for one."""
+    """Standard error of that mean; NaN for one sample."""
+    mean_half_width: float
+    """Half-width of its 95 % interval; infinite where it cannot be told."""
     largest: float
     """Largest absolute error."""
 
 
-def torque_errors(errors: Any) -> TorqueErrors:
+def torque_errors(errors: Any, time_s: Any) -> TorqueErrors:
     """Sum up the errors of one joint's torque.
 
     Args:
-        errors: Errors in the order of time, those of several recordings one after the other; shape (n,); samples with
-            a gap (NaN) are left out.
+        errors: Errors in the order of time; shape (n,); samples with a gap (NaN) are left out.
+        time_s: Instants of the samples, not falling; shape (n,); s.
 
     Returns:
         Their statistics.
@@ -165,17 +169,24 @@ def torque_errors(errors: Any) -> TorqueErrors:
     """
     given = np.asarray(errors, dtype=np.float64)
     require_shape(given, name="errors", shape=(None,))
-    whole = given[~np.isnan(given)]
+    time = np.asarray(time_s, dtype=np.float64)
+    require_shape(time, name="time_s", shape=(len(given),))
+    complete = ~np.isnan(given)
+    whole = given[complete]
     if not len(whole):
         raise ShapeError(f"errors: expected at least one sample without a gap, got none among {len(given)}")
     square = float(np.mean(whole**2))
     rmse = float(np.sqrt(square))
+    known = mean_error(np.column_stack([whole, whole**2]), time[complete])
+    (error, square_error), (half, square_half) = known.standard_error, known.half_width
+    slope = 0.5 / rmse if rmse > 0.0 else 0.0  # d sqrt(m) = dm / (2 sqrt(m))
     return TorqueErrors(
         count=len(whole),
         rmse=rmse,
-        # d sqrt(m) = dm / (2 sqrt(m))
-        rmse_error=float(error_of_mean(whole**2)) / (2.0 * rmse) if rmse > 0.0 else 0.0,
+        rmse_error=slope * float(square_error) if rmse > 0.0 else 0.0,
+        rmse_half_width=slope * float(square_half) if rmse > 0.0 else 0.0,
         mean=float(whole.mean()),
-        mean_error=float(error_of_mean(whole)),
+        mean_error=float(error),
+        mean_half_width=float(half),
         largest=float(np.abs(whole).max()),
     )

@@ -18,7 +18,7 @@ from scipy.special import stdtrit
 from forcetorque.arrays import FloatArray, require_shape
 from forcetorque.errors import ShapeError
 from forcetorque.evaluation.autocorrelation import autocorrelation
-from forcetorque.evaluation.wrench_errors import BLOCKS, error_of_mean
+from forcetorque.evaluation.candidate_errors import BLOCKS
 
 CONFIDENCE = 0.95
 """Probability with which the interval holds the difference that is sought."""
@@ -123,7 +123,7 @@ def _mean(difference: FloatArray, time: FloatArray) -> PairedMean:
     error, half = math.nan, math.inf
     if freedom > 0.0:  # not so where it is NaN
         # the deviation is from the mean of the samples themselves, hence less 1
-        error = max(float(error_of_mean(difference)), float(difference.std()) / math.sqrt(fewer - 1.0))
+        error = max(_error_of_mean(difference), float(difference.std()) / math.sqrt(fewer - 1.0))
         half = float(stdtrit(freedom, 0.5 + 0.5 * CONFIDENCE)) * error
     return PairedMean(
         mean=mean,
@@ -133,3 +133,9 @@ def _mean(difference: FloatArray, time: FloatArray) -> PairedMean:
         low=mean - half,
         high=mean + half,
     )
+
+
+def _error_of_mean(values: FloatArray) -> float:
+    """Standard error of a mean from the scatter of the means of contiguous blocks."""
+    means = np.array([block.mean() for block in np.array_split(values, min(BLOCKS, len(values)))])
+    return float(means.std(ddof=1)) / math.sqrt(len(means))

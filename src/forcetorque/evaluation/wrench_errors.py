@@ -10,9 +10,7 @@ import numpy as np
 
 from forcetorque.arrays import FloatArray, read_only, require_shape
 from forcetorque.errors import ShapeError
-
-BLOCKS = 10
-"""Contiguous blocks from whose means the standard error comes: neighbouring samples repeat each other."""
+from forcetorque.noise import mean_error
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -30,17 +28,21 @@ class WrenchErrors:
     mean_absolute: FloatArray
     """Mean absolute error per component; shape (6,); N, N m."""
     mean_absolute_error: FloatArray
-    """Standard error of these means, from contiguous blocks; shape (6,); N, N m."""
+    """Standard error of these means (`noise.mean_error`); shape (6,); N, N m."""
     force_mean: float
     """Mean norm of the force error; N."""
     force_mean_error: float
-    """Standard error of that mean, from contiguous blocks; N."""
+    """Standard error of that mean; N; NaN for one sample."""
+    force_mean_half_width: float
+    """Half-width of its 95 % interval; N; infinite where it cannot be told."""
     force_largest: float
     """Largest norm of the force error; N."""
     moment_mean: float
     """Mean norm of the moment error; N m."""
     moment_mean_error: float
-    """Standard error of that mean, from contiguous blocks; N m."""
+    """Standard error of that mean; N m; NaN for one sample."""
+    moment_mean_half_width: float
+    """Half-width of its 95 % interval; N m; infinite where it cannot be told."""
     moment_largest: float
     """Largest norm of the moment error; N m."""
 
@@ -49,18 +51,20 @@ class WrenchErrors:
             object.__setattr__(self, field, read_only(getattr(self, field), name=field, shape=(6,)))
 
 
-def wrench_errors(measured: Any, reference: Any) -> WrenchErrors:
+def wrench_errors(measured: Any, reference: Any, time_s: Any) -> WrenchErrors:
     """Compare measured with reference wrenches.
 
     Args:
         measured: Wrenches of the sensor, in the order of time; shape (n, 6), n at least 1; N, N m.
         reference: Wrenches that mechanics demands; shape (n, 6); N, N m.
+        time_s: Instants of the samples, not falling; shape (n,); s.
 
     Returns:
         Statistics of measured minus reference.
 
     Raises:
         ShapeError: If the shapes are not these.
+        FitError: If time falls.
     """
     first, second = np.asarray(measured, dtype=np.float64), np.asarray(reference, dtype=np.float64)
     if first.ndim != 2 or first.shape[1] != 6 or first.shape != second.shape or not len(first):
@@ -68,28 +72,31 @@ def wrench_errors(measured: Any, reference: Any) -> WrenchErrors:
     error = first - second
     absolute = np.abs(error)
     force, moment = np.linalg.norm(error[:, :3], axis=1), np.linalg.norm(error[:, 3:], axis=1)
+    known = mean_error(np.column_stack([absolute, force, moment]), time_s)
     return WrenchErrors(
         count=len(error),
         bias=error.mean(axis=0),
         rmse=np.sqrt((error**2).mean(axis=0)),
         largest=absolute.max(axis=0),
         mean_absolute=absolute.mean(axis=0),
-        mean_absolute_error=error_of_mean(absolute),
+        mean_absolute_error=known.standard_error[:6],
         force_mean=float(force.mean()),
-        force_mean_error=float(error_of_mean(force)),
+        force_mean_error=float(known.standard_error[6]),
+        force_mean_half_width=float(known.half_width[6]),
         force_largest=float(force.max()),
         moment_mean=float(moment.mean()),
-        moment_mean_error=float(error_of_mean(moment)),
+        moment_mean_error=float(known.standard_error[7]),
+        moment_mean_half_width=float(known.half_width[7]),
         moment_largest=float(moment.max()),
     )
 
 
-def errors_from_zero(wrenches: Any) -> WrenchErrors:
+def errors_from_zero(wrenches: Any, time_s: Any) -> WrenchErrors:
     """Sum up wrenches that should be zero, such as those of contacts where nothing touches.
 
     Args:
-        wrenches: Wrenches in the order of time, those of several recordings one after the other; shape (n, 6); N, N m;
-            samples with a gap (NaN) are left out.
+        wrenches: Wrenches in the order of time; shape (n, 6); N, N m; samples with a gap (NaN) are left out.
+        time_s: Instants of the samples, not falling; shape (n,); s.
 
     Returns:
         Their statistics.
@@ -99,27 +106,12 @@ def errors_from_zero(wrenches: Any) -> WrenchErrors:
     """
     given = np.asarray(wrenches, dtype=np.float64)
     require_shape(given, name="wrenches", shape=(None, 6))
-    whole = given[~np.isnan(given).any(axis=1)]
-    if not len(whole):
+    time = np.asarray(time_s, dtype=np.float64)
+    require_shape(time, name="time_s", shape=(len(given),))
+    complete = ~np.isnan(given).any(axis=1)
+    if not complete.any():
         raise ShapeError(f"wrenches: expected at least one sample without a gap, got none among {len(given)}")
-    return wrench_errors(whole, np.zeros_like(whole))
-
-
-def error_of_mean(values: FloatArray) -> FloatArray:
-    """Estimate the standard error of a mean from the scatter of the means of contiguous blocks.
-
-    Args:
-        values: Values in the order of time; shape (n, ...).
-
-    Returns:
-        Standard error of their mean; shape (...); NaN for a single block.
-    """
-    blocks = np.array_split(values, min(BLOCKS, len(values)))
-    if len(blocks) < 2:
-        return np.full(values.shape[1:], np.nan)
-    means = np.array([block.mean(axis=0) for block in blocks])
-    error: FloatArray = np.asarray(means.std(axis=0, ddof=1) / np.sqrt(len(means)))
-    return error
+    return wrench_errors(given[complete], np.zeros((int(complete.sum()), 6)), time[complete])
 
 
 def offset_removed(measured: Any, reference: Any) -> FloatArray:

@@ -5,11 +5,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from pathlib import Path
 
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration import EstimationType, LinearVariable, OffsetStrategy
+from forcetorque.calibration.generative import REPEATABILITY
 from forcetorque.errors import ExperimentError, known_names
 from forcetorque.estimation import Contact, Payload, Processing
+from forcetorque.experiment.recording_names import path_endings, recording_name
 from forcetorque.recording import Interval, Recording, ScalarSource, Use
 from forcetorque.robot import RobotModel
 
@@ -24,9 +27,20 @@ class SensorVariable:
     """Its column in the recording."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class FitOptions:
-    """Estimation type as the file states it; what it leaves open depends on the sensor."""
+    """Estimator as the file states it; what it leaves open depends on the sensor."""
+
+    generative: bool = True
+    """Whether the generative model is fitted, and not a type of the thesis."""
+    accuracy: FloatArray | None = None
+    """Accuracy of the reference; shape (6,); N, N m; None for 1e-3 of full scale."""
+    repeatability: float = REPEATABILITY
+    """Share of its response by which a sensor differs from one motion to the next."""
+    drift: bool = False
+    """Whether the offset of a session may move evenly in time."""
+    nonlinear: bool = False
+    """Whether quadratic terms may correct readings, where they win on recordings that were not fitted."""
 
     offset: OffsetStrategy = OffsetStrategy.ONE_SHOT
     """How the offset is found."""
@@ -55,8 +69,8 @@ class Role:
 
     kind: str
     """Kind of motion."""
-    session: str
-    """Stretch of time in which nothing was switched off."""
+    session: str | None
+    """Stretch of time in which nothing was switched off; None where the file names none: the recording is one."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -77,6 +91,8 @@ class ExperimentSensor:
     """Its file, as the experiment names it; `identity` where the reading itself takes the place of counts."""
     limit_counts: float
     """Largest magnitude of a raw reading; counts."""
+    full_scale: FloatArray | None = None
+    """Full scale per component, as the file states it; shape (6,); N, N m."""
     amplifier_gain: tuple[float, ...] | None = None
     """Gain of each channel's amplifier while it was recorded; None if it is not known."""
     allowed_gains: tuple[float, ...] | None = None
@@ -124,6 +140,8 @@ class Experiment:
 
     name: str
     """Name of the experiment."""
+    file: Path
+    """Its file."""
     model: RobotModel
     """The robot."""
     recording: Recording
@@ -148,6 +166,8 @@ class Experiment:
     """What hangs on a wrist sensor, estimated on the calibration intervals; None for a robot or a given load."""
     inputs_sha256: dict[str, str]
     """SHA-256 of every input file, by its path as the experiment names it."""
+    log_sha256: frozenset[str] = frozenset()
+    """SHA-256 of the files of the recording, by which it is known under another experiment's name."""
     condition: str | None = None
     """What was done to the sensors, in the user's words; None if the file does not say."""
     trial: int | None = None
@@ -171,6 +191,21 @@ class Experiment:
         raise ExperimentError(
             f"experiment {self.name!r} has no sensor {name!r}; {known_names(name, (s.name for s in self.sensors))}"
         )
+
+    def session_names(self, label: str | None) -> tuple[str, ...]:
+        """Give the names under which a calibration may know the session of an interval.
+
+        Args:
+            label: Label of the interval; None for what lies in none.
+
+        Returns:
+            The session that the file states; else the name of the recording, with as much of the path of its file as
+            told several recordings of that name apart, longest first, and by itself.
+        """
+        role = None if label is None else self.roles.get(label)
+        if role is not None and role.session is not None:
+            return (role.session,)
+        return (*(recording_name(self.name, path) for path in reversed(path_endings(self.file))), self.name)
 
     def intervals(self, use: Use) -> tuple[Interval, ...]:
         """Give the intervals of one use.

@@ -47,6 +47,14 @@ class Inputs:
                 self._read[(relative / found.name).as_posix()] = found
         return path
 
+    def names(self) -> frozenset[str]:
+        """Tell what was resolved so far.
+
+        Returns:
+            Paths as the experiment file has them.
+        """
+        return frozenset(self._read)
+
     def sha256(self) -> dict[str, str]:
         """Hash everything that was resolved.
 

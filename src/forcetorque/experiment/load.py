@@ -5,6 +5,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import numpy as np
+
 from forcetorque.calibration import ESTIMATION_TYPES, OffsetStrategy
 from forcetorque.errors import ExperimentError, known_names
 from forcetorque.estimation import Processing
@@ -47,16 +49,20 @@ def _of_robot(parsed: schema.ExperimentFile, file: Path) -> Experiment:
     inputs = Inputs(file.parent)
     inputs.file(Path(file.name))
     model = declare_sensors(parsed, file, read_urdf(inputs.file(parsed.robot.urdf)))
+    before = inputs.names()
     streams = read_streams(parsed, file, model, inputs)
+    logs = inputs.names() - before
     supports = read_supports(parsed, file, streams, model)
     intervals = read_intervals(parsed, file, streams, supports, default=None)
     with stated_in(str(file)):
         recording = streams.with_intervals(intervals)
+    sensors, hashes = read_sensors(parsed, file, model, recording, inputs), inputs.sha256()
     return Experiment(
         name=parsed.name,
+        file=file,
         model=model,
         recording=recording,
-        sensors=read_sensors(parsed, file, model, recording, inputs),
+        sensors=sensors,
         contacts=read_contacts(parsed, file, model, recording),
         length_scale=parsed.estimation.length_scale_m,
         processing=_processing(parsed, gravity=parsed.robot.gravity),
@@ -65,7 +71,8 @@ def _of_robot(parsed: schema.ExperimentFile, file: Path) -> Experiment:
         sphere_intervals=_sphere_intervals(parsed, file),
         roles=_roles(parsed),
         payload=None,
-        inputs_sha256=inputs.sha256(),
+        inputs_sha256=hashes,
+        log_sha256=frozenset(hashes[name] for name in logs),
         condition=parsed.trial.condition,
         trial=parsed.trial.number,
     )
@@ -77,7 +84,9 @@ def _of_wrist(parsed: schema.ExperimentFile, file: Path) -> Experiment:
         raise ExperimentError(f"{file}: expected [robot] or [load]")
     load, name, inputs = parsed.load, parsed.sensor[0].name, Inputs(file.parent)
     inputs.file(Path(file.name))
+    before = inputs.names()
     streams = read_streams(parsed, file, None, inputs)
+    logs = inputs.names() - before
     moving = MovingSupport(frame=load.frame, motion_streams=load.motion)
     with stated_in(f"{file}: load"):
         for stream in load.motion:
@@ -92,9 +101,10 @@ def _of_wrist(parsed: schema.ExperimentFile, file: Path) -> Experiment:
         inertia = payload.inertia()
     with stated_in(str(file)):
         recording = streams.with_intervals(intervals)
-    loaded = load_model(load, name, inertia)
+    loaded, hashes = load_model(load, name, inertia), inputs.sha256()
     return Experiment(
         name=parsed.name,
+        file=file,
         model=loaded,
         recording=recording,
         sensors=(sensor,),
@@ -106,7 +116,8 @@ def _of_wrist(parsed: schema.ExperimentFile, file: Path) -> Experiment:
         sphere_intervals=_sphere_intervals(parsed, file),
         roles=_roles(parsed),
         payload=payload,
-        inputs_sha256=inputs.sha256(),
+        inputs_sha256=hashes,
+        log_sha256=frozenset(hashes[name] for name in logs),
         condition=parsed.trial.condition,
         trial=parsed.trial.number,
     )
@@ -126,10 +137,21 @@ def _processing(parsed: schema.ExperimentFile, *, gravity: float) -> Processing:
 
 
 def _fit_options(table: schema.CalibrationTable) -> FitOptions:
-    if table.type is not None:
+    if table.type in ESTIMATION_TYPES:
         kind = ESTIMATION_TYPES[table.type]
-        return FitOptions(offset=kind.offset, with_variables=kind.with_variables, from_reference=kind.from_reference)
+        return FitOptions(
+            generative=False,
+            offset=kind.offset,
+            with_variables=kind.with_variables,
+            from_reference=kind.from_reference,
+        )
+    accuracy = table.accuracy
     return FitOptions(
+        generative=table.generative,
+        accuracy=None if accuracy is None else np.repeat([accuracy.force_N, accuracy.moment_Nm], 3),
+        repeatability=table.repeatability,
+        drift=table.drift,
+        nonlinear=table.nonlinear,
         offset=table.offset or OffsetStrategy.ONE_SHOT,
         with_variables=table.with_variables,
         from_reference=table.from_reference,
@@ -148,6 +170,4 @@ def _sphere_intervals(parsed: schema.ExperimentFile, file: Path) -> tuple[str, .
 
 
 def _roles(parsed: schema.ExperimentFile) -> dict[str, Role]:
-    return {
-        span.label: Role(kind=span.kind or span.label, session=span.session or span.label) for span in parsed.interval
-    }
+    return {span.label: Role(kind=span.kind or span.label, session=span.session) for span in parsed.interval}

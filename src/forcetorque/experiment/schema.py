@@ -18,7 +18,8 @@ from pydantic_core import PydanticCustomError
 
 from forcetorque.array_field import ArrayField
 from forcetorque.arrays import FloatArray
-from forcetorque.calibration import ESTIMATION_TYPES, OffsetStrategy
+from forcetorque.calibration import ESTIMATION_TYPES, GENERATIVE, OffsetStrategy
+from forcetorque.calibration.generative import REPEATABILITY
 from forcetorque.constants import STANDARD_GRAVITY
 from forcetorque.errors import known_names
 from forcetorque.estimation import ContactType
@@ -26,7 +27,7 @@ from forcetorque.experiment.log_schema import Log
 from forcetorque.recording import Use
 from forcetorque.robot import SensorFrame
 from forcetorque.spatial import MeasureDirection
-from forcetorque.toml_table import Finite, Positive, Table, Text
+from forcetorque.toml_table import Finite, NotNegative, Positive, Table, Text
 
 
 class Robot(Table):
@@ -73,7 +74,10 @@ class Variable(Table):
     reference_value: Finite | None = None
     """Value at which it contributes nothing; that of the first fitted sample if left out."""
     prior_coefficients: Annotated[FloatArray, ArrayField((6,))] | None = None
-    """Coefficients that the fit is pulled towards; N, N m per unit; not penalised if left out."""
+    """Coefficients that are expected; N, N m per unit; about none if left out, and not penalised by a thesis' type."""
+    prior_deviation: Annotated[tuple[Positive, ...], Field(min_length=6, max_length=6)] | None = None
+    """How far they may be from these; N, N m per unit; if left out 0.5 % of full scale per degree, and for another unit
+    one full scale over the range that was seen."""
 
 
 class Sensor(Table):
@@ -90,6 +94,8 @@ class Sensor(Table):
     `identity` if that matrix is not known: the calibrated reading then takes the place of counts."""
     limit_counts: Positive = 32767.0
     """Largest magnitude of a raw reading; counts."""
+    full_scale: Annotated[tuple[Positive, ...], Field(min_length=6, max_length=6)] | None = None
+    """Full scale of fx, fy, fz, tx, ty, tz; N, N m; needed with the prior `identity`, which says nothing of sizes."""
     amplifier_gain: Annotated[tuple[Positive, ...], Field(min_length=1)] | None = None
     """Gain of the amplifier of each channel while it was recorded, for `forcetorque gains`."""
     allowed_gains: Annotated[tuple[Positive, ...], Field(min_length=1)] | None = None
@@ -205,7 +211,7 @@ class Interval(Table):
     """Kind of motion, such as grid or balancing; a study combines the data by kind; the label if left out."""
     session: Text | None = None
     """Stretch of time in which nothing was switched off, such as a day; a study chooses on some sessions and scores on
-    others; the label if left out."""
+    others; a calibration has an offset for each; one for the whole recording if left out."""
     support: Text | None = None
     """Support frame; required unless the use is ignore."""
 
@@ -241,8 +247,26 @@ def _lambda(value: Any) -> Any:
     return None if value == "held-out" else value
 
 
+class Accuracy(Table):
+    """Standard deviation of what neither model nor averaging takes away."""
+
+    force_N: NotNegative
+    """Of every force; N."""
+    moment_Nm: NotNegative
+    """Of every moment; N m."""
+
+
 class CalibrationTable(Table):
-    """How the fit is regularised."""
+    """How the sensor is fitted: by the generative model, or by a type of the thesis where one is asked for."""
+
+    accuracy: Accuracy | None = None
+    """Accuracy of the reference; 1e-3 of full scale if left out."""
+    repeatability: Annotated[float, Field(ge=0.0, lt=1.0, strict=True)] = REPEATABILITY
+    """Share of its response by which the sensor differs from one motion to the next (creep, hysteresis)."""
+    drift: bool = False
+    """Whether the offset of a session may move evenly in time."""
+    nonlinear: bool = False
+    """Whether quadratic terms may correct readings; they do where they win on recordings that were not fitted."""
 
     lambda_counts2: Annotated[
         Annotated[float, Field(ge=0.0, strict=True)] | None,
@@ -250,8 +274,9 @@ class CalibrationTable(Table):
         WithJsonSchema({"anyOf": [{"type": "number", "minimum": 0}, {"const": "held-out"}]}),
     ] = None
     """Lambda in the convention of thesis (5.4); `held-out` to choose it on held-out blocks."""
-    type: Annotated[str, Field(json_schema_extra={"enum": list(ESTIMATION_TYPES)})] | None = None
-    """Estimation type by its name in the thesis, such as OwTrTO; in place of the next three."""
+    type: Annotated[str, Field(json_schema_extra={"enum": [GENERATIVE, *ESTIMATION_TYPES]})] | None = None
+    """`generative`, the default, or an estimation type by its name in the thesis, such as OwTrTO; in place of the next
+    three, any of which stands for a thesis' type too, as does lambda."""
     offset: OffsetStrategy | None = None
     """How the offset is found: one-shot, the default, gives the same as centralised; sphere needs a grid motion."""
     with_variables: bool | None = None
@@ -268,12 +293,25 @@ class CalibrationTable(Table):
             raise PydanticCustomError(
                 "type_twice", "type stands for offset, with_variables and from_reference; give the one or the others"
             )
-        if self.type is not None and self.type not in ESTIMATION_TYPES:
-            message = f"no estimation type is called {self.type!r}; {known_names(self.type, ESTIMATION_TYPES)}"
+        types = (GENERATIVE, *ESTIMATION_TYPES)
+        if self.type is not None and self.type not in types:
+            message = f"no estimation type is called {self.type!r}; {known_names(self.type, types)}"
             raise PydanticCustomError("type_name", "{message}", {"message": message})
         if self.with_variables is False and self.from_reference:
             raise PydanticCustomError("no_variables", "from_reference belongs to with_variables = true")
+        if self.type == GENERATIVE and "lambda_counts2" in self.model_fields_set:
+            raise PydanticCustomError("generative_lambda", "the generative model has no lambda; leave it out")
+        if self.nonlinear and not self.generative:
+            raise PydanticCustomError(
+                "linear_type", "nonlinear belongs to the generative model; leave it out, or type, offset and lambda"
+            )
         return self
+
+    @property
+    def generative(self) -> bool:
+        """Whether the generative model is asked for: nothing of a thesis' type is."""
+        of_thesis = {"lambda_counts2", "offset", "from_reference"} & self.model_fields_set
+        return self.type == GENERATIVE or (self.type is None and not of_thesis)
 
 
 class ExperimentFile(Table):

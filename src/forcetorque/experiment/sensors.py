@@ -106,6 +106,7 @@ def _sensor(
         prior=_prior(where, entry, inputs),
         prior_source=None if entry.prior is None else Path(entry.prior).as_posix(),
         limit_counts=entry.limit_counts,
+        full_scale=None if entry.full_scale is None else np.array(entry.full_scale),
         amplifier_gain=entry.amplifier_gain,
         allowed_gains=entry.allowed_gains,
         variables=tuple(
@@ -132,6 +133,7 @@ def _variable(where: str, variable: schema.Variable, entry: schema.Sensor, recor
             unit=source.unit(recording),
             reference_value=variable.reference_value,
             prior=variable.prior_coefficients,
+            prior_deviation=None if variable.prior_deviation is None else np.array(variable.prior_deviation),
         )
     return SensorVariable(linear=linear, source=source)
 

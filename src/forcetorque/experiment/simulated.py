@@ -15,6 +15,7 @@ from forcetorque.atomic import write_bytes_atomically
 from forcetorque.exchange.icub import encode_matrix, write_matrix_file
 from forcetorque.experiment.simulated_file import experiment_text
 from forcetorque.experiment.simulated_network import write_port_logs
+from forcetorque.experiment.truth import TRUTH_FILE, TRUTH_SCHEMA
 from forcetorque.new_folder import new_folder
 from forcetorque.recording import write_recording
 from forcetorque.recording.quality import spans
@@ -85,7 +86,7 @@ def write_scenario(
     """
     output = Path(folder)
     truth: dict[str, Any] = {
-        "schema": "forcetorque/truth/1",
+        "schema": TRUTH_SCHEMA,
         "scenario": scenario.file.name,
         "seed": scenario.file.seed,
     }
@@ -102,11 +103,11 @@ def write_scenario(
             truth["recordings"][simulated.name] = _recording_truth(simulated)
             rows.append(_row(simulated))
         text = json.dumps(truth, indent=2, allow_nan=False) + "\n"
-        write_bytes_atomically(fresh / "truth.json", text.encode())
+        write_bytes_atomically(fresh / TRUTH_FILE, text.encode())
     return WrittenScenario(
         scenario=scenario.file.name,
         folder=str(output),
-        truth=str(output / "truth.json"),
+        truth=str(output / TRUTH_FILE),
         recordings=tuple(rows),
     )
 

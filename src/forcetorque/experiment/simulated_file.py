@@ -32,6 +32,8 @@ def experiment_text(scenario: Scenario, simulated: SimulatedRecording, log: str,
         )
         if temperature:
             text.append('\n[[sensor.variable]]\nname = "temperature"\n')
+    # the model of a simulated robot is exact
+    text.append("\n[calibration]\naccuracy = { force_N = 0.0, moment_Nm = 0.0 }\n")
     text.append(f'\n[[support]]\nframe = "{simulated.movement.support}"\ngravity_direction = [{down}]\n')
     text.append(
         f'\n[[interval]]\nlabel = "{simulated.name}"\nstart_s = {INTERVAL_MARGIN_S}\nuse = "{simulated.use.value}"\n'

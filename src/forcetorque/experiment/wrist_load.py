@@ -10,6 +10,7 @@ from forcetorque.estimation import Payload, identify_payload, support_motion_at
 from forcetorque.experiment import schema
 from forcetorque.experiment.content import ExperimentSensor
 from forcetorque.recording import Interval, MovingSupport, Recording, SavitzkyGolay, Use
+from forcetorque.recording.alignment import seconds_since
 from forcetorque.robot import ForceTorqueSensor, Joint, JointMotion, JointType, RobotModel, SensorFrame
 from forcetorque.spatial import Inertia
 
@@ -130,5 +131,8 @@ def estimate_load(
     )
     complete = np.isfinite(motion.proper_acceleration).all(axis=1) & np.isfinite(reading[chosen]).all(axis=1)
     return identify_payload(
-        reading[chosen][complete], motion.proper_acceleration[complete], direction=load.measure_direction
+        reading[chosen][complete],
+        motion.proper_acceleration[complete],
+        seconds_since(stream.stamp_ns[chosen][complete], recording.start_ns),
+        direction=load.measure_direction,
     )

@@ -82,6 +82,9 @@ class Timeline:
         white, log_white = columns.T @ weighed, -float(np.log(self.share).sum())
         if noise.is_white or not len(self):
             return white, log_white
+        if len(self) == 1:  # LAPACK wants a side diagonal
+            total = 1.0 + noise.ratio * float(self.share[0])
+            return white / total, log_white + float(np.log(total))
         diagonal, beside, log_inverse = self._precision(noise.time_constant_s)
         pivots, multipliers, failed = dpttrf(diagonal + noise.ratio * self.share, beside)
         solved, wrong = dpttrs(pivots, multipliers, weighed) if not failed else (weighed, 1)

@@ -6,12 +6,16 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any
 
-import numpy as np
-
 from forcetorque.analysis import Assessment, ExperimentAssessment, criteria_table, finding_table
 from forcetorque.analysis.sphere_tables import interval_table, mass_table, moment_table
 from forcetorque.errors import ForceTorqueError
 from forcetorque.report import figures, tables
+from forcetorque.report.calibration_sections import (
+    excitation_blocks,
+    lambda_blocks,
+    learnt_blocks,
+    uncertainty_blocks,
+)
 from forcetorque.report.document import Block, Document, Figure, List, Section, Text, Tone, Verdict
 from forcetorque.result import Table, short_names, table_of
 from forcetorque.spatial import WRENCH_COMPONENTS
@@ -97,9 +101,10 @@ def _sensor(title: str, sensor: Assessment) -> Section:
         ("Force and moment space", _space),
         ("Contact force where nothing touches", _contacts),
         ("Joint torques", _torques),
-        ("Choice of lambda", _lambda),
-        ("Excitation", _excitation),
-        ("Uncertainty", _uncertainty),
+        ("What the recordings taught", learnt_blocks),
+        ("Choice of lambda", lambda_blocks),
+        ("Excitation", excitation_blocks),
+        ("Uncertainty", uncertainty_blocks),
         ("What the sensor can do", _static),
         ("Acceptance", _acceptance),
     )
@@ -211,53 +216,6 @@ def _torques(sensor: Assessment) -> Iterator[Block]:
         joints = list(dict.fromkeys(row.joint for row in sensor.joint_torques))
         rows = sorted(sensor.joint_torques, key=lambda row: (joints.index(row.joint), row.offset))
         yield table_of(rows, "Torque of each joint as estimated from the sensor, less that of the rigid-body model")
-
-
-def _lambda(sensor: Assessment) -> Iterator[Block]:
-    names = short_names(list(sensor.calibrations))
-    curves, ratios = {}, {}
-    for file, calibration in sensor.calibrations.items():
-        selection = calibration.selection
-        yield Text(text=f"{names[file]}: {_lambda_words(calibration.lambda_counts2)}; {selection.rule}.")
-        if selection.lambda_counts2:
-            chosen = np.inf if calibration.lambda_counts2 is None else calibration.lambda_counts2
-            tried = np.array([np.inf if value is None else value for value in selection.lambda_counts2])
-            curves[names[file]] = (tried, np.array(selection.held_out_rmse), chosen)
-            ratios[names[file]] = np.array(selection.worst_ratio_to_prior)
-    if curves:
-        yield Figure(
-            png=figures.held_out_figure(curves, worst_ratios=ratios),
-            caption="Error on held-out blocks over lambda; the chosen one is marked.",
-            description="Curve of the held-out error over lambda for every calibration.",
-        )
-
-
-def _lambda_words(value: float | None) -> str:
-    return "lambda infinite, the prior matrix" if value is None else f"lambda {value:.4g} counts²"
-
-
-def _excitation(sensor: Assessment) -> Iterator[Block]:
-    calibrations = sensor.calibrations
-    if calibrations:
-        names = short_names(list(calibrations))
-        yield Figure(
-            png=figures.excitation_figure(
-                [names[file] for file in calibrations],
-                [one.validity.variance_counts2 for one in calibrations.values()],
-                [one.validity.explained for one in calibrations.values()],
-                [one.validity.excited for one in calibrations.values()],
-                [one.validity.directions for one in calibrations.values()],
-            ),
-            caption="How far the loads moved each direction of the raw readings while fitting, and how much of that "
-            "motion they explain.",
-            description="Bars of the deviation and explained share per raw direction, and what each is made of.",
-        )
-
-
-def _uncertainty(sensor: Assessment) -> Iterator[Block]:
-    names = short_names(list(sensor.calibrations))
-    for file, calibration in sensor.calibrations.items():
-        yield tables.matrix_table(names[file], calibration)
 
 
 def _static(sensor: Assessment) -> Iterator[Block]:

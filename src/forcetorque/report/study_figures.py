@@ -14,7 +14,7 @@ from forcetorque.atomic import write_bytes_atomically
 from forcetorque.calibration import WrenchModel
 from forcetorque.evaluation import KNOWN_BEFORE, Offset
 from forcetorque.report import figures
-from forcetorque.study import WORKBENCH, ValidationSet, tables, with_offset
+from forcetorque.study import WORKBENCH, Candidate, ValidationSet, tables, with_offset
 
 _PAUSE_S = 2.0
 """Pause that is drawn between validation intervals; s."""
@@ -32,7 +32,7 @@ def write_figures(sensor: SensorStudy, folder: Path) -> list[str]:
     """
     study = sensor.study
     chosen = study.choices[Offset.FIRST_SECOND].by_magnitude
-    data_set = study.fits.candidates[chosen].data_set
+    data_set = study.candidates[chosen].data_set
     names, differences = tables.matrix_differences(study, data_set)
     unit = "1e-4 N/count"  # that of `tables.DIFFERENCE_UNIT`
     draw: dict[str, Callable[[], bytes]] = {
@@ -70,33 +70,37 @@ def _lambda_force_figure(sensor: SensorStudy, offset: Offset) -> bytes:
     for candidate, value in zip(study.fits.candidates, pooled.force_mean, strict=False):
         curves.setdefault(candidate.data_set, {}).setdefault(candidate.kind.name, []).append(float(value))
     lambdas = list(dict.fromkeys(candidate.lambda_counts2 for candidate in study.fits.candidates))
-    chosen = study.fits.candidates[best]
+    chosen = study.candidates[best]
+    first = len(study.fits.candidates)
+    default = pooled.force_mean[first : first + len(study.generative)]
     return figures.lambda_force_figure(
         np.array(lambdas),
         {name: {kind: np.array(values) for kind, values in types.items()} for name, types in curves.items()},
         workbench=float(pooled.force_mean[-1]),
-        chosen=(chosen.data_set, chosen.kind.name, chosen.lambda_counts2),
+        generative=float(default.min()) if len(default) else None,
+        chosen=(chosen.data_set, chosen.kind.name, chosen.lambda_counts2) if isinstance(chosen, Candidate) else None,
     )
 
 
-def _judged_models(sensor: SensorStudy) -> dict[str, tuple[WrenchModel, Offset]]:
-    """The candidates of figures 5.6 and 5.7, with the offset that each is judged with."""
+def _judged_models(sensor: SensorStudy, session: str) -> dict[str, tuple[WrenchModel, Offset]]:
+    """The candidates of figures 5.6 and 5.7 in a session, with the offset that each is judged with."""
     models = {}
     if sensor.study.workbench is not None:
         models[WORKBENCH] = (sensor.study.workbench, Offset.FIRST_SECOND)
     for offset in KNOWN_BEFORE:
-        mode = offset.replace("-", "_")
-        models[f"best, offset {offset}"] = (sensor.calibrations[f"best_offset_{mode}"].model, offset)
-        models[f"best by axis, offset {offset}"] = (sensor.calibrations[f"best_by_axis_offset_{mode}"].model, offset)
+        for name, key in (("best", "best"), ("best by axis", "best_by_axis")):
+            calibration = sensor.calibrations[f"{key}_offset_{offset.replace('-', '_')}"]
+            models[f"{name}, offset {offset}"] = (calibration.in_session(session).model, offset)
     return models
 
 
 def _contact_figure(sensor: SensorStudy, axes: slice, unit: str) -> bytes:
     sets = [interval.validation_set for interval in sensor.data.validation]
-    candidates = {
-        name: np.concatenate([(with_offset(model, one, offset) - one.reference)[:, axes] for one in sets])
-        for name, (model, offset) in _judged_models(sensor).items()
-    }
+    errors: dict[str, list[FloatArray]] = {}
+    for one in sets:
+        for name, (model, offset) in _judged_models(sensor, one.session).items():
+            errors.setdefault(name, []).append((with_offset(model, one, offset) - one.reference)[:, axes])
+    candidates = {name: np.concatenate(parts) for name, parts in errors.items()}
     time, spans = _joined_time(sets)
     return figures.contact_figure(time, candidates, unit=unit, spans=spans)
 
@@ -116,7 +120,7 @@ def _comparison_figure(sensor: SensorStudy) -> bytes:
     liveliest = max(sets, key=lambda one: float(one.reference[:, :3].var(axis=0).sum()))
     candidates = {
         name: with_offset(model, liveliest, offset)
-        for name, (model, offset) in _judged_models(sensor).items()
+        for name, (model, offset) in _judged_models(sensor, liveliest.session).items()
         if name in (WORKBENCH, f"best, offset {Offset.FIRST_SECOND}")
     }
     return figures.comparison_figure(liveliest.time_s, liveliest.reference, candidates)

@@ -3,11 +3,12 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from forcetorque.analysis import StaticChecks
-from forcetorque.calibration import Calibration
+from forcetorque.calibration import Calibration, Posterior
 from forcetorque.result import COMPONENTS, Table, short_names, with_error
 from forcetorque.spatial import WRENCH_COMPONENTS
 
@@ -46,6 +47,37 @@ def matrix_table(name: str, calibration: Calibration) -> Table:
         caption=f"{name}: matrix per count, offset, and coefficients of variables, ± standard error",
         headings=("", *channels, "offset", *variables),
         rows=tuple(rows),
+    )
+
+
+def noise_table(name: str, posterior: Posterior) -> Table:
+    """Show the noise that a generative fit found in every row of its model.
+
+    Args:
+        name: Name of the calibration.
+        posterior: What it knows.
+
+    Returns:
+        A row per component, or per channel where there was no prior of six channels.
+    """
+    in_wrench = posterior.space == "wrench"
+    labels = COMPONENTS if in_wrench else [f"ch{k}, counts" for k in range(len(posterior.noise))]
+    rows = tuple(
+        (
+            label,
+            f"{noise.white:.3g}",
+            *(
+                (f"{math.sqrt(noise.ratio) * noise.white:.3g}", f"{noise.time_constant_s:.3g}", f"{noise.ratio:.3g}")
+                if noise.ratio > 0.0
+                else ("none", "", "")
+            ),
+        )
+        for label, noise in zip(labels, posterior.noise, strict=True)
+    )
+    return Table(
+        caption=f"{name}: noise of means over a second: a white part and a slow offset, standard deviations",
+        headings=("", "white", "slow", "forgets itself in, s", "variance, slow over white"),
+        rows=rows,
     )
 
 

@@ -7,7 +7,7 @@ from forcetorque.result.registry import result_classes
 from forcetorque.result.result import Result
 from forcetorque.result.row import AxisValues, FloatOrNull, Row, Values, WrenchValues
 from forcetorque.result.shown import COMPONENTS, Shown, ShownWrench
-from forcetorque.result.table import Table, table_of
+from forcetorque.result.table import Table, table_of, with_first_column
 from forcetorque.result.text import table_text, wrapped
 
 __all__ = [
@@ -29,5 +29,6 @@ __all__ = [
     "table_of",
     "table_text",
     "with_error",
+    "with_first_column",
     "wrapped",
 ]

@@ -20,11 +20,11 @@ def number(value: float | None, digits: int) -> str:
 
 
 def with_error(value: float | None, error: float | None, *, digits: int) -> str:
-    """Write a number with its standard error.
+    """Write a number with its error: a standard error, or half a 95 % interval, as the table says.
 
     Args:
         value: The number; None for none.
-        error: Its standard error; None if it is not known.
+        error: Its error; None if it is not known.
         digits: Digits behind the point of both.
 
     Returns:

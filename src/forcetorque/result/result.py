@@ -6,7 +6,7 @@ from __future__ import annotations
 import html
 import json
 from collections.abc import Iterable, Iterator, Sequence
-from typing import Any, Self
+from typing import Any, ClassVar, Self
 
 from pydantic import Field
 
@@ -21,6 +21,9 @@ NOTEBOOK_WIDTH = 100
 
 class Result(Row):
     """What a question gave. A class of its own for every question adds a field `schema`, rows and tables."""
+
+    of_several: ClassVar[tuple[str, ...]] = ()
+    """Fields about each of several recordings, which are not in the JSON of one."""
 
     warnings: tuple[str, ...] = Field(default=(), exclude=True)
     """What makes the answer doubtful, in sentences; messages, not part of the JSON."""
@@ -74,7 +77,9 @@ class Result(Row):
         Returns:
             One object with stable keys.
         """
-        return json.dumps(self.model_dump(mode="json", by_alias=True), indent=2, allow_nan=False)
+        content = self.model_dump(mode="json", by_alias=True)
+        stated = {name: value for name, value in content.items() if value or name not in self.of_several}
+        return json.dumps(stated, indent=2, allow_nan=False)
 
     def __str__(self) -> str:
         return self.text()
@@ -91,7 +96,9 @@ class Result(Row):
         Returns:
             Its JSON schema.
         """
-        return cls.model_json_schema(mode="serialization")
+        schema = cls.model_json_schema(mode="serialization")
+        schema["required"] = [name for name in schema.get("required", ()) if name not in cls.of_several]
+        return schema
 
     @classmethod
     def together(cls, results: Iterable[Self]) -> Self:

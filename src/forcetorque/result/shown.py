@@ -23,7 +23,7 @@ class Shown:
     digits: int | None = None
     """Digits behind the point; None for text and counts, which are shown as they are."""
     error: str | None = None
-    """Field with the standard error that stands behind the number."""
+    """Field with the error that stands behind the number: a standard error, or half a 95 % interval."""
     file: bool = False
     """Whether it names a file, of which only as much is shown as tells it from the others."""
 

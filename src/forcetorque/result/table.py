@@ -35,6 +35,21 @@ class Table:
         return tuple(bool(self.rows) and all(is_number(row[k]) for row in self.rows) for k in range(len(self.headings)))
 
 
+def with_first_column(table: Table, heading: str, cells: Sequence[str]) -> Table:
+    """Put a column in front of a table.
+
+    Args:
+        table: The table.
+        heading: Heading of the column.
+        cells: A cell per row.
+
+    Returns:
+        The wider table.
+    """
+    rows = tuple((cell, *row) for cell, row in zip(cells, table.rows, strict=True))
+    return Table(caption=table.caption, headings=(heading, *table.headings), rows=rows)
+
+
 def table_of(rows: Sequence[Row], caption: str, *, leave_out: Collection[str] = ()) -> Table:
     """Put rows into a table, by the annotations of their fields.
 

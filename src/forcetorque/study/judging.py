@@ -7,7 +7,7 @@ expected one (`evaluation.contact_force` proves it), so that thousands of candid
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -61,6 +61,7 @@ def judge(
     sources: Sequence[Offset],
     sets: Sequence[ValidationSet],
     *,
+    session_offsets: Mapping[int, Mapping[str, FloatArray]] | None = None,
     progress: Callable[[str], None] | None = None,
 ) -> Judgement:
     """Judge models on validation sets; samples that can give an offset are judged in neither mode.
@@ -69,6 +70,8 @@ def judge(
         models: The models; each has no variable, or all those of the sets.
         sources: Which offset each of them is judged with.
         sets: What they are judged on, at least one.
+        session_offsets: Offsets by session of those models that have several, by their index; a set of another session
+            is judged with that of the model.
         progress: Called with the label of every set when its turn comes.
 
     Returns:
@@ -79,7 +82,11 @@ def judge(
         if progress is not None:
             progress(one.label)
         first = one.for_offset()
-        moved = [_with_offset(model, one, first, source) for model, source in zip(models, sources, strict=True)]
+        here = list(models)
+        for index, offsets in (session_offsets or {}).items():
+            if one.session in offsets:
+                here[index] = replace(models[index], offset=offsets[one.session])
+        moved = [_with_offset(model, one, first, source) for model, source in zip(here, sources, strict=True)]
         errors = candidate_errors(
             one.raw[~first],
             one.reference[~first],

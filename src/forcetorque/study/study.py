@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray
+from forcetorque.arrays import BoolArray, FloatArray
 from forcetorque.calibration import (
     ESTIMATION_TYPES,
     DataSet,
@@ -17,11 +17,13 @@ from forcetorque.calibration import (
     WrenchModel,
 )
 from forcetorque.errors import FitError
-from forcetorque.evaluation import KNOWN_BEFORE, Offset
+from forcetorque.evaluation import KNOWN_BEFORE, Offset, PushError, push_error
+from forcetorque.study.candidate import Candidate, GenerativeCandidate
 from forcetorque.study.fitting import Fits, fit_candidates
 from forcetorque.study.judging import Judgement, judge
 from forcetorque.study.lambdas import SWEEP_LAMBDAS
 from forcetorque.study.selection import SessionScore, best_by_axis, best_by_magnitude, choosable, scored_across_sessions
+from forcetorque.study.unfitted import push_deviations
 from forcetorque.study.validation_set import ValidationSet
 
 WORKBENCH = "workbench"
@@ -45,18 +47,30 @@ class Study:
     """All candidates of a sensor, how they do, and which are best."""
 
     fits: Fits
-    """What was fitted."""
+    """What was fitted by the types of the thesis."""
+    generative: tuple[GenerativeCandidate, ...]
+    """Generative fits of the combinations that allow one."""
     workbench: WrenchModel | None
     """The prior matrix, judged with an offset from the judged interval in both modes; None for a new sensor."""
     judgements: Mapping[Offset, Judgement]
     """Errors by offset mode, of the candidates in their order, then of the workbench matrix."""
     choices: Mapping[Offset, Choice]
     """The best by offset mode."""
+    push_deviations: FloatArray
+    """How far every candidate reads pushes from the generative fit of its data set; shape (k, 6); predicted standard
+    deviations; not a number where there is no such fit."""
+    truth: FloatArray | None
+    """True matrix, of a simulated sensor; shape (6, c); N/count, N m/count."""
+
+    @property
+    def candidates(self) -> tuple[Candidate | GenerativeCandidate, ...]:
+        """All that may be chosen: those of the thesis' types in their order, then the generative fits."""
+        return (*self.fits.candidates, *self.generative)
 
     @property
     def models(self) -> tuple[WrenchModel, ...]:
         """Models in the order of the judgements."""
-        fitted = tuple(candidate.model for candidate in self.fits.candidates)
+        fitted = tuple(candidate.model for candidate in self.candidates)
         return fitted if self.workbench is None else (*fitted, self.workbench)
 
     def name(self, index: int) -> str:
@@ -68,7 +82,18 @@ class Study:
         Returns:
             Name of the candidate, or that of the workbench.
         """
-        return self.fits.candidates[index].name if index < len(self.fits.candidates) else WORKBENCH
+        return self.candidates[index].name if index < len(self.candidates) else WORKBENCH
+
+    def push_error(self, index: int) -> PushError | None:
+        """Judge a model by pushes that were not recorded.
+
+        Args:
+            index: Its index.
+
+        Returns:
+            Its error against the true matrix; None where that is not known.
+        """
+        return None if self.truth is None else push_error(self.models[index].matrix, self.truth)
 
 
 def run_study(
@@ -81,6 +106,8 @@ def run_study(
     kinds: Sequence[EstimationType] = tuple(ESTIMATION_TYPES.values()),
     lambdas: Sequence[float] = SWEEP_LAMBDAS,
     sphere: Collection[str] | None = None,
+    generative: Sequence[GenerativeCandidate] = (),
+    truth: FloatArray | None = None,
     progress: Callable[[str], None] | None = None,
 ) -> Study:
     """Study a sensor.
@@ -94,6 +121,8 @@ def run_study(
         kinds: Estimation types.
         lambdas: Lambdas of (5.4); counts2; those of the thesis' tables, six times as printed there, if left out.
         sphere: Labels of the data that draw the sphere of the sphere types.
+        generative: Generative fits of the combinations, to be judged beside the others.
+        truth: True matrix, of a simulated sensor; shape (6, c); None if it is not known.
         progress: Called with a line for people at every step.
 
     Returns:
@@ -115,28 +144,38 @@ def run_study(
         lambdas=lambdas,
         sphere=sphere,
     )
-    if not any(candidate.determined for candidate in fits.candidates):
+    candidates: tuple[Candidate | GenerativeCandidate, ...] = (*fits.candidates, *generative)
+    if not any(candidate.determined for candidate in candidates):
         raise FitError(
             "lambda is 0, and in every data set the loads leave a direction of the raw readings unexcited; move the "
             "limb so that all loads change, or give a prior matrix and a lambda above 0"
         )
-    models = [candidate.model for candidate in fits.candidates]
+    models = [candidate.model for candidate in candidates]
     workbench = None
     if prior is not None:
         # its offset is taken from every judged interval, so the zeros here are never used
         workbench = WrenchModel(matrix=prior, offset=np.zeros(6))
         models.append(workbench)
+    session_offsets = {k: c.offsets for k, c in enumerate(candidates) if isinstance(c, GenerativeCandidate)}
+    determined = np.array([candidate.determined for candidate in candidates])
     judgements, choices = {}, {}
     for source in KNOWN_BEFORE:
         say(f"judging {len(models)} matrices on {len(validation)} intervals, offset {source}")
-        sources = [source] * len(fits.candidates) + [Offset.FIRST_SECOND] * (workbench is not None)
-        judgements[source] = judge(models, sources, validation, progress=say)
-        choices[source] = _choice(judgements[source], fits)
-    return Study(fits=fits, workbench=workbench, judgements=judgements, choices=choices)
+        sources = [source] * len(candidates) + [Offset.FIRST_SECOND] * (workbench is not None)
+        judgements[source] = judge(models, sources, validation, session_offsets=session_offsets, progress=say)
+        choices[source] = _choice(judgements[source], determined)
+    return Study(
+        fits=fits,
+        generative=tuple(generative),
+        workbench=workbench,
+        judgements=judgements,
+        choices=choices,
+        push_deviations=push_deviations(candidates, generative),
+        truth=truth,
+    )
 
 
-def _choice(judgement: Judgement, fits: Fits) -> Choice:
-    determined = np.array([candidate.determined for candidate in fits.candidates])
+def _choice(judgement: Judgement, determined: BoolArray) -> Choice:
     candidates = choosable(judgement.over(), determined)
     return Choice(
         by_magnitude=best_by_magnitude(candidates),

@@ -11,7 +11,7 @@ from forcetorque.arrays import FloatArray
 from forcetorque.errors import FitError
 from forcetorque.evaluation import KNOWN_BEFORE, Offset
 from forcetorque.spatial import WRENCH_COMPONENTS
-from forcetorque.study.candidate import Candidate
+from forcetorque.study.candidate import Candidate, GenerativeCandidate
 from forcetorque.study.lambdas import lambda_text
 from forcetorque.study.study import WORKBENCH, Study
 
@@ -29,13 +29,14 @@ def squared_errors(study: Study) -> list[Row]:
         study: The study.
 
     Returns:
-        One row per combination and type; N2, (N m)2 (5.19).
+        One row per combination and type, those of the generative fits last; N2, (N m)2 (5.19).
     """
     moments = {combination.name: combination.moments for combination in study.fits.combinations}
-    return [
+    rows = [
         _labelled(candidate) | _axes(moments[candidate.data_set].squared_error(candidate.model))
         for candidate in unregularised(study)
     ]
+    return rows + [_labelled(candidate) | _axes(candidate.squared_error) for candidate in study.generative]
 
 
 def matrix_differences(study: Study, data_set: str) -> tuple[tuple[str, ...], FloatArray]:
@@ -49,7 +50,7 @@ def matrix_differences(study: Study, data_set: str) -> tuple[tuple[str, ...], Fl
         Names of the k matrices and their differences, shape (k, k); `DIFFERENCE_UNIT`, rows of N and N m alike.
     """
     named = {} if study.workbench is None else {WORKBENCH: study.workbench.matrix}
-    named |= {c.kind.name: c.model.matrix for c in unregularised(study) if c.data_set == data_set}
+    named |= {c.type: c.model.matrix for c in _without_lambda(study) if c.data_set == data_set}
     stacked = np.stack(list(named.values()))
     return tuple(named), np.abs(stacked[:, None] - stacked[None]).mean(axis=(2, 3)) / DIFFERENCE_UNIT
 
@@ -61,9 +62,9 @@ def offsets(study: Study) -> list[Row]:
         study: The study.
 
     Returns:
-        One row per combination and type; N, N m.
+        One row per combination and type, those of the generative fits last, in their last session; N, N m.
     """
-    return [_labelled(candidate) | _axes(candidate.model.offset) for candidate in unregularised(study)]
+    return [_labelled(candidate) | _axes(candidate.model.offset) for candidate in _without_lambda(study)]
 
 
 def mean_forces(study: Study, source: Offset) -> list[Row]:
@@ -74,7 +75,8 @@ def mean_forces(study: Study, source: Offset) -> list[Row]:
         source: Offset from the first second (5.5) or fitted (5.6).
 
     Returns:
-        One row per combination and type, a column per lambda, headed in both ways, then their mean; N. Workbench last.
+        One row per combination and type, a column per lambda, headed in both ways, then their mean; N. The generative
+        fits, which have no lambda, and the workbench are last.
     """
     force = study.judgements[source].over().force_mean
     rows: dict[tuple[str, str], Row] = {}
@@ -84,6 +86,8 @@ def mean_forces(study: Study, source: Offset) -> list[Row]:
     table = list(rows.values())
     for row in table:
         row["mean"] = float(np.mean([value for value in row.values() if isinstance(value, float)]))
+    first = len(study.fits.candidates)
+    table += [_labelled(c) | {"mean": float(force[first + k])} for k, c in enumerate(study.generative)]
     if study.workbench is not None:
         table.append({"data_set": WORKBENCH, "type": "", "mean": float(force[-1])})
     return table
@@ -119,16 +123,20 @@ def candidate_rows(study: Study) -> list[Row]:
         study: The study.
 
     Returns:
-        One row each: data set, type, lambda in three conventions, mean errors in both modes; N, N m.
+        One row each: data set, type, lambda in three conventions, mean errors in both modes; N, N m. Then, where the
+        true matrix is known, the error of pushes that were not recorded; and how many standard deviations of the
+        generative fit of the same data set they are read from what that reads.
     """
     pooled = {source: study.judgements[source].over() for source in KNOWN_BEFORE}
     spread = {source: study.judgements[source].part().standard_error() for source in KNOWN_BEFORE}
     table = []
     for index in range(len(study.models)):
         row: Row = {"data_set": WORKBENCH}
-        if index < len(study.fits.candidates):
-            candidate = study.fits.candidates[index]
-            row = _labelled(candidate) | {
+        candidate = study.candidates[index] if index < len(study.candidates) else None
+        if candidate is not None:
+            row = _labelled(candidate)
+        if isinstance(candidate, Candidate):
+            row |= {
                 "lambda_counts2": candidate.lambda_counts2,
                 "table_lambda_counts2": candidate.table_lambda,
                 "relative_lambda": candidate.relative_lambda,
@@ -139,8 +147,18 @@ def candidate_rows(study: Study) -> list[Row]:
             row[f"force_mean_error_{mode}"] = float(spread[source].force_mean[index])
             row[f"moment_mean_{mode}"] = float(pooled[source].moment_mean[index])
             row |= {f"{key}_{mode}": v for key, v in _axes(pooled[source].mean_absolute[index]).items()}
-        table.append(row)
+        table.append(row | _unfitted(study, index))
     return table
+
+
+def _unfitted(study: Study, index: int) -> Row:
+    """What is known of a model at loads that were not fitted."""
+    row: Row = {}
+    if (push := study.push_error(index)) is not None:
+        row |= {"push_force_N": push.force_N, "push_moment_Nm": push.moment_Nm}
+    if index < len(study.candidates) and np.isfinite(deviation := float(study.push_deviations[index].max())):
+        row["push_deviation_sd"] = deviation
+    return row
 
 
 def differences_to_workbench(study: Study, data_set: str) -> tuple[tuple[float, ...], dict[str, FloatArray]]:
@@ -181,12 +199,17 @@ def unregularised(study: Study) -> Iterable[Candidate]:
     return [candidate for candidate in study.fits.candidates if candidate.lambda_counts2 == smallest]
 
 
+def _without_lambda(study: Study) -> list[Candidate | GenerativeCandidate]:
+    """One candidate per combination and type, then the generative fits."""
+    return [*unregularised(study), *study.generative]
+
+
 def _heading(candidate: Candidate) -> str:
     return f"lambda {lambda_text(candidate.lambda_counts2)} (table {lambda_text(candidate.table_lambda)})"
 
 
-def _labelled(candidate: Candidate) -> Row:
-    return {"data_set": candidate.data_set, "type": candidate.kind.name}
+def _labelled(candidate: Candidate | GenerativeCandidate) -> Row:
+    return {"data_set": candidate.data_set, "type": candidate.type}
 
 
 def _axes(values: FloatArray) -> Row:

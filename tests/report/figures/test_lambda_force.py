@@ -50,6 +50,13 @@ def test_the_workbench_is_a_horizontal_line(drawn: list[Figure]) -> None:
     assert legend_of(drawn[1]) == list(TYPES)
 
 
+def test_the_best_generative_fit_is_a_second_horizontal_line(drawn: list[Figure]) -> None:
+    """It has no lambda; in the legend its force stands after the workbench's."""
+    lambda_force_figure(LAMBDAS, _curves("All"), workbench=WORKBENCH, generative=3.25)
+    np.testing.assert_array_equal(panels(drawn[0])[0].lines[1].get_ydata(), [3.25, 3.25])
+    assert legend_of(drawn[0])[-1] == "generative, best: 3.25 N"
+
+
 def test_the_choice_is_marked_where_it_is(drawn: list[Figure]) -> None:
     """A star on its point, and its force in the legend."""
     curves = _curves("noTz", "All")
@@ -130,3 +137,5 @@ def test_what_cannot_be_drawn_is_refused() -> None:
         lambda_force_figure(LAMBDAS, curves, chosen=("All", "SnTdTO", 7.0))
     with pytest.raises(ShapeError, match="workbench: expected a finite force"):
         lambda_force_figure(LAMBDAS, curves, workbench=np.nan)
+    with pytest.raises(ShapeError, match="generative, best: expected a finite force"):
+        lambda_force_figure(LAMBDAS, curves, generative=np.nan)

@@ -11,6 +11,7 @@ from forcetorque.report.figures.gains import gain_figure
 from forcetorque.report.figures.held_out import held_out_figure
 from forcetorque.report.figures.lambda_difference import lambda_difference_figure
 from forcetorque.report.figures.lambda_force import lambda_force_figure
+from forcetorque.report.figures.learnt import learnt_figure
 from forcetorque.report.figures.residuals import residual_figure
 from forcetorque.report.figures.sphere import sphere_figure
 from forcetorque.report.figures.wrench_space import space_figure
@@ -26,6 +27,7 @@ __all__ = [
     "index_figure",
     "lambda_difference_figure",
     "lambda_force_figure",
+    "learnt_figure",
     "residual_figure",
     "space_figure",
     "sphere_figure",

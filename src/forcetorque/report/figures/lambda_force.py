@@ -42,6 +42,10 @@ MOST_HUES, MOST_CURVES = 6, 20
 
 _PANEL_COLUMNS = 3
 _WORKBENCH: dict[str, Any] = {"color": REFERENCE_COLOUR, "linestyle": (0, (10, 3)), "linewidth": 1.2}
+_GENERATIVE: dict[str, Any] = {"color": REFERENCE_COLOUR, "linestyle": (0, (2, 2)), "linewidth": 1.6}
+
+_Level = tuple[str, float, dict[str, Any]]
+"""A force that no lambda changes: name, force and look of its line."""
 
 _Curves = dict[str, dict[str, FloatArray]]
 
@@ -51,6 +55,7 @@ def lambda_force_figure(
     curves: Mapping[str, Mapping[str, FloatArray]],
     *,
     workbench: float | None = None,
+    generative: float | None = None,
     chosen: tuple[str, str, float] | None = None,
 ) -> bytes:
     """Draw the mean magnitude of the contact force on validation data over lambda [1].
@@ -64,6 +69,7 @@ def lambda_force_figure(
         curves: Mean magnitude of the contact force by data set and estimation type; shape (l,); N. What is not a finite
             number breaks the curve.
         workbench: The same with the Workbench matrix, for a horizontal line; N. None where there is no such matrix.
+        generative: The same with the best generative fit, which has no lambda; N. None where there is no such fit.
         chosen: Data set, estimation type and lambda of the point to mark.
 
     Returns:
@@ -72,7 +78,7 @@ def lambda_force_figure(
     Raises:
         MissingExtraError: If matplotlib is not installed.
         ShapeError: If there are no curves or no lambdas, the shapes differ, a lambda is negative or not finite, the
-            force of the Workbench matrix is not finite, or what was chosen is not among the curves.
+            force of a horizontal line is not finite, or what was chosen is not among the curves.
 
     References:
         [1] F. J. Andrade Chavez, Force-torque sensing in robotics, thesis (2019), figure 5.5 and tables 5.5, 5.6.
@@ -80,23 +86,21 @@ def lambda_force_figure(
     rising, order = rising_lambdas(lambdas)
     given = _sorted(curves, order)
     best = math.nan if chosen is None else _force_at(chosen, rising, given)
-    if workbench is not None and not math.isfinite(workbench):
-        raise ShapeError(f"workbench: expected a finite force in N, got {workbench}; None draws no line")
+    levels = _levels(workbench, generative)
     shared = len(given) <= MOST_HUES and sum(map(len, given.values())) <= MOST_CURVES
     groups = [given] if shared else [{name: types} for name, types in given.items()]
     kinds = list(dict.fromkeys(kind for types in given.values() for kind in types))
     figure, panels = _panels(len(groups))
-    set_height_axis(panels[0], _heights(given, workbench))
+    set_height_axis(panels[0], _heights(given, levels))
     for panel, group in zip(panels, groups, strict=True):
-        _draw(panel, rising, group, kinds, workbench)
+        _draw(panel, rising, group, kinds, levels)
         if len(group) == 1:
             panel.set_title(shown_name(next(iter(group))), fontsize=TITLE_POINTS)
         if chosen is not None and chosen[0] in group:
             panel.plot(chosen[2], best, zorder=4.0, clip_on=False, **MARKED)
     figure.supylabel("mean magnitude of the contact force, N", fontsize=TITLE_POINTS)
     keys = _keys(list(groups[0]), kinds)
-    if workbench is not None:
-        keys.append((f"Workbench: {workbench:.4g} N", _WORKBENCH))
+    keys += [(f"{name}: {force:.4g} N", style) for name, force, style in levels]
     if chosen is not None:
         name, kind = map(shown_name, chosen[:2])
         keys.append((f"{name}, {kind}, lambda {chosen[2]:g}: {best:.4g} N", MARKED))
@@ -125,9 +129,20 @@ def _force_at(chosen: tuple[str, str, float], rising: FloatArray, given: _Curves
     return float(given[name][kind][places[0]])
 
 
-def _heights(given: _Curves, workbench: float | None) -> FloatArray:
+def _levels(workbench: float | None, generative: float | None) -> list[_Level]:
+    levels: list[_Level] = []
+    for name, force, style in (("Workbench", workbench, _WORKBENCH), ("generative, best", generative, _GENERATIVE)):
+        if force is None:
+            continue
+        if not math.isfinite(force):
+            raise ShapeError(f"{name.lower()}: expected a finite force in N, got {force}; None draws no line")
+        levels.append((name, force, style))
+    return levels
+
+
+def _heights(given: _Curves, levels: list[_Level]) -> FloatArray:
     forces = [values for types in given.values() for values in types.values()]
-    return np.concatenate([*forces, [] if workbench is None else [workbench]])
+    return np.concatenate([*forces, [force for _, force, _ in levels]])
 
 
 def _panels(count: int) -> tuple[Figure, list[Axes]]:
@@ -143,7 +158,7 @@ def _panels(count: int) -> tuple[Figure, list[Axes]]:
     return figure, panels[:count]
 
 
-def _draw(panel: Axes, rising: FloatArray, group: _Curves, kinds: list[str], workbench: float | None) -> None:
+def _draw(panel: Axes, rising: FloatArray, group: _Curves, kinds: list[str], levels: list[_Level]) -> None:
     """Draw curves of one data set, or of several that share a panel."""
     curves, looks = [], []
     for k, types in enumerate(group.values()):
@@ -151,8 +166,8 @@ def _draw(panel: Axes, rising: FloatArray, group: _Curves, kinds: list[str], wor
             style = look(kinds.index(kind))
             curves.append(values)
             looks.append(style if len(group) == 1 else replace(style, colour=look(k).colour))
-    if workbench is not None:
-        panel.axhline(workbench, **_WORKBENCH)
+    for _, force, line in levels:
+        panel.axhline(force, **line)
     draw_curves(panel, rising, curves, looks)
     set_lambda_axis(panel, rising)
 

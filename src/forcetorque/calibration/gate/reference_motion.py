@@ -8,10 +8,11 @@ import numpy as np
 from forcetorque.calibration.moments import Moments
 from forcetorque.errors import FitError
 
-NO_LOAD_N, NO_LOAD_NM = 1e-3, 1e-5
-"""Root mean square of force and moment below which nothing hangs on the sensor.
+NO_LOAD_N = 1e-3
+"""Root mean square of the force below which nothing hangs on the sensor, whatever its moment is.
 
-A third of what the finest six-axis sensors resolve, and the weight of 0.1 g; a model without mass gives exactly 0.
+A third of what the finest six-axis sensors resolve, and the weight of 0.1 g; a model without mass gives exactly 0,
+though inertia that was left in it gives a moment.
 """
 
 STILL = 1e-3
@@ -38,7 +39,7 @@ def require_moving_load(moments: Moments) -> None:
     size = change + moments.reference_mean**2
     force_change, moment_change = (float(np.sqrt(change[part].sum())) for part in (slice(3), slice(3, 6)))
     force, moment = (float(np.sqrt(size[part].sum())) for part in (slice(3), slice(3, 6)))
-    if force < NO_LOAD_N and moment < NO_LOAD_NM:
+    if force < NO_LOAD_N:
         raise FitError(
             f"the reference is {force:.2g} N and {moment:.2g} N m, so the model has no mass beyond the sensor; "
             "give the links of the tool their mass in the file that urdf of [robot] names, or mass_kg of [load]"

@@ -1,0 +1,133 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Reduce recordings of a sensor to what a calibration needs of them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from urllib.parse import quote
+
+import numpy as np
+
+from forcetorque.analysis.campaign import Campaign, Runs
+from forcetorque.analysis.campaign_recording import CampaignRecording
+from forcetorque.arrays import FloatArray
+from forcetorque.calibration import IntervalMoments, LinearVariable, RecordingMoments, VariableDescription, gate
+from forcetorque.calibration.generative import ACCURACY_SHARE
+from forcetorque.errors import ExperimentError
+from forcetorque.recording import Use
+
+
+def recording_moments(runs: Runs, *, with_variables: bool | None = None) -> list[RecordingMoments]:
+    """Reduce the calibration intervals of a sensor.
+
+    Args:
+        runs: The sensor, in one experiment or several.
+        with_variables: Whether its linear variables are wanted; None for what the experiment says, else where it has
+            any.
+
+    Returns:
+        Moments and means of every recording.
+
+    Raises:
+        ExperimentError: If there is no calibration interval, or the full scale of the sensor is not known.
+    """
+    campaign = Campaign.of(runs)
+    stated = campaign.runs[0].experiment.fit_options.with_variables if with_variables is None else with_variables
+    sensor = campaign.sensor
+    variables = [v.linear for v in sensor.variables] if stated is not False else []
+    intervals = campaign.samples(Use.CALIBRATION, variables=[variable.name for variable in variables])
+    doubts = gate.examine([interval.data_set for interval in intervals], sensor.prior)
+    results = []
+    for run, recording in zip(campaign.runs, campaign.recordings, strict=True):
+        own = [interval for interval in intervals if interval.recording == recording]
+        if not own:
+            continue
+        kept = [IntervalMoments.of(i.data_set, i.fitted, dropped=i.part.samples.dropped) for i in own]
+        stated_by = CampaignRecording.of(run)
+        results.append(moments_of(stated_by, kept, variables=variables, doubts=[doubt.message for doubt in doubts]))
+    return results
+
+
+def moments_of(
+    recording: CampaignRecording,
+    intervals: Sequence[IntervalMoments],
+    *,
+    variables: Sequence[LinearVariable],
+    doubts: Sequence[str],
+) -> RecordingMoments:
+    """Put what is kept of intervals beside what the recording says about the sensor.
+
+    Args:
+        recording: The recording.
+        intervals: What is kept of its intervals.
+        variables: Linear variables that are fitted.
+        doubts: What makes any fit of them doubtful.
+
+    Returns:
+        The moments of the recording.
+
+    Raises:
+        ExperimentError: If the full scale of the sensor is not known.
+    """
+    sensor, options = recording.sensor, recording.options
+    return RecordingMoments(
+        sensor=recording.identity,
+        experiment=recording.experiment,
+        prior=sensor.prior,
+        prior_source=sensor.prior_source,
+        full_scale=channel_full_scale(recording),
+        accuracy=options.accuracy,
+        repeatability=options.repeatability,
+        drift=options.drift,
+        nonlinear=options.nonlinear,
+        variables=tuple(map(VariableDescription.of, variables)),
+        intervals=tuple(intervals),
+        doubts=tuple(doubts),
+        inputs_sha256=dict(recording.inputs_sha256),
+    )
+
+
+def channel_full_scale(recording: CampaignRecording) -> FloatArray:
+    """Give the full scale of every channel of a sensor's raw reading.
+
+    Args:
+        recording: What the recording says about the sensor.
+
+    Returns:
+        Full scales; shape (c,); counts, or N and N m where the logged wrench takes the place of counts.
+
+    Raises:
+        ExperimentError: If a wrench takes the place of counts, and neither its full scale nor an accuracy is stated.
+    """
+    sensor, accuracy = recording.sensor, recording.options.accuracy
+    if sensor.prior_source != "identity":
+        return np.full(recording.channels, sensor.limit_counts)
+    if sensor.full_scale is not None:
+        return sensor.full_scale
+    if accuracy is not None and (accuracy > 0.0).all():
+        return accuracy / ACCURACY_SHARE
+    raise ExperimentError(
+        f'sensor {sensor.name!r}: expected full_scale with the prior "identity", which says nothing of sizes: six '
+        "numbers in its [[sensor]], N and N m, as its data sheet has them; or accuracy of [calibration]"
+    )
+
+
+def store_moments(runs: Runs, folder: Path | str) -> list[Path]:
+    """Keep what a calibration needs of every recording of a sensor.
+
+    Args:
+        runs: The sensor, in one experiment or several.
+        folder: Where the files go; made where it is missing.
+
+    Returns:
+        The files, one per recording.
+    """
+    place = Path(folder)
+    place.mkdir(parents=True, exist_ok=True)
+    files = []
+    for recording in recording_moments(runs):
+        name = f"{recording.sensor.name}_{recording.sensor.serial}_{recording.intervals[0].recording}"
+        files.append(place / f"{quote(name, safe=' ')}.json")
+        recording.save(files[-1])
+    return files

@@ -1,0 +1,66 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""All checks of the gate, in the order in which one explains the next."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from forcetorque.arrays import FloatArray, read_only
+from forcetorque.calibration.data_set import DataSet
+from forcetorque.calibration.gate.delay import delay_doubts
+from forcetorque.calibration.gate.doubt import Doubt
+from forcetorque.calibration.gate.full_scale import require_within_full_scale
+from forcetorque.calibration.gate.movement import Movement
+from forcetorque.calibration.gate.reference_motion import require_moving_load
+from forcetorque.calibration.gate.scale import scale_doubts
+from forcetorque.calibration.gate.sign import require_same_sign
+from forcetorque.calibration.gate.span import span_doubts
+from forcetorque.calibration.moments import Moments, pooled
+from forcetorque.calibration.raw import is_invertible
+from forcetorque.errors import FitError
+
+_FEWEST = 20
+"""Samples below which six components of a reference explain any reading."""
+
+
+def examine(
+    data_sets: Sequence[DataSet], prior: FloatArray | None, full_scale: FloatArray | None = None
+) -> tuple[Doubt, ...]:
+    """Judge whether readings can be those of a sensor under the modelled load, before anything is fitted to them.
+
+    Offsets of data sets are no matter, nor are slow drifts and what linear variables explain.
+
+    Args:
+        data_sets: Stretches of calibration data of one sensor.
+        prior: Matrix that the sensor is read by so far; shape (6, c); without it sign and scale cannot be judged.
+        full_scale: Largest wrench that the sensor reads; shape (6,); N, N m; None if it is not known.
+
+    Returns:
+        What is doubtful; nothing where all is well, or where too few samples say anything.
+
+    Raises:
+        FitError: If nothing may be fitted: the prior is singular, the model has no mass, its load stands still or is
+            beyond the sensor, or the reading does not follow it, or follows it the wrong way round or by a factor that
+            no sensor has.
+        ShapeError: If data sets, or data and prior, have different numbers of channels or variables.
+    """
+    if prior is not None and np.shape(prior) == (6, 6) and not is_invertible(prior):
+        raise FitError("the prior matrix is singular, so no matrix corrects what it made")
+    # one sample has no neighbour, and without any the fit itself says what is missing
+    usable = [data for data in data_sets if len(data.raw) > 1]
+    if sum(len(data.raw) for data in usable) < _FEWEST:
+        return ()
+    moments = pooled(Moments.of(data.raw, data.reference, data.variables) for data in usable)
+    require_moving_load(moments)
+    if full_scale is not None:
+        require_within_full_scale(usable, read_only(full_scale, name="full_scale", shape=(6,)))
+    if prior is not None:
+        prior = read_only(prior, name="prior", shape=(6, moments.channels))
+    movement = Movement.of(usable, prior)
+    doubts = [*span_doubts(movement, has_prior=prior is not None)]
+    if prior is not None:
+        require_same_sign(movement, prior)
+        doubts += scale_doubts(movement, prior)
+    return (*doubts, *delay_doubts(usable, prior))

@@ -1,0 +1,97 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""How reading and reference move together within data sets: what the gate judges, whatever the offsets are."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any, Self
+
+import numpy as np
+
+from forcetorque.arrays import FloatArray, read_only
+from forcetorque.calibration.data_set import DataSet
+from forcetorque.calibration.moments import Moments, symmetric_pseudo_inverse
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Movement:
+    """Second moments of k columns of reading and six of reference about the mean of each data set.
+
+    What the linear variables and a slow drift explain is taken out, in each data set by itself, as its offset is.
+    """
+
+    count: int
+    """Number of samples."""
+    second: FloatArray
+    """Mean products of reading and reference; shape (k + 6, k + 6)."""
+    lasting: FloatArray
+    """The same of what neighbouring samples share: white noise is not in it; shape (k + 6, k + 6)."""
+    size: FloatArray
+    """Root mean square of the reference, its mean included; shape (6,); N, N m."""
+
+    def __post_init__(self) -> None:
+        width = len(np.asarray(self.second))
+        object.__setattr__(self, "second", read_only(self.second, name="second", shape=(width, width)))
+        object.__setattr__(self, "lasting", read_only(self.lasting, name="lasting", shape=(width, width)))
+        object.__setattr__(self, "size", read_only(self.size, name="size", shape=(6,)))
+
+    @classmethod
+    def of(cls, data_sets: Sequence[DataSet], prior: FloatArray | None) -> Self:
+        """Reduce data sets.
+
+        Args:
+            data_sets: Data sets of at least two samples each.
+            prior: Matrix that makes a wrench of the raw reading; shape (6, c); None to take the channels as they are.
+
+        Returns:
+            The movement; its reading is a wrench if there is a prior, else raw counts.
+        """
+        channels = data_sets[0].raw.shape[1]
+        reading = np.eye(channels) if prior is None else prior
+        turn = np.zeros((len(reading) + 6, channels + 6))
+        turn[: len(reading), :channels], turn[len(reading) :, channels:] = reading, np.eye(6)
+        counts = np.array([len(data.raw) for data in data_sets])
+        share = counts / counts.sum()
+        second = turn @ np.tensordot(share, [_second(*_columns(data)) for data in data_sets], 1) @ turn.T
+        # the mean of two neighbours holds half of the white noise, and all of what both share
+        halved = turn @ np.tensordot(share, [_second(*map(_paired, _columns(data))) for data in data_sets], 1) @ turn.T
+        square = np.tensordot(share, [(data.reference**2).mean(axis=0) for data in data_sets], 1)
+        return cls(count=int(counts.sum()), second=second, lasting=2.0 * halved - second, size=np.sqrt(square))
+
+    @property
+    def columns(self) -> int:
+        """Number k of columns of the reading."""
+        return len(self.second) - 6
+
+    @property
+    def follows(self) -> FloatArray:
+        """Matrix by which the reading follows the reference, by least squares; shape (k, 6)."""
+        k = self.columns
+        return self.second[:k, k:] @ symmetric_pseudo_inverse(self.second[k:, k:])
+
+    def left(self, second: FloatArray) -> FloatArray:
+        """Take out of the reading what follows the reference.
+
+        Args:
+            second: `second` or `lasting`; shape (k + 6, k + 6).
+
+        Returns:
+            Mean square of the rest of every column; shape (k,).
+        """
+        rest = np.hstack([np.eye(self.columns), -self.follows])
+        square: FloatArray = np.maximum(np.einsum("ij,jk,ik->i", rest, second, rest), 0.0)
+        return square
+
+
+def _columns(data: DataSet) -> tuple[FloatArray, FloatArray, FloatArray]:
+    along = np.linspace(-1.0, 1.0, len(data.raw))[:, None]
+    return data.raw, data.reference, np.hstack([data.variables, along, along**2])
+
+
+def _paired(values: FloatArray) -> FloatArray:
+    return 0.5 * (values[1:] + values[:-1])
+
+
+def _second(raw: Any, reference: Any, variables: Any) -> FloatArray:
+    return Moments.of(raw, reference, variables).without_variables().second

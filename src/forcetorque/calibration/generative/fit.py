@@ -1,0 +1,327 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The generative fit: a matrix, coefficients and one offset per session, with what is known of them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from forcetorque.arrays import FloatArray, read_only
+from forcetorque.calibration.generative import assumptions as expected
+from forcetorque.calibration.generative.assumptions import Assumptions, Scale
+from forcetorque.calibration.generative.design import Design, design_of, whiten
+from forcetorque.calibration.generative.determined import require_rank, require_response, require_sensor
+from forcetorque.calibration.generative.evidence import Unknowns, infer
+from forcetorque.calibration.generative.means import WindowMeans, in_order
+from forcetorque.calibration.generative.rows import LOADS, Rows, rows_of
+from forcetorque.calibration.linear_variable import LinearVariable
+from forcetorque.calibration.posterior import Posterior, RowNoise
+from forcetorque.calibration.quadratic_correction import PAIRS
+from forcetorque.calibration.wrench_model import WrenchModel
+from forcetorque.errors import FitError
+
+_DEGREES = ("degC", "K", "degF")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class GenerativeFit:
+    """A fit with everything that is known of its unknowns."""
+
+    model: WrenchModel
+    """Matrix, coefficients, the offset of the last session, and quadratic terms where they correct readings."""
+    offsets: FloatArray
+    """Offset of every session, where every variable has its reference value; shape (sessions, 6); N, N m."""
+    drifts: FloatArray | None
+    """Drift of every offset; shape (sessions, 6); N/s, N m/s; None where offsets were taken as constant."""
+    session_time_s: FloatArray
+    """Instants at which the drifting offsets hold, on the clocks of the recordings; shape (sessions,); s."""
+    posterior: Posterior
+    """Mean and covariance of the unknowns."""
+    residual: FloatArray
+    """Root mean square residual of the model on the means; shape (6,); N, N m."""
+    quadratic: FloatArray
+    """What the 21 quadratic terms of the loads add to the rows of the posterior; shape (rows, 21); N, N m or counts."""
+    load_to_full_scale: FloatArray
+    """Shares of full scale that loads make, of which the quadratic terms are, about their mean; shape (6, 6)."""
+    means: int
+    """Number of means that were fitted."""
+
+
+def fit_generative(
+    stretches: Sequence[WindowMeans],
+    prior: FloatArray | None,
+    assumptions: Assumptions,
+    *,
+    variables: Sequence[LinearVariable] = (),
+    drift: bool = False,
+    quadratic: bool = True,
+) -> GenerativeFit:
+    """Fit a sensor: readings are regressed on loads, and where no load speaks the prior stays.
+
+    Args:
+        stretches: Means of the calibration intervals of one sensor, of any number of recordings and sessions.
+        prior: Matrix of the sensor so far; shape (6, c); None for a sensor without one.
+        assumptions: Full scales, accuracy of the reference and repeatability.
+        variables: What the columns of `variables` in the means are.
+        drift: Whether the offset of a session may move evenly in time.
+        quadratic: Whether there are quadratic terms; without them what is quadratic passes for gain.
+
+    Returns:
+        The fit.
+
+    Raises:
+        FitError: If there are no data, fewer than six channels, no prior and loads that do not tell all of the
+            matrix, a variable that never moves and of which nothing is known, or the data say that the sensor has lost
+            a direction.
+        ShapeError: If the data do not fit each other, the prior or the variables.
+
+    References:
+        The load as the cause of the reading, with a Gaussian prior on the relative error of the prior matrix, sizes by
+        evidence (MacKay, Bayesian interpolation, Neural Computation 4, 1992) and Ornstein-Uhlenbeck noise (Rasmussen,
+        Williams, Gaussian processes for machine learning, 2006, appendix B).
+    """
+    ordered = [stretch.unflattened(expected.FLATTENED) for stretch in in_order(stretches)]
+    raw = np.concatenate([stretch.raw for stretch in ordered])
+    wrench = np.concatenate([stretch.reference for stretch in ordered])
+    values = read_only(
+        np.concatenate([s.variables for s in ordered]), name="variables", shape=(len(raw), len(variables))
+    )
+    if raw.shape[1] < LOADS:
+        raise FitError(f"expected at least six channels, which six load directions need, got {raw.shape[1]}")
+    if prior is None:
+        require_rank(wrench, [len(stretch) for stretch in ordered])
+    matrix = _rough(raw, wrench) if prior is None else read_only(prior, name="prior", shape=(6, raw.shape[1]))
+    rows = rows_of(matrix, assumptions, with_prior=prior is not None)
+    centre = np.array(
+        [values[0, k] if v.reference_value is None else v.reference_value for k, v in enumerate(variables)]
+    )
+    usual = np.column_stack([np.zeros((6, 0)), *(np.zeros(6) if v.prior is None else v.prior for v in variables)])
+    # what a variable is expected to do is taken off, so that the prior of what is left is about zero
+    expected_rows = -rows.from_load @ usual
+    response = raw @ rows.from_raw.T - wrench @ rows.from_load.T - (values - centre) @ expected_rows.T
+    shares = wrench @ rows.load_to_full_scale.T if quadratic else np.zeros((len(wrench), LOADS))
+    design = design_of(ordered, response, shares, drift=drift, centre=centre)
+    _require_means(design, drift=drift)
+    basis = [
+        _basis(rows, k, variables=_variable_sizes(variables, values, rows, k), width=design.columns.shape[1])
+        for k in range(len(rows.unit))
+    ]
+    kinds = np.repeat(np.arange(5), [LOADS, LOADS, len(variables), len(PAIRS[0]), LOADS])
+    unknowns = infer(
+        whiten(design),
+        basis,
+        kinds,
+        _scales(with_prior=prior is not None),
+        group=rows.group,
+        accuracy=rows.accuracy,
+        freedom=max(len(raw) - design.free.shape[1], 1),
+    )
+    return _Result(rows, design, basis, unknowns, expected_rows, matrix, assumptions).fit(
+        raw, wrench, values, centre, with_prior=prior is not None, variables=variables
+    )
+
+
+def _rough(raw: FloatArray, wrench: FloatArray) -> FloatArray:
+    """A matrix that reads the data roughly, for a sensor that has none."""
+    design = np.c_[wrench, np.ones(len(wrench))]
+    response = np.linalg.lstsq(design, raw, rcond=None)[0][:LOADS].T
+    matrix: FloatArray = np.linalg.pinv(response)
+    return matrix
+
+
+def _scales(*, with_prior: bool) -> tuple[Scale, ...]:
+    # without a prior matrix nothing is known of the sensor: its deviations may be as large as they like
+    sensor = expected.SENSOR if with_prior else Scale(expected=1e3, weight=np.inf)
+    return sensor, expected.FRAME, Scale(expected=1.0, weight=np.inf), expected.QUADRATIC, expected.FLATTENING
+
+
+def _variable_sizes(variables: Sequence[LinearVariable], values: FloatArray, rows: Rows, row: int) -> FloatArray:
+    """Standard deviation of what a unit of every variable may add to a row; shape (v,)."""
+    sizes = np.zeros(len(variables))
+    for k, variable in enumerate(variables):
+        if variable.prior_deviation is not None:
+            sizes[k] = np.linalg.norm(rows.from_load[row] * variable.prior_deviation)
+        elif variable.unit in _DEGREES:
+            sizes[k] = expected.DRIFT_SHARE_PER_DEGREE
+        else:
+            extent = float(np.ptp(values[:, k]))
+            if extent == 0.0:
+                raise FitError(
+                    f"variable {variable.name!r}: its value is {values[0, k]:g} {variable.unit} throughout the fitted "
+                    "data, which says nothing of its coefficients; fit data at several values, state prior_deviation, "
+                    "or leave it out"
+                )
+            sizes[k] = expected.VARIABLE_SHARE / extent
+    return sizes
+
+
+def _basis(rows: Rows, row: int, *, variables: FloatArray, width: int) -> FloatArray:
+    """What the columns of the design are worth in the unknowns of a row; shape (a, q)."""
+    v, pairs = len(variables), len(PAIRS[0])
+    basis = np.zeros((width, 2 * LOADS + v + pairs + LOADS))
+    basis[:LOADS, :LOADS], basis[:LOADS, LOADS : 2 * LOADS] = rows.sensor_root[row], rows.frame_root[row]
+    place, column = 2 * LOADS, LOADS
+    basis[column : column + v, place : place + v] = np.diag(variables)
+    place, column = place + v, column + v
+    basis[column : column + pairs, place : place + pairs] = np.eye(pairs)
+    place, column = place + pairs, column + pairs
+    basis[column:, place:] = np.diag(rows.from_load[row])
+    return basis
+
+
+def _require_means(design: Design, *, drift: bool) -> None:
+    if not drift:
+        return
+    for number, name in enumerate(design.sessions):
+        count = int(design.free[:, number].sum())
+        if count < 3:
+            raise FitError(
+                f"session {name!r}: expected at least 3 s of data for an offset and its drift, got {count} s; "
+                "take its offset as constant"
+            )
+
+
+class _Result:
+    """From the unknowns of the rows to matrix, offsets and posterior."""
+
+    def __init__(
+        self,
+        rows: Rows,
+        design: Design,
+        basis: Sequence[FloatArray],
+        unknowns: Sequence[Unknowns],
+        expected_rows: FloatArray,
+        matrix: FloatArray,
+        assumptions: Assumptions,
+    ) -> None:
+        self.rows, self.design, self.basis, self.unknowns = rows, design, basis, unknowns
+        self.expected_rows, self.matrix, self.assumptions = expected_rows, matrix, assumptions
+
+    def fit(
+        self,
+        raw: FloatArray,
+        wrench: FloatArray,
+        values: FloatArray,
+        centre: FloatArray,
+        *,
+        with_prior: bool,
+        variables: Sequence[LinearVariable],
+    ) -> GenerativeFit:
+        v, sessions = len(variables), len(self.design.sessions)
+        rows, unit = self.rows, self.rows.unit
+        known = [self._row(k) for k in range(len(unit))]
+        mean = np.stack([row[0] for row in known]) * unit[:, None]
+        covariance = np.stack([row[1] for row in known]) * unit[:, None, None] ** 2
+        learnt = covariance[:, :LOADS, :LOADS].copy()
+        noise = tuple(
+            RowNoise(
+                white=float(np.sqrt(u.variance) * unit[k]),
+                time_constant_s=u.data.noise.time_constant_s,
+                ratio=u.data.noise.ratio,
+            )
+            for k, u in enumerate(self.unknowns)
+        )
+        matrix, to_wrench = self._matrix(mean[:, :LOADS], noise)
+        if rows.space == "channel":
+            mean[:, :LOADS] += rows.from_load * unit[:, None]
+        covariance += self._repeatability(matrix)
+        prior = self._before(unit) if with_prior else None
+        if not with_prior:
+            require_response(mean[:, :LOADS], learnt, wrench)
+        posterior = Posterior(
+            space=rows.space,
+            variables=tuple(variable.name for variable in variables),
+            sessions=self.design.sessions,
+            drift=self.design.free.shape[1] > sessions,
+            mean=mean,
+            covariance=covariance,
+            learnt_covariance=learnt,
+            prior_covariance=prior,
+            to_wrench=to_wrench,
+            noise=noise,
+            accuracy=self.assumptions.reference_accuracy(self.matrix),
+            repeatability=self.assumptions.repeatability,
+            load_centre=self.design.load_centre,
+        )
+        offsets = -(to_wrench @ mean[:, LOADS + v : LOADS + v + sessions]).T
+        model = WrenchModel(
+            matrix=matrix,
+            offset=offsets[-1],
+            coefficients=-(to_wrench @ mean[:, LOADS : LOADS + v]),
+            reference_values=centre,
+        )
+        error = raw @ matrix.T + (values - centre) @ model.coefficients.T - wrench
+        weight, member = self.design.timeline.share, self.design.free[:, :sessions].argmax(axis=1)
+        drifts = -(to_wrench @ mean[:, LOADS + v + sessions :]).T if posterior.drift else None
+        left = error + offsets[member]
+        if drifts is not None:
+            left = left + drifts[member] * self.design.free[:, sessions:].sum(axis=1)[:, None]
+        return GenerativeFit(
+            model=model,
+            offsets=offsets,
+            drifts=drifts,
+            session_time_s=self.design.session_time_s,
+            posterior=posterior,
+            residual=np.sqrt(np.average(left**2, axis=0, weights=weight)),
+            quadratic=np.stack([self._quadratic(k) for k in range(len(unit))]) * unit[:, None],
+            load_to_full_scale=rows.load_to_full_scale,
+            means=len(raw),
+        )
+
+    def _row(self, k: int) -> tuple[FloatArray, FloatArray]:
+        """Mean and covariance of [six coefficients, variables, offsets, drifts] of a row, in its unit."""
+        unknown, basis, design = self.unknowns[k], self.basis[k], self.design
+        sessions, free = len(design.sessions), design.free.shape[1]
+        used = LOADS + self.expected_rows.shape[1]
+        data = unknown.data
+        worth = data.free_columns @ basis  # of the free unknowns, by what the others explain
+        from_unknowns = np.zeros((used + free, len(unknown.coefficients)))
+        from_unknowns[:used] = basis[:used]
+        from_unknowns[used:] = -worth
+        from_unknowns[used : used + sessions] -= design.column_means[:, :used] @ basis[:used]
+        constant = np.zeros(used + free)
+        constant[LOADS:used] = self.expected_rows[k]
+        constant[used:] = data.free_response[:, k]
+        constant[used : used + sessions] += design.response_means[:, k]
+        covariance = from_unknowns @ unknown.covariance @ from_unknowns.T
+        covariance[used:, used:] += unknown.variance * data.free_covariance
+        return constant + from_unknowns @ unknown.coefficients, 0.5 * (covariance + covariance.T)
+
+    def _matrix(self, change: FloatArray, noise: Sequence[RowNoise]) -> tuple[FloatArray, FloatArray]:
+        """The matrix, and what turns errors of rows into errors of wrenches."""
+        rows, unit = self.rows, self.rows.unit
+        if rows.space == "wrench":
+            require_sensor(np.eye(LOADS) + change * (unit / unit[:, None]))
+            to_wrench = np.asarray(np.linalg.inv(np.eye(LOADS) + change), dtype=np.float64)
+            return to_wrench @ self.matrix, to_wrench
+        response = rows.from_load * unit[:, None] + change
+        precision = np.array([1.0 / (one.white**2 * (1.0 + one.ratio)) for one in noise])[:, None]
+        weighed = precision * response
+        matrix = np.asarray(np.linalg.solve(response.T @ weighed, weighed.T), dtype=np.float64)
+        return matrix, matrix
+
+    def _before(self, unit: FloatArray) -> FloatArray:
+        """Covariance of the six coefficients of every row before any data."""
+        prior = []
+        for k, unknown in enumerate(self.unknowns):
+            root = self.basis[k][:LOADS, : 2 * LOADS] * unknown.deviations[: 2 * LOADS]
+            prior.append(unit[k] ** 2 * root @ root.T)
+        return np.stack(prior)
+
+    def _repeatability(self, matrix: FloatArray) -> FloatArray:
+        """Covariance by motions in which the sensor answers otherwise, about the mean load of each session."""
+        rows, design = self.rows, self.design
+        sessions, free = len(design.sessions), design.free.shape[1]
+        used = LOADS + self.expected_rows.shape[1]
+        jacobian = np.zeros((used + free, LOADS))
+        jacobian[:LOADS] = np.eye(LOADS)
+        jacobian[used : used + sessions] = -design.column_means[:, :LOADS]
+        roots = rows_of(matrix, self.assumptions, with_prior=rows.space == "wrench").sensor_root
+        spread = self.assumptions.repeatability * jacobian @ (roots * rows.unit[:, None, None])
+        return spread @ spread.transpose(0, 2, 1)
+
+    def _quadratic(self, k: int) -> FloatArray:
+        place = 2 * LOADS + self.expected_rows.shape[1]
+        return self.unknowns[k].coefficients[place : place + len(PAIRS[0])]

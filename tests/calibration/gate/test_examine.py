@@ -1,0 +1,117 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the gate says of small made-up data."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from forcetorque.arrays import FloatArray
+from forcetorque.calibration import DataSet
+from forcetorque.calibration.gate import examine
+from forcetorque.errors import FitError, ShapeError
+
+RNG = np.random.default_rng(5)
+PRIOR = 0.02 * (np.eye(6) + 0.1 * RNG.normal(size=(6, 6)))
+STEP_S = 0.02
+TIME_S = STEP_S * np.arange(1500)
+
+
+def _reference(time_s: FloatArray, weight: float = 20.0) -> FloatArray:
+    """A tool turned about two axes; its centre of mass moves too, so that moments are no copy of forces."""
+    pitch, roll = 1.2 * np.sin(1.3 * time_s), 0.9 * np.sin(0.8 * time_s + 1.0)
+    force = -weight * np.column_stack([np.sin(pitch), -np.cos(pitch) * np.sin(roll), np.cos(pitch) * np.cos(roll)])
+    arm = np.column_stack([0.02 * np.cos(2.1 * time_s), 0.01 * np.sin(1.7 * time_s), 0.08 + 0.0 * time_s])
+    return np.hstack([force, np.cross(arm, force)])
+
+
+def _data(delay_s: float = 0.0, weight: float = 20.0, noise_counts: float = 3.0) -> DataSet:
+    noise = noise_counts * np.random.default_rng(6).normal(size=(len(TIME_S), 6))
+    raw = _reference(TIME_S - delay_s, weight) @ np.linalg.inv(PRIOR).T + 500.0 + noise
+    return DataSet(label="a", raw=raw, reference=_reference(TIME_S, weight), time_s=TIME_S)
+
+
+@pytest.mark.parametrize("prior", [None, PRIOR], ids=["no prior", "prior"])
+def test_good_data_raise_no_doubt(prior: FloatArray | None) -> None:
+    """Alone, and as two data sets with offsets of their own."""
+    data = _data()
+    assert examine([data], prior) == ()
+    assert examine([data, replace(data, raw=data.raw + 3e4)], prior) == ()
+
+
+@pytest.mark.parametrize("prior", [None, PRIOR], ids=["no prior", "prior"])
+@pytest.mark.parametrize(("delay_s", "words"), [(0.1, "100 ms later"), (-0.06, "60 ms earlier"), (0.04, "40 ms later")])
+def test_a_delay_is_named_to_the_sample(prior: FloatArray | None, delay_s: float, words: str) -> None:
+    """Also over uneven steps; not where the instants are unknown, nor where it is one sample."""
+    data = _data(delay_s)
+    uneven = np.sort(np.random.default_rng(7).permutation(len(TIME_S))[:1300])
+    thinned = DataSet(label="a", raw=data.raw[uneven], reference=data.reference[uneven], time_s=TIME_S[uneven])
+    for one in (data, thinned):
+        (doubt,) = examine([one], prior)
+        assert (doubt.kind, words in doubt.message) == ("delay", True)
+        assert "align the clocks" in doubt.message
+    assert examine([replace(data, time_s=None)], prior) == ()
+    assert examine([_data(STEP_S)], prior) == ()
+
+
+def test_a_reading_of_something_else_is_refused_and_doubted_without_a_prior() -> None:
+    """Its size in newtons is known with a prior only; the message names what to check."""
+    other = replace(_data(), reference=_reference(1.37 * TIME_S + 40.0)[:, [1, 2, 0, 4, 5, 3]])
+    with pytest.raises(FitError, match=r"explains \d+%; check the unit of the joints .* stream of \[\[sensor\]\]"):
+        examine([other], PRIOR)
+    assert [doubt.kind for doubt in examine([other], None)] == ["span"]
+
+
+def test_a_slow_drift_is_no_wrong_model() -> None:
+    """Half a newton under noise, and a drift of several newtons while the sensor warms up."""
+    light = _data(weight=0.5, noise_counts=5.0)
+    drift = np.outer(-np.expm1(-TIME_S / 40.0), [400.0, -300.0, 500.0, 200.0, 100.0, -100.0])
+    assert examine([replace(light, raw=light.raw + drift)], PRIOR) == ()
+
+
+def test_what_a_variable_explains_is_no_doubt() -> None:
+    """A sensor that warms up by more than its load; without the variable the reading does not follow the load."""
+    warm = 20.0 + 3.0 * np.sin(0.31 * TIME_S)
+    data = _data()
+    drifting = replace(data, raw=data.raw + np.outer(warm, [900.0, -700.0, 1200.0, 400.0, -300.0, 500.0]))
+    assert examine([replace(drifting, variables=warm[:, None])], PRIOR) == ()
+    with pytest.raises(FitError):
+        examine([drifting], PRIOR)
+
+
+def test_one_axis_that_is_reversed_is_named() -> None:
+    """A left-handed prior: the other forces run with the reference."""
+    with pytest.raises(FitError, match=r"fy of the prior's reading run\(s\) against the reference, other forces do"):
+        examine([_data()], np.diag([1.0, -1.0, 1.0, 1.0, 1.0, 1.0]) @ PRIOR)
+
+
+def test_a_reference_beyond_the_full_scale_is_refused() -> None:
+    """The only check of its size without a prior; a load near the full scale passes."""
+    full_scale = np.array([25.0, 25.0, 25.0, 3.0, 3.0, 3.0])
+    assert examine([_data()], None, full_scale) == ()
+    with pytest.raises(FitError, match=r"full scale is .* in grams instead of kg"):
+        examine([_data(weight=2e4)], None, full_scale)
+
+
+def test_eight_channels_are_judged_as_six_are() -> None:
+    """Good, half the mass and reversed."""
+    wide = 0.02 * np.hstack([np.eye(6), np.random.default_rng(9).normal(size=(6, 2))])
+    data = replace(_data(), raw=_data().reference @ np.linalg.pinv(wide).T)
+    assert examine([data], wide) == ()
+    with pytest.raises(FitError, match="half of the true mass"):
+        examine([replace(data, reference=0.5 * data.reference)], wide)
+    with pytest.raises(FitError, match="runs against"):
+        examine([replace(data, reference=-data.reference)], wide)
+
+
+def test_few_samples_say_nothing_and_channels_that_differ_are_refused() -> None:
+    """Whether they determine a fit is for the fit to say."""
+    data = _data()
+    few = DataSet(label="b", raw=data.raw[:12], reference=-data.reference[:12])
+    assert examine([], PRIOR) == examine([few], PRIOR) == ()
+    with pytest.raises(ShapeError):
+        examine([data, replace(data, raw=data.raw[:, :5])], None)
+    with pytest.raises(ShapeError):
+        examine([data], PRIOR[:, :5])

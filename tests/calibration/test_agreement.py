@@ -1,0 +1,62 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Recordings that do not agree are found by their residuals, and named."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from forcetorque.arrays import FloatArray
+from forcetorque.calibration import WindowMeans, WrenchModel, disagreements
+
+TRUTH = np.diag([100.0, 100.0, 100.0, 1500.0, 1500.0, 1500.0])
+"""Counts per newton and newton metre."""
+ACCURACY = np.zeros(6)
+
+
+def _recording(name: str, response: FloatArray = TRUTH, *, means: int = 60, session: str = "") -> WindowMeans:
+    rng = np.random.default_rng(sum(map(ord, name)))
+    wrench = rng.normal(size=(means, 6)) * [10.0, 10.0, 10.0, 1.0, 1.0, 1.0]
+    return WindowMeans(
+        label=name,
+        session=session or name,
+        recording=name,
+        time_s=np.arange(float(means)),
+        count=np.full(means, 100.0),
+        raw=wrench @ response.T + rng.uniform(-5e3, 5e3, 6) + rng.normal(size=(means, 6)),
+        reference=wrench,
+        flattening=np.zeros((means, 6)),
+        variables=np.zeros((means, 0)),
+    )
+
+
+def _model(response: FloatArray = TRUTH) -> WrenchModel:
+    return WrenchModel(matrix=np.linalg.inv(response), offset=np.zeros(6))
+
+
+def test_recordings_of_one_sensor_agree() -> None:
+    """Each with its own offset and noise; a single recording has nobody to disagree with."""
+    stretches = [_recording(name) for name in "abcd"]
+    assert disagreements(stretches, _model(), ACCURACY) == ()
+    assert disagreements([_recording("a", 1.1 * TRUTH)], _model(), ACCURACY) == ()
+
+
+def test_another_sensor_is_named() -> None:
+    """Its gain is 5 % off: hundreds of times what its own data leave. The worst comes first."""
+    worse, other = TRUTH @ np.diag([1.2, 1.0, 1.0, 1.0, 1.0, 1.0]), 1.05 * TRUTH
+    stretches = [_recording("a"), _recording("b", other), _recording("c"), _recording("d", worse)]
+    named = disagreements(stretches, _model(), ACCURACY)
+    assert [one.recording for one in named] == ["d", "b"]
+    assert named[0].residual[0] > 20.0 * named[0].own[0]
+
+
+def test_what_the_reference_is_good_for_is_no_disagreement() -> None:
+    """Where the reference is accurate to a newton, 5 % of 10 N is nothing."""
+    stretches = [_recording("a"), _recording("b", 1.05 * TRUTH)]
+    assert [one.recording for one in disagreements(stretches, _model(), ACCURACY)] == ["b"]
+    assert disagreements(stretches, _model(), np.repeat([1.0, 0.1], 3)) == ()
+
+
+def test_a_short_recording_is_given_the_benefit_of_the_doubt() -> None:
+    """A line through ten means leaves nothing to compare with."""
+    stretches = [_recording("a"), _recording("b", 1.05 * TRUTH, means=10)]
+    assert disagreements(stretches, _model(), ACCURACY) == ()
