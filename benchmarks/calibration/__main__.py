@@ -7,11 +7,11 @@ import os
 from collections.abc import Callable
 from typing import Any
 
-from benchmarks.calibration import fitting, judging
+from benchmarks.calibration import fitting, generative, judging
 from benchmarks.calibration.measured import Measured
 from benchmarks.harness import arguments, write_result
 
-PARTS: tuple[Callable[..., Measured], ...] = (fitting.measure, judging.measure)
+PARTS: tuple[Callable[..., Measured], ...] = (fitting.measure, generative.measure, judging.measure)
 """What to measure, one after the other; each names its figures after itself."""
 
 
