@@ -65,3 +65,38 @@ def test_moments_are_not_for_a_type_of_the_thesis(days: Path, run: Run) -> None:
     error = run("calibrate", CALIBRATION[1], str(kept), "-o", "b.json", "--type", "OwTrTO").error()
     assert "stored moments are fitted by the generative model; leave out the estimation type and lambda" in error
     assert not Path("b.json").exists()
+
+
+def test_a_file_of_moments_is_no_place_to_write_to(days: Path, run: Run) -> None:
+    """What was kept of a recording is not replaced by the calibration that is made of it."""
+    assert run("calibrate", CALIBRATION[0], "-o", "a.json", "--moments", "kept").code == 0
+    (kept,) = Path("kept").iterdir()
+    before = kept.read_bytes()
+    error = run("calibrate", CALIBRATION[1], str(kept), "-o", str(kept)).error()
+    assert "this is a file to read; choose another --output" in error
+    assert kept.read_bytes() == before
+
+
+def test_moments_of_a_sensor_that_is_not_fitted_are_refused(days: Path, run: Run) -> None:
+    """They would be left out in silence; with moments alone, --sensor chooses among theirs."""
+    assert run("calibrate", CALIBRATION[0], "-o", "a.json", "--moments", "kept").code == 0
+    (kept,) = Path("kept").iterdir()
+    other = json.loads(kept.read_text(encoding="utf-8"))
+    other["sensor"]["name"] = "leg_ft"
+    Path("leg.json").write_text(json.dumps(other), encoding="utf-8")
+    error = run("calibrate", CALIBRATION[1], "leg.json", "-o", "b.json").error()
+    assert "leg.json: moments of 'leg_ft', which is not fitted here; leave the file out, or name" in error
+    error = run("calibrate", str(kept), "-o", "b.json", "--sensor", "foot_ft").error()
+    assert "--sensor: no file of moments is of 'foot_ft'" in error
+    assert not Path("b.json").exists()
+    assert run("calibrate", str(kept), "-o", "b.json", "--sensor", "arm_ft").code == 0
+
+
+def test_files_that_ask_for_different_estimators_are_refused(days: Path, run: Run) -> None:
+    """The first file does not overrule the second; a type for all does."""
+    second = days / CALIBRATION[1]
+    edit(second, "[recording]", '[calibration]\ntype = "OwTrTO"\n\n[recording]')
+    error = run("calibrate", *CALIBRATION[:2], "-o", "a.json").error()
+    assert f"{CALIBRATION[1]}: expected the estimator that [calibration] of {CALIBRATION[0]} asks for" in error
+    assert not Path("a.json").exists()
+    assert run("calibrate", *CALIBRATION[:2], "-o", "a.json", "--type", "generative").code == 0

@@ -11,7 +11,8 @@ from forcetorque.analysis.generative_calibration import generative_calibration
 from forcetorque.analysis.recording_moments import recording_moments
 from forcetorque.analysis.thesis_calibration import thesis_calibration
 from forcetorque.calibration import Calibration, EstimationType, RecordingMoments
-from forcetorque.errors import FitError
+from forcetorque.errors import ExperimentError, FitError
+from forcetorque.experiment import Experiment
 
 
 def calibrate_sensor(
@@ -41,6 +42,7 @@ def calibrate_sensor(
         The calibration, with everything that tells how far to trust it.
 
     Raises:
+        ExperimentError: If files ask for different estimators.
         FitError: If the data cannot be those of the sensor under the modelled load, or do not determine the fit; or
             moments are to be fitted by a type of the thesis, which needs samples; or quadratic terms are asked for of
             such a type, or of a single recording.
@@ -48,6 +50,8 @@ def calibrate_sensor(
     if runs is None:
         return generative_calibration(moments, code_version=code_version, created=created, nonlinear=nonlinear)
     campaign = Campaign.of(runs)
+    if kind is None and regularisation is None:
+        _require_one_estimator(campaign)
     experiment = campaign.runs[0].experiment
     options = experiment.fit_options
     if kind == "generative" or (kind is None and regularisation is None and options.generative):
@@ -65,3 +69,20 @@ def calibrate_sensor(
         code_version=code_version,
         created=created,
     )
+
+
+def _require_one_estimator(campaign: Campaign) -> None:
+    """Refuse files that ask for different estimators: one of them would be overruled in silence."""
+    first, *others = (run.experiment for run in campaign.runs)
+    for other in others:
+        if _estimator(other) != _estimator(first):
+            raise ExperimentError(
+                f"{other.file}: expected the estimator that [calibration] of {first.file} asks for, got another; state "
+                "the same type, offset, variables and lambda in both, or give an estimation type for all"
+            )
+
+
+def _estimator(experiment: Experiment) -> tuple[object, ...]:
+    options = experiment.fit_options
+    of_thesis = (options.offset, options.from_reference, experiment.regularisation)
+    return options.generative, options.with_variables, None if options.generative else of_thesis

@@ -11,7 +11,7 @@ import typer
 
 from forcetorque.cli.options import FormatOption, SensorOption
 from forcetorque.cli.output import Format, refuse_standard_output, report_error, show, start_logging
-from forcetorque.errors import ExperimentError, FitError, ForceTorqueError
+from forcetorque.errors import ExperimentError, FitError, ForceTorqueError, known_names
 
 if TYPE_CHECKING:
     from forcetorque.analysis import SensorCalibrations
@@ -71,7 +71,7 @@ def calibrate(
 
     from forcetorque import analysis
     from forcetorque.cli.figure_file import refuse_figure
-    from forcetorque.cli.reading import campaign_of, read_experiments, stored_moments
+    from forcetorque.cli.reading import campaign_of, read_experiments, refuse_inputs, stored_moments
     from forcetorque.experiment.inputs import stated_in
 
     log = start_logging()
@@ -81,13 +81,14 @@ def calibrate(
     contents = read_experiments([path for path in experiments if path.suffix != ".json"], log)
     names = _sensors(contents, stored, sensor)
     files = _files(output, names)
+    refuse_inputs(files, experiments)
     given, chosen = _lambda(regularisation), _kind(kind)
     created = datetime.now(UTC).isoformat(timespec="seconds")
     results, refusals = [], []
     for (name, serial), file in zip(names, files, strict=True):
         log.info("fitting %s (%s)", name, serial)
         campaign = campaign_of(contents, name) if contents else None
-        own = [one for one in stored if one.sensor.name == name]
+        own = [one for one in stored.values() if one.sensor.name == name]
         try:
             with stated_in(f"{experiments[0]}: sensor {name!r}" if len(experiments) == 1 else f"sensor {name!r}"):
                 if moments is not None and campaign is not None:
@@ -149,14 +150,28 @@ def _end(refusals: Sequence[ForceTorqueError]) -> None:
 
 
 def _sensors(
-    contents: Mapping[Path, Experiment], stored: Sequence[RecordingMoments], names: Sequence[str] | None
+    contents: Mapping[Path, Experiment], stored: Mapping[Path, RecordingMoments], wanted: Sequence[str] | None
 ) -> list[tuple[str, str]]:
     """Names and serial numbers of the sensors that are meant: those of the first file, or of the moments."""
     from forcetorque.cli.reading import sensors_named
 
     for content in contents.values():
-        return [(chosen.name, chosen.serial) for chosen in sensors_named(content, names)]
-    return list(dict.fromkeys((one.sensor.name, one.sensor.serial) for one in stored))
+        sensors = [(sensor.name, sensor.serial) for sensor in sensors_named(content, wanted)]
+        break
+    else:
+        known = {one.sensor.name: one.sensor.serial for one in stored.values()}
+        for name in wanted or ():
+            if name not in known:
+                raise ExperimentError(f"--sensor: no file of moments is of {name!r}; {known_names(name, known)}")
+        sensors = [(name, known[name]) for name in dict.fromkeys(wanted or known)]
+    for path, one in stored.items():
+        # who names sensors leaves the others out on purpose
+        if wanted is None and one.sensor.name not in dict(sensors):
+            raise ExperimentError(
+                f"{path}: moments of {one.sensor.name!r}, which is not fitted here; leave the file out, or name "
+                "sensors with --sensor"
+            )
+    return sensors
 
 
 def _files(output: Path, sensors: Sequence[tuple[str, str]]) -> list[Path]:

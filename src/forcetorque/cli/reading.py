@@ -72,16 +72,16 @@ def campaign_of(experiments: Mapping[Path, Experiment], sensor: str) -> Campaign
     return Campaign(runs)
 
 
-def stored_moments(paths: Iterable[Path]) -> list[RecordingMoments]:
+def stored_moments(paths: Iterable[Path]) -> dict[Path, RecordingMoments]:
     """Read the files of moments among files that are to be fitted.
 
     Args:
         paths: Experiment files, and files of moments, which end in .json.
 
     Returns:
-        The moments.
+        The moments by file.
     """
-    return [read_moments(path) for path in paths if path.suffix == ".json"]
+    return {path: read_moments(path) for path in paths if path.suffix == ".json"}
 
 
 def read_calibrations(paths: Iterable[Path] | None) -> dict[str, Calibration]:
