@@ -154,11 +154,11 @@ def evaluate(runs: Runs, calibrations: Mapping[str, Calibration]) -> Evaluation:
             judged[campaign.recording(run)] = list(_judged(run, calibrations))
         said = [sentence for name, calibration in calibrations.items() for sentence in doubts(run, name, calibration)]
         warnings += [f"{campaign.recording(run)}: {sentence}" for sentence in said] if len(campaign.runs) > 1 else said
-    apart = [
+    apart = (
         RecordingErrors(recording=recording, **_statistics(campaign, row))
         for rows in zip(*judged.values(), strict=True)
         for recording, row in zip(judged, rows, strict=True)
-    ]
+    )
     return Evaluation(
         experiment="; ".join(campaign.recordings),
         verdicts=tuple(

@@ -101,12 +101,17 @@ class IntervalMoments(Part):
         )
 
     @property
+    def session(self) -> str:
+        """Session that it belongs to; the recording where its file names none."""
+        return self.interval.session or self.recording
+
+    @property
     def means(self) -> WindowMeans:
         """The means, for a fit."""
         n = len(self.time_s)
         return WindowMeans(
             label=self.interval.label,
-            session=self.interval.session or self.recording,
+            session=self.session,
             recording=self.recording,
             time_s=self.time_s,
             count=self.count,

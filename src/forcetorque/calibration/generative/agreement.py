@@ -66,7 +66,7 @@ def _compared(
     member = np.concatenate([np.full(len(part), sorted(sessions).index(part.session)) for part in parts])
     ones = (member[:, None] == np.arange(len(sessions))).astype(np.float64)
     raw = np.concatenate([part.raw for part in parts])
-    reference = np.concatenate([part.reference + FLATTENED * part.flattening for part in parts])
+    reference = np.concatenate([part.unflattened(FLATTENED).reference for part in parts])
     variables = np.concatenate([part.variables for part in parts])
     error = reference - model.wrench(raw, variables if variables.shape[1] else None)
     left = error - ones @ np.linalg.lstsq(ones, error, rcond=None)[0]

@@ -90,10 +90,25 @@ def design_of(
 
 def _centred(values: FloatArray, member: IntArray, count: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Values less the mean of their session, and these means."""
+    means = session_means(values, member, count)
+    return values - means[member], means
+
+
+def session_means(values: FloatArray, member: IntArray, count: FloatArray) -> FloatArray:
+    """Average values over sessions.
+
+    Args:
+        values: Values; shape (n, k).
+        member: Number of the session of each; shape (n,).
+        count: Samples that each stands for; shape (n,).
+
+    Returns:
+        Means; shape (sessions, k).
+    """
     total = np.zeros((int(member.max()) + 1, values.shape[1]))
     np.add.at(total, member, values * count[:, None])
-    means = total / np.bincount(member, weights=count)[:, None]
-    return values - means[member], means
+    means: FloatArray = total / np.bincount(member, weights=count)[:, None]
+    return means
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

@@ -13,8 +13,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray, IntArray
+from forcetorque.arrays import FloatArray
 from forcetorque.calibration.generative.assumptions import FLATTENED, Assumptions
+from forcetorque.calibration.generative.design import session_means
 from forcetorque.calibration.generative.fit import GenerativeFit, fit_generative
 from forcetorque.calibration.generative.means import WindowMeans
 from forcetorque.calibration.linear_variable import LinearVariable
@@ -57,7 +58,7 @@ def corrected_fit(fit: GenerativeFit, stretches: Sequence[WindowMeans], halves: 
     member = np.repeat([fit.posterior.sessions.index(one.session) for one in means], [len(one) for one in means])
     terms = quadratic_terms(about) @ coefficients.T
     # the fit took the terms less their mean in each session, the correction takes them as they are
-    offsets = fit.offsets + _session_means(terms, member, weight)
+    offsets = fit.offsets + session_means(terms, member, weight)
     model = replace(fit.model, offset=offsets[-1], quadratic=correction)
     elapsed = np.concatenate([one.time_s for one in means]) - fit.session_time_s[member]
     drift = 0.0 if fit.drifts is None else fit.drifts[member] * elapsed[:, None]
@@ -134,13 +135,6 @@ def _linear(model: WrenchModel, means: WindowMeans) -> FloatArray:
     """Readings without offset and without the correction."""
     plain = replace(model, offset=np.zeros(6), quadratic=None)
     return plain.wrench(means.raw, means.variables if means.variables.shape[1] else None)
-
-
-def _session_means(values: FloatArray, member: IntArray, weight: FloatArray) -> FloatArray:
-    total = np.zeros((int(member.max()) + 1, values.shape[1]))
-    np.add.at(total, member, values * weight[:, None])
-    means: FloatArray = total / np.bincount(member, weights=weight)[:, None]
-    return means
 
 
 def _within(coefficients: FloatArray, to_full_scale: FloatArray, shares: FloatArray) -> QuadraticCorrection:
