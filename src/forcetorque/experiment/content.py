@@ -12,6 +12,7 @@ from forcetorque.calibration import EstimationType, LinearVariable, OffsetStrate
 from forcetorque.calibration.generative import REPEATABILITY
 from forcetorque.errors import ExperimentError, known_names
 from forcetorque.estimation import Contact, Payload, Processing
+from forcetorque.experiment.load_case_schema import LoadCaseTable
 from forcetorque.experiment.recording_names import path_endings, recording_name
 from forcetorque.recording import Interval, Recording, ScalarSource, Use
 from forcetorque.robot import RobotModel
@@ -172,6 +173,8 @@ class Experiment:
     """What was done to the sensors, in the user's words; None if the file does not say."""
     trial: int | None = None
     """Which trial of its condition it is; None for the order of the files."""
+    load_cases: tuple[LoadCaseTable, ...] = ()
+    """What the sensors are to be used for, as the file states it."""
 
     def sensor(self, name: str) -> ExperimentSensor:
         """Find a sensor of the experiment.

@@ -15,6 +15,7 @@ from forcetorque.experiment.contacts import read_contacts
 from forcetorque.experiment.content import Experiment, FitOptions, Role
 from forcetorque.experiment.inputs import Inputs, stated_in
 from forcetorque.experiment.intervals import read_intervals, read_supports
+from forcetorque.experiment.load_cases import read_load_cases
 from forcetorque.experiment.parse import parse_experiment
 from forcetorque.experiment.sensors import declare_sensors, read_sensors
 from forcetorque.experiment.streams import read_streams
@@ -75,6 +76,7 @@ def _of_robot(parsed: schema.ExperimentFile, file: Path) -> Experiment:
         log_sha256=frozenset(hashes[name] for name in logs),
         condition=parsed.trial.condition,
         trial=parsed.trial.number,
+        load_cases=read_load_cases(parsed.load_case, file, model),
     )
 
 
@@ -120,6 +122,7 @@ def _of_wrist(parsed: schema.ExperimentFile, file: Path) -> Experiment:
         log_sha256=frozenset(hashes[name] for name in logs),
         condition=parsed.trial.condition,
         trial=parsed.trial.number,
+        load_cases=read_load_cases(parsed.load_case, file, loaded),
     )
 
 

@@ -23,6 +23,7 @@ from forcetorque.calibration.generative import REPEATABILITY
 from forcetorque.constants import STANDARD_GRAVITY
 from forcetorque.errors import known_names
 from forcetorque.estimation import ContactType
+from forcetorque.experiment.load_case_schema import LoadCaseTable
 from forcetorque.experiment.log_schema import Log
 from forcetorque.recording import Use
 from forcetorque.robot import SensorFrame
@@ -343,6 +344,8 @@ class ExperimentFile(Table):
     """How the fit is regularised."""
     trial: Trial = Trial()
     """Condition and number, for `forcetorque compare`."""
+    load_case: tuple[LoadCaseTable, ...] = ()
+    """What the sensors are to be used for."""
 
     @model_validator(mode="after")
     def _robot_or_load(self) -> ExperimentFile:
