@@ -18,6 +18,7 @@ from forcetorque.analysis.contact_forces import (
 )
 from forcetorque.analysis.corrections import corrections_of
 from forcetorque.analysis.criterion import Bound, Criterion
+from forcetorque.analysis.decide import use_verdicts
 from forcetorque.analysis.estimate import IntervalEstimates, estimate_experiment
 from forcetorque.analysis.estimate_summary import (
     EstimateSummary,
@@ -51,6 +52,7 @@ from forcetorque.analysis.interval_quality import IntervalQuality
 from forcetorque.analysis.joint_torques import JointTorqueErrors, JointTorques, joint_torques
 from forcetorque.analysis.judged import JudgedWrenches
 from forcetorque.analysis.learnt import LITTLE_LEARNT, LearntDirection, learnt_directions, learnt_words
+from forcetorque.analysis.loads_of_use import loads_of_use
 from forcetorque.analysis.payload import WeighedLoad, weigh_load
 from forcetorque.analysis.population import read_population
 from forcetorque.analysis.prior_comparison import Independence, PriorComparison, compare_with_prior
@@ -73,11 +75,19 @@ from forcetorque.analysis.study_data import StudyData, read_study_data
 from forcetorque.analysis.study_result import StudiedSensor, Studies, studied_sensor, study_warnings
 from forcetorque.analysis.trial_group import TrialGroup, group_trials
 from forcetorque.analysis.trials import TrialSphere, read_trials
+from forcetorque.analysis.use_verdict import Reason, UseError, UseVerdict, use_sentences, use_table
 from forcetorque.analysis.validate import Validation, validate
 from forcetorque.analysis.verdict import VerdictLine
 
 __all__ = [
     "LITTLE_LEARNT",
+    "Reason",
+    "UseError",
+    "UseVerdict",
+    "loads_of_use",
+    "use_sentences",
+    "use_table",
+    "use_verdicts",
     "LearntDirection",
     "learnt_directions",
     "learnt_words",

@@ -109,14 +109,15 @@ class _Place:
         sole = self._sole()
         if sole is not None:
             wrench, words = self._stood_upon(sole, SOLE_RADIUS_M)
-            return LoadCase(name="weight of the robot", words=words, wrench=wrench)
+            return LoadCase(name="weight of the robot", words=words, wrench=wrench, is_stated=False)
         if weight <= 0.0:
             raise ExperimentError(
                 f"sensor {self.run.sensor.name!r}: nothing with a mass hangs on it, so that no use can be taken for "
                 "granted; state a [[load_case]]"
             )
         words = f"pushes of {weight:.3g} N, as much as hangs on the sensor, anywhere within {DEFAULT_RADIUS_M:g} m"
-        return LoadCase(name="push", words=words, wrench=pushes_within(weight, DEFAULT_RADIUS_M))
+        wrench = pushes_within(weight, DEFAULT_RADIUS_M)
+        return LoadCase(name="push", words=words, wrench=wrench, is_stated=False)
 
     def _loads(self, table: LoadCaseTable) -> tuple[FloatArray, str]:
         if table.weight_on is not None:

@@ -45,8 +45,12 @@ class LoadCase:
     """Root mean square of the force error that the use allows; None for a share of the loads."""
     allowed_moment_Nm: float | None = None
     """The same of the moment error."""
+    is_stated: bool = True
+    """Whether anybody stated it; else it is what is taken for granted."""
 
     def __post_init__(self) -> None:
+        # a bare word would fail every `is`, and so read as the other one
+        object.__setattr__(self, "offset", UseOffset(self.offset))
         object.__setattr__(self, "wrench", read_only(self.wrench, name=f"{self.name}: wrench", shape=(None, 6)))
         object.__setattr__(self, "changes", MappingProxyType(dict(self.changes)))
         if not len(self.wrench) or not np.isfinite(self.wrench).all() or not self.wrench.any():
