@@ -163,7 +163,7 @@ def accept(
 
 def _apart(subject: Subject, spec: AcceptanceFile) -> Iterator[RecordingCriterion]:
     """What one recording shows by itself, without what only the calibration says."""
-    absent = {"uncertainty": None, "excitation": None}
+    absent: dict[str, object] = {"uncertainty": None, "excitation": None, "load_case": ()}
     if not subject.run.has(Use.VALIDATION):
         absent |= {"evaluate": None, "improvement": None, "validate_": None}
     alone = replace(subject, campaign=Campaign(subject.run))

@@ -71,19 +71,23 @@ def use_verdicts(
     verdicts = []
     for name, calibration in calibrations.items():
         for case in loads_of_use(campaign.runs, more, matrix=calibration.matrix):
-            judge = _Judge(case, calibration, measured.get(name), worse.get(name))
+            judge = _Judge(case, calibration, measured.get(name), worse.get((name, _COMPARED[case.offset])))
             verdicts.append(judge.verdict(campaign, name, stated=case.is_stated))
     return tuple(verdicts)
 
 
-def _worse(campaign: Campaign, calibrations: Mapping[str, Calibration]) -> dict[str, str]:
-    """That the judged data find a calibration worse than its prior, in words by its name."""
+_COMPARED: Final = {UseOffset.FITTED: Offset.FITTED, UseOffset.TARED: Offset.JUDGED_MEAN}
+"""With which offset judged data compare a calibration and its prior for a use."""
+
+
+def _worse(campaign: Campaign, calibrations: Mapping[str, Calibration]) -> dict[tuple[str, Offset], str]:
+    """That the judged data find a calibration worse than its prior, in words by its name and offset."""
     rows = [row for run in campaign.runs if run.has(Use.VALIDATION) for row in compare_with_prior(run, calibrations)]
+    words = "on data that were not fitted its {} error is larger than that of its prior, {} against {} {}"
     return {
-        row.candidate: f"on data that were not fitted its {row.quantity} error is larger than that of its prior, "
-        f"{_two(row.mean)} against {_two(row.prior_mean)} {row.unit}"
+        (row.candidate, row.offset): words.format(row.quantity, _two(row.mean), _two(row.prior_mean), row.unit)
         for row in rows
-        if row.judgement == "worse" and row.offset is Offset.FITTED
+        if row.judgement == "worse"
     }
 
 
