@@ -14,7 +14,7 @@ from forcetorque.analysis.applicability import overlapping
 from forcetorque.analysis.campaign import Campaign, Runs
 from forcetorque.analysis.candidate import JudgedCandidate, JudgedRow
 from forcetorque.analysis.judged import JudgedWrenches
-from forcetorque.analysis.prior_comparison import PriorComparison, compare_with_prior, comparison_sentence
+from forcetorque.analysis.prior_comparison import PriorComparison, comparison_sentence, prior_comparisons
 from forcetorque.analysis.sensor_run import SensorRun
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration import Calibration, FittedInterval
@@ -175,7 +175,7 @@ def evaluate(runs: Runs, calibrations: Mapping[str, Calibration]) -> Evaluation:
             CandidateErrors(**_statistics(campaign, _pooled(rows))) for rows in zip(*judged.values(), strict=True)
         ),
         recordings=tuple(apart) if len(campaign.runs) > 1 else (),
-        comparisons=compare_with_prior(list(wrenches.values())),
+        comparisons=prior_comparisons(list(wrenches.values())),
         warnings=tuple(warnings),
     )
 

@@ -3,14 +3,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Annotated, Literal
 
 import numpy as np
 
+from forcetorque.analysis.campaign import Campaign, Runs
 from forcetorque.analysis.error_comparison import OFFSET_WORDS, ErrorComparison, Quantity, ratio_fields
 from forcetorque.analysis.judged import JudgedWrenches
+from forcetorque.calibration import Calibration
 from forcetorque.evaluation import ErrorRatio, Offset, PairedErrors, autocorrelation, compare_errors
+from forcetorque.recording import Use
 from forcetorque.result import Row, Shown, ShownWrench, finite_or_none
 
 
@@ -74,8 +77,21 @@ def independence(judged: JudgedWrenches) -> tuple[Independence, ...]:
     )
 
 
-def compare_with_prior(recordings: Sequence[JudgedWrenches]) -> tuple[PriorComparison, ...]:
+def compare_with_prior(runs: Runs, calibrations: Mapping[str, Calibration]) -> tuple[PriorComparison, ...]:
     """Compare every calibration with its own prior on the validation intervals.
+
+    Args:
+        runs: The sensor in one recording, or in several, which are pooled.
+        calibrations: Its calibrations by name.
+
+    Returns:
+        Two rows, force and moment, per calibration that has a prior and offset.
+    """
+    return prior_comparisons([run.judged(calibrations) for run in Campaign.of(runs).runs_with(Use.VALIDATION)])
+
+
+def prior_comparisons(recordings: Sequence[JudgedWrenches]) -> tuple[PriorComparison, ...]:
+    """Compare every calibration with its own prior by what they measure.
 
     Args:
         recordings: Wrenches on data that was not fitted, by the same candidates in every recording.
