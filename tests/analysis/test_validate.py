@@ -38,11 +38,26 @@ def test_it_joins_contact_forces_and_joint_torques(arm: Path) -> None:
     assert [row.flat() for row in validation.contact_forces] == [row.flat() for row in forces.verdicts]
     assert [row.flat() for row in validation.joint_torques] == [row.flat() for row in torques.verdicts]
     assert validation.best == forces.best
-    assert {best.by_magnitude for best in validation.best} == {"new"}
+    assert {best.best for best in validation.best} == {"new"}
     (words,) = forces.left_out
     assert validation.left_out == (f"arm_ft: {words}",)
     assert validation.warnings == (f"left out: arm_ft: {words}",)
     assert forces.warnings == torques.warnings == (f"left out: {words}",)
+
+
+def test_nobody_is_best_among_equals(arm: Path) -> None:
+    """Two of one kind are both better than the prior, and no different; alone there is nothing to be better than."""
+    run = SensorRun(load_experiment(arm / PARQUET), "arm_ft")
+    first = _fitted(run)
+    for best in validate(run, {"a": first, "b": first}).best:
+        judgements = {row.other: row.judgement for row in best.comparisons}
+        (prior,) = judgements.keys() - {"a", "b"}
+        assert judgements == {prior: "better", "b": "no difference"}
+        assert (best.by_magnitude, best.judgement, best.best) == ("a", "no difference", None)
+        assert f"offset {best.offset}: none is best; " in best.sentence
+        assert "with b (no difference: the same in every sample)" in best.sentence
+    for best in validate(run, {}).best:
+        assert (best.best, best.judgement, best.comparisons) == (None, None, ())
 
 
 def test_the_motion_of_an_interval_is_computed_once(arm: Path, monkeypatch: pytest.MonkeyPatch) -> None:

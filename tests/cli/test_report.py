@@ -111,6 +111,21 @@ def test_the_numbers_are_those_of_the_other_commands(result: Any, run: Run) -> N
     assert sensor["not_judged"] == {}
 
 
+def test_evaluate_and_validate_say_what_the_report_says(result: Any, run: Run) -> None:
+    """Word by word, of every offset; who is best in one is so in the others."""
+    sensor = _sensor(result)
+    sentences = [line["text"] for line in sensor["verdict"] if "samples that were not fitted" in line["text"]]
+    assert len(sentences) == 2
+    shown = " ".join(run("evaluate", PARQUET, "-c", "fitted.json").out.split())
+    assert all(sentence in shown for sentence in sentences)
+    assert {row["judgement"] for row in sensor["comparisons"]} == {"better"}
+    assert {best["judgement"] for best in sensor["best"]} == {"better"}
+    shown = " ".join(run("validate", PARQUET, "-c", "fitted.json").out.split())
+    lines = [line for line in _words("report.html") if "best is fitted.json" in line]
+    assert len(lines) == 2
+    assert all(line in shown for line in lines)
+
+
 def test_the_verdict_comes_first_and_says_what_the_numbers_say(result: Any) -> None:
     """A failed limit is the first sentence; better by far is good, with both numbers of the evaluation."""
     sensor = _sensor(result)
@@ -296,12 +311,12 @@ def test_a_real_leg(data_dir: Path, run: Run, tmp_path: Path, monkeypatch: pytes
     for line in (own, of_judged):
         assert line["tone"] == "caution"
         assert not {"(better:", "(worse:"} & set(line["text"].split())
-    assert re.search(r"too few samples, worth [1-5]\.\d independent ones, to tell them apart", own["text"])
-    assert "no difference that the recording shows" in of_judged["text"]
+    assert re.search(r"not told apart: the errors repeat themselves, and are worth [12] stretch(es)? only", own["text"])
+    assert re.search(r"not told apart: 0\.\d\d of it, 0\.\d\d to 1\.\d\d over \d stretches", of_judged["text"])
     # three times smaller in the mean, and yet: sixteen seconds of slow errors are worth a handful of samples
     force = next(row for row in sensor["comparisons"] if (row["offset"], row["quantity"]) == ("fitted", "force"))
     assert force["mean"] < 0.4 * force["prior_mean"]
-    assert force["independent"] < 10.0
+    assert (force["judgement"], force["ratio_low"]) == ("not told apart", None)
     assert any("for fx, fy, fz, ty, tz the prior decides" in line["text"] for line in rest)
     assert any("independent samples" in line["text"] for line in rest)
     assert Path("leg.html").stat().st_size < NORMAL_BYTES

@@ -5,13 +5,13 @@ from forcetorque.analysis.acceptance import Acceptance, accept, criteria_table
 from forcetorque.analysis.acceptance_file import AcceptanceFile, read_acceptance
 from forcetorque.analysis.applicability import by_sensor, one_per_sensor
 from forcetorque.analysis.assessment import Assessment, Demands, assess
+from forcetorque.analysis.best_candidate import BestCandidate, CandidateComparison
 from forcetorque.analysis.calibrate import calibrate_sensor
 from forcetorque.analysis.campaign import Campaign, Runs
 from forcetorque.analysis.campaign_interval import CampaignInterval
 from forcetorque.analysis.candidate import JudgedCandidate
 from forcetorque.analysis.compare import Comparison, compare
 from forcetorque.analysis.contact_forces import (
-    BestCandidate,
     ContactForceErrors,
     ContactForces,
     contact_forces,
@@ -97,6 +97,7 @@ __all__ = [
     "AcceptanceFile",
     "Assessment",
     "BestCandidate",
+    "CandidateComparison",
     "Bound",
     "Campaign",
     "CampaignInterval",

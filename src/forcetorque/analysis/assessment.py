@@ -19,7 +19,7 @@ from forcetorque.analysis.evaluate import CandidateErrors, doubts, evaluate, req
 from forcetorque.analysis.joint_torques import JointTorqueErrors, joint_torques
 from forcetorque.analysis.judged import JudgedWrenches
 from forcetorque.analysis.learnt import LearntDirection, learnt_directions
-from forcetorque.analysis.prior_comparison import Independence, PriorComparison, compare_with_prior, independence
+from forcetorque.analysis.prior_comparison import Independence, PriorComparison, independence
 from forcetorque.analysis.sensor_run import SensorRun
 from forcetorque.analysis.sensor_sphere import SensorSphere
 from forcetorque.analysis.sphere import spheres
@@ -129,7 +129,7 @@ def assess(
         for file, calibration in calibrations.items()
         if tried.passes(f"errors of {names[file]}", partial(require_unseen, file, calibration, run))
     }
-    evaluation = contacts = torques = comparisons = counts = judged = None
+    evaluation = contacts = torques = counts = judged = None
     # where every calibration has seen the judged data there is nothing to judge it on; without any, the prior is judged
     if unseen or not calibrations:
         evaluation = tried.attempt("evaluation", partial(evaluate, run, unseen))
@@ -139,13 +139,12 @@ def assess(
     if evaluation:
         judged = run.judged(unseen)
         counts = tried.attempt("independence", partial(independence, judged))
-        comparisons = tried.attempt("comparison", partial(compare_with_prior, run, unseen))
     static, criteria = _checked(run, calibrations, others or {}, demands or Demands(), tried)
     assessment = Assessment(
         sensor=run.sensor.name,
         serial=run.sensor.serial,
         evaluation=evaluation.verdicts if evaluation else (),
-        comparisons=comparisons or (),
+        comparisons=evaluation.comparisons if evaluation else (),
         independence=counts or (),
         contact_forces=contacts.verdicts if contacts else (),
         best=contacts.best if contacts else (),

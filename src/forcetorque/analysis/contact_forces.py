@@ -8,6 +8,7 @@ from typing import Annotated
 
 import numpy as np
 
+from forcetorque.analysis.best_candidate import BestCandidate, judged_best
 from forcetorque.analysis.campaign import Campaign, Runs
 from forcetorque.analysis.contact_wrenches import ContactWrenches, contact_wrenches, pooled_contacts
 from forcetorque.analysis.free_sub_model import FreeSubModel
@@ -27,7 +28,6 @@ from forcetorque.result import (
     table_of,
     with_first_column,
 )
-from forcetorque.spatial import WRENCH_COMPONENTS
 
 
 class ContactForceErrors(Row):
@@ -59,30 +59,6 @@ class ContactForceErrors(Row):
     """Mean norm of the moment."""
     mean_absolute: Annotated[WrenchValues, ShownWrench(digits=3)]
     """Mean absolute value per component; N, N m."""
-
-
-class BestCandidate(Row):
-    """The best candidate of a sensor with one offset."""
-
-    sensor: str
-    """Sensor."""
-    offset: Offset
-    """Which offset the candidates are judged with."""
-    by_magnitude: str
-    """Candidate with the smallest mean norm of the force."""
-    by_axis: tuple[str, ...]
-    """Candidate with the smallest mean absolute value, per component."""
-
-    @property
-    def sentence(self) -> str:
-        """Who is best, and on which axes somebody else is."""
-        others = [
-            f"{component} {name}"
-            for component, name in zip(WRENCH_COMPONENTS, self.by_axis, strict=True)
-            if name != self.by_magnitude
-        ]
-        words = f"; but for {', '.join(others)}" if others else ", on every axis"
-        return f"{self.sensor}, offset {self.offset}: best is {self.by_magnitude}{words}"
 
 
 class ContactForces(Result):
@@ -146,15 +122,15 @@ def contact_forces(
                 run, others=others, other_sensors=other_sensors, sub_model=sub_model, contact=contact
             )
             recordings[campaign.recording(run)] = contact_wrenches(free, calibrations)
-    return contact_forces_of(campaign.sensor, pooled_contacts(recordings))
+    return contact_forces_of(campaign.sensor, recordings)
 
 
-def contact_forces_of(sensor: ExperimentSensor, contacts: ContactWrenches) -> ContactForces:
+def contact_forces_of(sensor: ExperimentSensor, recordings: Mapping[str, ContactWrenches]) -> ContactForces:
     """Judge candidates of a sensor by given contact wrenches.
 
     Args:
         sensor: The sensor.
-        contacts: Contact wrenches by every candidate.
+        recordings: Contact wrenches by every candidate, by name of the recording, candidates in the same order.
 
     Returns:
         The same as `contact_forces`.
@@ -162,12 +138,13 @@ def contact_forces_of(sensor: ExperimentSensor, contacts: ContactWrenches) -> Co
     Raises:
         ExperimentError: If there is nothing to judge.
     """
+    contacts = pooled_contacts(recordings)
     verdicts = tuple(contact_force_rows(sensor, contacts))
     if not verdicts:
         raise ExperimentError(f"nothing can be judged: {'; '.join(contacts.left_out)}")
     return ContactForces(
         verdicts=verdicts,
-        best=tuple(_best(verdicts)),
+        best=tuple(_best(sensor, contacts, list(recordings.values()))),
         left_out=contacts.left_out,
         warnings=tuple(f"left out: {words}" for words in contacts.left_out),
     )
@@ -208,9 +185,8 @@ def contact_force_rows(sensor: ExperimentSensor, contacts: ContactWrenches) -> I
     Yields:
         A row per candidate and offset that has samples without gaps.
     """
-    for (index, offset), wrenches in contacts.wrenches.items():
-        if np.isnan(wrenches).any(axis=1).all():
-            continue
+    for index, offset in _judgeable(contacts):
+        wrenches = contacts.wrenches[index, offset]
         candidate, errors = contacts.candidates[index], errors_from_zero(wrenches, contacts.time_s[index, offset])
         yield ContactForceErrors(
             sensor=sensor.name,
@@ -229,17 +205,20 @@ def contact_force_rows(sensor: ExperimentSensor, contacts: ContactWrenches) -> I
         )
 
 
-def _best(verdicts: Sequence[ContactForceErrors]) -> Iterator[BestCandidate]:
+def _judgeable(contacts: ContactWrenches) -> list[tuple[int, Offset]]:
+    """Keys of the wrenches that have a sample without a gap."""
+    return [key for key, wrenches in contacts.wrenches.items() if not np.isnan(wrenches).any(axis=1).all()]
+
+
+def _best(
+    sensor: ExperimentSensor, contacts: ContactWrenches, recordings: Sequence[ContactWrenches]
+) -> Iterator[BestCandidate]:
     """Best candidate with each offset, of one sensor."""
-    for offset in dict.fromkeys(row.offset for row in verdicts):
-        rows = [row for row in verdicts if row.offset is offset]
-        values = np.stack([row.mean_absolute for row in rows])
-        yield BestCandidate(
-            sensor=rows[0].sensor,
-            offset=offset,
-            by_magnitude=min(rows, key=lambda row: row.force_mean_N).candidate,
-            by_axis=tuple(rows[k].candidate for k in values.argmin(axis=0)),
-        )
+    groups: dict[Offset, list[tuple[int, Offset]]] = {}
+    for index, offset in _judgeable(contacts):
+        groups.setdefault(contacts.candidates[index].offset(offset), []).append((index, offset))
+    for offset, candidates in groups.items():
+        yield judged_best(sensor.name, offset, candidates, contacts, recordings)
 
 
 def _table(rows: Sequence[ContactForceErrors]) -> Table:

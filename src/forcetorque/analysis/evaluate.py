@@ -13,6 +13,8 @@ from pydantic import Field
 from forcetorque.analysis.applicability import overlapping
 from forcetorque.analysis.campaign import Campaign, Runs
 from forcetorque.analysis.candidate import JudgedCandidate, JudgedRow
+from forcetorque.analysis.judged import JudgedWrenches
+from forcetorque.analysis.prior_comparison import PriorComparison, comparison_sentence, prior_comparisons
 from forcetorque.analysis.sensor_run import SensorRun
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration import Calibration, FittedInterval
@@ -27,6 +29,7 @@ from forcetorque.result import (
     Table,
     WrenchValues,
     finite_or_none,
+    short_names,
     table_of,
     with_first_column,
 )
@@ -84,12 +87,14 @@ class Evaluation(Result):
     """One per sensor, candidate and offset, errors of all recordings pooled."""
     recordings: tuple[RecordingErrors, ...] = ()
     """One per sensor, candidate, offset and recording; none where there is one recording."""
+    comparisons: tuple[PriorComparison, ...] = ()
+    """Calibrations against their priors, force and moment, all recordings pooled."""
 
     def blocks(self) -> Iterator[Table | str]:
-        """Give a table per sensor, and one of its recordings where there are several.
+        """Give a table per sensor, one of its recordings where there are several, and what calibrations are worth.
 
         Yields:
-            Tables and a sentence.
+            Tables and sentences.
         """
         for sensor in dict.fromkeys(row.sensor for row in self.verdicts):
             rows = [row for row in self.verdicts if row.sensor == sensor]
@@ -102,6 +107,10 @@ class Evaluation(Result):
                 table = table_of(apart, f"{sensor} ({rows[0].serial}), each recording by itself")
                 yield with_first_column(table, "recording", [row.recording for row in apart])
         yield "per axis: RMSE; force and moment: mean norm of the error ± half its 95 % interval"
+        names = short_names([row.candidate for row in self.verdicts])
+        for candidate, offset in dict.fromkeys((row.candidate, row.offset) for row in self.comparisons):
+            rows = [row for row in self.comparisons if (row.candidate, row.offset) == (candidate, offset)]
+            yield comparison_sentence(names[candidate], rows)
 
     def records(self) -> list[dict[str, object]]:
         """Give the verdicts as flat lines, and where there are several recordings those on each.
@@ -145,15 +154,16 @@ def evaluate(runs: Runs, calibrations: Mapping[str, Calibration]) -> Evaluation:
         ShapeError: If a matrix does not have one column per channel of the sensor.
     """
     campaign = Campaign.of(runs)
-    judged: dict[str, list[_Judged]] = {}
+    wrenches: dict[str, JudgedWrenches] = {}
     warnings: list[str] = []
     for run in campaign.runs_with(Use.VALIDATION):
         with campaign.stated(run):
             for name, calibration in calibrations.items():
                 require_unseen(name, calibration, run)
-            judged[campaign.recording(run)] = list(_judged(run, calibrations))
+            wrenches[campaign.recording(run)] = run.judged(calibrations)
         said = [sentence for name, calibration in calibrations.items() for sentence in doubts(run, name, calibration)]
         warnings += [f"{campaign.recording(run)}: {sentence}" for sentence in said] if len(campaign.runs) > 1 else said
+    judged = {recording: list(_judged(wrenches[recording])) for recording in wrenches}
     apart = (
         RecordingErrors(recording=recording, **_statistics(campaign, row))
         for rows in zip(*judged.values(), strict=True)
@@ -165,12 +175,12 @@ def evaluate(runs: Runs, calibrations: Mapping[str, Calibration]) -> Evaluation:
             CandidateErrors(**_statistics(campaign, _pooled(rows))) for rows in zip(*judged.values(), strict=True)
         ),
         recordings=tuple(apart) if len(campaign.runs) > 1 else (),
+        comparisons=prior_comparisons(list(wrenches.values())),
         warnings=tuple(warnings),
     )
 
 
-def _judged(run: SensorRun, calibrations: Mapping[str, Calibration]) -> Iterator[_Judged]:
-    judged = run.judged(calibrations)
+def _judged(judged: JudgedWrenches) -> Iterator[_Judged]:
     for candidate, offset, wrench in judged.with_either_offset():
         yield _Judged(
             candidate=candidate, offset=offset, wrench=wrench, reference=judged.reference, time_s=judged.time_s

@@ -17,7 +17,7 @@ from forcetorque.analysis.contact_forces import (
     contact_force_rows,
     contact_forces_of,
 )
-from forcetorque.analysis.contact_wrenches import ContactWrenches, contact_wrenches, pooled_contacts
+from forcetorque.analysis.contact_wrenches import ContactWrenches, contact_wrenches
 from forcetorque.analysis.free_sub_model import FreeSubModel
 from forcetorque.analysis.joint_torques import (
     JointTorqueErrors,
@@ -132,7 +132,7 @@ def validate(
             torques[campaign.recording(run)] = judged_torques(free, calibrations)
             contacts[campaign.recording(run)] = contact_wrenches(free, calibrations)
     judged = joint_torques_of(campaign, pooled_torques(torques))
-    forces = contact_forces_of(campaign.sensor, pooled_contacts(contacts))
+    forces = contact_forces_of(campaign.sensor, contacts)
     name = campaign.sensor.name
     left_out = tuple(dict.fromkeys(f"{name}: {words}" for words in (*forces.left_out, *judged.left_out)))
     several = len(campaign.runs) > 1

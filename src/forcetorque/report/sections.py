@@ -18,7 +18,6 @@ from forcetorque.report.calibration_sections import (
 )
 from forcetorque.report.document import Block, Document, Figure, List, Section, Text, Tone, Verdict
 from forcetorque.result import Table, short_names, table_of
-from forcetorque.spatial import WRENCH_COMPONENTS
 
 
 def report_document(
@@ -134,8 +133,8 @@ def _errors(sensor: Assessment) -> Iterator[Block]:
     if sensor.comparisons:
         yield table_of(
             sensor.comparisons,
-            "Mean norm of the error against that of the prior on the same samples, and the 95 % interval of the "
-            "difference; what is constant in the error another offset would take away",
+            "Error against that of the prior on the same samples: mean norms, and the ratio of the errors with its "
+            "95 % interval over independent stretches of time; another offset would take away what is constant",
         )
     judged = sensor.judged
     if judged is None:
@@ -202,13 +201,7 @@ def _contacts(sensor: Assessment) -> Iterator[Block]:
     )
     names = short_names([row.candidate for row in sensor.contact_forces])
     if len(names) > 1:
-        yield List(
-            points=tuple(
-                f"offset {best.offset}: best is {names[best.by_magnitude]} by magnitude; by axis "
-                + ", ".join(f"{axis} {names[name]}" for axis, name in zip(WRENCH_COMPONENTS, best.by_axis, strict=True))
-                for best in sensor.best
-            )
-        )
+        yield List(points=tuple(best.sentence for best in sensor.best))
 
 
 def _torques(sensor: Assessment) -> Iterator[Block]:
