@@ -150,11 +150,13 @@ def accept(
         )
     judges_errors = spec.evaluate is not None or spec.improvement is not None or spec.validate_ is not None
     judged = campaign.runs_with(Use.VALIDATION) if calibration and judges_errors else ()
+    # what cannot be judged says first which limit asks for it
+    criteria = tuple(criteria_of(subjects, spec))
     validity = readings_outside(campaign, dict([calibration])) if calibration and judged else ()
     return Acceptance(
         experiment="; ".join(campaign.recordings),
         specification=spec.name,
-        criteria=tuple(criteria_of(subjects, spec)),
+        criteria=criteria,
         recordings=tuple(row for subject in subjects for row in _apart(subject, spec)) if several else (),
         measured=() if several else (subjects[0].checks,),
         recordings_measured=tuple(

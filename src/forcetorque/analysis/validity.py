@@ -83,10 +83,10 @@ class ReadingsOutside(Row):
         return self.outside / self.readings if self.readings else 0.0
 
     @property
-    def sentence(self) -> str | None:
-        """What makes it doubtful, in words; None where all readings lie within what was fitted."""
-        sentences = [*self._loads(), *(variable.sentence for variable in self.variables), *self._limits()]
-        return f"{self.candidate}: {'; '.join(sentences)}" if sentences else None
+    def sentences(self) -> tuple[str, ...]:
+        """What makes it doubtful, in words; none where all readings lie within what was fitted."""
+        sentences = (*self._loads(), *(variable.sentence for variable in self.variables), *self._limits())
+        return tuple(f"{self.candidate}: {sentence}" for sentence in sentences)
 
     def _loads(self) -> Iterator[str]:
         if not self.outside:
@@ -99,10 +99,10 @@ class ReadingsOutside(Row):
             )
         if not self.offset_known:
             start += ", an offset that changed since counts as load: their session was not fitted"
-        yield start
         force, moment = self.predicted_force_error_N, self.predicted_moment_error_Nm
         if force is not None and moment is not None:
-            yield f"predicted error there {force:.2g} N and {moment:.2g} N m"
+            start += f"; predicted error there {force:.2g} N and {moment:.2g} N m"
+        yield start
 
     def _limits(self) -> Iterator[str]:
         if self.at_limit:
@@ -233,9 +233,9 @@ def sentences(rows: Iterable[ReadingsOutside]) -> tuple[str, ...]:
         rows: The rows.
 
     Returns:
-        A sentence per row that has any.
+        The sentences of all rows.
     """
-    return tuple(row.sentence for row in rows if row.sentence is not None)
+    return tuple(sentence for row in rows for sentence in row.sentences)
 
 
 def _largest(beyond: FloatArray, first: int) -> tuple[float, str | None]:
