@@ -16,6 +16,7 @@ from forcetorque.analysis import (
     sensor_run,
     validate,
 )
+from forcetorque.analysis.validity import sentences
 from forcetorque.calibration import Calibration
 from forcetorque.estimation.samples import robot_motion_at
 from forcetorque.experiment import load_experiment
@@ -41,7 +42,8 @@ def test_it_joins_contact_forces_and_joint_torques(arm: Path) -> None:
     assert {best.best for best in validation.best} == {"new"}
     (words,) = forces.left_out
     assert validation.left_out == (f"arm_ft: {words}",)
-    assert validation.warnings == (f"left out: arm_ft: {words}",)
+    assert [row.candidate for row in validation.validity] == ["new"]
+    assert validation.warnings == (*sentences(validation.validity), f"left out: arm_ft: {words}")
     assert forces.warnings == torques.warnings == (f"left out: {words}",)
 
 

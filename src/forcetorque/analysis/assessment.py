@@ -15,7 +15,7 @@ from forcetorque.analysis.acceptance_file import AcceptanceFile
 from forcetorque.analysis.candidate import PRIOR
 from forcetorque.analysis.contact_forces import BestCandidate, ContactForceErrors, contact_forces
 from forcetorque.analysis.criterion import Criterion
-from forcetorque.analysis.evaluate import CandidateErrors, doubts, evaluate, require_unseen
+from forcetorque.analysis.evaluate import CandidateErrors, Evaluation, doubts_about_choice, evaluate, require_unseen
 from forcetorque.analysis.joint_torques import JointTorqueErrors, joint_torques
 from forcetorque.analysis.judged import JudgedWrenches
 from forcetorque.analysis.learnt import LearntDirection, learnt_directions
@@ -25,6 +25,7 @@ from forcetorque.analysis.sensor_sphere import SensorSphere
 from forcetorque.analysis.sphere import spheres
 from forcetorque.analysis.sphere_rows import SphereRow
 from forcetorque.analysis.static_checks import StaticChecks, check
+from forcetorque.analysis.validity import ReadingsOutside, sentences
 from forcetorque.analysis.verdict import VerdictLine, verdict
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration import Calibration
@@ -65,6 +66,8 @@ class Assessment(Row):
     """Calibrations of the sensor, with their uncertainty, excitation and choice of lambda, by file."""
     learnt: dict[str, tuple[LearntDirection, ...]] = Field(default_factory=dict)
     """What the recordings taught each of those that are fitted by the generative model towards a prior, by file."""
+    validity: tuple[ReadingsOutside, ...] = ()
+    """How far the judged readings lie outside what each calibration was fitted on."""
     warnings: tuple[str, ...]
     """What makes a verdict flatter or doubtful."""
     not_judged: dict[str, str]
@@ -154,7 +157,8 @@ def assess(
         criteria=criteria,
         calibrations=dict(calibrations),
         learnt={file: rows for file, one in calibrations.items() if (rows := learnt_directions(one)) is not None},
-        warnings=_warnings(run, unseen, names, tried),
+        validity=evaluation.validity if evaluation else (),
+        warnings=(*_outside(evaluation, names), *_warnings(run, unseen, names, tried)),
         not_judged=tried.reasons,
         left_out=tuple(
             dict.fromkeys([*(contacts.left_out if contacts else ()), *(torques.left_out if torques else ())])
@@ -194,11 +198,16 @@ def _checked(
     return tuple(static), tuple(criteria)
 
 
+def _outside(evaluation: Evaluation | None, names: Mapping[str, str]) -> tuple[str, ...]:
+    rows = evaluation.validity if evaluation else ()
+    return sentences(row.model_copy(update={"candidate": names[row.candidate]}) for row in rows)
+
+
 def _warnings(
     run: SensorRun, calibrations: Mapping[str, Calibration], names: Mapping[str, str], tried: _Attempts
 ) -> tuple[str, ...]:
     warnings: list[str] = []
     for file, calibration in calibrations.items():
-        name = names[file]
-        warnings += tried.attempt(f"doubts about {name}", lambda c=calibration, n=name: [*doubts(run, n, c)]) or []  # type: ignore[misc]
+        said = partial(doubts_about_choice, run, names[file], calibration)
+        warnings += tried.attempt(f"doubts about {names[file]}", lambda said=said: [*said()]) or []  # type: ignore[misc]
     return tuple(warnings)

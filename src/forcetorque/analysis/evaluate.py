@@ -16,6 +16,7 @@ from forcetorque.analysis.candidate import JudgedCandidate, JudgedRow
 from forcetorque.analysis.judged import JudgedWrenches
 from forcetorque.analysis.prior_comparison import PriorComparison, comparison_sentence, prior_comparisons
 from forcetorque.analysis.sensor_run import SensorRun
+from forcetorque.analysis.validity import ReadingsOutside, readings_outside, sentences
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration import Calibration, FittedInterval
 from forcetorque.errors import ExperimentError
@@ -33,9 +34,6 @@ from forcetorque.result import (
     table_of,
     with_first_column,
 )
-
-_BEYOND = 0.1
-"""Share of the fitted range of a variable by which it may be left before that is worth a word."""
 
 
 class CandidateErrors(JudgedRow):
@@ -89,6 +87,8 @@ class Evaluation(Result):
     """One per sensor, candidate, offset and recording; none where there is one recording."""
     comparisons: tuple[PriorComparison, ...] = ()
     """Calibrations against their priors, force and moment, all recordings pooled."""
+    validity: tuple[ReadingsOutside, ...] = ()
+    """One per calibration: how far the judged readings lie outside what it was fitted on."""
 
     def blocks(self) -> Iterator[Table | str]:
         """Give a table per sensor, one of its recordings where there are several, and what calibrations are worth.
@@ -161,8 +161,9 @@ def evaluate(runs: Runs, calibrations: Mapping[str, Calibration]) -> Evaluation:
             for name, calibration in calibrations.items():
                 require_unseen(name, calibration, run)
             wrenches[campaign.recording(run)] = run.judged(calibrations)
-        said = [sentence for name, calibration in calibrations.items() for sentence in doubts(run, name, calibration)]
+        said = [words for name, one in calibrations.items() for words in doubts_about_choice(run, name, one)]
         warnings += [f"{campaign.recording(run)}: {sentence}" for sentence in said] if len(campaign.runs) > 1 else said
+    validity = readings_outside(campaign, calibrations)
     judged = {recording: list(_judged(wrenches[recording])) for recording in wrenches}
     apart = (
         RecordingErrors(recording=recording, **_statistics(campaign, row))
@@ -176,7 +177,8 @@ def evaluate(runs: Runs, calibrations: Mapping[str, Calibration]) -> Evaluation:
         ),
         recordings=tuple(apart) if len(campaign.runs) > 1 else (),
         comparisons=prior_comparisons(list(wrenches.values())),
-        warnings=tuple(warnings),
+        validity=validity,
+        warnings=(*sentences(validity), *warnings),
     )
 
 
@@ -242,25 +244,6 @@ def require_unseen(name: str, calibration: Calibration, run: SensorRun) -> None:
         )
 
 
-def doubts(run: SensorRun, name: str, calibration: Calibration) -> Iterator[str]:
-    """Say what makes a verdict on the validation intervals doubtful.
-
-    Args:
-        run: The sensor.
-        name: Name of the calibration.
-        calibration: The calibration.
-
-    Yields:
-        A sentence per variable that leaves the fitted range by more than a tenth of it, where the line is drawn on;
-        one on loads beyond those that quadratic terms were fitted to; and one per interval on which the calibration was
-        chosen among others.
-    """
-    for sentence in _beyond_fitted_range(run, calibration):
-        yield f"{name}: {sentence}"
-    yield from _beyond_fitted_loads(run, name, calibration)
-    yield from doubts_about_choice(run, name, calibration)
-
-
 def doubts_about_choice(run: SensorRun, name: str, calibration: Calibration) -> Iterator[str]:
     """Say where a calibration is judged on what it was chosen on.
 
@@ -274,34 +257,6 @@ def doubts_about_choice(run: SensorRun, name: str, calibration: Calibration) -> 
     """
     for label in dict.fromkeys(judged for judged, _ in _overlaps(run, calibration, calibration.selection.chosen_on)):
         yield f"{name} was chosen among others on {label!r} too, so the verdict on it flatters"
-
-
-def _beyond_fitted_range(run: SensorRun, calibration: Calibration) -> Iterator[str]:
-    stamps = run.stream.stamp_ns
-    judged = np.zeros(len(stamps), dtype=bool)
-    for interval in run.intervals(Use.VALIDATION):
-        judged |= interval.holds(stamps)
-    for variable in calibration.variables:
-        values = run.sensor.variable(variable.name).source.at(run.experiment.recording, stamps[judged])
-        margin = _BEYOND * (variable.maximum - variable.minimum)
-        low, high = float(np.nanmin(values)), float(np.nanmax(values))
-        if low < variable.minimum - margin or high > variable.maximum + margin:
-            yield (
-                f"{variable.name} is {low:.4g} to {high:.4g} {variable.unit}, "
-                f"fitted were {variable.minimum:.4g} to {variable.maximum:.4g}"
-            )
-
-
-def _beyond_fitted_loads(run: SensorRun, name: str, calibration: Calibration) -> Iterator[str]:
-    if calibration.quadratic is None:
-        return
-    _, wrench = run.judged({name: calibration}).measured[-1]
-    share = float(calibration.quadratic.beyond(wrench).mean())
-    if share > 0.0:
-        yield (
-            f"{name}: {100 * share:.3g} % of the judged readings are of loads beyond those that its quadratic terms "
-            "were fitted to; they are corrected as at the limit"
-        )
 
 
 def _overlaps(run: SensorRun, calibration: Calibration, used: Iterable[FittedInterval]) -> Iterator[tuple[str, str]]:

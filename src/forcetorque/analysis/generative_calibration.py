@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -26,6 +27,7 @@ from forcetorque.calibration import (
     disagreements,
     excitation_of,
     fit_generative,
+    load_readings,
     pooled,
     require_same_sensor,
     try_correction,
@@ -83,6 +85,7 @@ def generative_calibration(
             np.min([interval.raw_minimum_counts for interval in intervals], axis=0),
             np.max([interval.raw_maximum_counts for interval in intervals], axis=0),
             excitation_of(moments.without_variables()),
+            [_fitted_readings(fit, interval) for interval in intervals],
         ),
         selection=Selection(rule=_RULE),
         doubts=(*dict.fromkeys(d for recording in recordings for d in recording.doubts), *_disagreeing(fit, stretches)),
@@ -96,6 +99,12 @@ def generative_calibration(
             inputs_sha256=_inputs(recordings),
         ),
     )
+
+
+def _fitted_readings(fit: GenerativeFit, interval: IntervalMoments) -> tuple[FloatArray, FloatArray]:
+    """Fitted loads of an interval, and the readings that these alone give."""
+    offset = fit.offsets[fit.posterior.sessions.index(interval.session)]
+    return load_readings(replace(fit.model, offset=offset), *interval.readings)
 
 
 def _inputs(recordings: Sequence[RecordingMoments]) -> dict[str, str]:

@@ -26,6 +26,7 @@ from forcetorque.calibration import (
     Validity,
     calibrate,
     gate,
+    load_readings,
 )
 from forcetorque.experiment.content import ExperimentSensor
 from forcetorque.recording import Use
@@ -137,6 +138,7 @@ def artefact(
             np.min([part.raw.min(axis=0) for part in parts], axis=0),
             np.max([part.raw.max(axis=0) for part in parts], axis=0),
             result.fit.excitation,
+            [load_readings(result.fit.model, part.raw, part.samples.variables) for part in parts],
         ),
         selection=_selection(result),
         provenance=Provenance(
@@ -169,17 +171,24 @@ def _variables(intervals: Sequence[CampaignInterval], result: CalibrationFit) ->
     )
 
 
-def validity_of(minimum: FloatArray, maximum: FloatArray, excitation: Excitation) -> Validity:
+def validity_of(
+    minimum: FloatArray,
+    maximum: FloatArray,
+    excitation: Excitation,
+    readings: Sequence[tuple[FloatArray, FloatArray]],
+) -> Validity:
     """Tell where data support a fit.
 
     Args:
         minimum: Smallest fitted reading per channel; shape (c,); counts.
         maximum: Largest fitted reading per channel; shape (c,); counts.
         excitation: How the loads moved the readings.
+        readings: Fitted loads, and the readings that these alone give (`load_readings`), per interval.
 
     Returns:
         The same for the artefact.
     """
+    along = [alone @ excitation.directions.T for _, alone in readings]
     return Validity(
         raw_minimum_counts=minimum,
         raw_maximum_counts=maximum,
@@ -190,6 +199,10 @@ def validity_of(minimum: FloatArray, maximum: FloatArray, excitation: Excitation
         variance_counts2=excitation.variance,
         explained=excitation.explained,
         excited=excitation.excited,
+        direction_minimum=np.min([values.min(axis=0) for values in along], axis=0),
+        direction_maximum=np.max([values.max(axis=0) for values in along], axis=0),
+        load_minimum=np.min([load.min(axis=0) for load, _ in readings], axis=0),
+        load_maximum=np.max([load.max(axis=0) for load, _ in readings], axis=0),
     )
 
 

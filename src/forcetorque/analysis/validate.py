@@ -26,7 +26,9 @@ from forcetorque.analysis.joint_torques import (
     joint_torques_of,
 )
 from forcetorque.analysis.torque_samples import JudgedTorques, judged_torques, pooled_torques
+from forcetorque.analysis.validity import ReadingsOutside, readings_outside, sentences
 from forcetorque.calibration import Calibration
+from forcetorque.errors import ForceTorqueError
 from forcetorque.evaluation import Offset, OtherSensors
 from forcetorque.recording import Use
 from forcetorque.result import Result, Table
@@ -55,6 +57,8 @@ class Validation(Result):
     """Joint torques of every recording by itself; none where there is one."""
     left_out: tuple[str, ...]
     """Torques that the log does not allow to estimate, and what gaps and short intervals leave out, in words."""
+    validity: tuple[ReadingsOutside, ...] = ()
+    """One per calibration: how far the judged readings lie outside what it was fitted on."""
 
     def blocks(self) -> Iterator[Table | str]:
         """Give tables of contact forces, who is best, and tables of joint torques.
@@ -134,7 +138,9 @@ def validate(
     judged = joint_torques_of(campaign, pooled_torques(torques))
     forces = contact_forces_of(campaign.sensor, contacts)
     name = campaign.sensor.name
-    left_out = tuple(dict.fromkeys(f"{name}: {words}" for words in (*forces.left_out, *judged.left_out)))
+    validity, unknown = _validity(campaign, calibrations)
+    reasons = (*forces.left_out, *judged.left_out, *unknown)
+    left_out = tuple(dict.fromkeys(f"{name}: {words}" for words in reasons))
     several = len(campaign.runs) > 1
     return Validation(
         experiment="; ".join(campaign.recordings),
@@ -145,8 +151,19 @@ def validate(
         recordings=tuple(_forces_apart(campaign, contacts)) if several else (),
         recording_torques=tuple(_torques_apart(campaign, torques)) if several else (),
         left_out=left_out,
-        warnings=tuple(f"left out: {words}" for words in left_out),
+        validity=validity,
+        warnings=(*sentences(validity), *(f"left out: {words}" for words in left_out)),
     )
+
+
+def _validity(
+    campaign: Campaign, calibrations: Mapping[str, Calibration]
+) -> tuple[tuple[ReadingsOutside, ...], tuple[str, ...]]:
+    """How far readings lie outside what was fitted; else why that is not known: joints beyond the sensor may lack."""
+    try:
+        return readings_outside(campaign, calibrations), ()
+    except ForceTorqueError as error:
+        return (), (f"whether readings lie within what was fitted: {error}",)
 
 
 def _forces_apart(campaign: Campaign, recordings: Mapping[str, ContactWrenches]) -> Iterator[RecordingContactForces]:

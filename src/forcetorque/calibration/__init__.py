@@ -25,6 +25,7 @@ from forcetorque.calibration.estimation_type import (
     estimation_type,
 )
 from forcetorque.calibration.excitation import Excitation, excitation_of
+from forcetorque.calibration.extrapolation import Extrapolation, extrapolation, load_readings, predicted_error
 from forcetorque.calibration.fit import MatrixFit, fit_matrix, require_determined
 from forcetorque.calibration.generative import (
     Assumptions,
@@ -79,6 +80,7 @@ __all__ = [
     "Estimation",
     "EstimationType",
     "Excitation",
+    "Extrapolation",
     "FittedInterval",
     "HeldOut",
     "LambdaCurve",
@@ -101,9 +103,12 @@ __all__ = [
     "estimation_of",
     "estimation_type",
     "excitation_of",
+    "extrapolation",
     "fit_matrix",
     "is_invertible",
+    "load_readings",
     "pooled",
+    "predicted_error",
     "read_calibration",
     "recover_raw",
     "require_determined",

@@ -125,6 +125,15 @@ class Validity(Part):
     """Share of each variance that the reference explains."""
     excited: tuple[bool, ...]
     """Whether the loads move the direction more than anything else does."""
+    direction_minimum: Annotated[FloatArray, ArrayField((None,))] | None = None
+    """Smallest fitted reading along each direction, of the load alone: less offset and variables (`extrapolation`);
+    shape (c,); counts; None in files of earlier versions, where the ranges of the channels stand for it."""
+    direction_maximum: Annotated[FloatArray, ArrayField((None,))] | None = None
+    """Largest such reading; shape (c,); counts."""
+    load_minimum: Annotated[FloatArray, ArrayField((6,))] | None = None
+    """Smallest fitted load per component, as the calibration reads it; N, N m; None in files of earlier versions."""
+    load_maximum: Annotated[FloatArray, ArrayField((6,))] | None = None
+    """Largest such load; N, N m."""
 
 
 class SessionOffset(Part):
