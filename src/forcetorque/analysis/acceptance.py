@@ -13,8 +13,8 @@ from forcetorque.analysis.acceptance_file import AcceptanceFile
 from forcetorque.analysis.campaign import Campaign, Runs
 from forcetorque.analysis.criteria import Subject, criteria_of
 from forcetorque.analysis.criterion import Bound, Criterion, RecordingCriterion
-from forcetorque.analysis.evaluate import doubts_about_choice
 from forcetorque.analysis.static_checks import RecordingChecks, StaticChecks, check
+from forcetorque.analysis.unseen import doubts_about_choice
 from forcetorque.analysis.validity import ReadingsOutside, readings_outside, sentences
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration import Calibration

@@ -15,7 +15,7 @@ from forcetorque.analysis.acceptance_file import AcceptanceFile
 from forcetorque.analysis.candidate import PRIOR
 from forcetorque.analysis.contact_forces import BestCandidate, ContactForceErrors, contact_forces
 from forcetorque.analysis.criterion import Criterion
-from forcetorque.analysis.evaluate import CandidateErrors, Evaluation, doubts_about_choice, evaluate, require_unseen
+from forcetorque.analysis.evaluate import CandidateErrors, Evaluation, evaluate
 from forcetorque.analysis.joint_torques import JointTorqueErrors, joint_torques
 from forcetorque.analysis.judged import JudgedWrenches
 from forcetorque.analysis.learnt import LearntDirection, learnt_directions
@@ -25,6 +25,7 @@ from forcetorque.analysis.sensor_sphere import SensorSphere
 from forcetorque.analysis.sphere import spheres
 from forcetorque.analysis.sphere_rows import SphereRow
 from forcetorque.analysis.static_checks import StaticChecks, check
+from forcetorque.analysis.unseen import doubts_about_choice, require_unseen
 from forcetorque.analysis.validity import ReadingsOutside, sentences
 from forcetorque.analysis.verdict import VerdictLine, verdict
 from forcetorque.arrays import FloatArray

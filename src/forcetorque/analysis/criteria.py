@@ -15,7 +15,7 @@ from forcetorque.analysis.candidate import PRIOR
 from forcetorque.analysis.contact_forces import ContactForceErrors, contact_forces
 from forcetorque.analysis.criterion import Bound, Criterion, Judge
 from forcetorque.analysis.decide import use_verdicts
-from forcetorque.analysis.evaluate import CandidateErrors, evaluate, require_unseen
+from forcetorque.analysis.evaluate import CandidateErrors, evaluate
 from forcetorque.analysis.interval_quality import IntervalQuality
 from forcetorque.analysis.learnt import learnt_directions
 from forcetorque.analysis.sensor_run import SensorRun
@@ -24,7 +24,6 @@ from forcetorque.calibration import Calibration
 from forcetorque.errors import ExperimentError, ForceTorqueError
 from forcetorque.evaluation import Offset, OtherSensors, PopulationPosition
 from forcetorque.experiment.load_case_schema import LoadCaseTable
-from forcetorque.recording import Use
 from forcetorque.spatial import WRENCH_COMPONENTS
 
 _Checked = TypeVar("_Checked")
@@ -291,8 +290,6 @@ def _learnt(subject: Subject, stated: limits.Learnt) -> Iterator[Criterion]:
 
 def _load_case(subject: Subject, stated: Sequence[LoadCaseTable]) -> Iterator[Criterion]:
     name, fitted = subject.fitted()
-    for run in subject.campaign.runs_with(Use.VALIDATION):
-        require_unseen(name, fitted, run)
     tables = {table.name for table in stated}
     for verdict in use_verdicts(subject.campaign, {name: fitted}, stated):
         if verdict.load_case not in tables:

@@ -10,6 +10,7 @@ from forcetorque.analysis.campaign import Campaign, Runs
 from forcetorque.analysis.judged_evidence import judged_evidence
 from forcetorque.analysis.loads_of_use import loads_of_use
 from forcetorque.analysis.prior_comparison import compare_with_prior
+from forcetorque.analysis.unseen import require_unseen
 from forcetorque.analysis.use_judge import UseJudge, amount
 from forcetorque.analysis.use_verdict import UseVerdict
 from forcetorque.calibration import Calibration
@@ -38,11 +39,17 @@ def use_verdicts(
         A verdict for every calibration and load case.
 
     Raises:
-        ExperimentError: If a load case cannot be had at the sensor.
+        ExperimentError: If a load case cannot be had at the sensor, or a calibration has seen a judged interval.
+        SerialNumberError: If a calibration is of another sensor.
         FitError: If a load case changes a variable that the calibration does not know.
     """
     campaign = Campaign.of(runs)
-    measured, worse = judged_evidence(campaign, calibrations), _worse(campaign, calibrations)
+    judged = [run for run in campaign.runs if run.has(Use.VALIDATION)]
+    for run in judged:
+        for name, calibration in calibrations.items():
+            require_unseen(name, calibration, run)
+    measured = judged_evidence(judged, calibrations)
+    worse = _worse(campaign, calibrations) if judged and calibrations else {}
     verdicts = []
     for name, calibration in calibrations.items():
         for case in loads_of_use(campaign.runs, more, matrix=calibration.matrix):
@@ -57,13 +64,12 @@ _COMPARED: Final = {UseOffset.FITTED: Offset.FITTED, UseOffset.TARED: Offset.JUD
 
 def _worse(campaign: Campaign, calibrations: Mapping[str, Calibration]) -> dict[tuple[str, Offset], str]:
     """That the judged data find a calibration worse than its prior, in words by its name and offset."""
-    rows = [row for run in campaign.runs if run.has(Use.VALIDATION) for row in compare_with_prior(run, calibrations)]
     words = "on data that were not fitted its {} error is larger than that of its prior, {} against {}"
     return {
         (row.candidate, row.offset): words.format(
             row.quantity, amount(row.mean, row.unit), amount(row.prior_mean, row.unit)
         )
-        for row in rows
+        for row in compare_with_prior(campaign, calibrations)
         if row.judgement == "worse"
     }
 

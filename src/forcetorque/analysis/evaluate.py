@@ -3,23 +3,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Annotated, Any, ClassVar, Literal
 
 import numpy as np
 from pydantic import Field
 
-from forcetorque.analysis.applicability import overlapping
 from forcetorque.analysis.campaign import Campaign, Runs
 from forcetorque.analysis.candidate import JudgedCandidate, JudgedRow
+from forcetorque.analysis.decide import use_verdicts
 from forcetorque.analysis.judged import JudgedWrenches
 from forcetorque.analysis.prior_comparison import PriorComparison, comparison_sentence, prior_comparisons
-from forcetorque.analysis.sensor_run import SensorRun
+from forcetorque.analysis.unseen import doubts_about_choice, require_unseen
+from forcetorque.analysis.use_verdict import UseVerdict, use_sentences
 from forcetorque.analysis.validity import ReadingsOutside, readings_outside, sentences
 from forcetorque.arrays import FloatArray
-from forcetorque.calibration import Calibration, FittedInterval
-from forcetorque.errors import ExperimentError
+from forcetorque.calibration import Calibration
 from forcetorque.evaluation import Offset, wrench_errors
 from forcetorque.noise import one_after_another
 from forcetorque.recording import Use
@@ -89,6 +89,8 @@ class Evaluation(Result):
     """Calibrations against their priors, force and moment, all recordings pooled."""
     validity: tuple[ReadingsOutside, ...] = ()
     """One per calibration: how far the judged readings lie outside what it was fitted on."""
+    uses: tuple[UseVerdict, ...] = ()
+    """One per calibration and load case: whether it may be used."""
 
     def blocks(self) -> Iterator[Table | str]:
         """Give a table per sensor, one of its recordings where there are several, and what calibrations are worth.
@@ -111,6 +113,7 @@ class Evaluation(Result):
         for candidate, offset in dict.fromkeys((row.candidate, row.offset) for row in self.comparisons):
             rows = [row for row in self.comparisons if (row.candidate, row.offset) == (candidate, offset)]
             yield comparison_sentence(names[candidate], rows)
+        yield from use_sentences(self.uses)
 
     def records(self) -> list[dict[str, object]]:
         """Give the verdicts as flat lines, and where there are several recordings those on each.
@@ -178,6 +181,7 @@ def evaluate(runs: Runs, calibrations: Mapping[str, Calibration]) -> Evaluation:
         recordings=tuple(apart) if len(campaign.runs) > 1 else (),
         comparisons=prior_comparisons(list(wrenches.values())),
         validity=validity,
+        uses=use_verdicts(campaign, calibrations),
         warnings=(*sentences(validity), *warnings),
     )
 
@@ -222,43 +226,3 @@ def _statistics(campaign: Campaign, judged: _Judged) -> dict[str, Any]:
         "moment_error_half_width_95_Nm": finite_or_none(errors.moment_mean_half_width),
         "moment_error_largest_Nm": errors.moment_largest,
     }
-
-
-def require_unseen(name: str, calibration: Calibration, run: SensorRun) -> None:
-    """Refuse a calibration that may not be applied, or that has seen the samples on which it would be judged.
-
-    Args:
-        name: Name of the calibration, for messages.
-        calibration: The calibration.
-        run: The sensor.
-
-    Raises:
-        SerialNumberError: If it is of another sensor.
-        ExperimentError: If it was fitted on a judged interval, or the robot now reads the sensor in another way.
-    """
-    run.require_fit(name, calibration)
-    for judged, fitted in _overlaps(run, calibration, calibration.provenance.intervals):
-        raise ExperimentError(
-            f"calibration {name!r} was fitted on the interval {fitted!r}, which overlaps the judged "
-            f"interval {judged!r}; judge it on data that it has not seen"
-        )
-
-
-def doubts_about_choice(run: SensorRun, name: str, calibration: Calibration) -> Iterator[str]:
-    """Say where a calibration is judged on what it was chosen on.
-
-    Args:
-        run: The sensor.
-        name: Name of the calibration.
-        calibration: The calibration.
-
-    Yields:
-        A sentence per validation interval on which it was chosen among others.
-    """
-    for label in dict.fromkeys(judged for judged, _ in _overlaps(run, calibration, calibration.selection.chosen_on)):
-        yield f"{name} was chosen among others on {label!r} too, so the verdict on it flatters"
-
-
-def _overlaps(run: SensorRun, calibration: Calibration, used: Iterable[FittedInterval]) -> Iterator[tuple[str, str]]:
-    """Labels of judged intervals and of those used before that overlap them."""
-    return overlapping(run.experiment, run.experiment.intervals(Use.VALIDATION), calibration, used)

@@ -40,7 +40,7 @@ def loads_of_use(
 
     Returns:
         The load cases that are stated for the sensor; without any the weight of the robot on its sole for a sensor in
-        a leg, else pushes as strong as what hangs on it, anywhere within 0.3 m.
+        a leg, else pushes as strong as what hangs on it, anywhere within 0.3 m; none where nothing hangs on it.
 
     Raises:
         ExperimentError: If a stated load is beyond what the sensor can read, or its frame is not outboard of it.
@@ -53,7 +53,8 @@ def loads_of_use(
         tables[table.name] = table
     cases = [case for table in tables.values() if (case := place.case(table)) is not None]
     if not cases:
-        return (place.default(max(_Place(run).outboard_weight for run in runs)),)
+        default = place.default(max(_Place(run).outboard_weight for run in runs))
+        return () if default is None else (default,)
     for case in cases:
         _require_readable(case, runs[0], matrix)
     return tuple(cases)
@@ -104,17 +105,14 @@ class _Place:
             allowed_moment_Nm=table.moment_error_Nm,
         )
 
-    def default(self, weight: float) -> LoadCase:
-        """The use that is taken for granted where nobody states one."""
+    def default(self, weight: float) -> LoadCase | None:
+        """The use that is taken for granted where nobody states one; None where nothing with a mass hangs on it."""
         sole = self._sole()
         if sole is not None:
             wrench, words = self._stood_upon(sole, SOLE_RADIUS_M)
             return LoadCase(name="weight of the robot", words=words, wrench=wrench, is_stated=False)
         if weight <= 0.0:
-            raise ExperimentError(
-                f"sensor {self.run.sensor.name!r}: nothing with a mass hangs on it, so that no use can be taken for "
-                "granted; state a [[load_case]]"
-            )
+            return None
         words = f"pushes of {weight:.3g} N, as much as hangs on the sensor, anywhere within {DEFAULT_RADIUS_M:g} m"
         wrench = pushes_within(weight, DEFAULT_RADIUS_M)
         return LoadCase(name="push", words=words, wrench=wrench, is_stated=False)

@@ -18,6 +18,7 @@ from forcetorque.analysis.contact_forces import (
     contact_forces_of,
 )
 from forcetorque.analysis.contact_wrenches import ContactWrenches, contact_wrenches
+from forcetorque.analysis.decide import use_verdicts
 from forcetorque.analysis.free_sub_model import FreeSubModel
 from forcetorque.analysis.joint_torques import (
     JointTorqueErrors,
@@ -26,6 +27,7 @@ from forcetorque.analysis.joint_torques import (
     joint_torques_of,
 )
 from forcetorque.analysis.torque_samples import JudgedTorques, judged_torques, pooled_torques
+from forcetorque.analysis.use_verdict import UseVerdict, use_sentences
 from forcetorque.analysis.validity import ReadingsOutside, readings_outside, sentences
 from forcetorque.calibration import Calibration
 from forcetorque.errors import ForceTorqueError
@@ -60,6 +62,9 @@ class Validation(Result):
     validity: tuple[ReadingsOutside, ...] = ()
     """One per calibration: how far the judged readings lie outside what it was fitted on."""
 
+    uses: tuple[UseVerdict, ...] = ()
+    """One per calibration and load case: whether it may be used."""
+
     def blocks(self) -> Iterator[Table | str]:
         """Give tables of contact forces, who is best, and tables of joint torques.
 
@@ -71,6 +76,7 @@ class Validation(Result):
             yield from self._without_offset(sensor)
             torques = [row for row in self.joint_torques if row.sensor == sensor]
             yield joint_torque_table(torques) if torques else f"{sensor}: no joint torque is estimated from it"
+        yield from use_sentences(self.uses)
         yield f"other sensors: as {'the model expects' if self.other_sensors == 'model' else 'they measured'}"
 
     def records(self) -> list[dict[str, object]]:
@@ -139,7 +145,8 @@ def validate(
     forces = contact_forces_of(campaign.sensor, contacts)
     name = campaign.sensor.name
     validity, unknown = _validity(campaign, calibrations)
-    reasons = (*forces.left_out, *judged.left_out, *unknown)
+    uses, undecided = _uses(campaign, calibrations)
+    reasons = (*forces.left_out, *judged.left_out, *unknown, *undecided)
     left_out = tuple(dict.fromkeys(f"{name}: {words}" for words in reasons))
     several = len(campaign.runs) > 1
     return Validation(
@@ -152,6 +159,7 @@ def validate(
         recording_torques=tuple(_torques_apart(campaign, torques)) if several else (),
         left_out=left_out,
         validity=validity,
+        uses=uses,
         warnings=(*sentences(validity), *(f"left out: {words}" for words in left_out)),
     )
 
@@ -164,6 +172,16 @@ def _validity(
         return readings_outside(campaign, calibrations), ()
     except ForceTorqueError as error:
         return (), (f"whether readings lie within what was fitted: {error}",)
+
+
+def _uses(
+    campaign: Campaign, calibrations: Mapping[str, Calibration]
+) -> tuple[tuple[UseVerdict, ...], tuple[str, ...]]:
+    """Whether calibrations may be used; else why that cannot be told, such as that one has seen the judged data."""
+    try:
+        return use_verdicts(campaign, calibrations), ()
+    except ForceTorqueError as error:
+        return (), (f"whether it may be used: {error}",)
 
 
 def _forces_apart(campaign: Campaign, recordings: Mapping[str, ContactWrenches]) -> Iterator[RecordingContactForces]:
