@@ -31,6 +31,7 @@ def _row(candidate: str) -> CandidateErrors:
         rmse=[1.0] * 6, bias=[0.0] * 6, largest=[1.0] * 6, force_error_mean_N=1.0, force_error_standard_error_N=0.1,
         force_error_largest_N=2.0, moment_error_mean_Nm=0.1, moment_error_standard_error_Nm=0.01,
         moment_error_largest_Nm=0.2, force_error_half_width_95_N=0.2, moment_error_half_width_95_Nm=0.02,
+        independent=50.0, excitation_N=20.0, excitation_Nm=2.0, load_N=30.0, load_Nm=3.0,
         prior=None if candidate.startswith("prior") else "prior",
     )  # fmt: skip
 

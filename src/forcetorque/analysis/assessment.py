@@ -15,7 +15,7 @@ from forcetorque.analysis.acceptance_file import AcceptanceFile
 from forcetorque.analysis.candidate import PRIOR
 from forcetorque.analysis.contact_forces import BestCandidate, ContactForceErrors, contact_forces
 from forcetorque.analysis.criterion import Criterion
-from forcetorque.analysis.evaluate import CandidateErrors, Evaluation, evaluate
+from forcetorque.analysis.evaluate import CandidateErrors, Evaluation, evaluate, still_words
 from forcetorque.analysis.joint_torques import JointTorqueErrors, joint_torques
 from forcetorque.analysis.judged import JudgedWrenches
 from forcetorque.analysis.learnt import LearntDirection, learnt_directions
@@ -67,6 +67,8 @@ class Assessment(Row):
     """Calibrations of the sensor, with their uncertainty, excitation and choice of lambda, by file."""
     learnt: dict[str, tuple[LearntDirection, ...]] = Field(default_factory=dict)
     """What the recordings taught each of those that are fitted by the generative model towards a prior, by file."""
+    smoothing: tuple[str, ...] = ()
+    """Whether reading and reference were smoothed, in words."""
     validity: tuple[ReadingsOutside, ...] = ()
     """How far the judged readings lie outside what each calibration was fitted on."""
     warnings: tuple[str, ...]
@@ -158,8 +160,13 @@ def assess(
         criteria=criteria,
         calibrations=dict(calibrations),
         learnt={file: rows for file, one in calibrations.items() if (rows := learnt_directions(one)) is not None},
+        smoothing=evaluation.smoothing if evaluation else (),
         validity=evaluation.validity if evaluation else (),
-        warnings=(*_outside(evaluation, names), *_warnings(run, unseen, names, tried)),
+        warnings=(
+            *still_words(evaluation.verdicts if evaluation else ()),
+            *_outside(evaluation, names),
+            *_warnings(run, unseen, names, tried),
+        ),
         not_judged=tried.reasons,
         left_out=tuple(
             dict.fromkeys([*(contacts.left_out if contacts else ()), *(torques.left_out if torques else ())])

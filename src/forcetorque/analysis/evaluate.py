@@ -13,14 +13,17 @@ from pydantic import Field
 from forcetorque.analysis.campaign import Campaign, Runs
 from forcetorque.analysis.candidate import JudgedCandidate, JudgedRow
 from forcetorque.analysis.decide import use_verdicts
+from forcetorque.analysis.evaluation_tables import ERROR_WORDS, error_tables
 from forcetorque.analysis.judged import JudgedWrenches
+from forcetorque.analysis.judged_excitation import JudgedExcitation, hardly_moved
 from forcetorque.analysis.prior_comparison import PriorComparison, comparison_sentence, prior_comparisons
+from forcetorque.analysis.sensor_run import SensorRun
 from forcetorque.analysis.unseen import doubts_about_choice, require_unseen
 from forcetorque.analysis.use_verdict import UseVerdict, use_sentences
 from forcetorque.analysis.validity import ReadingsOutside, readings_outside, sentences
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration import Calibration
-from forcetorque.evaluation import Offset, wrench_errors
+from forcetorque.evaluation import Offset, autocorrelation, wrench_errors
 from forcetorque.noise import one_after_another
 from forcetorque.recording import Use
 from forcetorque.result import (
@@ -31,8 +34,6 @@ from forcetorque.result import (
     WrenchValues,
     finite_or_none,
     short_names,
-    table_of,
-    with_first_column,
 )
 
 
@@ -43,8 +44,8 @@ class CandidateErrors(JudgedRow):
     """Number of judged samples."""
     rmse: Annotated[WrenchValues, ShownWrench(digits=3)]
     """Root mean square error per component; N, N m."""
-    bias: WrenchValues
-    """Mean error per component; N, N m."""
+    bias: Annotated[WrenchValues, ShownWrench(digits=3)]
+    """Mean error per component, its constant part; N, N m."""
     largest: WrenchValues
     """Largest absolute error per component; N, N m."""
     force_error_mean_N: Annotated[float, Shown("force", "N", digits=2, error="force_error_half_width_95_N")]
@@ -63,6 +64,37 @@ class CandidateErrors(JudgedRow):
     """Half-width of its 95 % interval; None where it cannot be told."""
     moment_error_largest_Nm: float
     """Largest norm of the moment error."""
+    independent: Annotated[float | None, Shown("independent", digits=0)]
+    """How many independent samples the errors are worth, of the component worth the fewest; None where none changes."""
+    excitation_N: Annotated[float, Shown("moved", "N", digits=1)]
+    """Standard deviation of the reference force over the judged samples, all three components together."""
+    excitation_Nm: Annotated[float, Shown("moved", "N m", digits=2)]
+    """The same of the reference moment."""
+    load_N: float
+    """What that is little or much of: root mean square judged force, or standard deviation of the fitted ones where
+    that is larger."""
+    load_Nm: float
+    """The same of the moment."""
+
+    @property
+    def hardly_moved(self) -> bool:
+        """Whether force or moment moved so little that a wrong matrix would show nothing in this error."""
+        return self.hardly_moved_words is not None
+
+    @property
+    def hardly_moved_words(self) -> str | None:
+        """The same in words; None where the loads moved."""
+        kinds = {
+            "forces": (self.excitation_N, self.load_N, "N"),
+            "moments": (self.excitation_Nm, self.load_Nm, "N m"),
+        }
+        still = {kind: sizes for kind, sizes in kinds.items() if hardly_moved(sizes[0], sizes[1])}
+        if not still:
+            return None
+        of = ", ".join(f"{moved:.2g} {unit} of {load:.2g} {unit}" for moved, load, unit in still.values())
+        what = "loads" if len(still) == len(kinds) else next(iter(still))
+        wrong = "a wrong matrix" if what == "loads" else f"a matrix that is wrong for {what}"
+        return f"the {what} hardly moved in the judged samples ({of}): {wrong} would show nothing"
 
 
 class RecordingErrors(CandidateErrors):
@@ -87,6 +119,8 @@ class Evaluation(Result):
     """One per sensor, candidate, offset and recording; none where there is one recording."""
     comparisons: tuple[PriorComparison, ...] = ()
     """Calibrations against their priors, force and moment, all recordings pooled."""
+    smoothing: tuple[str, ...] = ()
+    """Whether reading and reference were smoothed, in words; of several recordings one per way."""
     validity: tuple[ReadingsOutside, ...] = ()
     """One per calibration: how far the judged readings lie outside what it was fitted on."""
     uses: tuple[UseVerdict, ...] = ()
@@ -104,15 +138,15 @@ class Evaluation(Result):
             names = list(dict.fromkeys(row.recording for row in apart))
             where = f"{len(names)} recordings" if names else self.experiment
             judged = f"{rows[0].samples} samples that were not fitted"
-            yield table_of(rows, f"{where}: {sensor} ({rows[0].serial}), {judged}")
+            yield from error_tables(rows, f"{where}: {sensor} ({rows[0].serial}), {judged}")
             if apart:
-                table = table_of(apart, f"{sensor} ({rows[0].serial}), each recording by itself")
-                yield with_first_column(table, "recording", [row.recording for row in apart])
-        yield "per axis: RMSE; force and moment: mean norm of the error ± half its 95 % interval"
-        names = short_names([row.candidate for row in self.verdicts])
+                caption = f"{sensor} ({rows[0].serial}), each recording by itself"
+                yield from error_tables(apart, caption, recordings=[row.recording for row in apart])
+        yield f"{ERROR_WORDS}; {'; '.join(self.smoothing)}"
+        shown = short_names([row.candidate for row in self.verdicts])
         for candidate, offset in dict.fromkeys((row.candidate, row.offset) for row in self.comparisons):
-            rows = [row for row in self.comparisons if (row.candidate, row.offset) == (candidate, offset)]
-            yield comparison_sentence(names[candidate], rows)
+            compared = [row for row in self.comparisons if (row.candidate, row.offset) == (candidate, offset)]
+            yield comparison_sentence(shown[candidate], compared)
         yield from use_sentences(self.uses)
 
     def records(self) -> list[dict[str, object]]:
@@ -169,20 +203,23 @@ def evaluate(runs: Runs, calibrations: Mapping[str, Calibration]) -> Evaluation:
     validity = readings_outside(campaign, calibrations)
     judged = {recording: list(_judged(wrenches[recording])) for recording in wrenches}
     apart = (
-        RecordingErrors(recording=recording, **_statistics(campaign, row))
+        RecordingErrors(recording=recording, **_statistics(campaign, row, calibrations))
         for rows in zip(*judged.values(), strict=True)
         for recording, row in zip(judged, rows, strict=True)
     )
+    verdicts = tuple(
+        CandidateErrors(**_statistics(campaign, _pooled(rows), calibrations))
+        for rows in zip(*judged.values(), strict=True)
+    )
     return Evaluation(
         experiment="; ".join(campaign.recordings),
-        verdicts=tuple(
-            CandidateErrors(**_statistics(campaign, _pooled(rows))) for rows in zip(*judged.values(), strict=True)
-        ),
+        verdicts=verdicts,
         recordings=tuple(apart) if len(campaign.runs) > 1 else (),
         comparisons=prior_comparisons(list(wrenches.values())),
+        smoothing=tuple(dict.fromkeys(map(smoothing_words, campaign.runs_with(Use.VALIDATION)))),
         validity=validity,
         uses=use_verdicts(campaign, calibrations),
-        warnings=(*sentences(validity), *warnings),
+        warnings=(*still_words(verdicts), *sentences(validity), *warnings),
     )
 
 
@@ -204,8 +241,41 @@ def _pooled(rows: Sequence[_Judged]) -> _Judged:
     )
 
 
-def _statistics(campaign: Campaign, judged: _Judged) -> dict[str, Any]:
+def still_words(verdicts: Sequence[CandidateErrors]) -> tuple[str, ...]:
+    """Say where the loads hardly moved while errors were measured.
+
+    Args:
+        verdicts: The errors.
+
+    Returns:
+        A sentence per sensor where it is so: all its candidates are judged on the same samples.
+    """
+    words = [(row.sensor, row.hardly_moved_words) for row in verdicts]
+    return tuple(dict.fromkeys(f"{sensor}: {still}" for sensor, still in words if still is not None))
+
+
+def smoothing_words(run: SensorRun) -> str:
+    """Say whether reading and reference are smoothed before they are compared.
+
+    Args:
+        run: The sensor.
+
+    Returns:
+        The words.
+    """
+    smoothing = run.experiment.processing.smoothing
+    return "not smoothed" if smoothing is None else f"reading and reference smoothed over {smoothing.window_s:g} s"
+
+
+def _independent(error: FloatArray, time_s: FloatArray) -> float | None:
+    """Independent samples of the component of an error that is worth the fewest."""
+    counts = [autocorrelation(component, time_s).effective_count for component in error.T]
+    return min((count for count in counts if np.isfinite(count)), default=None)
+
+
+def _statistics(campaign: Campaign, judged: _Judged, calibrations: Mapping[str, Calibration]) -> dict[str, Any]:
     errors = wrench_errors(judged.wrench, judged.reference, judged.time_s)
+    excitation = JudgedExcitation.of(judged.reference, calibrations.values())
     return {
         "sensor": campaign.sensor.name,
         "serial": campaign.sensor.serial,
@@ -225,4 +295,9 @@ def _statistics(campaign: Campaign, judged: _Judged) -> dict[str, Any]:
         "moment_error_standard_error_Nm": finite_or_none(errors.moment_mean_error),
         "moment_error_half_width_95_Nm": finite_or_none(errors.moment_mean_half_width),
         "moment_error_largest_Nm": errors.moment_largest,
+        "independent": _independent(judged.wrench - judged.reference, judged.time_s),
+        "excitation_N": excitation.force,
+        "excitation_Nm": excitation.moment,
+        "load_N": excitation.load_force,
+        "load_Nm": excitation.load_moment,
     }

@@ -27,7 +27,6 @@ from forcetorque.calibration import (
     disagreements,
     excitation_of,
     fit_generative,
-    load_readings,
     pooled,
     require_same_sensor,
     try_correction,
@@ -85,7 +84,7 @@ def generative_calibration(
             np.min([interval.raw_minimum_counts for interval in intervals], axis=0),
             np.max([interval.raw_maximum_counts for interval in intervals], axis=0),
             excitation_of(moments.without_variables()),
-            [_fitted_readings(fit, interval) for interval in intervals],
+            [_fitted_loads(fit, interval) for interval in intervals],
         ),
         selection=Selection(rule=_RULE),
         doubts=(*dict.fromkeys(d for recording in recordings for d in recording.doubts), *_disagreeing(fit, stretches)),
@@ -101,10 +100,10 @@ def generative_calibration(
     )
 
 
-def _fitted_readings(fit: GenerativeFit, interval: IntervalMoments) -> tuple[FloatArray, FloatArray]:
-    """Fitted loads of an interval, and the readings that these alone give."""
+def _fitted_loads(fit: GenerativeFit, interval: IntervalMoments) -> FloatArray:
+    """Fitted loads of an interval, by its readings."""
     offset = fit.offsets[fit.posterior.sessions.index(interval.session)]
-    return load_readings(replace(fit.model, offset=offset), *interval.readings)
+    return replace(fit.model, offset=offset).linear.wrench(*interval.readings)
 
 
 def _inputs(recordings: Sequence[RecordingMoments]) -> dict[str, str]:

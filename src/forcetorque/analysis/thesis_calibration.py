@@ -18,6 +18,7 @@ from forcetorque.calibration import (
     CalibrationFit,
     EstimationType,
     Excitation,
+    FittedLoads,
     Prior,
     Provenance,
     Selection,
@@ -26,7 +27,6 @@ from forcetorque.calibration import (
     Validity,
     calibrate,
     gate,
-    load_readings,
 )
 from forcetorque.experiment.content import ExperimentSensor
 from forcetorque.recording import Use
@@ -138,7 +138,7 @@ def artefact(
             np.min([part.raw.min(axis=0) for part in parts], axis=0),
             np.max([part.raw.max(axis=0) for part in parts], axis=0),
             result.fit.excitation,
-            [load_readings(result.fit.model, part.raw, part.samples.variables) for part in parts],
+            [result.fit.model.linear.wrench(part.raw, part.samples.variables) for part in parts],
         ),
         selection=_selection(result),
         provenance=Provenance(
@@ -175,7 +175,7 @@ def validity_of(
     minimum: FloatArray,
     maximum: FloatArray,
     excitation: Excitation,
-    readings: Sequence[tuple[FloatArray, FloatArray]],
+    loads: Sequence[FloatArray],
 ) -> Validity:
     """Tell where data support a fit.
 
@@ -183,12 +183,12 @@ def validity_of(
         minimum: Smallest fitted reading per channel; shape (c,); counts.
         maximum: Largest fitted reading per channel; shape (c,); counts.
         excitation: How the loads moved the readings.
-        readings: Fitted loads, and the readings that these alone give (`load_readings`), per interval.
+        loads: Fitted loads by the linear part of the fit, with the offset of their session, per interval; shape (n, 6)
+            each; N, N m.
 
     Returns:
         The same for the artefact.
     """
-    along = [alone @ excitation.directions.T for _, alone in readings]
     return Validity(
         raw_minimum_counts=minimum,
         raw_maximum_counts=maximum,
@@ -199,10 +199,7 @@ def validity_of(
         variance_counts2=excitation.variance,
         explained=excitation.explained,
         excited=excitation.excited,
-        direction_minimum=np.min([values.min(axis=0) for values in along], axis=0),
-        direction_maximum=np.max([values.max(axis=0) for values in along], axis=0),
-        load_minimum=np.min([load.min(axis=0) for load, _ in readings], axis=0),
-        load_maximum=np.max([load.max(axis=0) for load, _ in readings], axis=0),
+        loads=FittedLoads.of(loads, excitation.reference_deviation),
     )
 
 

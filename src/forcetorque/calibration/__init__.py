@@ -25,8 +25,9 @@ from forcetorque.calibration.estimation_type import (
     estimation_type,
 )
 from forcetorque.calibration.excitation import Excitation, excitation_of
-from forcetorque.calibration.extrapolation import Extrapolation, extrapolation, load_readings, predicted_error
+from forcetorque.calibration.extrapolation import Extrapolation, extrapolation, predicted_error
 from forcetorque.calibration.fit import MatrixFit, fit_matrix, require_determined
+from forcetorque.calibration.fitted_loads import FittedLoads
 from forcetorque.calibration.generative import (
     Assumptions,
     GenerativeFit,
@@ -82,6 +83,7 @@ __all__ = [
     "Excitation",
     "Extrapolation",
     "FittedInterval",
+    "FittedLoads",
     "HeldOut",
     "LambdaCurve",
     "LinearVariable",
@@ -106,7 +108,6 @@ __all__ = [
     "extrapolation",
     "fit_matrix",
     "is_invertible",
-    "load_readings",
     "pooled",
     "predicted_error",
     "read_calibration",

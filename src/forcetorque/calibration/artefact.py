@@ -24,6 +24,7 @@ from pydantic_core import PydanticCustomError
 from forcetorque.array_field import ArrayField
 from forcetorque.arrays import BoolArray, FloatArray
 from forcetorque.atomic import write_bytes_atomically
+from forcetorque.calibration.fitted_loads import FittedLoads
 from forcetorque.calibration.nonlinear_trial import NonlinearTrial
 from forcetorque.calibration.part import Part
 from forcetorque.calibration.posterior import Posterior
@@ -125,15 +126,8 @@ class Validity(Part):
     """Share of each variance that the reference explains."""
     excited: tuple[bool, ...]
     """Whether the loads move the direction more than anything else does."""
-    direction_minimum: Annotated[FloatArray, ArrayField((None,))] | None = None
-    """Smallest fitted reading along each direction, of the load alone: less offset and variables (`extrapolation`);
-    shape (c,); counts; None in files of earlier versions, where the ranges of the channels stand for it."""
-    direction_maximum: Annotated[FloatArray, ArrayField((None,))] | None = None
-    """Largest such reading; shape (c,); counts."""
-    load_minimum: Annotated[FloatArray, ArrayField((6,))] | None = None
-    """Smallest fitted load per component, as the calibration reads it; N, N m; None in files of earlier versions."""
-    load_maximum: Annotated[FloatArray, ArrayField((6,))] | None = None
-    """Largest such load; N, N m."""
+    loads: FittedLoads | None = None
+    """Range of the fitted loads; None in files of earlier versions, where the ranges of the channels stand for it."""
 
 
 class SessionOffset(Part):

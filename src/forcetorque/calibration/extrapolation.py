@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """How far readings lie outside what a calibration was fitted on, as loads, and what error is predicted there.
 
-Readings are compared by what the load alone gives: `pinv(matrix) (matrix raw + offset + coefficients (v - v0))`. A
-sensor that was switched on anew, or is warmer, reads other counts under the same load; with the offset of its session
-these counts are those of the fit again, so a power-up by itself is no extrapolation.
+Readings are compared by the loads that the linear part of the calibration gives, with the offset of their session. A
+sensor that was switched on anew, or is warmer, reads other counts under the same load; with that offset the load is the
+same again, so a power-up by itself is no extrapolation.
 
-Along each principal direction of the fitted readings there is a smallest and a largest one. What lies beyond by more
-than a tenth of their distance, or more than noise, is outside; the rest of it, through the matrix, is how far.
+Along each principal direction of the fitted loads there is a smallest and a largest one. What lies beyond by more than
+a tenth of their distance, and by more than noise, is outside; the distance from the range is how far.
 """
 
 from __future__ import annotations
@@ -18,7 +18,6 @@ import numpy as np
 
 from forcetorque.arrays import BoolArray, FloatArray
 from forcetorque.calibration.artefact import Calibration
-from forcetorque.calibration.wrench_model import WrenchModel
 
 MARGIN = 0.1
 """Share of a fitted range by which it may be left before that is worth a word."""
@@ -59,21 +58,6 @@ class Extrapolation:
         return outside
 
 
-def load_readings(model: WrenchModel, raw: Any, variables: Any = None) -> tuple[FloatArray, FloatArray]:
-    """Take from readings what offset and variables give.
-
-    Args:
-        model: What turns readings into wrenches, with the offset of their session.
-        raw: Raw readings; shape (n, c); counts.
-        variables: Values of the variables; shape (n, v); None where there is none.
-
-    Returns:
-        Loads by the linear part, shape (n, 6), N and N m; and the readings that these alone give, shape (n, c), counts.
-    """
-    load = replace(model, quadratic=None).wrench(raw, variables)
-    return load, load @ np.linalg.pinv(model.matrix).T
-
-
 def extrapolation(
     calibration: Calibration, raw: Any, variables: Any = None, *, offset: FloatArray | None = None
 ) -> Extrapolation:
@@ -91,15 +75,14 @@ def extrapolation(
     counts, model = np.asarray(raw, dtype=np.float64), calibration.model
     values = np.empty((len(counts), 0)) if variables is None else np.asarray(variables, dtype=np.float64)
     model = model if offset is None else replace(model, offset=offset)
-    load, alone = load_readings(model, counts, values)
-    directions, low, high = _box(calibration)
-    if calibration.validity.direction_minimum is None:
-        # ranges of channels: what no load does to more than six of them is in the range too
-        alone = counts + (load - counts @ model.matrix.T) @ np.linalg.pinv(model.matrix).T
-    along = alone @ directions.T
-    margin = np.maximum(MARGIN * (high - low), _NOISE_DEVIATIONS * _noise(calibration, directions))
-    left = (along < low - margin) | (along > high + margin)
-    beyond = np.where(left, along - np.clip(along, low, high), 0.0) @ directions @ model.matrix.T
+    load = model.linear.wrench(counts, values)
+    box = _box(calibration)
+    # channels keep what no load does to more than six of them, as their ranges do
+    along = (counts + (load - counts @ model.matrix.T) @ box.to_along.T) if box.of_channels else load @ box.to_along.T
+    noise = np.sqrt(box.to_along**2 @ calibration.residual_rms**2)
+    margin = np.maximum(MARGIN * (box.high - box.low), _NOISE_DEVIATIONS * noise)
+    left = (along < box.low - margin) | (along > box.high + margin)
+    beyond = np.where(left, along - np.clip(along, box.low, box.high), 0.0) @ box.to_load.T
     quadratic, shape = calibration.quadratic, load.shape[:1]
     return Extrapolation(
         load=load,
@@ -131,20 +114,33 @@ def predicted_error(calibration: Calibration, load: FloatArray, variables: Float
     return float(np.sqrt(variance[:3].sum())), float(np.sqrt(variance[3:].sum()))
 
 
-def _box(calibration: Calibration) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Directions, and the smallest and largest reading of a load along each."""
-    validity = calibration.validity
-    if validity.direction_minimum is not None and validity.direction_maximum is not None:
-        return validity.directions, validity.direction_minimum, validity.direction_maximum
-    shift = np.linalg.pinv(calibration.matrix) @ calibration.offset
-    low, high = validity.raw_minimum_counts + shift, validity.raw_maximum_counts + shift
-    return np.eye(len(shift)), low, high
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class _Box:
+    """What was fitted, along some directions."""
+
+    to_along: FloatArray
+    """From loads to what they are along each direction; shape (k, 6)."""
+    to_load: FloatArray
+    """And back; shape (6, k)."""
+    low: FloatArray
+    """Smallest fitted along each; shape (k,)."""
+    high: FloatArray
+    """Largest; shape (k,)."""
+    of_channels: bool
+    """Whether the directions are channels."""
 
 
-def _noise(calibration: Calibration, directions: FloatArray) -> FloatArray:
-    """Deviation of readings along each direction that the fit left unexplained; counts."""
-    noise: FloatArray = np.sqrt((directions @ np.linalg.pinv(calibration.matrix)) ** 2 @ calibration.residual_rms**2)
-    return noise
+def _box(calibration: Calibration) -> _Box:
+    validity, loads = calibration.validity, calibration.validity.loads
+    if loads is not None:
+        back = np.linalg.inv(loads.directions)
+        low, high = loads.direction_minimum, loads.direction_maximum
+        return _Box(to_along=loads.directions, to_load=back, low=low, high=high, of_channels=False)
+    to_counts = np.linalg.pinv(calibration.matrix)
+    low, high = (
+        counts + to_counts @ calibration.offset for counts in (validity.raw_minimum_counts, validity.raw_maximum_counts)
+    )
+    return _Box(to_along=to_counts, to_load=calibration.matrix, low=low, high=high, of_channels=True)
 
 
 def _variables_outside(calibration: Calibration, values: FloatArray) -> BoolArray:

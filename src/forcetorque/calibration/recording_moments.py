@@ -152,11 +152,13 @@ class IntervalMoments(Part):
 
 
 def _ends(data: DataSet, moments: Moments) -> IntArray:
-    """Samples at the ends of the range along channels, principal directions and components of the reference."""
+    """Samples at the ends of the range along channels, components of the load, and principal directions of both."""
     # which directions the recordings have together is known only when they are fitted, and means over a second miss
     # what fast movements reach
-    _, principal = np.linalg.eigh(moments.raw_raw)
-    along = np.hstack([data.raw, data.raw @ principal, data.reference])
+    _, of_raw = np.linalg.eigh(moments.raw_raw)
+    scale = np.sqrt(np.maximum(np.diag(moments.reference_reference), np.finfo(float).tiny))
+    _, of_loads = np.linalg.eigh(moments.reference_reference / np.outer(scale, scale))
+    along = np.hstack([data.raw, data.raw @ of_raw, data.reference, data.reference / scale @ of_loads])
     ends: IntArray = np.unique([along.argmin(axis=0), along.argmax(axis=0)])
     return ends
 

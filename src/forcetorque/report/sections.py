@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any
 
 from forcetorque.analysis import Assessment, ExperimentAssessment, criteria_table, finding_table
+from forcetorque.analysis.evaluation_tables import ERROR_WORDS, error_tables
 from forcetorque.analysis.sphere_tables import interval_table, mass_table, moment_table
 from forcetorque.errors import ForceTorqueError
 from forcetorque.report import figures, tables
@@ -123,11 +124,8 @@ def _drawn(blocks: Iterator[Block]) -> Iterator[Block]:
 
 def _errors(sensor: Assessment) -> Iterator[Block]:
     if sensor.evaluation:
-        yield table_of(
-            sensor.evaluation,
-            "Root mean square error per component, mean norm of the force and moment error ± standard error; "
-            f"{sensor.evaluation[0].samples} samples",
-        )
+        yield from error_tables(sensor.evaluation, f"Errors of {sensor.evaluation[0].samples} samples")
+        yield Text(text=f"Numbers of these tables: {'; '.join((ERROR_WORDS, *sensor.smoothing))}.")
     if sensor.independence:
         yield table_of(sensor.independence, "How many independent samples the errors are worth")
     if sensor.comparisons:

@@ -1,0 +1,68 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""How much the loads moved while a sensor was judged: an error that was measured at rest says nothing of the matrix.
+
+An offset takes up whatever a wrong matrix makes of a load that stands still. What is left is its relative error times
+the movement of the load: of a matrix that is wrong altogether, such as that of a sensor turned by 90 degrees, about as
+much as the load moved. Where that is below a twentieth of the loads that the sensor bears, it would pass for a good
+one.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import numpy as np
+
+from forcetorque.arrays import FloatArray
+from forcetorque.calibration import Calibration
+
+HARDLY = 0.05
+"""Share of the load below which it hardly moved."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class JudgedExcitation:
+    """How much the judged loads moved, and how large loads are."""
+
+    force: float
+    """Standard deviation of the reference force, all three components together; N."""
+    moment: float
+    """The same of the moment; N m."""
+    load_force: float
+    """The larger of the root mean square judged force and the standard deviation of the fitted ones; N."""
+    load_moment: float
+    """The same of the moment; N m."""
+
+    @classmethod
+    def of(cls, reference: FloatArray, calibrations: Iterable[Calibration]) -> JudgedExcitation:
+        """Sum up judged loads.
+
+        Args:
+            reference: Expected wrenches of the judged samples; shape (n, 6); N, N m.
+            calibrations: Calibrations that are judged, for the loads that they were fitted to.
+
+        Returns:
+            Their size and movement.
+        """
+        moved = np.sqrt(reference.var(axis=0))
+        load = np.sqrt((reference**2).mean(axis=0))
+        fitted = [calibration.validity.reference_deviation for calibration in calibrations]
+        force, moment = (
+            (float(np.linalg.norm(moved[part])), max(float(np.linalg.norm(one[part])) for one in (load, *fitted)))
+            for part in (slice(3), slice(3, 6))
+        )
+        return cls(force=force[0], moment=moment[0], load_force=force[1], load_moment=moment[1])
+
+
+def hardly_moved(moved: float, load: float) -> bool:
+    """Tell whether a load moved so little that a wrong matrix would show nothing.
+
+    Args:
+        moved: Standard deviation of the load.
+        load: Size of loads, in the same unit.
+
+    Returns:
+        Whether it did.
+    """
+    return moved <= HARDLY * load
