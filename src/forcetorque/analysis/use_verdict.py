@@ -35,15 +35,15 @@ class UseError(Row):
     before: Annotated[float | None, Shown("prior", digits=3)]
     """With the prior matrix, as the recordings know it now: median; None without a prior."""
     before_at_least: float | None
-    """It is larger with 95 %."""
+    """Lower end of its 95 % interval."""
     before_at_most: Annotated[float | None, Shown("at most", digits=3)]
-    """It is smaller with 95 %."""
+    """Upper end."""
     after: Annotated[float, Shown("calibration", digits=3)]
     """With the calibration: median."""
     after_at_least: float
-    """5 % quantile; the sensor may well repeat itself better than is assumed, and err by less."""
+    """Lower end of its 95 % interval; the sensor may repeat itself better than is assumed, and err by less."""
     after_at_most: Annotated[float, Shown("at most", digits=3)]
-    """It is smaller with 95 %."""
+    """Upper end; those of force and moment are both held with 95 %."""
     allowed: Annotated[float | None, Shown("allowed", digits=3)]
     """What the use allows; None where this quantity is not judged."""
     axes: tuple[float, float, float]
@@ -116,6 +116,6 @@ def use_table(verdict: UseVerdict) -> Table:
     """
     caption = (
         f"Predicted error, root mean square over {verdict.loads}, offset {verdict.offset}: half of such sensors are "
-        "below `prior` and `calibration`, 95 % below `at most`; then what matrix, offset, variables and noise add"
+        "below `prior` and `calibration`, 97.5 % below `at most`; then what matrix, offset, variables and noise add"
     )
     return table_of(verdict.errors, caption)

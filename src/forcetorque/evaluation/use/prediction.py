@@ -21,7 +21,11 @@ from forcetorque.errors import FitError
 from forcetorque.evaluation.use.load_case import LoadCase, UseOffset
 
 CONFIDENCE: Final = 0.95
-"""Probability with which an error is at most the upper end that is stated, and at least the lower end."""
+"""Probability with which force and moment errors are both at most the upper ends that are stated.
+
+Each end is therefore exceeded with half of the rest, which also makes the two ends of one size a 95 % interval.
+"""
+_TAIL: Final = 0.5 * (1.0 - CONFIDENCE)
 _DRAWS: Final = 4000
 _SEED: Final = 16
 _FORCE, _MOMENT = slice(0, 3), slice(3, 6)
@@ -48,9 +52,9 @@ class ErrorSize:
     typical: float
     """Median."""
     at_least: float
-    """It is larger with a probability of `CONFIDENCE`."""
+    """Lower end of its 95 % interval; errors below it are common where a sensor repeats itself better than assumed."""
     at_most: float
-    """It is smaller with a probability of `CONFIDENCE`."""
+    """Upper end of its 95 % interval."""
     axes: FloatArray
     """Expected root mean square of the three components; shape (3,)."""
     sources: ErrorSources
@@ -218,7 +222,7 @@ def _error(unknowns: FloatArray, posterior: Posterior, to_wrench: FloatArray, mo
 def _size(square: FloatArray, shares: list[float]) -> ErrorSize:
     draws = np.sqrt(square.sum(axis=1))
     matrix, offset, variables, noise = np.sqrt(shares).tolist()
-    low, middle, high = np.quantile(draws, [1.0 - CONFIDENCE, 0.5, CONFIDENCE]).tolist()
+    low, middle, high = np.quantile(draws, [_TAIL, 0.5, 1.0 - _TAIL]).tolist()
     return ErrorSize(
         typical=middle,
         at_least=low,
