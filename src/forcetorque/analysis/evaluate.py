@@ -107,10 +107,17 @@ class Evaluation(Result):
                 table = table_of(apart, f"{sensor} ({rows[0].serial}), each recording by itself")
                 yield with_first_column(table, "recording", [row.recording for row in apart])
         yield "per axis: RMSE; force and moment: mean norm of the error ± half its 95 % interval"
+        yield from self._sentences()
+
+    def _sentences(self) -> Iterator[str]:
+        """Say what every calibration is worth against its prior, with either offset."""
         names = short_names([row.candidate for row in self.verdicts])
-        for candidate, offset in dict.fromkeys((row.candidate, row.offset) for row in self.comparisons):
-            rows = [row for row in self.comparisons if (row.candidate, row.offset) == (candidate, offset)]
-            yield comparison_sentence(names[candidate], rows)
+        several = len({row.sensor for row in self.verdicts}) > 1
+        pairs: dict[tuple[str, str, Offset], list[PriorComparison]] = {}
+        for row in self.comparisons:
+            pairs.setdefault((row.sensor, row.candidate, row.offset), []).append(row)
+        for (sensor, candidate, _), rows in pairs.items():
+            yield (f"{sensor}: " if several else "") + comparison_sentence(names[candidate], rows)
 
     def records(self) -> list[dict[str, object]]:
         """Give the verdicts as flat lines, and where there are several recordings those on each.
@@ -175,7 +182,7 @@ def evaluate(runs: Runs, calibrations: Mapping[str, Calibration]) -> Evaluation:
             CandidateErrors(**_statistics(campaign, _pooled(rows))) for rows in zip(*judged.values(), strict=True)
         ),
         recordings=tuple(apart) if len(campaign.runs) > 1 else (),
-        comparisons=prior_comparisons(list(wrenches.values())),
+        comparisons=prior_comparisons(campaign.sensor.name, list(wrenches.values())),
         warnings=tuple(warnings),
     )
 
