@@ -122,8 +122,8 @@ def test_a_sensor_that_is_called_good_is_good() -> None:
 def test_twenty_sensors_in_four_motions_for_three_uses() -> None:
     """Of 109 called good all are; 5.5 % err by more than stated; 69 % of those that are good are called so.
 
-    What errs by more than stated are moments of foot sensors under the weight of the robot, by a tenth: creep, which the
-    matrix has learnt and the true one does not have. Goals were 5 % and 70 %.
+    What errs by more than stated are moments of foot sensors under the weight of the robot, by a tenth: creep, which
+    the matrix has learnt and the true one does not have. Goals were 5 % and 70 %.
     """
     outcomes = list(_outcomes(range(811, 821)))
     assert len(outcomes) == 10 * 2 * 4 * 3

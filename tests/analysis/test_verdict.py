@@ -38,7 +38,7 @@ def _row(candidate: str) -> CandidateErrors:
 
 def _comparison(quantity: Literal["force", "moment"], judgement: Judgement, **other: Any) -> PriorComparison:
     low, high = INTERVALS[judgement]
-    given = {"candidate": "new.json", "prior": "prior", "offset": Offset.JUDGED_MEAN} | {
+    given = {"sensor": "leg_ft", "candidate": "new.json", "prior": "prior", "offset": Offset.JUDGED_MEAN} | {
         "ratio": 0.5 * (low + high), "ratio_low": low, "ratio_high": high, "stretches": 10,
     } | other  # fmt: skip
     return PriorComparison(

@@ -131,6 +131,9 @@ def test_several_calibrations_are_compared(arm: Path, run: Run) -> None:
         ("tool_ft", "prior"),
         ("tool_ft", tool),
     ]
+    shown = " ".join(run("evaluate", TWO, "-c", "fitted.json", "-c", tool, "-c", ours).out.split())
+    assert f"arm_ft: {Path(ours).name} with its own offset, " in shown
+    assert f"tool_ft: {Path(tool).name} with its own offset, " in shown
 
 
 def test_the_table_tells_files_of_one_name_apart(arm: Path, run: Run) -> None:

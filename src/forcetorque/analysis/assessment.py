@@ -12,8 +12,9 @@ from pydantic import Field
 
 from forcetorque.analysis.acceptance import accept
 from forcetorque.analysis.acceptance_file import AcceptanceFile
+from forcetorque.analysis.best_candidate import BestCandidate
 from forcetorque.analysis.candidate import PRIOR
-from forcetorque.analysis.contact_forces import BestCandidate, ContactForceErrors, contact_forces
+from forcetorque.analysis.contact_forces import ContactForceErrors, contact_forces
 from forcetorque.analysis.criterion import Criterion
 from forcetorque.analysis.evaluate import CandidateErrors, Evaluation, evaluate, still_words
 from forcetorque.analysis.joint_torques import JointTorqueErrors, joint_torques

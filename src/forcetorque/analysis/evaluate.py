@@ -143,11 +143,18 @@ class Evaluation(Result):
                 caption = f"{sensor} ({rows[0].serial}), each recording by itself"
                 yield from error_tables(apart, caption, recordings=[row.recording for row in apart])
         yield f"{ERROR_WORDS}; {'; '.join(self.smoothing)}"
-        shown = short_names([row.candidate for row in self.verdicts])
-        for candidate, offset in dict.fromkeys((row.candidate, row.offset) for row in self.comparisons):
-            compared = [row for row in self.comparisons if (row.candidate, row.offset) == (candidate, offset)]
-            yield comparison_sentence(shown[candidate], compared)
+        yield from self._sentences()
         yield from use_sentences(self.uses)
+
+    def _sentences(self) -> Iterator[str]:
+        """Say what every calibration is worth against its prior, with either offset."""
+        names = short_names([row.candidate for row in self.verdicts])
+        several = len({row.sensor for row in self.verdicts}) > 1
+        pairs: dict[tuple[str, str, Offset], list[PriorComparison]] = {}
+        for row in self.comparisons:
+            pairs.setdefault((row.sensor, row.candidate, row.offset), []).append(row)
+        for (sensor, candidate, _), rows in pairs.items():
+            yield (f"{sensor}: " if several else "") + comparison_sentence(names[candidate], rows)
 
     def records(self) -> list[dict[str, object]]:
         """Give the verdicts as flat lines, and where there are several recordings those on each.
@@ -215,7 +222,7 @@ def evaluate(runs: Runs, calibrations: Mapping[str, Calibration]) -> Evaluation:
         experiment="; ".join(campaign.recordings),
         verdicts=verdicts,
         recordings=tuple(apart) if len(campaign.runs) > 1 else (),
-        comparisons=prior_comparisons(list(wrenches.values())),
+        comparisons=prior_comparisons(campaign.sensor.name, list(wrenches.values())),
         smoothing=tuple(dict.fromkeys(map(smoothing_words, campaign.runs_with(Use.VALIDATION)))),
         validity=validity,
         uses=use_verdicts(campaign, calibrations),

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 import numpy as np
 
@@ -31,6 +31,8 @@ class Independence(Row):
 class PriorComparison(ErrorComparison):
     """A calibration against its prior."""
 
+    sensor: str
+    """Sensor."""
     prior: Annotated[str, Shown("prior", file=True)]
     """Its prior, as the evaluation names it."""
     prior_mean: Annotated[float, Shown("of the prior", digits=3)]
@@ -87,20 +89,27 @@ def compare_with_prior(runs: Runs, calibrations: Mapping[str, Calibration]) -> t
     Returns:
         Two rows, force and moment, per calibration that has a prior and offset.
     """
-    return prior_comparisons([run.judged(calibrations) for run in Campaign.of(runs).runs_with(Use.VALIDATION)])
+    campaign = Campaign.of(runs)
+    recordings = [run.judged(calibrations) for run in campaign.runs_with(Use.VALIDATION)]
+    return prior_comparisons(campaign.sensor.name, recordings)
 
 
-def prior_comparisons(recordings: Sequence[JudgedWrenches]) -> tuple[PriorComparison, ...]:
+def prior_comparisons(sensor: str, recordings: Sequence[JudgedWrenches]) -> tuple[PriorComparison, ...]:
     """Compare every calibration with its own prior by what they measure.
 
     Args:
+        sensor: Name of the sensor.
         recordings: Wrenches on data that was not fitted, by the same candidates in every recording.
 
     Returns:
         Two rows, force and moment, per calibration that has a prior and offset, pooled over the recordings.
     """
+    # a calibration may be called `prior` too
     measured = [
-        {(candidate.name, offset): wrench for candidate, offset, wrench in judged.with_either_offset()}
+        {
+            (candidate.name, candidate.prior is None, offset): wrench
+            for candidate, offset, wrench in judged.with_either_offset()
+        }
         for judged in recordings
     ]
     return tuple(
@@ -108,17 +117,16 @@ def prior_comparisons(recordings: Sequence[JudgedWrenches]) -> tuple[PriorCompar
         for name, prior in recordings[0].priors.items()
         for offset in (Offset.FITTED, Offset.JUDGED_MEAN)
         for row in _compared(
-            (name, prior),
-            offset,
+            {"sensor": sensor, "candidate": name, "prior": prior, "offset": offset},
             [
-                PairedErrors.of(wrenches[name, offset], wrenches[prior, offset], judged.reference)
+                PairedErrors.of(wrenches[name, False, offset], wrenches[prior, True, offset], judged.reference)
                 for wrenches, judged in zip(measured, recordings, strict=True)
             ],
         )
     )
 
 
-def _compared(names: tuple[str, str], offset: Offset, pairs: Sequence[PairedErrors]) -> Iterator[PriorComparison]:
+def _compared(names: Mapping[str, Any], pairs: Sequence[PairedErrors]) -> Iterator[PriorComparison]:
     comparison = compare_errors(pairs)
     new, old = (np.concatenate(errors) for errors in zip(*((pair.first, pair.second) for pair in pairs), strict=True))
     quantities: tuple[tuple[Quantity, Literal["N", "N m"], slice, ErrorRatio], ...] = (
@@ -128,9 +136,7 @@ def _compared(names: tuple[str, str], offset: Offset, pairs: Sequence[PairedErro
     for quantity, unit, axes, ratio in quantities:
         mean, prior_mean = (float(np.linalg.norm(error[:, axes], axis=1).mean()) for error in (new, old))
         yield PriorComparison(
-            candidate=names[0],
-            prior=names[1],
-            offset=offset,
+            **names,
             quantity=quantity,
             unit=unit,
             samples=comparison.count,

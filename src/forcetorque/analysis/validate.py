@@ -8,9 +8,9 @@ from typing import ClassVar, Literal
 
 from pydantic import Field
 
+from forcetorque.analysis.best_candidate import BestCandidate
 from forcetorque.analysis.campaign import Campaign, Runs
 from forcetorque.analysis.contact_forces import (
-    BestCandidate,
     ContactForceErrors,
     RecordingContactForces,
     contact_force_blocks,
