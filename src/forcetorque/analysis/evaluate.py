@@ -13,14 +13,14 @@ from pydantic import Field
 from forcetorque.analysis.applicability import overlapping
 from forcetorque.analysis.campaign import Campaign, Runs
 from forcetorque.analysis.candidate import JudgedCandidate, JudgedRow
-from forcetorque.analysis.evaluation_tables import ERROR_WORDS, error_tables
-from forcetorque.analysis.judged_excitation import JudgedExcitation, hardly_moved
+from forcetorque.analysis.evaluation_tables import ERROR_WORDS, error_tables, smoothing_words
+from forcetorque.analysis.judged_excitation import JudgedExcitation, fewest_independent, hardly_moved
 from forcetorque.analysis.sensor_run import SensorRun
 from forcetorque.analysis.validity import ReadingsOutside, readings_outside, sentences
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration import Calibration, FittedInterval
 from forcetorque.errors import ExperimentError
-from forcetorque.evaluation import Offset, autocorrelation, wrench_errors
+from forcetorque.evaluation import Offset, wrench_errors
 from forcetorque.noise import one_after_another
 from forcetorque.recording import Use
 from forcetorque.result import (
@@ -239,25 +239,6 @@ def still_words(verdicts: Sequence[CandidateErrors]) -> tuple[str, ...]:
     return tuple(dict.fromkeys(f"{sensor}: {still}" for sensor, still in words if still is not None))
 
 
-def smoothing_words(run: SensorRun) -> str:
-    """Say whether reading and reference are smoothed before they are compared.
-
-    Args:
-        run: The sensor.
-
-    Returns:
-        The words.
-    """
-    smoothing = run.experiment.processing.smoothing
-    return "not smoothed" if smoothing is None else f"reading and reference smoothed over {smoothing.window_s:g} s"
-
-
-def _independent(error: FloatArray, time_s: FloatArray) -> float | None:
-    """Independent samples of the component of an error that is worth the fewest."""
-    counts = [autocorrelation(component, time_s).effective_count for component in error.T]
-    return min((count for count in counts if np.isfinite(count)), default=None)
-
-
 def _statistics(campaign: Campaign, judged: _Judged, calibrations: Mapping[str, Calibration]) -> dict[str, Any]:
     errors = wrench_errors(judged.wrench, judged.reference, judged.time_s)
     excitation = JudgedExcitation.of(judged.reference, calibrations.values())
@@ -280,7 +261,7 @@ def _statistics(campaign: Campaign, judged: _Judged, calibrations: Mapping[str, 
         "moment_error_standard_error_Nm": finite_or_none(errors.moment_mean_error),
         "moment_error_half_width_95_Nm": finite_or_none(errors.moment_mean_half_width),
         "moment_error_largest_Nm": errors.moment_largest,
-        "independent": _independent(judged.wrench - judged.reference, judged.time_s),
+        "independent": fewest_independent(judged.wrench - judged.reference, judged.time_s),
         "excitation_N": excitation.force,
         "excitation_Nm": excitation.moment,
         "load_N": excitation.load_force,

@@ -16,6 +16,7 @@ import numpy as np
 
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration import Calibration
+from forcetorque.evaluation import autocorrelation
 
 HARDLY = 0.05
 """Share of the load below which it hardly moved."""
@@ -66,3 +67,17 @@ def hardly_moved(moved: float, load: float) -> bool:
         Whether it did.
     """
     return moved <= HARDLY * load
+
+
+def fewest_independent(error: FloatArray, time_s: FloatArray) -> float | None:
+    """Count the independent samples that errors are worth, of the component that is worth the fewest.
+
+    Args:
+        error: Errors in the order of time; shape (n, 6); N, N m; NaN in gaps.
+        time_s: Instants of the samples, not falling; shape (n,); s.
+
+    Returns:
+        The number; None where no component changes.
+    """
+    counts = [autocorrelation(component, time_s).effective_count for component in error.T]
+    return min((count for count in counts if np.isfinite(count)), default=None)
