@@ -11,6 +11,7 @@ from typing import cast
 import numpy as np
 import pytest
 
+from forcetorque.analysis.judged_excitation import JudgedExcitation
 from forcetorque.analysis.use_judge import UseJudge
 from forcetorque.analysis.use_verdict import Decision
 from forcetorque.arrays import FloatArray
@@ -71,7 +72,7 @@ def _of_uses(case: Case, judged: list[DataSet]) -> Iterator[Outcome]:
         ),
     )
     for use in _uses(case):
-        judge = UseJudge(use, calibration, measured)
+        judge = UseJudge(use, calibration, measured, still=JudgedExcitation.of(measured.reference, []).words)
         true = _true_error(use.wrench, fit.model.matrix, case.truth)
         stated = [error.after_at_most for error in judge.errors()]
         yield Outcome(

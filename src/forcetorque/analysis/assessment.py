@@ -16,7 +16,7 @@ from forcetorque.analysis.best_candidate import BestCandidate
 from forcetorque.analysis.candidate import PRIOR
 from forcetorque.analysis.contact_forces import ContactForceErrors, contact_forces
 from forcetorque.analysis.criterion import Criterion
-from forcetorque.analysis.evaluate import CandidateErrors, Evaluation, evaluate, still_words
+from forcetorque.analysis.evaluate import CandidateErrors, Evaluation, at_rest, evaluate
 from forcetorque.analysis.joint_torques import JointTorqueErrors, joint_torques
 from forcetorque.analysis.judged import JudgedWrenches
 from forcetorque.analysis.learnt import LearntDirection, learnt_directions
@@ -164,7 +164,7 @@ def assess(
         smoothing=evaluation.smoothing if evaluation else (),
         validity=evaluation.validity if evaluation else (),
         warnings=(
-            *still_words(evaluation.verdicts if evaluation else ()),
+            *at_rest(evaluation.verdicts if evaluation else ()),
             *_outside(evaluation, names),
             *_warnings(run, unseen, names, tried),
         ),

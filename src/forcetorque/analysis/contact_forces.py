@@ -12,6 +12,7 @@ from forcetorque.analysis.best_candidate import BestCandidate, judged_best
 from forcetorque.analysis.campaign import Campaign, Runs
 from forcetorque.analysis.contact_wrenches import ContactWrenches, contact_wrenches, pooled_contacts
 from forcetorque.analysis.free_sub_model import FreeSubModel
+from forcetorque.analysis.judged_excitation import JudgedExcitation, fewest_independent
 from forcetorque.calibration import Calibration
 from forcetorque.errors import ExperimentError
 from forcetorque.evaluation import Offset, OtherSensors, errors_from_zero
@@ -28,6 +29,9 @@ from forcetorque.result import (
     table_of,
     with_first_column,
 )
+
+WORTH = frozenset({"bias", "independent", "excitation_N", "excitation_Nm"})
+"""Fields of a second table: the constant part, and what tells how much the errors are worth."""
 
 
 class ContactForceErrors(Row):
@@ -59,6 +63,14 @@ class ContactForceErrors(Row):
     """Mean norm of the moment."""
     mean_absolute: Annotated[WrenchValues, ShownWrench(digits=3)]
     """Mean absolute value per component; N, N m."""
+    bias: Annotated[WrenchValues, ShownWrench(digits=3)]
+    """Mean per component, the constant part; N, N m."""
+    independent: Annotated[float | None, Shown("independent", digits=0)]
+    """How many independent samples they are worth, of the component worth the fewest; None where none changes."""
+    excitation_N: Annotated[float, Shown("moved", "N", digits=1)]
+    """Standard deviation of the force that the sensor should read, all three components together."""
+    excitation_Nm: Annotated[float, Shown("moved", "N m", digits=2)]
+    """The same of the moment."""
 
 
 class ContactForces(Result):
@@ -166,11 +178,15 @@ def contact_force_blocks(
         A table per sensor, one of its recordings, and a sentence per sensor and offset.
     """
     for sensor in dict.fromkeys(row.sensor for row in verdicts):
-        yield _table([row for row in verdicts if row.sensor == sensor])
+        rows = [row for row in verdicts if row.sensor == sensor]
+        yield _table(rows)
+        yield mean_contact_table(rows)
         apart = [row for row in recordings if row.sensor == sensor]
         if apart:
-            table = table_of(apart, f"{sensor} ({apart[0].serial}), each recording by itself")
-            yield with_first_column(table, "recording", [row.recording for row in apart])
+            names = [row.recording for row in apart]
+            caption = f"{sensor} ({apart[0].serial}), each recording by itself"
+            yield with_first_column(table_of(apart, caption, leave_out=WORTH), "recording", names)
+            yield with_first_column(mean_contact_table(apart), "recording", names)
     if len({row.candidate for row in verdicts}) > 1:
         yield from (candidate.sentence for candidate in best)
 
@@ -185,8 +201,12 @@ def contact_force_rows(sensor: ExperimentSensor, contacts: ContactWrenches) -> I
     Yields:
         A row per candidate and offset that has samples without gaps.
     """
+    expected = contacts.expected[np.isfinite(contacts.expected).all(axis=1)]
+    moved = JudgedExcitation.of(expected, ()) if len(expected) else None
     for index, offset in _judgeable(contacts):
         wrenches = contacts.wrenches[index, offset]
+        if moved is None:
+            continue
         candidate, errors = contacts.candidates[index], errors_from_zero(wrenches, contacts.time_s[index, offset])
         yield ContactForceErrors(
             sensor=sensor.name,
@@ -202,6 +222,10 @@ def contact_force_rows(sensor: ExperimentSensor, contacts: ContactWrenches) -> I
             force_mean_half_width_95_N=finite_or_none(errors.force_mean_half_width),
             moment_mean_Nm=errors.moment_mean,
             mean_absolute=errors.mean_absolute,
+            bias=errors.bias,
+            independent=fewest_independent(wrenches, contacts.time_s[index, offset]),
+            excitation_N=moved.force,
+            excitation_Nm=moved.moment,
         )
 
 
@@ -229,5 +253,22 @@ def _table(rows: Sequence[ContactForceErrors]) -> Table:
         rows,
         f"{row.sensor} ({row.serial}): contact wrench of the free sub-model {row.sub_model}{count}; "
         "force: mean norm ± half its 95 % interval; per axis: mean absolute value",
-        leave_out={"samples"} if alike else (),
+        leave_out={"samples", *WORTH} if alike else WORTH,
+    )
+
+
+def mean_contact_table(rows: Sequence[ContactForceErrors]) -> Table:
+    """Put the constant part of contact wrenches into a table, with what tells how much the wrenches are worth.
+
+    Args:
+        rows: The rows.
+
+    Returns:
+        A line per row.
+    """
+    return table_of(
+        rows,
+        "mean contact wrench, which another offset would take away; independent: samples that it is worth; moved: "
+        "standard deviation of what the sensor should read",
+        leave_out={"samples", "force_mean_N", "moment_mean_Nm", "mean_absolute"},
     )

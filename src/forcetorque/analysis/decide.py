@@ -8,6 +8,7 @@ from typing import Final
 
 from forcetorque.analysis.campaign import Campaign, Runs
 from forcetorque.analysis.judged_evidence import judged_evidence
+from forcetorque.analysis.judged_excitation import JudgedExcitation
 from forcetorque.analysis.loads_of_use import loads_of_use
 from forcetorque.analysis.prior_comparison import compare_with_prior
 from forcetorque.analysis.unseen import require_unseen
@@ -53,7 +54,14 @@ def use_verdicts(
     verdicts = []
     for name, calibration in calibrations.items():
         for case in loads_of_use(campaign.runs, more, matrix=calibration.matrix):
-            judge = UseJudge(case, calibration, measured.get(name), worse.get((name, _COMPARED[case.offset])))
+            seen = measured.get(name)
+            judge = UseJudge(
+                case,
+                calibration,
+                seen,
+                still=None if seen is None else JudgedExcitation.of(seen.reference, [calibration]).words,
+                worse=worse.get((name, _COMPARED[case.offset])),
+            )
             verdicts.append(_verdict(campaign, name, judge))
     return tuple(verdicts)
 

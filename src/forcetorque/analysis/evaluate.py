@@ -13,17 +13,16 @@ from pydantic import Field
 from forcetorque.analysis.campaign import Campaign, Runs
 from forcetorque.analysis.candidate import JudgedCandidate, JudgedRow
 from forcetorque.analysis.decide import use_verdicts
-from forcetorque.analysis.evaluation_tables import ERROR_WORDS, error_tables
+from forcetorque.analysis.evaluation_tables import ERROR_WORDS, error_tables, smoothing_words
 from forcetorque.analysis.judged import JudgedWrenches
-from forcetorque.analysis.judged_excitation import JudgedExcitation, hardly_moved
+from forcetorque.analysis.judged_excitation import JudgedExcitation, fewest_independent, still_words
 from forcetorque.analysis.prior_comparison import PriorComparison, comparison_sentence, prior_comparisons
-from forcetorque.analysis.sensor_run import SensorRun
 from forcetorque.analysis.unseen import doubts_about_choice, require_unseen
 from forcetorque.analysis.use_verdict import UseVerdict, use_sentences
 from forcetorque.analysis.validity import ReadingsOutside, readings_outside, sentences
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration import Calibration
-from forcetorque.evaluation import Offset, autocorrelation, wrench_errors
+from forcetorque.evaluation import Offset, wrench_errors
 from forcetorque.noise import one_after_another
 from forcetorque.recording import Use
 from forcetorque.result import (
@@ -84,17 +83,7 @@ class CandidateErrors(JudgedRow):
     @property
     def hardly_moved_words(self) -> str | None:
         """The same in words; None where the loads moved."""
-        kinds = {
-            "forces": (self.excitation_N, self.load_N, "N"),
-            "moments": (self.excitation_Nm, self.load_Nm, "N m"),
-        }
-        still = {kind: sizes for kind, sizes in kinds.items() if hardly_moved(sizes[0], sizes[1])}
-        if not still:
-            return None
-        of = ", ".join(f"{moved:.2g} {unit} of {load:.2g} {unit}" for moved, load, unit in still.values())
-        what = "loads" if len(still) == len(kinds) else next(iter(still))
-        wrong = "a wrong matrix" if what == "loads" else f"a matrix that is wrong for {what}"
-        return f"the {what} hardly moved in the judged samples ({of}): {wrong} would show nothing"
+        return still_words(self.excitation_N, self.load_N, self.excitation_Nm, self.load_Nm)
 
 
 class RecordingErrors(CandidateErrors):
@@ -226,7 +215,7 @@ def evaluate(runs: Runs, calibrations: Mapping[str, Calibration]) -> Evaluation:
         smoothing=tuple(dict.fromkeys(map(smoothing_words, campaign.runs_with(Use.VALIDATION)))),
         validity=validity,
         uses=use_verdicts(campaign, calibrations),
-        warnings=(*still_words(verdicts), *sentences(validity), *warnings),
+        warnings=(*at_rest(verdicts), *sentences(validity), *warnings),
     )
 
 
@@ -248,7 +237,7 @@ def _pooled(rows: Sequence[_Judged]) -> _Judged:
     )
 
 
-def still_words(verdicts: Sequence[CandidateErrors]) -> tuple[str, ...]:
+def at_rest(verdicts: Sequence[CandidateErrors]) -> tuple[str, ...]:
     """Say where the loads hardly moved while errors were measured.
 
     Args:
@@ -259,25 +248,6 @@ def still_words(verdicts: Sequence[CandidateErrors]) -> tuple[str, ...]:
     """
     words = [(row.sensor, row.hardly_moved_words) for row in verdicts]
     return tuple(dict.fromkeys(f"{sensor}: {still}" for sensor, still in words if still is not None))
-
-
-def smoothing_words(run: SensorRun) -> str:
-    """Say whether reading and reference are smoothed before they are compared.
-
-    Args:
-        run: The sensor.
-
-    Returns:
-        The words.
-    """
-    smoothing = run.experiment.processing.smoothing
-    return "not smoothed" if smoothing is None else f"reading and reference smoothed over {smoothing.window_s:g} s"
-
-
-def _independent(error: FloatArray, time_s: FloatArray) -> float | None:
-    """Independent samples of the component of an error that is worth the fewest."""
-    counts = [autocorrelation(component, time_s).effective_count for component in error.T]
-    return min((count for count in counts if np.isfinite(count)), default=None)
 
 
 def _statistics(campaign: Campaign, judged: _Judged, calibrations: Mapping[str, Calibration]) -> dict[str, Any]:
@@ -302,7 +272,7 @@ def _statistics(campaign: Campaign, judged: _Judged, calibrations: Mapping[str, 
         "moment_error_standard_error_Nm": finite_or_none(errors.moment_mean_error),
         "moment_error_half_width_95_Nm": finite_or_none(errors.moment_mean_half_width),
         "moment_error_largest_Nm": errors.moment_largest,
-        "independent": _independent(judged.wrench - judged.reference, judged.time_s),
+        "independent": fewest_independent(judged.wrench - judged.reference, judged.time_s),
         "excitation_N": excitation.force,
         "excitation_Nm": excitation.moment,
         "load_N": excitation.load_force,

@@ -11,6 +11,7 @@ from forcetorque.result import Table, table_of, with_first_column
 
 if TYPE_CHECKING:
     from forcetorque.analysis.evaluate import CandidateErrors
+    from forcetorque.analysis.sensor_run import SensorRun
 
 _WORTH = ("independent", "excitation_N", "excitation_Nm")
 """What tells how much an error is worth, in the second table."""
@@ -44,6 +45,19 @@ def error_tables(
     names = None if recordings is None else [recordings[k] for k in kept]
     shown = table_of([rows[k] for k in kept], "mean error, by its own offset", leave_out=_VARYING)
     yield _named(shown, names)
+
+
+def smoothing_words(run: SensorRun) -> str:
+    """Say whether reading and reference are smoothed before they are compared.
+
+    Args:
+        run: The sensor.
+
+    Returns:
+        The words.
+    """
+    smoothing = run.experiment.processing.smoothing
+    return "not smoothed" if smoothing is None else f"reading and reference smoothed over {smoothing.window_s:g} s"
 
 
 def _named(table: Table, recordings: Sequence[str] | None) -> Table:

@@ -16,6 +16,7 @@ import numpy as np
 
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration import Calibration
+from forcetorque.evaluation import autocorrelation
 
 HARDLY = 0.05
 """Share of the load below which it hardly moved."""
@@ -54,6 +55,33 @@ class JudgedExcitation:
         )
         return cls(force=force[0], moment=moment[0], load_force=force[1], load_moment=moment[1])
 
+    @property
+    def words(self) -> str | None:
+        """That the loads hardly moved, in words; None where they moved."""
+        return still_words(self.force, self.load_force, self.moment, self.load_moment)
+
+
+def still_words(force: float, load_force: float, moment: float, load_moment: float) -> str | None:
+    """Say that loads hardly moved while errors were measured.
+
+    Args:
+        force: Standard deviation of the force; N.
+        load_force: Size of the force; N.
+        moment: Standard deviation of the moment; N m.
+        load_moment: Size of the moment; N m.
+
+    Returns:
+        Words; None where both moved.
+    """
+    kinds = {"forces": (force, load_force, "N"), "moments": (moment, load_moment, "N m")}
+    still = {kind: sizes for kind, sizes in kinds.items() if hardly_moved(sizes[0], sizes[1])}
+    if not still:
+        return None
+    of = ", ".join(f"{moved:.2g} {unit} of {load:.2g} {unit}" for moved, load, unit in still.values())
+    what = "loads" if len(still) == len(kinds) else next(iter(still))
+    wrong = "a wrong matrix" if what == "loads" else f"a matrix that is wrong for {what}"
+    return f"the {what} hardly moved in the judged samples ({of}): {wrong} would show nothing"
+
 
 def hardly_moved(moved: float, load: float) -> bool:
     """Tell whether a load moved so little that a wrong matrix would show nothing.
@@ -66,3 +94,17 @@ def hardly_moved(moved: float, load: float) -> bool:
         Whether it did.
     """
     return moved <= HARDLY * load
+
+
+def fewest_independent(error: FloatArray, time_s: FloatArray) -> float | None:
+    """Count the independent samples that errors are worth, of the component that is worth the fewest.
+
+    Args:
+        error: Errors in the order of time; shape (n, 6); N, N m; NaN in gaps.
+        time_s: Instants of the samples, not falling; shape (n,); s.
+
+    Returns:
+        The number; None where no component changes.
+    """
+    counts = [autocorrelation(component, time_s).effective_count for component in error.T]
+    return min((count for count in counts if np.isfinite(count)), default=None)

@@ -26,11 +26,6 @@ HOPELESS: Final = 0.1
 """Predicted probability of an error within what is allowed up to which the verdict is `do not use`."""
 CONSTANT_SHARE: Final = 0.01
 """Constant error that is allowed where nobody states an error, as a share of the loads."""
-MOVED: Final = 3.0
-"""Excitation of judged data over the error measured there from which on that error tests a matrix.
-
-A sensor that is turned by a quarter errs by 1.4 times the excitation, one that reads nothing by 1.
-"""
 _QUANTITIES: Final[tuple[tuple[Literal["force", "moment"], Literal["N", "N m"], slice], ...]] = (
     ("force", "N", slice(0, 3)),
     ("moment", "N m", slice(3, 6)),
@@ -41,7 +36,13 @@ class UseJudge:
     """Holds one calibration to one use."""
 
     def __init__(
-        self, case: LoadCase, calibration: Calibration, measured: Evidence | None, worse: str | None = None
+        self,
+        case: LoadCase,
+        calibration: Calibration,
+        measured: Evidence | None,
+        *,
+        still: str | None = None,
+        worse: str | None = None,
     ) -> None:
         """Take what a verdict rests on.
 
@@ -49,12 +50,14 @@ class UseJudge:
             case: The use.
             calibration: The calibration.
             measured: What it measured on data that were not fitted; None where there are none.
+            still: That the loads hardly moved in these data, in words; None where they did.
             worse: That these data find it worse than its prior, in words; None where they do not.
 
         Raises:
             FitError: If the use changes a variable that the calibration does not know.
         """
-        self.case, self.calibration, self.measured, self.worse = case, calibration, measured, worse
+        self.case, self.calibration, self.measured = case, calibration, measured
+        self.still, self.worse = still, worse
         self.posterior: Posterior | None = calibration.posterior
         self.after: PredictedError | None = None
         self.before: PredictedError | None = None
@@ -161,13 +164,8 @@ class UseJudge:
                     f"{rest}, at most {amount(expected[quantity], unit)} were predicted: something is not in the model"
                 )
                 yield Reason(against="data", text=text)
-        force = self.measured.force
-        if force.excitation < MOVED * force.rest:
-            text = (
-                f"in the judged data the load moved by {amount(force.excitation, 'N')} only, and its error is "
-                f"{amount(force.rest, 'N')} (RMS): a wrong matrix would hardly show; judge data that move"
-            )
-            yield Reason(against="data", text=text)
+        if self.still is not None:
+            yield Reason(against="data", text=f"{self.still}; judge data that move")
 
     def _constant(
         self, error: MeasuredError, quantity: str, unit: str, allowed: float, load: float

@@ -19,6 +19,7 @@ from forcetorque.analysis.contact_forces import (
 )
 from forcetorque.analysis.contact_wrenches import ContactWrenches, contact_wrenches
 from forcetorque.analysis.decide import use_verdicts
+from forcetorque.analysis.evaluation_tables import smoothing_words
 from forcetorque.analysis.free_sub_model import FreeSubModel
 from forcetorque.analysis.joint_torques import (
     JointTorqueErrors,
@@ -59,6 +60,8 @@ class Validation(Result):
     """Joint torques of every recording by itself; none where there is one."""
     left_out: tuple[str, ...]
     """Torques that the log does not allow to estimate, and what gaps and short intervals leave out, in words."""
+    smoothing: tuple[str, ...] = ()
+    """Whether reading and reference were smoothed, in words; of several recordings one per way."""
     validity: tuple[ReadingsOutside, ...] = ()
     """One per calibration: how far the judged readings lie outside what it was fitted on."""
 
@@ -77,7 +80,8 @@ class Validation(Result):
             torques = [row for row in self.joint_torques if row.sensor == sensor]
             yield joint_torque_table(torques) if torques else f"{sensor}: no joint torque is estimated from it"
         yield from use_sentences(self.uses)
-        yield f"other sensors: as {'the model expects' if self.other_sensors == 'model' else 'they measured'}"
+        others = "the model expects" if self.other_sensors == "model" else "they measured"
+        yield "; ".join((f"other sensors: as {others}", *self.smoothing))
 
     def records(self) -> list[dict[str, object]]:
         """Give contact forces and joint torques as flat lines.
@@ -158,6 +162,7 @@ def validate(
         recordings=tuple(_forces_apart(campaign, contacts)) if several else (),
         recording_torques=tuple(_torques_apart(campaign, torques)) if several else (),
         left_out=left_out,
+        smoothing=tuple(dict.fromkeys(map(smoothing_words, campaign.runs_with(Use.VALIDATION)))),
         validity=validity,
         uses=uses,
         warnings=(*sentences(validity), *(f"left out: {words}" for words in left_out)),

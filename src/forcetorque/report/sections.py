@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any
 
 from forcetorque.analysis import Assessment, ExperimentAssessment, criteria_table, finding_table
+from forcetorque.analysis.contact_forces import WORTH, mean_contact_table
 from forcetorque.analysis.evaluation_tables import ERROR_WORDS, error_tables
 from forcetorque.analysis.sphere_tables import interval_table, mass_table, moment_table
 from forcetorque.errors import ForceTorqueError
@@ -194,9 +195,11 @@ def _contacts(sensor: Assessment) -> Iterator[Block]:
         return
     yield table_of(
         sensor.contact_forces,
-        "Mean absolute contact wrench of the free sub-model, and mean norm of its force ± standard error; it should "
-        "be zero",
+        "Mean absolute contact wrench of the free sub-model, and mean norm of its force ± half its 95 % interval; it "
+        "should be zero",
+        leave_out=WORTH,
     )
+    yield mean_contact_table(sensor.contact_forces)
     names = short_names([row.candidate for row in sensor.contact_forces])
     if len(names) > 1:
         yield List(points=tuple(best.sentence for best in sensor.best))

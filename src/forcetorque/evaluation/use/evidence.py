@@ -26,8 +26,6 @@ class MeasuredError:
     """Root mean square of what is left without the mean; N or N m."""
     rest_at_least: float
     """Lower end of its 95 % interval; 0 where the data are too few to tell."""
-    excitation: float
-    """Root mean square of the reference about its mean; N or N m."""
 
     @property
     def total(self) -> float:
@@ -68,20 +66,16 @@ def evidence(recordings: Sequence[tuple[FloatArray, FloatArray, FloatArray]]) ->
     line = one_after_another(instants)
     error, wanted = np.concatenate(errors), np.concatenate(references)
     left = np.concatenate([own - own.mean(axis=0) for own in errors])
-    moved = np.concatenate([own - own.mean(axis=0) for own in references])
     squares = np.column_stack([(left[:, part] ** 2).sum(axis=1) for part in _PARTS])
     known = mean_error(np.hstack([error, squares]), line).half_width
     force, moment = (
-        _measured(error[:, part], known[part], squares[:, k], float(known[6 + k]), moved[:, part])
-        for k, part in enumerate(_PARTS)
+        _measured(error[:, part], known[part], squares[:, k], float(known[6 + k])) for k, part in enumerate(_PARTS)
     )
     samples = sum(len(time_s) for time_s, _, _ in recordings)
     return Evidence(force=force, moment=moment, reference=wanted, samples=samples)
 
 
-def _measured(
-    error: FloatArray, half_width: FloatArray, square: FloatArray, square_half_width: float, moved: FloatArray
-) -> MeasuredError:
+def _measured(error: FloatArray, half_width: FloatArray, square: FloatArray, square_half_width: float) -> MeasuredError:
     constant, rest = float(np.linalg.norm(error.mean(axis=0))), float(square.mean())
     least = rest - square_half_width
     return MeasuredError(
@@ -89,5 +83,4 @@ def _measured(
         constant_at_least=max(constant - float(np.linalg.norm(half_width)), 0.0),
         rest=float(np.sqrt(rest)),
         rest_at_least=float(np.sqrt(least)) if least > 0.0 else 0.0,
-        excitation=float(np.sqrt((moved**2).sum(axis=1).mean())),
     )
