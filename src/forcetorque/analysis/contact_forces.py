@@ -268,7 +268,6 @@ def mean_contact_table(rows: Sequence[ContactForceErrors]) -> Table:
     """
     return table_of(
         rows,
-        "mean contact wrench, which another offset would take away; independent: samples that it is worth; moved: "
-        "standard deviation of what the sensor should read",
+        "mean contact wrench, the constant part; moved: standard deviation of what the sensor should read",
         leave_out={"samples", "force_mean_N", "moment_mean_Nm", "mean_absolute"},
     )

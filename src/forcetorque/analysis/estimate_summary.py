@@ -232,7 +232,9 @@ def _for_table(experiment: Experiment, span: IntervalEstimates) -> EstimatedSpan
         time_s=seconds_since(span.stamp_ns, experiment.recording.start_ns),
         measured=span.measured,
         estimates=span.estimates,
-        outside={sensor: np.where(applied.known, applied.outside, None) for sensor, applied in span.applied.items()},
+        outside={
+            sensor: np.ma.masked_array(applied.outside, mask=~applied.known) for sensor, applied in span.applied.items()
+        },
     )
 
 

@@ -48,14 +48,12 @@ class Extrapolation:
     @property
     def known(self) -> BoolArray:
         """Whether a reading has no gap; shape (n,)."""
-        known: BoolArray = np.isfinite(self.load).all(axis=1)
-        return known
+        return np.asarray(np.isfinite(self.load).all(axis=1))
 
     @property
     def outside(self) -> BoolArray:
         """Whether reading or variable lies outside what was fitted; shape (n,)."""
-        outside: BoolArray = self.beyond.any(axis=1) | self.variables_outside.any(axis=1)
-        return outside
+        return np.asarray(self.beyond.any(axis=1) | self.variables_outside.any(axis=1))
 
 
 def extrapolation(
@@ -133,10 +131,10 @@ class _Box:
 def _box(calibration: Calibration) -> _Box:
     validity, loads = calibration.validity, calibration.validity.loads
     if loads is not None:
-        back = np.linalg.inv(loads.directions)
+        back = np.asarray(np.linalg.inv(loads.directions), dtype=np.float64)
         low, high = loads.direction_minimum, loads.direction_maximum
         return _Box(to_along=loads.directions, to_load=back, low=low, high=high, of_channels=False)
-    to_counts = np.linalg.pinv(calibration.matrix)
+    to_counts = np.asarray(np.linalg.pinv(calibration.matrix), dtype=np.float64)
     low, high = (
         counts + to_counts @ calibration.offset for counts in (validity.raw_minimum_counts, validity.raw_maximum_counts)
     )

@@ -45,7 +45,7 @@ class EstimatedSpan:
     estimates: Estimates
     """What was estimated."""
     outside: Mapping[str, npt.NDArray[Any]] = field(default_factory=dict)
-    """By sensor that a calibration reads, whether its reading lies outside what was fitted; shape (n,) each; None in
+    """By sensor that a calibration reads, whether its reading lies outside what was fitted; shape (n,) each; masked in
     gaps."""
 
 
@@ -88,7 +88,9 @@ def _table(span: EstimatedSpan, model: RobotModel) -> Any:
     fields = [pa.field("interval", pa.string()), pa.field("stamp_ns", pa.int64(), metadata={"unit": "ns"})]
     fields.append(pa.field("time_s", pa.float64(), metadata={"unit": "s"}))
     for name, unit, values in _columns(span, model):
-        made = pa.array(np.ascontiguousarray(values), from_pandas=True)  # NaN is an empty cell
+        masked = values.mask if isinstance(values, np.ma.MaskedArray) else None
+        # NaN, and what is masked, is an empty cell
+        made = pa.array(np.ascontiguousarray(np.ma.getdata(values)), mask=masked, from_pandas=True)
         arrays.append(made)
         fields.append(pa.field(name, made.type, metadata={"unit": unit}))
     return pa.table(arrays, schema=pa.schema(fields))
