@@ -72,7 +72,9 @@ def test_a_sensor_that_is_turned_and_judged_at_rest_is_said_to_be_judged_by_noth
     for error, hardly in _rows(evaluate(moving, {NAME: _turned(moving)})):
         assert error > 10.0
         assert not hardly
-    assert not [words for words in evaluate(moving, {NAME: _turned(moving)}).warnings if "hardly moved" in words]
+    moved = evaluate(moving, {NAME: _turned(moving)})
+    assert not [words for words in moved.warnings if "hardly moved" in words]
+    assert [use.decision for use in moved.uses] == ["do not use"]
     _halt(arm)
     still = _run(arm)
     evaluation = evaluate(still, {NAME: _turned(still)})
@@ -81,6 +83,7 @@ def test_a_sensor_that_is_turned_and_judged_at_rest_is_said_to_be_judged_by_noth
         assert hardly
     (words,) = [words for words in evaluation.warnings if "hardly moved" in words]
     row = evaluation.verdicts[-1]
+    assert [use.decision for use in evaluation.uses] != ["use"]
     assert words == (
         f"arm_ft: the loads hardly moved in the judged samples ({row.excitation_N:.2g} N of {row.load_N:.2g} N, "
         f"{row.excitation_Nm:.2g} N m of {row.load_Nm:.2g} N m): a wrong matrix would show nothing"
@@ -113,7 +116,7 @@ def test_tables_tell_the_constant_part_from_the_rest(arm: Path) -> None:
     """Mean errors by the own offset in a table of their own, within 120 columns; whether anything was smoothed."""
     run = _run(arm)
     evaluation = evaluate(run, {NAME: calibrate_sensor(run, code_version="1", created="now")})
-    errors, means, words = evaluation.blocks()
+    errors, means, words, *_ = evaluation.blocks()
     assert not isinstance(errors, str)
     assert not isinstance(means, str)
     assert "mean error" in means.caption

@@ -20,9 +20,9 @@ README = (ROOT / "README.md").read_text(encoding="utf-8")
 YOGA = sorted((ROOT / "examples").glob("0[2-5]_icub_yoga_*.toml"))
 
 
-def _block(name: str) -> str:
-    """Content of the fenced block between two markers of the README."""
-    found = re.search(rf"<!-- {name} -->\n```\w*\n(.*?)```\n<!-- /{name} -->", README, re.DOTALL)
+def _block(name: str, page: str = README) -> str:
+    """Content of the fenced block between two markers of the README, or of another page."""
+    found = re.search(rf"<!-- {name} -->\n```\w*\n(.*?)```\n<!-- /{name} -->", page, re.DOTALL)
     assert found is not None
     return found[1]
 
@@ -85,6 +85,18 @@ def test_the_readmes_script_runs(demo: tuple[Path, str]) -> None:
     assert max(float(value) for value in rmse.split()) < 0.1
     assert warnings.startswith("('new: ")
     assert "% of 5800 readings lie outside what was fitted, by up to " in warnings
+
+
+def test_the_script_of_the_page_on_uses_runs(demo: tuple[Path, str]) -> None:
+    """The verdict of Python is that of the command line."""
+    folder, output = demo
+    script = _block("example", (ROOT / "docs" / "use.md").read_text(encoding="utf-8"))
+    done = subprocess.run(
+        [sys.executable, "-c", script], cwd=folder.parents[1], capture_output=True, text=True, check=True
+    )
+    sentence, numbers = done.stdout.splitlines()
+    assert sentence in " ".join(output.split())
+    assert numbers.startswith("use 0.9") or numbers.startswith("use 1.0")
 
 
 def test_the_readme_is_short() -> None:

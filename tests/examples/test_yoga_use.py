@@ -43,7 +43,7 @@ def run(data_dir: Path, tmp_path_factory: pytest.TempPathFactory) -> SensorRun:
 def test_a_foot_that_was_free_is_not_to_be_stood_upon(run: SensorRun) -> None:
     """Without a stated use it is asked for the weight of the robot: do not use, and the 99 % interval holds the truth.
 
-    The error is predicted as 31 to 78 N with nine in ten, that of the prior as 32 to 76 N.
+    The error is predicted as 28 to 84 N with 95 %, that of the prior as 29 to 81 N.
     """
     calibration = calibrate_sensor(run, code_version="test", created="2026-01-01T00:00:00+00:00")
     (case,) = loads_of_use([run])
