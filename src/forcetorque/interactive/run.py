@@ -1,0 +1,128 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""One sensor of one experiment with every question as a method, for scripts and notebooks."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from datetime import UTC, datetime
+from importlib.metadata import version
+from typing import TYPE_CHECKING, Any
+
+from forcetorque import analysis
+from forcetorque.analysis import SensorRun
+from forcetorque.calibration import Calibration
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from forcetorque.report import Report
+
+Calibrations = Calibration | Mapping[str, Calibration]
+"""One calibration, or several by name."""
+
+NEW = "calibration"
+"""Name of a calibration that is given without one."""
+
+
+class Run(SensorRun):
+    """One sensor of one experiment: `run.calibrate()`, `run.evaluate(calibration)`, `run.report(calibration)`.
+
+    Every method asks the question of `forcetorque.analysis` of that name, where its other options are.
+    """
+
+    def calibrate(self, **options: Any) -> Calibration:
+        """Fit the sensor on its calibration intervals.
+
+        Args:
+            options: As of `calibrate_sensor`: kind, regularisation, nonlinear, moments.
+
+        Returns:
+            The calibration.
+        """
+        return analysis.calibrate_sensor(self, code_version=version("forcetorque"), created=_now(), **options)
+
+    def evaluate(self, calibrations: Calibrations | None = None) -> analysis.Evaluation:
+        """Judge calibrations, and their priors, on the validation intervals.
+
+        Args:
+            calibrations: Calibrations of the sensor; its prior is judged if left out.
+
+        Returns:
+            Errors, comparisons with the prior, and whether they may be used.
+        """
+        return analysis.evaluate(self, named(calibrations))
+
+    def validate(self, calibrations: Calibrations | None = None, **options: Any) -> analysis.Validation:
+        """Judge calibrations by contact force and joint torques where nothing touches.
+
+        Args:
+            calibrations: As of `evaluate`.
+            options: As of `analysis.validate`.
+
+        Returns:
+            Contact forces and joint torques.
+        """
+        return analysis.validate(self, named(calibrations), **options)
+
+    def verdicts(self, calibrations: Calibrations) -> tuple[analysis.UseVerdict, ...]:
+        """Say whether calibrations may be used for the loads to come.
+
+        Args:
+            calibrations: Calibrations of the sensor.
+
+        Returns:
+            A verdict for every calibration and load case.
+        """
+        return analysis.use_verdicts(self, named(calibrations))
+
+    def report(self, calibrations: Calibrations | None = None, **options: Any) -> Report:
+        """Say everything about the sensor in a document: `run.report(calibration).save("a.html")`.
+
+        Args:
+            calibrations: As of `evaluate`.
+            options: As of `forcetorque.report.report`: title, demands, results.
+
+        Returns:
+            The report, to be looked at or saved.
+        """
+        from forcetorque.report import report
+
+        return report(
+            [(str(self.experiment.file), self.experiment)],
+            [{self.sensor.name: named(calibrations)}],
+            created=_now(),
+            code_version=version("forcetorque"),
+            **options,
+        )
+
+    def figure(self, calibrations: Calibrations | None = None) -> Figure:
+        """Draw what is measured on the validation intervals, and what mechanics demands there.
+
+        Args:
+            calibrations: As of `evaluate`.
+
+        Returns:
+            A figure of matplotlib.
+        """
+        from forcetorque.report.figures import draw_comparison
+
+        judged = self.judged(named(calibrations))
+        return draw_comparison(judged.time_s, judged.reference, dict(judged.measured))
+
+
+def named(calibrations: Calibrations | None) -> dict[str, Calibration]:
+    """Give calibrations their names.
+
+    Args:
+        calibrations: One, several by name, or none.
+
+    Returns:
+        Them by name; one alone is called `calibration`.
+    """
+    if calibrations is None:
+        return {}
+    return {NEW: calibrations} if isinstance(calibrations, Calibration) else dict(calibrations)
+
+
+def _now() -> str:
+    return datetime.now(UTC).isoformat(timespec="seconds")
