@@ -12,6 +12,7 @@ from forcetorque.analysis.campaign import Campaign, Runs
 from forcetorque.analysis.judged_evidence import judged_evidence
 from forcetorque.analysis.loads_of_use import loads_of_use
 from forcetorque.analysis.prior_comparison import compare_with_prior
+from forcetorque.analysis.remedies import LOOK_FOR_CAUSE, MEND_DATA, lower_the_predicted
 from forcetorque.analysis.use_verdict import Decision, Reason, UseError, UseVerdict
 from forcetorque.calibration import Calibration
 from forcetorque.calibration.posterior import Posterior
@@ -126,9 +127,9 @@ class _Judge:
         yield from self._predicted()
         yield from self._measured()
         for doubt in self.calibration.doubts:
-            yield Reason(against="data", text=f"the fitted data were in doubt: {doubt}")
+            yield Reason(against="data", text=f"the fitted data were in doubt: {doubt}", remedy=MEND_DATA)
         if self.worse is not None:
-            yield Reason(against="use", text=self.worse)
+            yield Reason(against="use", text=self.worse, remedy=LOOK_FOR_CAUSE)
 
     def _predicted(self) -> Iterator[Reason]:
         if self.after is None:
@@ -140,12 +141,14 @@ class _Judge:
             return
         share = self.after.within(*self.case.requirement)
         words = self._predicted_words()
+        remedy = lower_the_predicted(self.after, self.case.requirement)
         if share >= CONFIDENCE:
             yield Reason(against=None, text=words)
         elif share <= HOPELESS:
-            yield Reason(against="use", text=words)
+            yield Reason(against="use", text=words, remedy=remedy)
         else:
-            yield Reason(against="data", text=f"{words}; the chance that it is within that is {100.0 * share:.0f} %")
+            chance = f"{words}; the chance that it is within that is {100.0 * share:.0f} %"
+            yield Reason(against="data", text=chance, remedy=remedy)
 
     def _predicted_words(self) -> str:
         """Such as `it errs by some 4.1 N, at most 6.3 N, where 16 N are allowed, and by some 0.1 N m, ...`."""
@@ -200,13 +203,13 @@ class _Judge:
                     f"on data that were not fitted its {quantity} error is {_two(error.rest)} {unit} (RMS) without the "
                     f"constant part, {_two(allowed)} {unit} allowed"
                 )
-                yield Reason(against="use", text=text)
+                yield Reason(against="use", text=text, remedy=LOOK_FOR_CAUSE)
             elif expected is not None and error.rest_at_least > expected[quantity]:
                 text = (
                     f"on data that were not fitted its {quantity} error is {_two(error.rest)} {unit} (RMS), at most "
                     f"{_two(expected[quantity])} {unit} were predicted: something is not in the model"
                 )
-                yield Reason(against="data", text=text)
+                yield Reason(against="data", text=text, remedy=LOOK_FOR_CAUSE)
         force = self.measured.force
         if force.excitation < MOVED * force.rest:
             text = (

@@ -1,0 +1,127 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What to do next about a sensor, in the order in which it is done: from its verdicts and their reasons."""
+
+from __future__ import annotations
+
+import shlex
+from collections.abc import Iterator, Mapping, Sequence
+
+from forcetorque.analysis import UseVerdict, learnt_directions, to_learn
+from forcetorque.calibration import Calibration
+from forcetorque.evaluation.use import CONFIDENCE
+from forcetorque.report.repeated import said_once
+from forcetorque.report.uses import SensorKey, Undecided
+from forcetorque.result import Row, short_names
+
+
+class NextSteps(Row):
+    """What to do next about a sensor."""
+
+    sensor: str
+    """Sensor."""
+    serial: str
+    """Its serial number."""
+    steps: tuple[str, ...]
+    """Sentences, the first is done first."""
+
+
+def next_steps(
+    key: SensorKey,
+    uses: Sequence[UseVerdict],
+    undecided: Sequence[Undecided],
+    calibrations: Mapping[str, Calibration],
+    files: Sequence[str],
+) -> NextSteps:
+    """Say what to do next about a sensor.
+
+    Args:
+        key: Name of the sensor, and serial number.
+        uses: Verdicts on its calibrations.
+        undecided: Its calibrations on which there is none.
+        calibrations: All of its calibrations by name of their file.
+        files: Experiment files that have the sensor.
+
+    Returns:
+        The steps: what to do with the calibration today, what to mend, what to record, what to state.
+    """
+    names = short_names(list(calibrations))
+    steps = [
+        *said_once((names[verdict.candidate], _today(verdict)) for verdict in uses),
+        *said_once((names[verdict.candidate], step) for verdict in uses for step in _remedies(verdict)),
+        *said_once(_to_record(uses, calibrations, names)),
+        *_plan(uses, files),
+        *(_begin(row, key[0], files) for row in undecided),
+        *_state_use(uses),
+    ]
+    return NextSteps(sensor=key[0], serial=key[1], steps=tuple(dict.fromkeys(steps)))
+
+
+def _today(verdict: UseVerdict) -> str:
+    """What to do with the calibration as it is."""
+    if verdict.decision == "use":
+        offset = (
+            "tare it with a known load each time before it is used"
+            if verdict.offset == "tared"
+            else "its offset holds until the sensor is switched off or mounted anew"
+        )
+        return f"put it on the robot for {verdict.load_case} (`forcetorque export` writes it); {offset}"
+    return f"do not rely on it for {verdict.load_case} yet; {_instead(verdict)}"
+
+
+def _instead(verdict: UseVerdict) -> str:
+    """Whether the prior is any better."""
+    pairs = [(row, row.before_at_most) for row in verdict.errors if row.before_at_most is not None]
+    if not pairs:
+        return "nothing else is known that could be used in its place"
+    if all(row.allowed is None or most <= row.allowed for row, most in pairs):
+        return "the prior matrix may be used there: its predicted errors are within what is allowed"
+    judged = [(row, most) for row, most in pairs if row.allowed is not None] or pairs
+    worse = all(most >= row.after_at_most for row, most in judged)
+    more = "it errs more" if worse else "its errors are not within what is allowed either"
+    return f"the prior matrix is no way out: {more}"
+
+
+def _remedies(verdict: UseVerdict) -> Iterator[str]:
+    for reason in verdict.reasons:
+        if reason.against is not None:
+            yield reason.remedy or reason.text
+
+
+def _to_record(
+    uses: Sequence[UseVerdict], calibrations: Mapping[str, Calibration], names: Mapping[str, str]
+) -> Iterator[tuple[str, str]]:
+    """By name of a calibration what its recordings hardly taught, where its predicted error is too large."""
+    for verdict in uses:
+        rows = learnt_directions(calibrations[verdict.candidate]) if _predicts_too_much(verdict) else None
+        advice = None if rows is None else to_learn(rows)
+        if advice is not None:
+            yield names[verdict.candidate], f"the recordings hardly taught some directions: {advice}"
+
+
+def _predicts_too_much(verdict: UseVerdict) -> bool:
+    return verdict.within is not None and verdict.within < CONFIDENCE
+
+
+def _plan(uses: Sequence[UseVerdict], files: Sequence[str]) -> Iterator[str]:
+    """The command that says what to record, for every calibration whose predicted error is too large."""
+    wanted = dict.fromkeys(verdict.candidate for verdict in uses if _predicts_too_much(verdict))
+    for candidate in wanted:
+        command = shlex.join(["forcetorque", "plan", *files, "-c", candidate])
+        yield f"`{command}` lists what to record so that the predicted error falls most"
+
+
+def _begin(row: Undecided, sensor: str, files: Sequence[str]) -> str:
+    if row.candidate is not None:
+        return f"{row.candidate}: {row.reason}"
+    command = shlex.join(["forcetorque", "calibrate", *files, "--sensor", sensor, "-o", f"{sensor}.json"])
+    return f"calibrate it (`{command}`), and write this report again with the calibration"
+
+
+def _state_use(uses: Sequence[UseVerdict]) -> Iterator[str]:
+    """Nobody can decide on loads that nobody stated."""
+    taken = dict.fromkeys(verdict.loads for verdict in uses if not verdict.stated)
+    for loads in taken:
+        yield (
+            f"check that this is your use: nobody stated one, so {loads}, is taken for granted; state your loads, and "
+            "the error that you allow, as [[load_case]] in the experiment file, and write this report again"
+        )
