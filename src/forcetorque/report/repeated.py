@@ -1,27 +1,40 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Sentences that several say are said once, with the names of those whom they are about."""
+"""What is said of several in the same words is said once, with the names of those whom it is about."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Hashable, Iterable
+from typing import TypeVar
+
+_Said = TypeVar("_Said", bound=Hashable)
+
+
+def gathered(said: Iterable[tuple[str, _Said]]) -> list[tuple[tuple[str, ...], _Said]]:
+    """Put together what is said of several in the same words.
+
+    Args:
+        said: Name of whom something is about, and what is said.
+
+    Returns:
+        Names, each once, and what is said of them; in the order in which it first comes.
+    """
+    about: dict[_Said, dict[str, None]] = {}
+    for name, what in said:
+        about.setdefault(what, {})[name] = None
+    return [(tuple(names), what) for what, names in about.items()]
 
 
 def said_once(sentences: Iterable[tuple[str, str]]) -> list[str]:
-    """Put together what is said of several in the same words.
+    """Say every sentence once.
 
     Args:
         sentences: Name of whom a sentence is about, and the sentence.
 
     Returns:
-        Every sentence once, in the order in which they first come: by itself if it is about all of whom anything is
-        said, else behind the names.
+        A sentence by itself if it is about all of whom anything is said, else behind the names.
     """
-    about: dict[str, dict[str, None]] = {}
-    everyone: dict[str, None] = {}
-    for name, sentence in sentences:
-        about.setdefault(sentence, {})[name] = None
-        everyone[name] = None
+    pairs = list(sentences)
+    everyone = {name for name, _ in pairs}
     return [
-        sentence if len(names) == len(everyone) else f"{', '.join(names)}: {sentence}"
-        for sentence, names in about.items()
+        sentence if set(names) == everyone else f"{', '.join(names)}: {sentence}" for names, sentence in gathered(pairs)
     ]

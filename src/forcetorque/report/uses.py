@@ -53,7 +53,7 @@ def decide_uses(
         files = {
             file: one
             for run, groups in zip(runs, calibrations, strict=True)
-            if name in run and _key(run[name]) == key
+            if name in run and sensor_key(run[name]) == key
             for file, one in groups.get(name, {}).items()
         }
         undecided_of = partial(Undecided, sensor=name, serial=serial)
@@ -81,7 +81,15 @@ def sensor_keys(uses: Sequence[UseVerdict], undecided: Sequence[Undecided]) -> l
     return list(dict.fromkeys((row.sensor, row.serial) for row in (*uses, *undecided)))
 
 
-def _key(run: SensorRun) -> SensorKey:
+def sensor_key(run: SensorRun) -> SensorKey:
+    """Tell sensors apart.
+
+    Args:
+        run: A sensor in a recording.
+
+    Returns:
+        Its name and serial number.
+    """
     return run.sensor.name, run.sensor.serial
 
 
@@ -89,7 +97,7 @@ def _by_sensor(runs: Sequence[Mapping[str, SensorRun]]) -> dict[SensorKey, list[
     pooled: dict[SensorKey, list[SensorRun]] = {}
     for own in runs:
         for run in own.values():
-            pooled.setdefault(_key(run), []).append(run)
+            pooled.setdefault(sensor_key(run), []).append(run)
     return pooled
 
 

@@ -1,0 +1,110 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The page to decide by: may the sensor be used, how large will its errors be, what is to be done next."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+
+from forcetorque.analysis import UseVerdict
+from forcetorque.report import figures
+from forcetorque.report.document import Block, Figure, List, Place, Section, Tone, Verdict
+from forcetorque.report.next_steps import NextSteps
+from forcetorque.report.repeated import said_once
+from forcetorque.report.uses import Undecided
+from forcetorque.result import Table, short_names, table_of, with_first_column
+
+_MOST_SENTENCES = 4
+"""Verdicts that are said in whole sentences; of more the reasons stand in a list below the page."""
+
+
+def decision_page(steps: NextSteps, uses: Sequence[UseVerdict], undecided: Sequence[Undecided]) -> Section:
+    """Put what is said of a sensor on one page.
+
+    Args:
+        steps: What to do next.
+        uses: Verdicts on its calibrations.
+        undecided: Calibrations on which there is none, or the sensor itself.
+
+    Returns:
+        A section with a page of its own: sentences, a figure, and what to do next; reasons and numbers where there is
+        room.
+    """
+    names = short_names([row.candidate for row in (*uses, *undecided) if row.candidate is not None])
+    spare = [
+        Section(title=title, blocks=tuple(blocks), place=Place.SPARE)
+        for title, blocks in (
+            ("What else speaks for and against it", _other_reasons(uses, names)),
+            ("The predicted errors in numbers", _numbers(uses, names)),
+        )
+        if blocks
+    ]
+    next_section = Section(title="What to do next", blocks=(List(points=steps.steps),))
+    return Section(
+        title=f"{steps.sensor} ({steps.serial}): may it be used?",
+        blocks=(*_verdicts(uses, undecided, names), *_figure(uses, names)),
+        sections=(next_section, *spare) if steps.steps else tuple(spare),
+        place=Place.PAGE,
+    )
+
+
+def _verdicts(
+    uses: Sequence[UseVerdict], undecided: Sequence[Undecided], names: Mapping[str, str]
+) -> Iterator[Verdict]:
+    whole = len(uses) <= _MOST_SENTENCES
+    for verdict in uses:
+        name = f"{names[verdict.candidate]}, " if len(names) > 1 else ""
+        said = verdict.sentence.removeprefix(verdict.decision).strip() if whole else _briefly(verdict)
+        yield Verdict(tone=Tone(verdict.tone), word=verdict.decision, text=name + said)
+    for row in undecided:
+        name = "" if row.candidate is None else f"{names[row.candidate]}: "
+        yield Verdict(tone=Tone.UNKNOWN, word="no verdict", text=name + row.reason)
+
+
+def _briefly(verdict: UseVerdict) -> str:
+    """The use alone; how much error there is shows the figure."""
+    return f"for {verdict.load_case}"
+
+
+def _figure(uses: Sequence[UseVerdict], names: Mapping[str, str]) -> Iterator[Block]:
+    drawn = [verdict for verdict in uses if verdict.errors]
+    if not drawn:
+        return
+    cases = "; ".join(dict.fromkeys(f"{verdict.load_case}: {verdict.loads}" for verdict in drawn))
+    sizes = ", ".join(
+        f"{names[verdict.candidate]} for {verdict.load_case} "
+        + " and ".join(f"{row.after:.2g} {row.unit}" for row in verdict.errors)
+        for verdict in drawn
+    )
+    yield Figure(
+        png=figures.use_figure(drawn, names),
+        caption="How much readings will err, root mean square over the loads of the use, as the recordings and the "
+        f"prior let it be predicted. {cases}.",
+        description=f"Predicted force and moment errors with the prior and after calibration: {sizes}.",
+    )
+
+
+def _other_reasons(uses: Sequence[UseVerdict], names: Mapping[str, str]) -> list[Block]:
+    """Reasons that no sentence above has."""
+    first = 1 if len(uses) <= _MOST_SENTENCES else 0
+    points = said_once(
+        (names[verdict.candidate], reason.text) for verdict in uses for reason in verdict.reasons[first:]
+    )
+    return [List(points=tuple(points))] if points else []
+
+
+def _numbers(uses: Sequence[UseVerdict], names: Mapping[str, str]) -> list[Block]:
+    rows = [row for verdict in uses for row in verdict.errors]
+    if not rows:
+        return []
+    table: Table = table_of(
+        rows,
+        "Root mean square: of the loads, of the error with the prior and with the calibration (half of such sensors err "
+        "less, and 95 % less than `at most`), what is allowed, and what matrix, offset, variables and noise add to it",
+    )
+    for heading, cells in (
+        ("use", [verdict.load_case for verdict in uses for _ in verdict.errors]),
+        ("calibration", [names[verdict.candidate] for verdict in uses for _ in verdict.errors]),
+    ):
+        if len(set(cells)) > 1:
+            table = with_first_column(table, heading, cells)
+    return [table]
