@@ -8,20 +8,18 @@ from typing import Final
 from forcetorque.evaluation.use import PredictedError
 
 LOOK_FOR_CAUSE: Final = (
-    "find out what the measured error is before more is recorded: `forcetorque inspect` names contacts, steps, delays "
-    "and losses; masses that the robot's model lacks and a sensor that warms up look like it too"
+    "Find the cause of the measured error before recording more: `forcetorque inspect` names contacts, steps, delays "
+    "and losses; masses that the robot's model lacks, and a sensor that warms up, look like it too."
 )
 """About an error on data that were not fitted which nothing predicts."""
-MEND_DATA: Final = "put right in the recording or the experiment file what the doubt names, and calibrate again"
+MEND_DATA: Final = "Put right in the recording or the experiment file what the doubt names, and calibrate again."
 """About fitted data that were in doubt."""
 _BY_SOURCE: Final = {
-    "matrix": "the matrix makes most of it: record more and larger loads, like those of the use, and calibrate again",
-    "offset": 'the offset makes most of it: tare the sensor before use and state offset = "tared" in [[load_case]], or '
-    "record where the loads are known to less",
-    "variables": "temperature and other variables make most of it: record over the whole range of the use, and "
-    "calibrate again",
-    "noise": "noise makes most of it, which no recording lowers: average readings over more than a second, or allow "
-    "more",
+    "matrix": "the matrix: record more and larger loads, like those of the use, and calibrate again.",
+    "offset": 'the offset: tare the sensor before use and state offset = "tared" in [[load_case]], or record loads '
+    "that are known better.",
+    "variables": "temperature and other variables: record over their whole range in use, and calibrate again.",
+    "noise": "noise, which no recording lowers: average readings over more than a second, or allow more.",
 }
 
 
@@ -33,10 +31,10 @@ def lower_the_predicted(after: PredictedError, allowed: tuple[float, float]) -> 
         allowed: Allowed force and moment error; N, N m; infinite where it is not judged.
 
     Returns:
-        Words that go on a sentence.
+        A sentence.
     """
     force, moment = allowed
     worst = after.force if after.force.at_most / force >= after.moment.at_most / moment else after.moment
     shares = {source: float(getattr(worst.sources, source)) for source in _BY_SOURCE}
     quantity = "force" if worst is after.force else "moment"
-    return f"to lower the {quantity} error: {_BY_SOURCE[max(shares, key=shares.__getitem__)]}"
+    return f"Most of the {quantity} error comes from {_BY_SOURCE[max(shares, key=shares.__getitem__)]}"

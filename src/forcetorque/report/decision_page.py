@@ -6,41 +6,59 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 
 from forcetorque.analysis import UseVerdict
+from forcetorque.calibration import Calibration
 from forcetorque.report import figures
-from forcetorque.report.document import Block, Figure, List, Place, Section, Tone, Verdict
+from forcetorque.report.document import Block, Figure, List, Place, Section, Text, Tone, Verdict
 from forcetorque.report.next_steps import NextSteps
 from forcetorque.report.repeated import said_once
 from forcetorque.report.uses import Undecided
 from forcetorque.result import Table, short_names, table_of, with_first_column
 
+_LEGEND = (
+    "use: with a probability of 95 % both predicted errors are within what is allowed, and data that were not fitted, "
+    "with a load that moved, do not speak against it. do not use: that probability is 10 % or less, or such data speak "
+    "against it. not enough data: neither; recording more can still make it either. What is allowed is stated with the "
+    "load, or else a twentieth of it."
+)
 _MOST_SENTENCES = 4
 """Verdicts that are said in whole sentences; of more the reasons stand in a list below the page."""
 
 
-def decision_page(steps: NextSteps, uses: Sequence[UseVerdict], undecided: Sequence[Undecided]) -> Section:
+def decision_page(
+    steps: NextSteps,
+    uses: Sequence[UseVerdict],
+    undecided: Sequence[Undecided],
+    calibrations: Mapping[str, Calibration],
+    *,
+    explained: bool,
+) -> Section:
     """Put what is said of a sensor on one page.
 
     Args:
         steps: What to do next.
         uses: Verdicts on its calibrations.
         undecided: Calibrations on which there is none, or the sensor itself.
+        calibrations: Its calibrations by name of their file.
+        explained: Whether to say what the words mean.
 
     Returns:
         A section with a page of its own: sentences, a figure, and what to do next; reasons and numbers where there is
         room.
     """
-    names = short_names([row.candidate for row in (*uses, *undecided) if row.candidate is not None])
+    names = short_names(list(calibrations))
     spare = [
         Section(title=title, blocks=tuple(blocks), place=Place.SPARE)
         for title, blocks in (
             ("What else speaks for and against it", _other_reasons(uses, names)),
             ("The predicted errors in numbers", _numbers(uses, names)),
+            ("What this rests on", _basis(calibrations, names)),
+            ("How to read this page", [Text(text=_LEGEND)] if explained and uses else []),
         )
         if blocks
     ]
-    next_section = Section(title="What to do next", blocks=(List(points=steps.steps),))
+    next_section = Section(title="What to do next", blocks=(List(points=steps.steps, numbered=True),))
     return Section(
-        title=f"{steps.sensor} ({steps.serial}): may it be used?",
+        title=f"{steps.sensor} ({steps.serial})",
         blocks=(*_verdicts(uses, undecided, names), *_figure(uses, names)),
         sections=(next_section, *spare) if steps.steps else tuple(spare),
         place=Place.PAGE,
@@ -52,24 +70,23 @@ def _verdicts(
 ) -> Iterator[Verdict]:
     whole = len(uses) <= _MOST_SENTENCES
     for verdict in uses:
-        name = f"{names[verdict.candidate]}, " if len(names) > 1 else ""
         said = verdict.sentence.removeprefix(verdict.decision).strip() if whole else _briefly(verdict)
-        yield Verdict(tone=Tone(verdict.tone), word=verdict.decision, text=name + said)
+        yield Verdict(tone=Tone(verdict.tone), word=verdict.decision, text=f"{names[verdict.candidate]}, {said}.")
     for row in undecided:
         name = "" if row.candidate is None else f"{names[row.candidate]}: "
-        yield Verdict(tone=Tone.UNKNOWN, word="no verdict", text=name + row.reason)
+        yield Verdict(tone=Tone.UNKNOWN, word="no verdict", text=f"{name}{row.reason}.")
 
 
 def _briefly(verdict: UseVerdict) -> str:
     """The use alone; how much error there is shows the figure."""
-    return f"for {verdict.load_case}"
+    return f"for “{verdict.load_case}”"
 
 
 def _figure(uses: Sequence[UseVerdict], names: Mapping[str, str]) -> Iterator[Block]:
     drawn = [verdict for verdict in uses if verdict.errors]
     if not drawn:
         return
-    cases = "; ".join(dict.fromkeys(f"{verdict.load_case}: {verdict.loads}" for verdict in drawn))
+    cases = "; “".join(dict.fromkeys(f"{verdict.load_case}”: {verdict.loads}" for verdict in drawn))
     sizes = ", ".join(
         f"{names[verdict.candidate]} for {verdict.load_case} "
         + " and ".join(f"{row.after:.2g} {row.unit}" for row in verdict.errors)
@@ -77,18 +94,32 @@ def _figure(uses: Sequence[UseVerdict], names: Mapping[str, str]) -> Iterator[Bl
     )
     yield Figure(
         png=figures.use_figure(drawn, names),
-        caption="How much readings will err, root mean square over the loads of the use, as the recordings and the "
-        f"prior let it be predicted. {cases}.",
+        caption="How much readings are predicted to err, root mean square over the loads of the use. Before: with the "
+        f"matrix that the calibration came from. After: with the calibration. Loads of “{cases}.",
         description=f"Predicted force and moment errors with the prior and after calibration: {sizes}.",
     )
 
 
 def _other_reasons(uses: Sequence[UseVerdict], names: Mapping[str, str]) -> list[Block]:
-    """Reasons that no sentence above has."""
+    """Reasons that neither a sentence above nor a step has."""
     first = 1 if len(uses) <= _MOST_SENTENCES else 0
     points = said_once(
-        (names[verdict.candidate], reason.text) for verdict in uses for reason in verdict.reasons[first:]
+        (names[verdict.candidate], reason.text)
+        for verdict in uses
+        for reason in verdict.reasons[first:]
+        if reason.against is None or reason.remedy is not None
     )
+    return [List(points=tuple(points))] if points else []
+
+
+def _basis(calibrations: Mapping[str, Calibration], names: Mapping[str, str]) -> list[Block]:
+    """Where the calibrations come from."""
+    points = [
+        f"{names[file]}: made {one.provenance.created} from {one.provenance.experiment}, {one.provenance.samples} "
+        f"samples of {', '.join(repr(interval.label) for interval in one.provenance.intervals)}; prior: "
+        f"{one.prior.source if one.prior else 'none'}"
+        for file, one in calibrations.items()
+    ]
     return [List(points=tuple(points))] if points else []
 
 
@@ -98,8 +129,8 @@ def _numbers(uses: Sequence[UseVerdict], names: Mapping[str, str]) -> list[Block
         return []
     table: Table = table_of(
         rows,
-        "Root mean square: of the loads, of the error with the prior and with the calibration (half of such sensors err "
-        "less, and 95 % less than `at most`), what is allowed, and what matrix, offset, variables and noise add to it",
+        "Root mean square: of the loads, of the error with the prior and with the calibration (half of such sensors "
+        "err less, and 95 % less than `at most`), what is allowed, and what matrix, offset, variables and noise add to it",
     )
     for heading, cells in (
         ("use", [verdict.load_case for verdict in uses for _ in verdict.errors]),

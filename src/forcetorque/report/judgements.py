@@ -44,8 +44,8 @@ def judgement_section(experiments: Sequence[ExperimentAssessment]) -> Section:
                 table_of(
                     assessment.comparisons,
                     f"{whose}mean norm of the error (not the root mean square, by which the verdict on the first page "
-                    "goes) against that of the prior on the same samples, and the 95 % interval of the difference; what "
-                    "is constant in the error another offset would take away",
+                    "goes) against that of the prior on the same samples, and the 95 % interval of the difference; "
+                    "what is constant in the error another offset would take away",
                 )
             )
     return Section(title=TITLE, blocks=tuple(blocks))

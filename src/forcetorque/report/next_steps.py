@@ -6,10 +6,10 @@ from __future__ import annotations
 import shlex
 from collections.abc import Iterator, Mapping, Sequence
 
-from forcetorque.analysis import UseVerdict, learnt_directions, to_learn
+from forcetorque.analysis import LITTLE_LEARNT, UseVerdict, learnt_directions, to_learn
 from forcetorque.calibration import Calibration
 from forcetorque.evaluation.use import CONFIDENCE
-from forcetorque.report.repeated import said_once
+from forcetorque.report.repeated import gathered, said_once
 from forcetorque.report.uses import SensorKey, Undecided
 from forcetorque.result import Row, short_names
 
@@ -46,7 +46,7 @@ def next_steps(
     """
     names = short_names(list(calibrations))
     steps = [
-        *said_once((names[verdict.candidate], _today(verdict)) for verdict in uses),
+        *_today(uses, names),
         *said_once((names[verdict.candidate], step) for verdict in uses for step in _remedies(verdict)),
         *said_once(_to_record(uses, calibrations, names)),
         *_plan(uses, files),
@@ -56,35 +56,48 @@ def next_steps(
     return NextSteps(sensor=key[0], serial=key[1], steps=tuple(dict.fromkeys(steps)))
 
 
-def _today(verdict: UseVerdict) -> str:
-    """What to do with the calibration as it is."""
+def _today(uses: Sequence[UseVerdict], names: Mapping[str, str]) -> Iterator[str]:
+    """What to do with the calibrations as they are, those and those uses together of which it is the same."""
+    by_calibration = gathered(
+        (f"“{verdict.load_case}”", (names[verdict.candidate], _as_it_is(verdict))) for verdict in uses
+    )
+    for calibrations, (cases, words) in gathered((name, (cases, words)) for cases, (name, words) in by_calibration):
+        yield words.format(calibration=" and ".join(calibrations), use=" and ".join(cases))
+
+
+def _as_it_is(verdict: UseVerdict) -> str:
+    """What to do with a calibration, with places for its name and for that of the use."""
     if verdict.decision == "use":
         offset = (
-            "tare it with a known load each time before it is used"
+            "Tare the sensor under a known load each time before it is used."
             if verdict.offset == "tared"
-            else "its offset holds until the sensor is switched off or mounted anew"
+            else "Its offset holds until the sensor is switched off or mounted anew."
         )
-        return f"put it on the robot for {verdict.load_case} (`forcetorque export` writes it); {offset}"
-    return f"do not rely on it for {verdict.load_case} yet; {_instead(verdict)}"
+        return "Put {calibration} on the robot for {use}: `forcetorque export` writes what robots read. " + offset
+    return "Do not rely on {calibration} for {use} yet. " + _instead(verdict)
 
 
 def _instead(verdict: UseVerdict) -> str:
     """Whether the prior is any better."""
     pairs = [(row, row.before_at_most) for row in verdict.errors if row.before_at_most is not None]
     if not pairs:
-        return "nothing else is known that could be used in its place"
+        return "Nothing is known of another matrix that could take its place."
     if all(row.allowed is None or most <= row.allowed for row, most in pairs):
-        return "the prior matrix may be used there: its predicted errors are within what is allowed"
+        return "The matrix that it came from (the prior) may be used there: its predicted errors are small enough."
     judged = [(row, most) for row, most in pairs if row.allowed is not None] or pairs
     worse = all(most >= row.after_at_most for row, most in judged)
-    more = "it errs more" if worse else "its errors are not within what is allowed either"
-    return f"the prior matrix is no way out: {more}"
+    more = "is predicted to err even more" if worse else "is predicted to err too much as well"
+    return f"The matrix that it came from (the prior) {more}, so do not go back to it either."
 
 
 def _remedies(verdict: UseVerdict) -> Iterator[str]:
     for reason in verdict.reasons:
         if reason.against is not None:
-            yield reason.remedy or reason.text
+            yield reason.remedy or _sentence(reason.text)
+
+
+def _sentence(text: str) -> str:
+    return f"{text[:1].upper()}{text[1:]}."
 
 
 def _to_record(
@@ -95,7 +108,8 @@ def _to_record(
         rows = learnt_directions(calibrations[verdict.candidate]) if _predicts_too_much(verdict) else None
         advice = None if rows is None else to_learn(rows)
         if advice is not None:
-            yield names[verdict.candidate], f"the recordings hardly taught some directions: {advice}"
+            little = ", ".join(row.direction for row in rows or () if row.learnt < LITTLE_LEARNT)
+            yield names[verdict.candidate], f"The recordings taught little of loads along {little}: {advice}."
 
 
 def _predicts_too_much(verdict: UseVerdict) -> bool:
@@ -107,21 +121,20 @@ def _plan(uses: Sequence[UseVerdict], files: Sequence[str]) -> Iterator[str]:
     wanted = dict.fromkeys(verdict.candidate for verdict in uses if _predicts_too_much(verdict))
     for candidate in wanted:
         command = shlex.join(["forcetorque", "plan", *files, "-c", candidate])
-        yield f"`{command}` lists what to record so that the predicted error falls most"
+        yield f"`{command}` lists what to record next, and the error to expect after each recording."
 
 
 def _begin(row: Undecided, sensor: str, files: Sequence[str]) -> str:
     if row.candidate is not None:
-        return f"{row.candidate}: {row.reason}"
+        return f"Mend what keeps {row.candidate} from being judged: {row.reason}."
     command = shlex.join(["forcetorque", "calibrate", *files, "--sensor", sensor, "-o", f"{sensor}.json"])
-    return f"calibrate it (`{command}`), and write this report again with the calibration"
+    return f"Calibrate it, `{command}`, and write this report again with the calibration."
 
 
 def _state_use(uses: Sequence[UseVerdict]) -> Iterator[str]:
     """Nobody can decide on loads that nobody stated."""
-    taken = dict.fromkeys(verdict.loads for verdict in uses if not verdict.stated)
-    for loads in taken:
+    for loads in dict.fromkeys(verdict.loads for verdict in uses if not verdict.stated):
         yield (
-            f"check that this is your use: nobody stated one, so {loads}, is taken for granted; state your loads, and "
-            "the error that you allow, as [[load_case]] in the experiment file, and write this report again"
+            f"Check that this is your use. Nobody stated one, so {loads}, was taken for granted; state your loads, and "
+            "the error that you allow, as [[load_case]] in the experiment file, and write this report again."
         )

@@ -27,9 +27,9 @@ def _errors(sensor: Assessment) -> Iterator[Block]:
     if sensor.evaluation:
         yield table_of(
             sensor.evaluation,
-            "Root mean square error (RMS) per component, by which the verdict goes; beside it the mean norm of the force "
-            f"and moment error with half of its 95 % interval, which is another number; {sensor.evaluation[0].samples} "
-            "samples",
+            "Root mean square error (RMS) per component, by which the verdict goes; beside it the mean norm of the "
+            "force and moment error with half of its 95 % interval, which is another number; "
+            f"{sensor.evaluation[0].samples} samples",
         )
     if sensor.independence:
         yield table_of(sensor.independence, "How many independent samples the errors are worth")

@@ -16,8 +16,8 @@ from forcetorque.calibration import Calibration
 from forcetorque.errors import ForceTorqueError
 from forcetorque.experiment import Experiment
 from forcetorque.experiment.inputs import stated_in
-from forcetorque.report.document import Document, Section, html_bytes, pdf_bytes
 from forcetorque.report.decision_page import decision_page
+from forcetorque.report.document import Document, Section, html_bytes, pdf_bytes
 from forcetorque.report.figures.canvas import new_figure
 from forcetorque.report.next_steps import NextSteps, next_steps
 from forcetorque.report.sections import report_document
@@ -133,7 +133,20 @@ class Report(Result):
         def own(row: UseVerdict | Undecided) -> bool:
             return (row.sensor, row.serial) == (steps.sensor, steps.serial)
 
-        return decision_page(steps, [*filter(own, self.uses)], [*filter(own, self.undecided)])
+        sensors = (sensor for experiment in self.experiments for sensor in experiment.sensors)
+        calibrations = {
+            file: one
+            for sensor in sensors
+            if (sensor.sensor, sensor.serial) == (steps.sensor, steps.serial)
+            for file, one in sensor.calibrations.items()
+        }
+        return decision_page(
+            steps,
+            [*filter(own, self.uses)],
+            [*filter(own, self.undecided)],
+            calibrations,
+            explained=steps is self.next_steps[0],
+        )
 
     def save(self, *files: Path | str) -> None:
         """Write the document, drawn once.

@@ -60,6 +60,13 @@ class List:
 
     points: tuple[str, ...]
     """The points."""
+    numbered: bool = False
+    """Whether they come one after the other, and have numbers."""
+
+    @property
+    def marks(self) -> tuple[str, ...]:
+        """What stands before each."""
+        return tuple(f"{k}." if self.numbered else "•" for k in range(1, len(self.points) + 1))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -73,7 +73,7 @@ def _block(block: Block, spell: _Speller) -> Block:
         case Text():
             return replace(block, text=spell(block.text))
         case List():
-            return List(points=tuple(map(spell, block.points)))
+            return replace(block, points=tuple(map(spell, block.points)))
         case Table():
             rows = tuple(tuple(map(spell, row)) for row in block.rows)
             return Table(caption=spell(block.caption), headings=tuple(map(spell, block.headings)), rows=rows)

@@ -135,11 +135,11 @@ def _whole_page(page: FPDF, section: Section) -> list[Section]:
     for block in section.blocks:
         draw_block(page, block, figure_mm=figure_mm if block in pictures[:1] else None)
     for part in parts:
-        _section(page, part, level=1)
+        _section(page, part, level=1, fits=words + figure_mm <= left)
     later: list[Section] = []
     for part in section.sections:
-        if part.place is Place.SPARE and not later and not page.will_page_break(_section_mm(page, part, 1)):
-            _section(page, part, level=1)
+        if part.place is Place.SPARE and not page.will_page_break(_section_mm(page, part, 1)):
+            _section(page, part, level=1, fits=True)
         elif part.place is Place.SPARE:
             later.append(Section(title=f"{section.title}: {part.title}", blocks=part.blocks, sections=part.sections))
     return later
@@ -173,10 +173,10 @@ def _close_fonts(page: FPDF) -> None:
             font.ttfont.close()
 
 
-def _section(page: FPDF, section: Section, *, level: int) -> None:
+def _section(page: FPDF, section: Section, *, level: int, fits: bool = False) -> None:
     # a heading does not stand alone at the end of a page
     least = LINE_MM + _least_mm(page, section)
-    if page.will_page_break(min(least, page.eph)) and page.y > 2.0 * page.t_margin:
+    if not fits and page.will_page_break(min(least, page.eph)) and page.y > 2.0 * page.t_margin:
         page.add_page()
     _heading(page, section, level)
     for block in section.blocks:

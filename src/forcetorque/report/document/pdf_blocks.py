@@ -21,6 +21,12 @@ BODY_POINTS, CAPTION_POINTS, LINE_MM = 9.5, 8.5, 4.8
 """Size of the letters of paragraphs and of captions, and height of a line."""
 INK, FAINT = (27, 31, 36), (91, 101, 112)
 """Colours of what is said, and of what stands beside it."""
+_GAP_MM = 1.0
+"""Below a verdict and below a point."""
+_MARK_MM = 5.5
+"""Room for the mark before a point."""
+_WORD_POINTS = 11.0
+"""Size of the letters of the word of a verdict."""
 _COLOURS = {
     Tone.GOOD: (0, 101, 74),
     Tone.CAUTION: (138, 90, 0),
@@ -30,7 +36,9 @@ _COLOURS = {
 }
 
 
-def draw_line(page: FPDF, text: str, points: float, *, bold: bool = False, colour: tuple[int, int, int] = INK) -> None:
+def draw_line(
+    page: FPDF, text: str, points: float, *, bold: bool = False, colour: tuple[int, int, int] = INK, mark: str = ""
+) -> None:
     """Write a paragraph below the last one.
 
     Args:
@@ -39,10 +47,14 @@ def draw_line(page: FPDF, text: str, points: float, *, bold: bool = False, colou
         points: Size of its letters.
         bold: Whether they are bold.
         colour: Their colour, red, green and blue.
+        mark: What stands before it, to the left of all its lines.
     """
     page.set_font(FONT, "B" if bold else "", points)
     page.set_text_color(*colour)
-    for line in lines_of(text, page.epw, page.get_string_width):
+    indent = _MARK_MM if mark else 0.0
+    for k, line in enumerate(lines_of(text, page.epw - indent, page.get_string_width)):
+        if mark:
+            page.cell(indent, _line_mm(points), "" if k else mark)
         page.cell(0, _line_mm(points), line, new_x="LMARGIN", new_y="NEXT")
     page.set_text_color(*INK)
 
@@ -57,13 +69,15 @@ def draw_block(page: FPDF, block: Block, *, figure_mm: float | None = None) -> N
     """
     match block:
         case Verdict():
-            draw_line(page, block.sign, BODY_POINTS, bold=True, colour=_COLOURS[block.tone])
+            draw_line(page, block.sign, _WORD_POINTS, bold=True, colour=_COLOURS[block.tone])
             draw_line(page, block.text, BODY_POINTS)
+            page.ln(_GAP_MM)
         case Text():
             draw_line(page, block.text, BODY_POINTS)
         case List():
-            for point in block.points:
-                draw_line(page, f"• {point}", BODY_POINTS)
+            for mark, point in zip(block.marks, block.points, strict=True):
+                draw_line(page, point, BODY_POINTS, mark=mark)
+                page.ln(_GAP_MM)
         case Table():
             _draw_table(page, block)
         case Figure():
@@ -84,11 +98,12 @@ def block_mm(page: FPDF, block: Block) -> float:
     """
     match block:
         case Verdict():
-            return paragraph_mm(page, block.sign, BODY_POINTS, bold=True) + paragraph_mm(page, block.text, BODY_POINTS)
+            word = paragraph_mm(page, block.sign, _WORD_POINTS, bold=True)
+            return word + paragraph_mm(page, block.text, BODY_POINTS) + _GAP_MM
         case Text():
             return paragraph_mm(page, block.text, BODY_POINTS)
         case List():
-            return sum(paragraph_mm(page, f"• {point}", BODY_POINTS) for point in block.points)
+            return sum(paragraph_mm(page, point, BODY_POINTS, indent=_MARK_MM) + _GAP_MM for point in block.points)
         case Table():
             rows = table_mm(page, block, FONT) if block.rows else LINE_MM
             return LINE_MM + paragraph_mm(page, block.caption, CAPTION_POINTS) + rows
@@ -98,7 +113,7 @@ def block_mm(page: FPDF, block: Block) -> float:
             return paragraph_mm(page, block.instead, BODY_POINTS)
 
 
-def paragraph_mm(page: FPDF, text: str, points: float, *, bold: bool = False) -> float:
+def paragraph_mm(page: FPDF, text: str, points: float, *, bold: bool = False, indent: float = 0.0) -> float:
     """Measure a paragraph.
 
     Args:
@@ -106,12 +121,13 @@ def paragraph_mm(page: FPDF, text: str, points: float, *, bold: bool = False) ->
         text: The paragraph.
         points: Size of its letters.
         bold: Whether they are bold.
+        indent: By how much narrower than the page it is, in mm.
 
     Returns:
         Its height, in mm.
     """
     page.set_font(FONT, "B" if bold else "", points)
-    return len(lines_of(text, page.epw, page.get_string_width)) * _line_mm(points)
+    return len(lines_of(text, page.epw - indent, page.get_string_width)) * _line_mm(points)
 
 
 def figure_size_mm(page: FPDF, figure: Figure, most_mm: float | None = None) -> tuple[float, float]:

@@ -29,7 +29,7 @@ _ROW_INCHES, _FRAME_INCHES = 1.75, 1.1
 """Height of a row with its two intervals and their words, and of the titles and the axis; inch."""
 _BEFORE_AT, _AFTER_AT, _WORDS_AT, _LIMIT_AT = -0.16, 0.2, 0.08, 0.46
 """Heights within a row: of the two intervals, of words above each, and of those about the limit."""
-_WORDS = 0.62
+_WORDS = 0.7
 """Part of the width of a panel that words above an interval may take."""
 _LEAST_DECADES = 0.9
 """Decades that a panel shows at least, so that its axis has numbers."""
@@ -140,7 +140,7 @@ def _words(quantiles: tuple[float, float, float], unit: str) -> str:
 
 
 def _two_digits(value: float) -> str:
-    return f"{value:.0f}" if value >= 100.0 else f"{float(f'{value:.2g}'):g}"
+    return f"{value:.0f}" if value >= 100.0 else f"{value:#.2g}".rstrip(".")
 
 
 def _centre(low: float, high: float) -> float:
