@@ -12,7 +12,15 @@ from forcetorque.analysis.campaign import Campaign, Runs
 from forcetorque.analysis.judged_evidence import judged_evidence
 from forcetorque.analysis.loads_of_use import loads_of_use
 from forcetorque.analysis.prior_comparison import compare_with_prior
-from forcetorque.analysis.remedies import LOOK_FOR_CAUSE, MEND_DATA, lower_the_predicted
+from forcetorque.analysis.remedies import (
+    FIT_GENERATIVE,
+    JUDGE,
+    JUDGE_WHAT_MOVES,
+    LOOK_FOR_CAUSE,
+    MEND_DATA,
+    TARE,
+    lower_the_predicted,
+)
 from forcetorque.analysis.use_verdict import Decision, Reason, UseError, UseVerdict
 from forcetorque.calibration import Calibration
 from forcetorque.calibration.posterior import Posterior
@@ -137,7 +145,7 @@ class _Judge:
                 f"a calibration of type {self.calibration.estimation_type} knows no error at other loads than those "
                 "that were judged; fit it by the generative model"
             )
-            yield Reason(against="data", text=text)
+            yield Reason(against="data", text=text, remedy=FIT_GENERATIVE)
             return
         share = self.after.within(*self.case.requirement)
         words = self._predicted_words()
@@ -191,7 +199,8 @@ class _Judge:
 
     def _measured(self) -> Iterator[Reason]:
         if self.measured is None:
-            yield Reason(against="data", text="no data that were not fitted test it; state a validation interval")
+            text = "no data that were not fitted test it; state a validation interval"
+            yield Reason(against="data", text=text, remedy=JUDGE)
             return
         loads = (self.case.force_N, self.case.moment_Nm)
         expected = self._expected_there()
@@ -216,7 +225,7 @@ class _Judge:
                 f"in the judged data the load moved by {_two(force.excitation)} N only, and {_two(force.rest)} N (RMS) "
                 "are error: a wrong matrix would hardly show; judge data that move"
             )
-            yield Reason(against="data", text=text)
+            yield Reason(against="data", text=text, remedy=JUDGE_WHAT_MOVES)
 
     def _constant(
         self, error: MeasuredError, quantity: str, unit: str, allowed: float, load: float
@@ -229,7 +238,7 @@ class _Judge:
                 f"on data that were not fitted {_two(error.constant)} {unit} of its {quantity} error are constant, "
                 f'{_two(limit)} {unit} allowed; tare it before use, and state offset = "tared" in [[load_case]]'
             )
-            yield Reason(against="use", text=text)
+            yield Reason(against="use", text=text, remedy=TARE)
 
     def _expected_there(self) -> dict[str, float] | None:
         """Error that is predicted, at most, at the loads of the judged data; noise that is slow included."""

@@ -14,6 +14,19 @@ LOOK_FOR_CAUSE: Final = (
 """About an error on data that were not fitted which nothing predicts."""
 MEND_DATA: Final = "Put right in the recording or the experiment file what the doubt names, and calibrate again."
 """About fitted data that were in doubt."""
+JUDGE: Final = (
+    'State an interval with use = "validation" in the experiment file, on which the calibration was not fitted and in '
+    "which the load moves."
+)
+"""About a calibration that no data test."""
+JUDGE_WHAT_MOVES: Final = (
+    "Judge it on data in which the load moves by more than that: a validation interval with other postures or loads."
+)
+"""About judged data that test little."""
+TARE: Final = 'Tare the sensor before use, and state offset = "tared" in [[load_case]].'
+"""About a constant error."""
+FIT_GENERATIVE: Final = "Calibrate by the generative model, whose calibrations know their errors at any load."
+"""About a calibration without a covariance."""
 _BY_SOURCE: Final = {
     "matrix": "the matrix: record more and larger loads, like those of the use, and calibrate again.",
     "offset": 'the offset: tare the sensor before use and state offset = "tared" in [[load_case]], or record loads '

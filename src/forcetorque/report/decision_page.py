@@ -8,18 +8,20 @@ from collections.abc import Iterator, Mapping, Sequence
 from forcetorque.analysis import UseVerdict
 from forcetorque.calibration import Calibration
 from forcetorque.report import figures
-from forcetorque.report.document import Block, Figure, List, Place, Section, Text, Tone, Verdict
+from forcetorque.report.document import Block, Figure, List, Place, Section, Tone, Verdict
 from forcetorque.report.next_steps import NextSteps
 from forcetorque.report.repeated import said_once
 from forcetorque.report.uses import Undecided
 from forcetorque.result import Table, short_names, table_of, with_first_column
 
-_LEGEND = (
-    "use: with a probability of 95 % both predicted errors are within what is allowed, and data that were not fitted, "
-    "with a load that moved, do not speak against it. do not use: that probability is 10 % or less, or such data speak "
-    "against it. not enough data: neither; recording more can still make it either. What is allowed is stated with the "
-    "load, or else a twentieth of it."
+_WORDS = (
+    "use: with 95 % probability the predicted errors are within what is allowed, and data that were not fitted, with a "
+    "load that moved, do not speak against it.",
+    "do not use: that probability is 10 % or less, or such data speak against it.",
+    "not enough data: neither of the two.",
+    "What is allowed is stated with the load case; where it is not, it is a twentieth of the loads.",
 )
+"""What the words of a verdict mean."""
 _MOST_SENTENCES = 4
 """Verdicts that are said in whole sentences; of more the reasons stand in a list below the page."""
 
@@ -52,7 +54,7 @@ def decision_page(
             ("What else speaks for and against it", _other_reasons(uses, names)),
             ("The predicted errors in numbers", _numbers(uses, names)),
             ("What this rests on", _basis(calibrations, names)),
-            ("How to read this page", [Text(text=_LEGEND)] if explained and uses else []),
+            ("How to read this page", [List(points=_WORDS)] if explained and uses else []),
         )
         if blocks
     ]
@@ -130,7 +132,7 @@ def _numbers(uses: Sequence[UseVerdict], names: Mapping[str, str]) -> list[Block
     table: Table = table_of(
         rows,
         "Root mean square: of the loads, of the error with the prior and with the calibration (half of such sensors "
-        "err less, and 95 % less than `at most`), what is allowed, and what matrix, offset, variables and noise add to it",
+        "err less, and 95 % less than `at most`), what is allowed, and what matrix, offset, variables and noise add",
     )
     for heading, cells in (
         ("use", [verdict.load_case for verdict in uses for _ in verdict.errors]),

@@ -50,7 +50,7 @@ def next_steps(
         *said_once((names[verdict.candidate], step) for verdict in uses for step in _remedies(verdict)),
         *said_once(_to_record(uses, calibrations, names)),
         *_plan(uses, files),
-        *(_begin(row, key[0], files) for row in undecided),
+        *_begin(undecided, key[0], files, names),
         *_state_use(uses),
     ]
     return NextSteps(sensor=key[0], serial=key[1], steps=tuple(dict.fromkeys(steps)))
@@ -74,20 +74,20 @@ def _as_it_is(verdict: UseVerdict) -> str:
             else "Its offset holds until the sensor is switched off or mounted anew."
         )
         return "Put {calibration} on the robot for {use}: `forcetorque export` writes what robots read. " + offset
-    return "Do not rely on {calibration} for {use} yet. " + _instead(verdict)
+    return "Do not rely on {calibration} for {use} yet." + (_instead(verdict) if _predicts_too_much(verdict) else "")
 
 
 def _instead(verdict: UseVerdict) -> str:
     """Whether the prior is any better."""
     pairs = [(row, row.before_at_most) for row in verdict.errors if row.before_at_most is not None]
     if not pairs:
-        return "Nothing is known of another matrix that could take its place."
+        return " Nothing is known of another matrix that could take its place."
     if all(row.allowed is None or most <= row.allowed for row, most in pairs):
-        return "The matrix that it came from (the prior) may be used there: its predicted errors are small enough."
+        return " The matrix that it came from (the prior) may be used there: its predicted errors are small enough."
     judged = [(row, most) for row, most in pairs if row.allowed is not None] or pairs
     worse = all(most >= row.after_at_most for row, most in judged)
     more = "is predicted to err even more" if worse else "is predicted to err too much as well"
-    return f"The matrix that it came from (the prior) {more}, so do not go back to it either."
+    return f" The matrix that it came from (the prior) {more}, so do not go back to it either."
 
 
 def _remedies(verdict: UseVerdict) -> Iterator[str]:
@@ -124,11 +124,16 @@ def _plan(uses: Sequence[UseVerdict], files: Sequence[str]) -> Iterator[str]:
         yield f"`{command}` lists what to record next, and the error to expect after each recording."
 
 
-def _begin(row: Undecided, sensor: str, files: Sequence[str]) -> str:
-    if row.candidate is not None:
-        return f"Mend what keeps {row.candidate} from being judged: {row.reason}."
-    command = shlex.join(["forcetorque", "calibrate", *files, "--sensor", sensor, "-o", f"{sensor}.json"])
-    return f"Calibrate it, `{command}`, and write this report again with the calibration."
+def _begin(
+    undecided: Sequence[Undecided], sensor: str, files: Sequence[str], names: Mapping[str, str]
+) -> Iterator[str]:
+    """What comes before there can be a verdict."""
+    unjudged = [names[row.candidate] for row in undecided if row.candidate is not None]
+    if unjudged:
+        yield f"Mend what keeps {' and '.join(unjudged)} from a verdict, as said above, and write this report again."
+    if len(unjudged) < len(undecided):
+        command = shlex.join(["forcetorque", "calibrate", *files, "--sensor", sensor, "-o", f"{sensor}.json"])
+        yield f"Calibrate it, `{command}`, and write this report again with the calibration."
 
 
 def _state_use(uses: Sequence[UseVerdict]) -> Iterator[str]:

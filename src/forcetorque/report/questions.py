@@ -16,6 +16,7 @@ from forcetorque.report.calibration_sections import (
     uncertainty_blocks,
 )
 from forcetorque.report.document import Block, Figure, List
+from forcetorque.report.vague import in_words
 from forcetorque.result import short_names, table_of
 from forcetorque.spatial import WRENCH_COMPONENTS
 
@@ -25,12 +26,13 @@ Question = tuple[str, Callable[[Assessment], Iterator[Block]]]
 
 def _errors(sensor: Assessment) -> Iterator[Block]:
     if sensor.evaluation:
-        yield table_of(
+        errors = table_of(
             sensor.evaluation,
             "Root mean square error (RMS) per component, by which the verdict goes; beside it the mean norm of the "
             "force and moment error with half of its 95 % interval, which is another number; "
             f"{sensor.evaluation[0].samples} samples",
         )
+        yield in_words(errors)
     if sensor.independence:
         yield table_of(sensor.independence, "How many independent samples the errors are worth")
     judged = sensor.judged
@@ -91,11 +93,12 @@ def _space(sensor: Assessment) -> Iterator[Block]:
 def _contacts(sensor: Assessment) -> Iterator[Block]:
     if not sensor.contact_forces:
         return
-    yield table_of(
+    contacts = table_of(
         sensor.contact_forces,
         "Mean absolute contact wrench of the free sub-model, and mean norm of its force ± standard error; it should "
         "be zero",
     )
+    yield in_words(contacts)
     names = short_names([row.candidate for row in sensor.contact_forces])
     if len(names) > 1:
         yield List(

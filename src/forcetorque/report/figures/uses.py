@@ -29,8 +29,8 @@ _ROW_INCHES, _FRAME_INCHES = 1.75, 1.1
 """Height of a row with its two intervals and their words, and of the titles and the axis; inch."""
 _BEFORE_AT, _AFTER_AT, _WORDS_AT, _LIMIT_AT = -0.16, 0.2, 0.08, 0.46
 """Heights within a row: of the two intervals, of words above each, and of those about the limit."""
-_WORDS = 0.7
-"""Part of the width of a panel that words above an interval may take."""
+_MARGIN, _WORDS, _LIMIT_WORDS = 0.04, 0.33, 0.4
+"""Parts of the width of a panel: beside what is drawn, half of the words above an interval, and those at a limit."""
 _LEAST_DECADES = 0.9
 """Decades that a panel shows at least, so that its axis has numbers."""
 _BEFORE: dict[str, Any] = {"color": REFERENCE_COLOUR, "marker": "s", "markerfacecolor": "white", "linestyle": "-"}
@@ -151,17 +151,19 @@ def _set_axis(panel: Axes, rows: Sequence[UseError]) -> None:
     """A logarithmic axis with room for the words above every interval, and for the limits."""
     from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
-    ends = _ends(rows)
-    limits = [row.allowed for row in rows if row.allowed is not None]
-    low, high = np.log10([min([*ends[:, 0], *limits]), max([*ends[:, 1], *limits])])
-    centres = np.log10(ends).mean(axis=1)
-    width = max(_LEAST_DECADES, 1.15 * (high - low), float(np.ptp(centres)) / (1.0 - _WORDS))
-    middle = 0.5 * (low + high)
-    # words may not leave the panel, and limits have theirs on the left
-    start = min(middle - 0.5 * width, centres.min() - 0.5 * _WORDS * width)
-    if limits:
-        start = min(start, float(np.log10(min(limits))) - 0.5 * width)
-    end = max(middle + 0.5 * width, centres.max() + 0.5 * _WORDS * width)
+    ends = np.log10(_ends(rows))
+    limits = np.log10([row.allowed for row in rows if row.allowed is not None])
+    centres = ends.mean(axis=1)
+    # what stands at a place of the axis, and the part of the panel that it takes to either side
+    places = [(ends.min(), _MARGIN), (ends.max(), _MARGIN), (centres.min(), _WORDS), (centres.max(), _WORDS)]
+    left = [*places, *((limit, _LIMIT_WORDS) for limit in limits)]
+    right = [*places, *((limit, _MARGIN) for limit in limits)]
+    width = max(
+        _LEAST_DECADES, *((far - near) / (1.0 - before - after) for near, before in left for far, after in right)
+    )
+    start, end = min(at - take * width for at, take in left), max(at + take * width for at, take in right)
+    spare = 0.5 * max(width - (end - start), 0.0)
+    start, end = start - spare, end + spare
     panel.set_xscale("log")
     panel.set_xlim(10.0**start, 10.0**end)
     panel.xaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0) if end - start < 2.0 else (1.0,)))
@@ -181,5 +183,5 @@ def _ends(rows: Sequence[UseError]) -> FloatArray:
         if row.before_at_least is not None and row.before_at_most is not None
     ]
     ends = np.array(pairs)
-    floor = 1e-3 * max(float(ends.max()), 1e-9)
-    return np.maximum(ends, floor)
+    above = ends[ends > 0.0]
+    return np.maximum(ends, 0.1 * above.min() if above.size else 1.0)
