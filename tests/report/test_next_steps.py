@@ -84,7 +84,8 @@ def test_where_there_is_no_verdict_the_reason_is_what_to_mend() -> None:
 
 def test_sentences_of_several_come_once_in_their_order() -> None:
     """Behind the names of some, by themselves for all."""
-    assert said_once([("a", "x"), ("b", "y"), ("b", "x"), ("a", "x")]) == ["x", "b: y"]
-    assert said_once([("a", "x")]) == ["x"]
+    assert said_once([("a", "x"), ("b", "y"), ("b", "x"), ("a", "x")], "ab") == ["x", "b: y"]
+    assert said_once([("a", "x")], "a") == ["x"]
+    assert said_once([("a", "x")], "ab") == ["a: x"], "the other is good"
     assert gathered([("a", 1), ("b", 1), ("a", 2)]) == [(("a", "b"), 1), (("a",), 2)]
     assert np.size(gathered([])) == 0

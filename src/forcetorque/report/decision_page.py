@@ -7,6 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from forcetorque.analysis import UseVerdict
 from forcetorque.calibration import Calibration
+from forcetorque.evaluation.use import CONFIDENCE
 from forcetorque.report import figures
 from forcetorque.report.document import Block, Figure, List, Place, Section, Tone, Verdict
 from forcetorque.report.next_steps import NextSteps
@@ -97,7 +98,7 @@ def _figure(uses: Sequence[UseVerdict], names: Mapping[str, str]) -> Iterator[Bl
     yield Figure(
         png=figures.use_figure(drawn, names),
         caption="How much readings are predicted to err, root mean square over the loads of the use. Before: with the "
-        f"matrix that the calibration came from. After: with the calibration. Loads of “{cases}.",
+        f"matrix that the calibration came from. After: with the calibration. Loads of “{cases}.{_beside(drawn)}",
         description=f"Predicted force and moment errors with the prior and after calibration: {sizes}.",
     )
 
@@ -105,13 +106,22 @@ def _figure(uses: Sequence[UseVerdict], names: Mapping[str, str]) -> Iterator[Bl
 def _other_reasons(uses: Sequence[UseVerdict], names: Mapping[str, str]) -> list[Block]:
     """Reasons that neither a sentence above nor a step has."""
     first = 1 if len(uses) <= _MOST_SENTENCES else 0
-    points = said_once(
+    reasons = (
         (names[verdict.candidate], reason.text)
         for verdict in uses
         for reason in verdict.reasons[first:]
         if reason.against is None or reason.remedy is not None
     )
+    points = said_once(reasons, names.values())
     return [List(points=tuple(points))] if points else []
+
+
+def _beside(uses: Sequence[UseVerdict]) -> str:
+    """That a picture of what is predicted does not show what was measured, where that decides."""
+    decided = any(
+        verdict.decision != "use" and verdict.within is not None and verdict.within >= CONFIDENCE for verdict in uses
+    )
+    return " What was measured speaks against the use where the picture does not: see the sentence." if decided else ""
 
 
 def _basis(calibrations: Mapping[str, Calibration], names: Mapping[str, str]) -> list[Block]:

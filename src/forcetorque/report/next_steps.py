@@ -47,8 +47,10 @@ def next_steps(
     names = short_names(list(calibrations))
     steps = [
         *_today(uses, names),
-        *said_once((names[verdict.candidate], step) for verdict in uses for step in _remedies(verdict)),
-        *said_once(_to_record(uses, calibrations, names)),
+        *said_once(
+            ((names[verdict.candidate], step) for verdict in uses for step in _remedies(verdict)), names.values()
+        ),
+        *said_once(_to_record(uses, calibrations, names), names.values()),
         *_plan(uses, files),
         *_begin(undecided, key[0], files, names),
         *_state_use(uses),

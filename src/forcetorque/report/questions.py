@@ -26,13 +26,13 @@ Question = tuple[str, Callable[[Assessment], Iterator[Block]]]
 
 def _errors(sensor: Assessment) -> Iterator[Block]:
     if sensor.evaluation:
-        errors = table_of(
+        table = table_of(
             sensor.evaluation,
             "Root mean square error (RMS) per component, by which the verdict goes; beside it the mean norm of the "
             "force and moment error with half of its 95 % interval, which is another number; "
             f"{sensor.evaluation[0].samples} samples",
         )
-        yield in_words(errors)
+        yield in_words(table)
     if sensor.independence:
         yield table_of(sensor.independence, "How many independent samples the errors are worth")
     judged = sensor.judged

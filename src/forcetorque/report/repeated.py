@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Iterable
+from collections.abc import Collection, Hashable, Iterable
 from typing import TypeVar
 
 _Said = TypeVar("_Said", bound=Hashable)
@@ -24,17 +24,17 @@ def gathered(said: Iterable[tuple[str, _Said]]) -> list[tuple[tuple[str, ...], _
     return [(tuple(names), what) for what, names in about.items()]
 
 
-def said_once(sentences: Iterable[tuple[str, str]]) -> list[str]:
+def said_once(sentences: Iterable[tuple[str, str]], everyone: Collection[str]) -> list[str]:
     """Say every sentence once.
 
     Args:
         sentences: Name of whom a sentence is about, and the sentence.
+        everyone: Names of all of whom something might be said.
 
     Returns:
-        A sentence by itself if it is about all of whom anything is said, else behind the names.
+        A sentence by itself if it is about everyone, else behind the names.
     """
-    pairs = list(sentences)
-    everyone = {name for name, _ in pairs}
     return [
-        sentence if set(names) == everyone else f"{', '.join(names)}: {sentence}" for names, sentence in gathered(pairs)
+        sentence if set(names) == set(everyone) else f"{', '.join(names)}: {sentence}"
+        for names, sentence in gathered(sentences)
     ]

@@ -84,7 +84,7 @@ class Report(Result):
         Returns:
             A line per sentence; without an experiment where all recordings of a sensor are judged together.
         """
-        decisions = [
+        decisions: list[dict[str, object]] = [
             {"experiment": None, "sensor": row.sensor, "serial": row.serial, "tone": row.tone, "text": row.text}
             for row in self._lines()
         ]
@@ -96,7 +96,8 @@ class Report(Result):
         ]
 
     def _lines(self) -> list[_Line]:
-        names = short_names([row.candidate for row in (*self.uses, *self.undecided) if row.candidate is not None])
+        unjudged = [row.candidate for row in self.undecided if row.candidate is not None]
+        names = short_names([*(row.candidate for row in self.uses), *unjudged])
         decided = [
             _Line(
                 sensor=row.sensor,

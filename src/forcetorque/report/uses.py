@@ -78,7 +78,8 @@ def sensor_keys(uses: Sequence[UseVerdict], undecided: Sequence[Undecided]) -> l
     Returns:
         Name and serial number of each, once.
     """
-    return list(dict.fromkeys((row.sensor, row.serial) for row in (*uses, *undecided)))
+    keys = [*((row.sensor, row.serial) for row in uses), *((row.sensor, row.serial) for row in undecided)]
+    return list(dict.fromkeys(keys))
 
 
 def sensor_key(run: SensorRun) -> SensorKey:
