@@ -51,7 +51,7 @@ from forcetorque.analysis.inspect import (
 from forcetorque.analysis.interval_quality import IntervalQuality
 from forcetorque.analysis.joint_torques import JointTorqueErrors, JointTorques, joint_torques
 from forcetorque.analysis.judged import JudgedWrenches
-from forcetorque.analysis.learnt import LITTLE_LEARNT, LearntDirection, learnt_directions, learnt_words
+from forcetorque.analysis.learnt import LITTLE_LEARNT, LearntDirection, learnt_directions, learnt_words, to_learn
 from forcetorque.analysis.loads_of_use import loads_of_use
 from forcetorque.analysis.payload import WeighedLoad, weigh_load
 from forcetorque.analysis.population import read_population
@@ -91,6 +91,7 @@ __all__ = [
     "LearntDirection",
     "learnt_directions",
     "learnt_words",
+    "to_learn",
     "recording_moments",
     "store_moments",
     "Acceptance",
