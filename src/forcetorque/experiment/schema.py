@@ -23,8 +23,8 @@ from forcetorque.calibration.generative import REPEATABILITY
 from forcetorque.constants import STANDARD_GRAVITY
 from forcetorque.errors import known_names
 from forcetorque.estimation import ContactType
+from forcetorque.exchange.formats import AnyLog
 from forcetorque.experiment.load_case_schema import LoadCaseTable
-from forcetorque.experiment.log_schema import Log
 from forcetorque.recording import Use
 from forcetorque.robot import SensorFrame
 from forcetorque.spatial import MeasureDirection
@@ -326,7 +326,7 @@ class ExperimentFile(Table):
     """The robot model; a wrist sensor has `load` instead."""
     load: Load | None = None
     """What hangs on a wrist sensor, in place of a robot."""
-    recording: Log
+    recording: AnyLog
     """Where the recording is."""
     sensor: Annotated[tuple[Sensor, ...], Field(min_length=1)]
     """Sensors."""
