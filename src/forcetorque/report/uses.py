@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from functools import partial
 
 from forcetorque.analysis import Campaign, Demands, SensorRun, UseVerdict, use_verdicts
-from forcetorque.analysis.evaluate import require_unseen
+from forcetorque.analysis.unseen import require_unseen
 from forcetorque.calibration import Calibration
 from forcetorque.errors import ForceTorqueError
 from forcetorque.recording import Use

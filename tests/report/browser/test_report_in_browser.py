@@ -55,7 +55,7 @@ def test_what_is_folded_opens_by_keyboard(visit: Visit, report: Path) -> None:
     """The page to decide by shows its picture; a table of errors is seen once its heading was opened."""
     page = _open(visit, report)
     assert page.locator("img").first.is_visible()
-    table = page.get_by_text("Root mean square error (RMS) per component")
+    table = page.get_by_text("mean error, by its own offset")
     assert not table.is_visible()
     page.locator("summary").first.focus()
     page.keyboard.press("Enter")
@@ -91,7 +91,7 @@ def test_it_prints(visit: Visit, report: Path) -> None:
     text = _letters(" ".join(sheet.extract_text() for sheet in printed.pages))
     assert _letters(page.locator(".verdict span").nth(1).inner_text()) in text
     assert _letters("The HTML file has a viewer here") in text
-    assert _letters("Root mean square error (RMS) per component") in text, "what is folded on the screen"
+    assert _letters("mean error, by its own offset") in text, "what is folded on the screen"
     page.emulate_media(media="screen")
     assert not page.get_by_text("The HTML file has a viewer here").is_visible()
 

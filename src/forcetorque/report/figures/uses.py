@@ -69,7 +69,7 @@ def use_figure(verdicts: Sequence[UseVerdict], names: Mapping[str, str]) -> byte
     legend_below(
         figure,
         _keys([row for verdict in verdicts for row in verdict.errors]),
-        title="mark: half of such sensors err less; line: 90 % of them; “at most”: 95 % err less",
+        title="mark: half of such sensors err less; line: 95 % of them; “at most”: its upper end",
         points=_POINTS,
     )
     return png_bytes(figure)
