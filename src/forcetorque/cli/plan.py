@@ -28,7 +28,7 @@ def plan(
     ] = None,
     sensor: Annotated[
         str | None,
-        typer.Option("--sensor", help="Sensor to plan for. Default: that of the calibration, or the only one."),
+        typer.Option("--sensor", help="Sensor to plan for. Default: that of the calibration."),
     ] = None,
     clearance_deg: Annotated[
         float | None,

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What is known of a sensor before anything is recorded with it: its prior matrix, and how far sensors differ from it."""
+"""What is known of a sensor before any recording: its prior matrix, and how far sensors differ from theirs."""
 
 from __future__ import annotations
 

@@ -2,8 +2,8 @@
 """What error a sensor will make at the loads of a use, as its posterior knows it: before the calibration and after.
 
 The error of a reading under a load w is linear in the unknowns u of the posterior: `T (u - mean of u) x` after, with
-x = [w, variables, offset of the session], and with the mean kept in and T = 1 for the prior matrix. Its mean square over
-the loads of a use is `d S d^T` for every component, with S = mean of x x^T: draws of u give its distribution exactly.
+x = [w, variables, offset of the session], and with the mean kept in and T = 1 for the prior matrix. Its mean square
+over the loads of a use is `d S d^T` for every component, with S = mean of x x^T: draws of u give its distribution exactly.
 """
 
 from __future__ import annotations
@@ -211,8 +211,8 @@ def moment_of_use(posterior: Posterior, case: LoadCase) -> FloatArray:
     absent = [name for name in case.changes if name not in posterior.variables]
     if absent:
         raise FitError(
-            f"load case {case.name!r}: expected changes of {', '.join(posterior.variables) or 'no variable'}, which the "
-            f"calibration has, got {', '.join(absent)}; fit the variable or leave it out"
+            f"load case {case.name!r}: expected changes of {', '.join(posterior.variables) or 'no variable'}, which "
+            f"the calibration has, got {', '.join(absent)}; fit the variable or leave it out"
         )
     x = np.zeros((len(case.wrench), posterior.mean.shape[1]))
     x[:, :6] = case.wrench
