@@ -3,7 +3,8 @@
 
 The error of a reading under a load w is linear in the unknowns u of the posterior: `T (u - mean of u) x` after, with
 x = [w, variables, offset of the session], and with the mean kept in and T = 1 for the prior matrix. Its mean square
-over the loads of a use is `d S d^T` for every component, with S = mean of x x^T: draws of u give its distribution exactly.
+over the loads of a use is `d S d^T` for every component, d a row of the unknowns and S the mean of x x^T: draws of u
+give its distribution exactly.
 """
 
 from __future__ import annotations
