@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
@@ -17,11 +17,12 @@ from forcetorque.analysis.plan_rows import PlannedPosture, PlannedRecording, pos
 from forcetorque.analysis.plan_words import advice, limits_of, posture_tables, recordings_table
 from forcetorque.analysis.plan_workplace import Workplace, supports_of, workplaces
 from forcetorque.analysis.sensor_run import SensorRun
+from forcetorque.arrays import FloatArray
 from forcetorque.calibration import Calibration
 from forcetorque.calibration.generative import ACCURACY_SHARE, Assumptions
 from forcetorque.calibration.posterior import Posterior
 from forcetorque.errors import ExperimentError, FitError, known_names
-from forcetorque.evaluation.planning import Criterion, unfitted_posterior
+from forcetorque.evaluation.planning import Criterion, Nuisance, unfitted_posterior
 from forcetorque.evaluation.use import LoadCase, PredictedError, predict, predict_by, predict_unfitted
 from forcetorque.experiment.plan_schema import PlanTable
 from forcetorque.result import Result, Table
@@ -112,6 +113,7 @@ def plan(
         seconds=_seconds(seconds, table),
         hold_s=table.hold_s,
         seconds_before=start.seconds,
+        nuisance=start.nuisance,
         effort=effort or Effort(),
     )
     places = workplaces(start.runs[0], table, _clearance(table, clearance_deg), supports_of(start.runs, table))
@@ -125,7 +127,7 @@ def plan(
         proposals.append(best)
         rows.append(recording_row(number, best, before, after, start.case))
         known, before = best.after, after
-        demand = _later(demand, best)
+        demand = replace(demand, seconds_before=demand.seconds_before + best.trajectory.duration_s)
     return Plan(
         sensor=start.runs[0].sensor.name,
         serial=start.runs[0].sensor.serial,
@@ -166,12 +168,15 @@ class _Start:
     case: LoadCase
     error: PredictedError
     seconds: float
+    nuisance: Nuisance
 
 
 def _start(runs: Runs, calibration: Calibration | None, load_case: str | None) -> _Start:
     own = _runs(runs)
+    variables = [variable.linear for variable in own[0].sensor.variables]
     if calibration is None:
-        posterior, seconds, matrix = _unfitted(own[0]), 0.0, None
+        matrix, assumptions = _assumed(own[0], None)
+        posterior, seconds = unfitted_posterior(matrix, assumptions, variables), 0.0
     else:
         calibration.require_serial(own[0].sensor.serial)
         if calibration.posterior is None:
@@ -179,12 +184,20 @@ def _start(runs: Runs, calibration: Calibration | None, load_case: str | None) -
                 f"a plan needs a calibration with a covariance, got one of type {calibration.estimation_type!r}; fit "
                 "it by the generative model, the default of `forcetorque calibrate`, or leave it out"
             )
-        posterior, matrix = calibration.posterior, calibration.matrix
+        matrix, assumptions = _assumed(own[0], calibration)
+        posterior = calibration.posterior
         seconds = sum(span.end_ns - span.start_ns for span in calibration.provenance.intervals) * 1e-9
-    cases = loads_of_use(own, matrix=matrix)
+    cases = loads_of_use(own, matrix=None if calibration is None else calibration.matrix)
     errors = [_before(calibration, posterior, case) for case in cases]
     place = _chosen(cases, errors, load_case)
-    return _Start(runs=own, posterior=posterior, case=cases[place], error=errors[place], seconds=seconds)
+    return _Start(
+        runs=own,
+        posterior=posterior,
+        case=cases[place],
+        error=errors[place],
+        seconds=seconds,
+        nuisance=Nuisance.of(matrix, assumptions, with_prior=posterior.space == "wrench"),
+    )
 
 
 def _before(calibration: Calibration | None, posterior: Posterior, case: LoadCase) -> PredictedError:
@@ -209,22 +222,23 @@ def _excess(case: LoadCase, error: PredictedError) -> float:
     return max(error.force.typical / force, error.moment.typical / moment)
 
 
-def _unfitted(run: SensorRun) -> Posterior:
+def _assumed(run: SensorRun, calibration: Calibration | None) -> tuple[FloatArray, Assumptions]:
+    """The matrix before any recording, that of the calibration without one, and what is known beside it."""
     sensor, options = run.sensor, run.experiment.fit_options
-    scale = sensor.full_scale
-    if sensor.prior is not None and sensor.prior_source != "identity":
-        matrix, scale = sensor.prior, np.full(sensor.prior.shape[1], sensor.limit_counts)
-    else:
-        matrix = np.eye(6)
-        if scale is None and options.accuracy is not None and (options.accuracy > 0.0).all():
-            scale = options.accuracy / ACCURACY_SHARE
+    matrix, scale = sensor.prior, sensor.full_scale
+    if matrix is None and calibration is not None:
+        matrix = calibration.matrix
+    if matrix is not None and sensor.prior_source != "identity":
+        scale = np.full(matrix.shape[1], sensor.limit_counts)
+    elif scale is None and options.accuracy is not None and (options.accuracy > 0.0).all():
+        scale = options.accuracy / ACCURACY_SHARE
     if scale is None:
         raise ExperimentError(
             f"sensor {sensor.name!r}: expected a prior matrix or full_scale of [[sensor]], by which to say what is "
             "known before any recording; or name a calibration"
         )
     assumptions = Assumptions(full_scale=scale, accuracy=options.accuracy, repeatability=options.repeatability)
-    return unfitted_posterior(matrix, assumptions, [variable.linear for variable in sensor.variables])
+    return np.eye(6) if matrix is None else matrix, assumptions
 
 
 def _runs(runs: Runs) -> Sequence[SensorRun]:
@@ -300,13 +314,3 @@ def _best(
     if best is None:
         raise ExperimentError("plan: nothing can be recorded")
     return best
-
-
-def _later(demand: Demand, made: Proposal) -> Demand:
-    return Demand(
-        criterion=demand.criterion,
-        seconds=demand.seconds,
-        hold_s=demand.hold_s,
-        seconds_before=demand.seconds_before + made.trajectory.duration_s,
-        effort=demand.effort,
-    )

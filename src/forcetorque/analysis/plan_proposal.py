@@ -10,7 +10,7 @@ import numpy as np
 from forcetorque.analysis.plan_workplace import Workplace
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration.posterior import Posterior
-from forcetorque.evaluation.planning import Choices, Criterion, Lesson, pick, taught
+from forcetorque.evaluation.planning import Choices, Criterion, Lesson, Nuisance, pick, taught
 from forcetorque.noise import means_over
 from forcetorque.robot import JointMotion
 from forcetorque.simulation.motions import Waypoints
@@ -47,6 +47,8 @@ class Demand:
     """How long the robot rests at every posture; s."""
     seconds_before: float
     """How much was fitted so far; s."""
+    nuisance: Nuisance
+    """Quadratic terms that a fit has to tell from the matrix."""
     effort: Effort
     """How long to look for it."""
 
@@ -130,9 +132,10 @@ def _proposal(
     temperature: tuple[float, float] | None,
     postures: FloatArray,
 ) -> Proposal:
-    trajectory = place.stand.through(postures, hold_s=demand.hold_s)
+    moved = np.append(True, np.abs(np.diff(postures, axis=0)).max(axis=1) > 0.0)
+    trajectory = place.stand.through(postures[moved], hold_s=demand.hold_s)
     lesson = lesson_of(place, posterior, trajectory, temperature)
-    after = taught(posterior, lesson, seconds_before=demand.seconds_before)
+    after = taught(posterior, lesson, seconds_before=demand.seconds_before, nuisance=demand.nuisance)
     return Proposal(
         place=place,
         temperature=temperature,

@@ -17,11 +17,11 @@ from forcetorque.spatial import WRENCH_COMPONENTS
 
 HELPS = 0.05
 """Part by which a recording lowers an error at least, to be called a help."""
-_STAYS = 0.5
-"""Share of the prior's uncertainty that is left of a load direction that no recording teaches."""
+_STAYS = 0.7
+"""Share of the prior's uncertainty of a load direction from which it counts as not taught."""
 _MATTERS = 0.1
-"""Part of the error that such a direction makes at least, to be named."""
-_SPAN = 0.02
+"""Part that such a direction makes of what is left, or of what is allowed where that is more, to be named."""
+_SPAN = 1e-3
 """Share of the largest change of load below which a direction counts as not loaded."""
 _SEED, _DRAWN = 3, 200
 
@@ -130,7 +130,10 @@ def limits_of(*, calibrated: bool, posterior: Posterior) -> tuple[str, ...]:
         "not checked: whether the robot touches itself, the floor or anything else, and whether it keeps its balance; "
         "play every motion slowly, or in a simulator, first"
     )
-    model = "quadratic terms and what differentiation flattens are left out of what a recording is expected to teach"
+    model = (
+        "of what a recording is expected to teach, its own quadratic terms are taken off; what differentiation flattens "
+        "is left out"
+    )
     if calibrated:
         return unchecked, model
     drift = max(ASSUMED_DRIFT, max(row.white * row.ratio**0.5 / row.white for row in posterior.noise) * ASSUMED_NOISE)
@@ -151,20 +154,21 @@ def _temperature(row: PlannedRecording) -> str:
 def _left(before: Posterior, after: Posterior, criterion: Criterion, places: Sequence[Workplace]) -> str:
     """Load directions of the use that stay with the prior, and how many directions the loads span at all."""
     shares, known = criterion.shares(after), criterion.shares(before)
-    total = float(shares.sum())
+    total = max(float(shares.sum()), 1.0)
     stays = [
         name
         for name, share, prior in zip(WRENCH_COMPONENTS, shares, known, strict=True)
         if share > _MATTERS * total and np.sqrt(share / prior) > _STAYS
     ]
-    rank = _rank(places)
     if not stays:
         return ""
-    spanned = f": the loads within these limits span {rank} of 6 directions" if rank < 6 else ""
-    return (
-        f"; {', '.join(stays)} {'stays' if len(stays) == 1 else 'stay'} with the prior{spanned}; a tool with its "
-        "centre of mass elsewhere would load what is left"
-    )
+    verb, rank = "stays" if len(stays) == 1 else "stay", _rank(places)
+    if rank < len(WRENCH_COMPONENTS):
+        return (
+            f"; {', '.join(stays)} {verb} with the prior: the loads within these limits span {rank} of 6 directions, a "
+            "tool with its centre of mass elsewhere would load what is left"
+        )
+    return f"; {', '.join(stays)} {verb} with the prior: a heavier tool, or more recordings, would tell"
 
 
 def _rank(places: Sequence[Workplace]) -> int:

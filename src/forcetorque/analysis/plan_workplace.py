@@ -62,11 +62,11 @@ class Workplace:
         """Draw postures: the rest first, then as many with every joint anywhere as with every joint at an end.
 
         Args:
-            count: How many.
+            count: How many to draw.
             rng: Source of them.
 
         Returns:
-            Postures of all free joints; shape (count, j); rad or m.
+            Postures of all free joints, each once; shape (k, j), k at most count; rad or m.
         """
         low, high = np.array([self.stand.range_of(joint) for joint in self.moved]).T
         share = rng.uniform(size=(count, len(self.moved)))
@@ -74,7 +74,8 @@ class Workplace:
         drawn = np.tile(self.stand.rest, (count, 1))
         drawn[:, self.stand.columns(self.moved)] = low + share * (high - low)
         drawn[0] = self.stand.rest
-        return drawn
+        _, first = np.unique(drawn, axis=0, return_index=True)
+        return drawn[np.sort(first)]
 
 
 def workplaces(run: SensorRun, table: PlanTable, clearance_deg: float, supports: Sequence[Support]) -> list[Workplace]:

@@ -3,7 +3,7 @@
 
 from forcetorque.evaluation.planning.before import ASSUMED_DRIFT, ASSUMED_NOISE, unfitted_posterior
 from forcetorque.evaluation.planning.criterion import Criterion
-from forcetorque.evaluation.planning.lesson import Lesson, taught
+from forcetorque.evaluation.planning.lesson import Lesson, Nuisance, taught
 from forcetorque.evaluation.planning.picking import Choices, pick
 
 __all__ = [
@@ -12,6 +12,7 @@ __all__ = [
     "Choices",
     "Criterion",
     "Lesson",
+    "Nuisance",
     "pick",
     "taught",
     "unfitted_posterior",

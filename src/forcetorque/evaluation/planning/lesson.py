@@ -2,8 +2,9 @@
 """What a recording that is yet to be made would teach.
 
 Its loads are known, so that its information is: per row of the posterior `X^T N^-1 X`, with the noise that the row has,
-means over a second, and an offset of its own that nobody knows. Quadratic terms and what derivative windows flatten,
-which a fit finds beside the matrix, are left out; the share by which a sensor does not repeat itself stays as it is.
+means over a second, and an offset of its own that nobody knows. Quadratic terms, which a fit finds beside the matrix,
+are found anew in every recording; what derivative windows flatten is left out; the share by which a sensor does not
+repeat itself stays as it is.
 """
 
 from __future__ import annotations
@@ -13,7 +14,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from forcetorque.arrays import FloatArray, read_only
+from forcetorque.calibration.generative.assumptions import QUADRATIC, Assumptions
+from forcetorque.calibration.generative.rows import rows_of
 from forcetorque.calibration.posterior import Posterior, RowNoise
+from forcetorque.calibration.quadratic_correction import quadratic_terms
 from forcetorque.noise import SlowNoise, Timeline
 
 _SESSION = "planned"
@@ -43,30 +47,78 @@ class Lesson:
         return np.hstack([self.wrench, self.variables])
 
 
-def taught(posterior: Posterior, lesson: Lesson, *, seconds_before: float) -> Posterior:
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Nuisance:
+    """Quadratic terms, which a fit has to tell from the matrix."""
+
+    load_to_full_scale: FloatArray
+    """Share of full scale that a load makes of six independent readings; shape (6, 6)."""
+    deviation: FloatArray
+    """What each of the 21 products of these may add to a row, as a standard deviation; shape (rows,)."""
+
+    @classmethod
+    def of(cls, matrix: FloatArray, assumptions: Assumptions, *, with_prior: bool) -> Nuisance:
+        """Take what the generative model takes for granted.
+
+        Args:
+            matrix: Matrix of the sensor; shape (6, c).
+            assumptions: What is known beside it.
+            with_prior: Whether the posterior is that of a sensor with a prior matrix.
+
+        Returns:
+            The terms.
+        """
+        rows = rows_of(matrix, assumptions, with_prior=with_prior)
+        return cls(load_to_full_scale=rows.load_to_full_scale, deviation=QUADRATIC.expected * rows.unit)
+
+    def columns(self, wrench: FloatArray) -> FloatArray:
+        """Compute the products about the mean load.
+
+        Args:
+            wrench: Loads; shape (n, 6); N, N m.
+
+        Returns:
+            Products; shape (n, 21).
+        """
+        shares = wrench @ self.load_to_full_scale.T
+        return quadratic_terms(shares - shares.mean(axis=0))
+
+
+def taught(
+    posterior: Posterior, lesson: Lesson, *, seconds_before: float, nuisance: Nuisance | None = None
+) -> Posterior:
     """Add a recording to what is known.
 
     Args:
         posterior: What is known of the sensor.
         lesson: The recording.
         seconds_before: How much was fitted so far, which its mean load is of; s.
+        nuisance: Quadratic terms; None for a sensor that is known to have none.
 
     Returns:
         What would be known after it; its offset is that of the recording.
     """
     rows, used = len(posterior.mean), 6 + len(posterior.variables)
-    line, mean = Timeline.of(lesson.time_s), lesson.columns.mean(axis=0)
-    products = {shape: _product(line, lesson.columns - mean, shape) for shape in set(map(_shape, posterior.noise))}
+    line, columns = Timeline.of(lesson.time_s), lesson.columns
+    deviation = np.zeros((rows, 0))
+    if nuisance is not None:
+        terms = nuisance.columns(lesson.wrench)
+        columns, deviation = np.hstack([columns, terms]), np.repeat(nuisance.deviation[:, None], terms.shape[1], axis=1)
+    mean = columns.mean(axis=0)
+    products = {shape: _product(line, columns - mean, shape) for shape in set(map(_shape, posterior.noise))}
     repeated = posterior.covariance[:, :6, :6] - posterior.learnt_covariance
     covariance = np.zeros((rows, used + 1, used + 1))
     learnt = np.empty((rows, 6, 6))
     for k, noise in enumerate(posterior.noise):
         information, weighed, worth = products[_shape(noise)]
         variance = max(noise.white, _LEAST_NOISE) ** 2
-        known = posterior.covariance[k, :used, :used].copy()
+        known = np.zeros((len(mean), len(mean)))
+        known[:used, :used] = posterior.covariance[k, :used, :used]
         known[:6, :6] = posterior.learnt_covariance[k]
+        known[used:, used:] = np.diag(deviation[k] ** 2)
         after = _narrowed(known, information / variance)
-        turned = np.vstack([np.eye(used), -(mean + weighed)])  # from the unknowns to them and the offset
+        # from the unknowns to those that are kept and the offset
+        turned = np.vstack([np.eye(used, len(mean)), -(mean + weighed)])
         covariance[k] = turned @ after @ turned.T
         covariance[k, used, used] += variance / worth
         learnt[k] = after[:6, :6]
