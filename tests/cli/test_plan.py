@@ -50,14 +50,13 @@ def test_a_plan_is_shown_and_written(run: Run, arm: Path, limited: str) -> None:
 
 
 def test_the_clearance_may_be_typed_and_must_be_somewhere(run: Run, arm: Path) -> None:
-    """Without one nothing is planned; the smaller the clearance, the further joints may go."""
+    """Without one nothing is planned; with one joints keep that away from their limits of 172 and 149 degrees."""
     assert "expected a clearance from the joint limits" in run("plan", PARQUET).error()
     words = ("plan", PARQUET, "--recordings", "1", "--seconds", "20", "--format", "json", "--clearance-deg")
-    ends = []
-    for clearance in ("1", "60"):
-        postures = run(*words, clearance).result()["postures"]
-        ends.append(max(abs(posture["positions"]["shoulder_roll"]) for posture in postures))
-    assert ends[1] <= 172.0 - 60.0 < ends[0] or ends[1] < ends[0]
+    limits = {"shoulder_pitch": 171.9, "shoulder_roll": 171.9, "elbow": 149.0, "wrist": 149.0}
+    for posture in run(*words, "140").result()["postures"]:
+        for joint, position in posture["positions"].items():
+            assert abs(position) <= limits[joint] - 140.0
 
 
 def test_a_file_without_a_recording_is_planned_and_nothing_else(run: Run, arm: Path) -> None:

@@ -29,7 +29,7 @@ class PlannedRecording(Row):
     """Temperature at the end."""
     postures: Annotated[int, Shown("postures")]
     """Number of postures, rest at start and end included."""
-    seconds: Annotated[float, Shown("", "s", digits=0)]
+    seconds: Annotated[float, Shown("time", "s", digits=0)]
     """How long it takes."""
     force_before_N: Annotated[float, Shown("force before", "N", digits=2)]
     """Predicted force error before it, typically: root mean square over the loads."""

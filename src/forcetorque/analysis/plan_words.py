@@ -112,8 +112,16 @@ def advice(
         f"record first {first.postures} postures in {first.seconds:.0f} s, held at {first.support}, {attached}{warm}: "
         f"{first.force_before_N:.3g} N and {first.moment_before_Nm:.3g} N m become {first.force_after_N:.3g} N "
         f"(at most {first.force_after_at_most_N:.3g}) and {first.moment_after_Nm:.3g} N m (at most "
-        f"{first.moment_after_at_most_Nm:.3g}){left}"
+        f"{first.moment_after_at_most_Nm:.3g}){_in_the_end(rows)}{left}"
     )
+
+
+def _in_the_end(rows: Sequence[PlannedRecording]) -> str:
+    """What all recordings come to, where there are several."""
+    last = rows[-1]
+    if len(rows) == 1:
+        return ""
+    return f"; after all {len(rows)} it is {last.force_after_N:.3g} N and {last.moment_after_Nm:.3g} N m"
 
 
 def limits_of(*, calibrated: bool, posterior: Posterior) -> tuple[str, ...]:
@@ -131,8 +139,8 @@ def limits_of(*, calibrated: bool, posterior: Posterior) -> tuple[str, ...]:
         "play every motion slowly, or in a simulator, first"
     )
     model = (
-        "of what a recording is expected to teach, its own quadratic terms are taken off; what differentiation flattens "
-        "is left out"
+        "what a recording is expected to teach leaves room for quadratic terms of its own, and none for what "
+        "differentiation flattens"
     )
     if calibrated:
         return unchecked, model

@@ -43,7 +43,7 @@ def plan(
 ) -> None:
     """Say what to record next to lower the error at the loads of use.
 
-    Example: forcetorque plan experiment.toml -c right_leg.json --clearance-deg 10 -o next
+    Example: forcetorque plan experiment.toml -c right_leg.json -o next
     """
     from forcetorque import analysis
     from forcetorque.calibration import read_calibration
