@@ -16,7 +16,7 @@ from forcetorque.analysis.plan_proposal import Demand, Effort, propose
 from forcetorque.analysis.plan_workplace import Workplace, supports_of, workplaces
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration.generative import Assumptions, GenerativeFit
-from forcetorque.evaluation.planning import Criterion, Nuisance
+from forcetorque.evaluation.planning import Criterion, Knowledge, Nuisance
 from forcetorque.evaluation.use import LoadCase, PredictedError, predict_by
 from forcetorque.experiment.plan_schema import PlanTable
 from forcetorque.simulation.motions import Movement, MovementKind
@@ -154,7 +154,7 @@ def leg_errors(folder: Path, seeds: Sequence[int]) -> dict[tuple[str, str], Erro
             planned = plan(run, load_case=case.name, recordings=3, seconds=leg.seconds / 3.0)
             for k, fit in enumerate(_followed(planned, LEG, specimen, seed), start=1):
                 judge(f"plan for {case.name}, {k}", fit, specimen, cases)
-                stated = predict_by(planned.proposals[k - 1].after, case)
+                stated = predict_by(planned.proposals[k - 1].after.posterior, case)
                 true = true_error(fit.model.matrix, specimen, case)
                 errors.setdefault((f"stated, {k}", case.name), Errors()).add(true, stated)
     return errors
@@ -182,7 +182,9 @@ def arm_errors(folder: Path, seeds: Sequence[int]) -> dict[tuple[str, int], Erro
             planned = plan(run, recordings=3, seconds=40.0)
             for k, fit in enumerate(_followed(planned, ARM, specimen, seed), start=1):
                 true = true_error(fit.model.matrix, specimen, case)
-                errors.setdefault((name, k), Errors()).add(true, predict_by(planned.proposals[k - 1].after, case))
+                errors.setdefault((name, k), Errors()).add(
+                    true, predict_by(planned.proposals[k - 1].after.posterior, case)
+                )
     return errors
 
 
@@ -201,15 +203,13 @@ def next_errors(folder: Path, seeds: Sequence[int], changes: Mapping[str, Any], 
             criterion=Criterion(case=case),
             seconds=60.0,
             hold_s=1.0,
-            seconds_before=68.0,
-            nuisance=_nuisance(specimen),
             effort=Effort(),
         )
-        best = propose(place, known, demand, None)
+        best = propose(place, Knowledge.of(known, seconds=68.0, nuisance=_nuisance(specimen)), demand, None)
         movement = place.stand.movement("next", MovementKind.GRID, best.trajectory, best.trajectory.duration_s)
         data = Motion.of(movement, LEG, number=100, power_up=100).recorded(LEG, specimen, seed)
         fit = calibrated([grid, data], specimen, repeatability=repeatability)
-        errors.add(true_error(fit.model.matrix, specimen, case), predict_by(best.after, case))
+        errors.add(true_error(fit.model.matrix, specimen, case), predict_by(best.after.posterior, case))
     return errors
 
 

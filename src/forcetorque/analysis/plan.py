@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
@@ -22,7 +22,7 @@ from forcetorque.calibration import Calibration
 from forcetorque.calibration.generative import ACCURACY_SHARE, Assumptions
 from forcetorque.calibration.posterior import Posterior
 from forcetorque.errors import ExperimentError, FitError, known_names
-from forcetorque.evaluation.planning import Criterion, Nuisance, unfitted_posterior
+from forcetorque.evaluation.planning import Criterion, Knowledge, Nuisance, unfitted_posterior
 from forcetorque.evaluation.use import LoadCase, PredictedError, predict, predict_by, predict_unfitted
 from forcetorque.experiment.plan_schema import PlanTable
 from forcetorque.result import Result, Table
@@ -112,32 +112,29 @@ def plan(
         criterion=Criterion(case=start.case),
         seconds=_seconds(seconds, table),
         hold_s=table.hold_s,
-        seconds_before=start.seconds,
-        nuisance=start.nuisance,
         effort=effort or Effort(),
     )
     places = workplaces(start.runs[0], table, _clearance(table, clearance_deg), supports_of(start.runs, table))
-    known, before = start.posterior, start.error
+    known, before = start.known, start.error
     proposals: list[Proposal] = []
     rows: list[PlannedRecording] = []
     for number in range(1, recordings + 1):
         progress(f"planning recording {number}")
-        best = _best(places, known, demand, _temperatures(table, start, known))
-        after = predict_by(best.after, start.case)
+        best = _best(places, known, demand, _temperatures(table, start))
+        after = predict_by(best.after.posterior, start.case)
         proposals.append(best)
         rows.append(recording_row(number, best, before, after, start.case))
         known, before = best.after, after
-        demand = replace(demand, seconds_before=demand.seconds_before + best.trajectory.duration_s)
     return Plan(
         sensor=start.runs[0].sensor.name,
         serial=start.runs[0].sensor.serial,
         load_case=start.case.name,
         loads=start.case.words,
         start="prior" if calibration is None else "calibration",
-        advice=advice(rows, start.posterior, known, demand.criterion, places),
+        advice=advice(rows, start.known.posterior, known.posterior, demand.criterion, places),
         recordings=tuple(rows),
         postures=tuple(row for k, one in enumerate(proposals, 1) for row in posture_rows(k, one)),
-        limits=limits_of(calibrated=calibration is not None, posterior=start.posterior),
+        limits=limits_of(calibrated=calibration is not None, posterior=start.known.posterior),
         proposals=tuple(proposals),
     )
 
@@ -164,11 +161,9 @@ class _Start:
     """What is known before."""
 
     runs: Sequence[SensorRun]
-    posterior: Posterior
+    known: Knowledge
     case: LoadCase
     error: PredictedError
-    seconds: float
-    nuisance: Nuisance
 
 
 def _start(runs: Runs, calibration: Calibration | None, load_case: str | None) -> _Start:
@@ -190,14 +185,9 @@ def _start(runs: Runs, calibration: Calibration | None, load_case: str | None) -
     cases = loads_of_use(own, matrix=None if calibration is None else calibration.matrix)
     errors = [_before(calibration, posterior, case) for case in cases]
     place = _chosen(cases, errors, load_case)
-    return _Start(
-        runs=own,
-        posterior=posterior,
-        case=cases[place],
-        error=errors[place],
-        seconds=seconds,
-        nuisance=Nuisance.of(matrix, assumptions, with_prior=posterior.space == "wrench"),
-    )
+    nuisance = Nuisance.of(matrix, assumptions, with_prior=posterior.space == "wrench")
+    known = Knowledge.of(posterior, seconds=seconds, nuisance=nuisance)
+    return _Start(runs=own, known=known, case=cases[place], error=errors[place])
 
 
 def _before(calibration: Calibration | None, posterior: Posterior, case: LoadCase) -> PredictedError:
@@ -284,12 +274,12 @@ def _seconds(seconds: float, table: PlanTable) -> float:
     return seconds
 
 
-def _temperatures(table: PlanTable, start: _Start, posterior: Posterior) -> list[tuple[float, float] | None]:
+def _temperatures(table: PlanTable, start: _Start) -> list[tuple[float, float] | None]:
     """A recording at the first of the temperatures, and one from the lowest to the highest."""
     values = table.temperatures
     if not values:
         return [None]
-    if TEMPERATURE not in posterior.variables:
+    if TEMPERATURE not in start.known.posterior.variables:
         raise ExperimentError(
             f"plan: temperatures: sensor {start.runs[0].sensor.name!r} was fitted without the variable "
             f"{TEMPERATURE!r}; add a [[sensor.variable]] of that name, or leave them out"
@@ -300,7 +290,7 @@ def _temperatures(table: PlanTable, start: _Start, posterior: Posterior) -> list
 
 def _best(
     places: Sequence[Workplace],
-    known: Posterior,
+    known: Knowledge,
     demand: Demand,
     temperatures: Sequence[tuple[float, float] | None],
 ) -> Proposal:

@@ -10,7 +10,7 @@ import numpy as np
 from forcetorque.analysis.plan_workplace import Workplace
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration.posterior import Posterior
-from forcetorque.evaluation.planning import Choices, Criterion, Lesson, Nuisance, pick, taught
+from forcetorque.evaluation.planning import Choices, Criterion, Knowledge, Lesson, pick
 from forcetorque.noise import means_over
 from forcetorque.robot import JointMotion
 from forcetorque.simulation.motions import Waypoints
@@ -45,10 +45,6 @@ class Demand:
     """How long it may take; s."""
     hold_s: float
     """How long the robot rests at every posture; s."""
-    seconds_before: float
-    """How much was fitted so far; s."""
-    nuisance: Nuisance
-    """Quadratic terms that a fit has to tell from the matrix."""
     effort: Effort
     """How long to look for it."""
 
@@ -63,20 +59,18 @@ class Proposal:
     """Temperature at the start and at the end; None where none was stated; degC."""
     trajectory: Waypoints
     """The motion of all free joints, from rest to rest."""
-    after: Posterior
+    after: Knowledge
     """What is known after it."""
     value: float
     """The criterion after it."""
 
 
-def propose(
-    place: Workplace, posterior: Posterior, demand: Demand, temperature: tuple[float, float] | None
-) -> Proposal:
+def propose(place: Workplace, known: Knowledge, demand: Demand, temperature: tuple[float, float] | None) -> Proposal:
     """Find a recording that teaches much at a workplace.
 
     Args:
         place: The workplace.
-        posterior: What is known.
+        known: What is known.
         demand: What is wanted.
         temperature: Temperature at the start and at the end.
 
@@ -86,8 +80,8 @@ def propose(
     rng = np.random.default_rng(_SEED)
     drawn = place.postures(demand.effort.postures, rng)
     loads = place.loads(JointMotion.at_rest(place.stand.joints, drawn))
-    columns = np.hstack([loads, _variables(posterior, temperature, np.zeros(len(loads)))])
-    centred = _with_centre(posterior, loads, demand)
+    columns = np.hstack([loads, _variables(known.posterior, temperature, np.zeros(len(loads)))])
+    centred = _with_centre(known, loads, demand)
     choices = Choices(
         columns=columns,
         travel_s=lambda start: _travel(place, drawn[start], drawn) + demand.hold_s,
@@ -95,9 +89,9 @@ def propose(
         seconds=demand.seconds - demand.hold_s,
     )
     orders = [pick(centred, demand.criterion, choices, haste=haste) for haste in _HASTES]
-    best = min((_proposal(place, posterior, demand, temperature, drawn[order]) for order in orders), key=_value)
+    best = min((_proposal(place, known, demand, temperature, drawn[order]) for order in orders), key=_value)
     for _ in range(demand.effort.swaps):
-        other = _proposal(place, posterior, demand, temperature, _changed(best.trajectory.postures, drawn, rng))
+        other = _proposal(place, known, demand, temperature, _changed(best.trajectory.postures, drawn, rng))
         if other.trajectory.duration_s <= demand.seconds and other.value < best.value:
             best = other
     return best
@@ -127,21 +121,21 @@ def lesson_of(
 
 def _proposal(
     place: Workplace,
-    posterior: Posterior,
+    known: Knowledge,
     demand: Demand,
     temperature: tuple[float, float] | None,
     postures: FloatArray,
 ) -> Proposal:
     moved = np.append(True, np.abs(np.diff(postures, axis=0)).max(axis=1) > 0.0)
     trajectory = place.stand.through(postures[moved], hold_s=demand.hold_s)
-    lesson = lesson_of(place, posterior, trajectory, temperature)
-    after = taught(posterior, lesson, seconds_before=demand.seconds_before, nuisance=demand.nuisance)
+    lesson = lesson_of(place, known.posterior, trajectory, temperature)
+    after = known.taught(lesson)
     return Proposal(
         place=place,
         temperature=temperature,
         trajectory=trajectory,
         after=after,
-        value=demand.criterion.value(after),
+        value=demand.criterion.value(after.posterior),
     )
 
 
@@ -180,8 +174,8 @@ def _variables(posterior: Posterior, temperature: tuple[float, float] | None, sh
     return values
 
 
-def _with_centre(posterior: Posterior, loads: FloatArray, demand: Demand) -> Posterior:
+def _with_centre(known: Knowledge, loads: FloatArray, demand: Demand) -> Posterior:
     """What is known, with the mean load that it would have after a recording in postures like these."""
-    before, seconds = demand.seconds_before, demand.seconds
-    centre = (before * posterior.load_centre + seconds * loads.mean(axis=0)) / (before + seconds)
-    return posterior.model_copy(update={"load_centre": centre})
+    before, seconds = known.seconds, demand.seconds
+    centre = (before * known.posterior.load_centre + seconds * loads.mean(axis=0)) / (before + seconds)
+    return known.posterior.model_copy(update={"load_centre": centre})

@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -10,7 +12,15 @@ from forcetorque.arrays import FloatArray
 from forcetorque.calibration import LinearVariable
 from forcetorque.calibration.generative import Assumptions
 from forcetorque.calibration.posterior import Posterior
-from forcetorque.evaluation.planning import Choices, Criterion, Lesson, pick, taught, unfitted_posterior
+from forcetorque.evaluation.planning import (
+    Choices,
+    Criterion,
+    Knowledge,
+    Lesson,
+    Nuisance,
+    pick,
+    unfitted_posterior,
+)
 from forcetorque.evaluation.use import LoadCase, UseOffset, moment_of_use, predict_by, predict_unfitted, pushes_within
 
 RNG = np.random.default_rng(5)
@@ -48,7 +58,7 @@ def _written_out(before: Posterior, lesson: Lesson, row: int) -> FloatArray:
 def test_a_lesson_teaches_what_the_covariance_written_out_says(before: Posterior) -> None:
     """Matrix, temperature and offset, each with its covariance; repeatability is added about the mean load."""
     lesson = _lesson(LOADS)
-    after = taught(before, lesson, seconds_before=0.0)
+    after = Knowledge.of(before).taught(lesson).posterior
     repeated = before.covariance[:, :6, :6] - before.learnt_covariance
     mean = lesson.wrench.mean(axis=0)
     turned = np.vstack([np.eye(6), np.zeros((1, 6)), -mean])
@@ -63,20 +73,27 @@ def test_a_lesson_teaches_what_the_covariance_written_out_says(before: Posterior
     np.testing.assert_allclose(after.load_centre, mean)
 
 
-def test_two_lessons_in_one_go_or_one_after_the_other(before: Posterior) -> None:
-    """The second adds to the first, in either order; the mean load is that of both."""
+@pytest.mark.parametrize("with_terms", [False, True])
+def test_two_lessons_in_one_order_or_the_other(before: Posterior, with_terms: bool) -> None:
+    """The second adds to the first, in either order; the mean load is that of both; quadratic terms cost."""
+    nuisance = Nuisance.of(MATRIX, Assumptions.of_counts(6, 32767.0), with_prior=True) if with_terms else None
+    start = replace(Knowledge.of(before, nuisance=nuisance), centre=np.zeros(6))
     first, second = _lesson(LOADS[:25]), _lesson(LOADS[25:])
-    one = taught(taught(before, first, seconds_before=0.0), second, seconds_before=25.0)
-    other = taught(taught(before, second, seconds_before=0.0), first, seconds_before=15.0)
-    np.testing.assert_allclose(one.learnt_covariance, other.learnt_covariance, rtol=1e-6, atol=1e-13)
-    np.testing.assert_allclose(one.load_centre, LOADS.mean(axis=0))
+    one, other = start.taught(first).taught(second), start.taught(second).taught(first)
+    np.testing.assert_allclose(
+        one.posterior.learnt_covariance, other.posterior.learnt_covariance, rtol=1e-6, atol=1e-13
+    )
+    np.testing.assert_allclose(one.posterior.load_centre, LOADS.mean(axis=0))
+    plain = Knowledge.of(before).taught(first).taught(second).posterior.learnt_covariance
+    less = np.einsum("kii->ki", one.posterior.learnt_covariance) >= np.einsum("kii->ki", plain) * (1.0 - 1e-6)
+    assert less.all()
 
 
 def test_postures_all_alike_teach_nothing_of_the_matrix(before: Posterior) -> None:
     """Negative control: one load for as long as one likes is an offset; loads that differ narrow what is known."""
-    alike = taught(before, _lesson(np.tile(LOADS[0], (40, 1)), warmer=0.0), seconds_before=0.0)
+    alike = Knowledge.of(before).taught(_lesson(np.tile(LOADS[0], (40, 1)), warmer=0.0)).posterior
     np.testing.assert_allclose(alike.learnt_covariance, before.learnt_covariance, rtol=1e-9)
-    error, told = predict_by(alike, CASE), predict_by(taught(before, _lesson(LOADS), seconds_before=0.0), CASE)
+    error, told = predict_by(alike, CASE), predict_by(Knowledge.of(before).taught(_lesson(LOADS)).posterior, CASE)
     known = predict_unfitted(before, CASE)
     assert known is not None
     assert error.force.typical == pytest.approx(known.force.typical, rel=0.05)
@@ -85,7 +102,7 @@ def test_postures_all_alike_teach_nothing_of_the_matrix(before: Posterior) -> No
 
 def test_the_criterion_is_the_expected_square_over_what_is_allowed(before: Posterior) -> None:
     """Force and moment, each over its own, as draws of the predicted error say; noise of a reading aside."""
-    after = taught(before, _lesson(LOADS), seconds_before=0.0)
+    after = Knowledge.of(before).taught(_lesson(LOADS)).posterior
     error, (force, moment) = predict_by(after, CASE), CASE.requirement
     drawn = (error.force.draws**2).mean() / force**2 + (error.moment.draws**2).mean() / moment**2
     noise = [error.force.sources.noise / force, error.moment.sources.noise / moment]
@@ -102,7 +119,7 @@ def test_an_error_that_is_not_judged_does_not_count(before: Posterior) -> None:
 
 def _worth(before: Posterior, order: FloatArray) -> float:
     lesson = _lesson(np.repeat(LOADS[order], 3, axis=0), warmer=0.0)
-    return Criterion(case=CASE).value(taught(before, lesson, seconds_before=0.0))
+    return Criterion(case=CASE).value(Knowledge.of(before).taught(lesson).posterior)
 
 
 def test_picked_postures_teach_more_than_most_random_ones(before: Posterior) -> None:
@@ -128,7 +145,7 @@ def test_a_posture_that_takes_too_long_is_not_picked(before: Posterior) -> None:
 def test_temperature_is_learnt_only_where_it_moves(before: Posterior) -> None:
     """A recording at one temperature has an offset of its own and says nothing; one that warms up does."""
     place, steady, warming = 6, _lesson(LOADS, warmer=0.0), _lesson(LOADS, warmer=10.0)
-    known = [taught(before, one, seconds_before=0.0).covariance[:, place, place] for one in (steady, warming)]
+    known = [Knowledge.of(before).taught(one).posterior.covariance[:, place, place] for one in (steady, warming)]
     np.testing.assert_allclose(known[0], before.covariance[:, place, place])
     assert (known[1] < 0.3 * known[0]).all()
 
@@ -136,6 +153,6 @@ def test_temperature_is_learnt_only_where_it_moves(before: Posterior) -> None:
 def test_the_offset_of_a_use_is_that_of_the_last_recording(before: Posterior) -> None:
     """Its place in the moment of the use is the last one, whatever sessions there were."""
     fitted = LoadCase(name="stand", words="", wrench=CASE.wrench)
-    after = taught(before, _lesson(LOADS), seconds_before=0.0)
+    after = Knowledge.of(before).taught(_lesson(LOADS)).posterior
     assert moment_of_use(after, fitted)[-1, -1] == 1.0
     assert moment_of_use(after, CASE)[-1, -1] == 0.0

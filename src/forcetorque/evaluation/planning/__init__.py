@@ -3,7 +3,7 @@
 
 from forcetorque.evaluation.planning.before import ASSUMED_DRIFT, ASSUMED_NOISE, unfitted_posterior
 from forcetorque.evaluation.planning.criterion import Criterion
-from forcetorque.evaluation.planning.lesson import Lesson, Nuisance, taught
+from forcetorque.evaluation.planning.lesson import Knowledge, Lesson, Nuisance
 from forcetorque.evaluation.planning.picking import Choices, pick
 
 __all__ = [
@@ -11,9 +11,9 @@ __all__ = [
     "ASSUMED_NOISE",
     "Choices",
     "Criterion",
+    "Knowledge",
     "Lesson",
     "Nuisance",
     "pick",
-    "taught",
     "unfitted_posterior",
 ]

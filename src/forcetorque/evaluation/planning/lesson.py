@@ -3,8 +3,8 @@
 
 Its loads are known, so that its information is: per row of the posterior `X^T N^-1 X`, with the noise that the row has,
 means over a second, and an offset of its own that nobody knows. Quadratic terms, which a fit finds beside the matrix,
-are found anew in every recording; what derivative windows flatten is left out; the share by which a sensor does not
-repeat itself stays as it is.
+are unknown too; what derivative windows flatten is left out; the share by which a sensor does not repeat itself stays
+as it is.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from forcetorque.arrays import FloatArray, read_only
 from forcetorque.calibration.generative.assumptions import QUADRATIC, Assumptions
 from forcetorque.calibration.generative.rows import rows_of
 from forcetorque.calibration.posterior import Posterior, RowNoise
-from forcetorque.calibration.quadratic_correction import quadratic_terms
+from forcetorque.calibration.quadratic_correction import PAIRS, quadratic_terms
 from forcetorque.noise import SlowNoise, Timeline
 
 _SESSION = "planned"
@@ -71,71 +71,100 @@ class Nuisance:
         rows = rows_of(matrix, assumptions, with_prior=with_prior)
         return cls(load_to_full_scale=rows.load_to_full_scale, deviation=QUADRATIC.expected * rows.unit)
 
-    def columns(self, wrench: FloatArray) -> FloatArray:
-        """Compute the products about the mean load.
+    def columns(self, wrench: FloatArray, centre: FloatArray) -> FloatArray:
+        """Compute the products.
 
         Args:
             wrench: Loads; shape (n, 6); N, N m.
+            centre: Load about which they are taken; shape (6,).
 
         Returns:
             Products; shape (n, 21).
         """
-        shares = wrench @ self.load_to_full_scale.T
-        return quadratic_terms(shares - shares.mean(axis=0))
+        return quadratic_terms((wrench - centre) @ self.load_to_full_scale.T)
 
 
-def taught(
-    posterior: Posterior, lesson: Lesson, *, seconds_before: float, nuisance: Nuisance | None = None
-) -> Posterior:
-    """Add a recording to what is known.
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Knowledge:
+    """What is known of a sensor, to which recordings can be added."""
 
-    Args:
-        posterior: What is known of the sensor.
-        lesson: The recording.
-        seconds_before: How much was fitted so far, which its mean load is of; s.
-        nuisance: Quadratic terms; None for a sensor that is known to have none.
+    posterior: Posterior
+    """Matrix, variables, and the offset of the last recording."""
+    together: FloatArray
+    """Covariance of matrix, variables and quadratic terms without the repeatability; shape (rows, q, q)."""
+    seconds: float
+    """How much was fitted so far, which the mean load is of; s."""
+    nuisance: Nuisance | None
+    """Quadratic terms; None for a sensor that is known to have none."""
+    centre: FloatArray | None
+    """Load about which they are taken; None for the mean of the first recording."""
 
-    Returns:
-        What would be known after it; its offset is that of the recording.
-    """
-    rows, used = len(posterior.mean), 6 + len(posterior.variables)
-    line, columns = Timeline.of(lesson.time_s), lesson.columns
-    deviation = np.zeros((rows, 0))
-    if nuisance is not None:
-        terms = nuisance.columns(lesson.wrench)
-        columns, deviation = np.hstack([columns, terms]), np.repeat(nuisance.deviation[:, None], terms.shape[1], axis=1)
-    mean = columns.mean(axis=0)
-    products = {shape: _product(line, columns - mean, shape) for shape in set(map(_shape, posterior.noise))}
-    repeated = posterior.covariance[:, :6, :6] - posterior.learnt_covariance
-    covariance = np.zeros((rows, used + 1, used + 1))
-    learnt = np.empty((rows, 6, 6))
-    for k, noise in enumerate(posterior.noise):
-        information, weighed, worth = products[_shape(noise)]
-        variance = max(noise.white, _LEAST_NOISE) ** 2
-        known = np.zeros((len(mean), len(mean)))
-        known[:used, :used] = posterior.covariance[k, :used, :used]
-        known[:6, :6] = posterior.learnt_covariance[k]
-        known[used:, used:] = np.diag(deviation[k] ** 2)
-        after = _narrowed(known, information / variance)
-        # from the unknowns to those that are kept and the offset
-        turned = np.vstack([np.eye(used, len(mean)), -(mean + weighed)])
-        covariance[k] = turned @ after @ turned.T
-        covariance[k, used, used] += variance / worth
-        learnt[k] = after[:6, :6]
+    @classmethod
+    def of(cls, posterior: Posterior, *, seconds: float = 0.0, nuisance: Nuisance | None = None) -> Knowledge:
+        """Begin with a posterior; of its quadratic terms, which it does not keep, nothing is known.
+
+        Args:
+            posterior: What is known of the sensor.
+            seconds: How much was fitted so far; s.
+            nuisance: Quadratic terms; None for a sensor that is known to have none.
+
+        Returns:
+            What is known.
+        """
+        used, terms = 6 + len(posterior.variables), 0 if nuisance is None else len(PAIRS[0])
+        together = np.zeros((len(posterior.mean), used + terms, used + terms))
+        together[:, :used, :used] = posterior.covariance[:, :used, :used]
+        together[:, :6, :6] = posterior.learnt_covariance
+        if nuisance is not None:
+            together[:, used:, used:] = nuisance.deviation[:, None, None] ** 2 * np.eye(terms)
+        return cls(
+            posterior=posterior,
+            together=together,
+            seconds=seconds,
+            nuisance=nuisance,
+            centre=posterior.load_centre if seconds > 0.0 else None,
+        )
+
+    def taught(self, lesson: Lesson) -> Knowledge:
+        """Add a recording.
+
+        Args:
+            lesson: The recording.
+
+        Returns:
+            What would be known after it; its offset is that of the recording.
+        """
+        posterior, used = self.posterior, 6 + len(self.posterior.variables)
+        centre = lesson.wrench.mean(axis=0) if self.centre is None else self.centre
+        line, columns = Timeline.of(lesson.time_s), lesson.columns
+        if self.nuisance is not None:
+            columns = np.hstack([columns, self.nuisance.columns(lesson.wrench, centre)])
+        mean = columns.mean(axis=0)
+        products = {shape: _product(line, columns - mean, shape) for shape in set(map(_shape, posterior.noise))}
+        repeated = posterior.covariance[:, :6, :6] - posterior.learnt_covariance
+        together = np.empty_like(self.together)
+        covariance = np.zeros((len(together), used + 1, used + 1))
         moved = np.zeros((used + 1, 6))
         moved[:6], moved[used] = np.eye(6), -mean[:6]
-        covariance[k] += moved @ repeated[k] @ moved.T
-    n = len(line)
-    return posterior.model_copy(
-        update={
+        for k, noise in enumerate(posterior.noise):
+            information, weighed, worth = products[_shape(noise)]
+            variance = max(noise.white, _LEAST_NOISE) ** 2
+            together[k] = _narrowed(self.together[k], information / variance)
+            # from the unknowns to those that are kept and the offset
+            turned = np.vstack([np.eye(used, len(mean)), -(mean + weighed)])
+            covariance[k] = turned @ together[k] @ turned.T + moved @ repeated[k] @ moved.T
+            covariance[k, used, used] += variance / worth
+        seconds = self.seconds + len(line)
+        update = {
             "sessions": (_SESSION,),
             "drift": False,
-            "mean": np.zeros((rows, used + 1)),
+            "mean": np.zeros((len(together), used + 1)),
             "covariance": covariance,
-            "learnt_covariance": learnt,
-            "load_centre": (seconds_before * posterior.load_centre + n * mean[:6]) / (seconds_before + n),
+            "learnt_covariance": together[:, :6, :6].copy(),
+            "load_centre": (self.seconds * posterior.load_centre + len(line) * mean[:6]) / seconds,
         }
-    )
+        after = posterior.model_copy(update=update)
+        return Knowledge(posterior=after, together=together, seconds=seconds, nuisance=self.nuisance, centre=centre)
 
 
 def _shape(noise: RowNoise) -> SlowNoise:

@@ -35,7 +35,7 @@ def pick(posterior: Posterior, criterion: Criterion, choices: Choices, *, haste:
     """Pick postures greedily.
 
     The slow noise counts by what it moves on the way from one posture to the next; the exact worth of the whole is
-    another matter, see `taught`.
+    another matter, see `Knowledge.taught`.
 
     Args:
         posterior: What is known of the sensor.
