@@ -138,7 +138,10 @@ def limits_of(*, calibrated: bool, posterior: Posterior) -> tuple[str, ...]:
         "not checked: whether the robot touches itself, the floor or anything else, and whether it keeps its balance; "
         "play every motion slowly, or in a simulator, first"
     )
-    model = "what a recording is expected to teach leaves room for quadratic terms, and none for what differentiation flattens"
+    model = (
+        "what a recording is expected to teach leaves room for quadratic terms, and none for what differentiation "
+        "flattens"
+    )
     if calibrated:
         return unchecked, model
     drift = max(ASSUMED_DRIFT, max(row.white * row.ratio**0.5 / row.white for row in posterior.noise) * ASSUMED_NOISE)
