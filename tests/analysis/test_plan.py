@@ -17,7 +17,6 @@ from forcetorque.exchange.tabular import StampColumn, TableLayout, TableSignal, 
 from forcetorque.exchange.yarp import read_state
 from forcetorque.experiment import load_experiment
 from forcetorque.experiment.planned import load_planned
-from tests.arm_folder import arm, intact  # noqa: F401
 from tests.experiments import JOINTS, PARQUET
 
 CLEARANCE_DEG = 12.0
@@ -65,7 +64,7 @@ gravity_direction = [0.0, 0.0, -1.0]
 
 
 @pytest.fixture(scope="module")
-def planned(intact: Path, tmp_path_factory: pytest.TempPathFactory) -> Plan:  # noqa: F811
+def planned(intact: Path, tmp_path_factory: pytest.TempPathFactory) -> Plan:
     """A plan of two recordings from the prior, with a bar that may be attached."""
     import shutil
 
@@ -126,7 +125,7 @@ def test_the_sentence_says_what_to_record_first_and_what_it_brings(planned: Plan
     assert "recording 2: positions" in planned.text()
 
 
-def test_before_any_recording_the_plan_is_that_from_the_prior(arm: Path) -> None:  # noqa: F811
+def test_before_any_recording_the_plan_is_that_from_the_prior(arm: Path) -> None:
     """A file without recording, intervals and streams gives the same; other commands say what is missing."""
     new, old = plan(_unrecorded(arm), recordings=1, seconds=30.0), plan(_run(arm), recordings=1, seconds=30.0)
     assert new.recordings == old.recordings
@@ -135,7 +134,7 @@ def test_before_any_recording_the_plan_is_that_from_the_prior(arm: Path) -> None
         load_experiment(arm / "new.toml")
 
 
-def test_a_full_scale_alone_is_enough_to_begin_with(arm: Path) -> None:  # noqa: F811
+def test_a_full_scale_alone_is_enough_to_begin_with(arm: Path) -> None:
     """Without a matrix the sensor is taken to read N and N m; without full scale there is nothing to go by."""
     run = _unrecorded(arm)
     file = run.experiment.file
@@ -149,7 +148,7 @@ def test_a_full_scale_alone_is_enough_to_begin_with(arm: Path) -> None:  # noqa:
     assert first.force_after_N < first.force_before_N
 
 
-def test_a_calibration_is_where_the_plan_begins(arm: Path) -> None:  # noqa: F811
+def test_a_calibration_is_where_the_plan_begins(arm: Path) -> None:
     """Its predicted error stands before the first recording; nothing is assumed of the noise."""
     from forcetorque.analysis.loads_of_use import loads_of_use
     from forcetorque.evaluation.use import predict
@@ -163,7 +162,7 @@ def test_a_calibration_is_where_the_plan_begins(arm: Path) -> None:  # noqa: F81
     assert not any("nothing was recorded" in sentence for sentence in planned.limits)
 
 
-def test_a_stiff_limb_leaves_directions_to_the_prior_and_says_so(arm: Path) -> None:  # noqa: F811
+def test_a_stiff_limb_leaves_directions_to_the_prior_and_says_so(arm: Path) -> None:
     """One centre of mass spans three directions; after one recording a second brings nothing, and the reason is named.
 
     Negative control: with two tools that may be attached nothing is said of directions that no load reaches.
@@ -180,7 +179,7 @@ def test_a_stiff_limb_leaves_directions_to_the_prior_and_says_so(arm: Path) -> N
     assert helped.recordings[-1].force_after_N < 0.3 * alone.recordings[-1].force_after_N
 
 
-def test_where_nothing_helps_the_plan_says_so(arm: Path) -> None:  # noqa: F811
+def test_where_nothing_helps_the_plan_says_so(arm: Path) -> None:
     """A sensor that may hardly move learns nothing in a few seconds."""
     still = "[plan]\nclearance_deg = 5\nranges = { shoulder_pitch = [0.0, 0.5], shoulder_roll = [0.0, 0.0], "
     run = _run(arm, still + "elbow = [0.0, 0.0], wrist = [0.0, 0.0] }\n")
@@ -188,7 +187,7 @@ def test_where_nothing_helps_the_plan_says_so(arm: Path) -> None:  # noqa: F811
     assert planned.advice.startswith("nothing within these limits helps: the best recording of ")
 
 
-def test_temperatures_are_gone_through_where_the_use_changes_them(arm: Path) -> None:  # noqa: F811
+def test_temperatures_are_gone_through_where_the_use_changes_them(arm: Path) -> None:
     """A use at other temperatures asks for a recording that warms up; one at the same does not."""
     variable = 'prior = "matrix_SIM001.txt"\nvariable = [{ name = "temperature" }]'
     temperatures = PLAN + "temperatures = [20.0, 40.0]\n"
@@ -205,7 +204,7 @@ def test_temperatures_are_gone_through_where_the_use_changes_them(arm: Path) -> 
     assert asked("changes = { temperature = 15.0 }") == (20.0, 40.0)
 
 
-def test_the_sentence_of_an_assessment_takes_less_than_five_seconds(arm: Path) -> None:  # noqa: F811
+def test_the_sentence_of_an_assessment_takes_less_than_five_seconds(arm: Path) -> None:
     """It plans one recording without looking long; without a clearance it says what to state."""
     run = _run(arm)
     fitted = _fitted(run)
@@ -267,14 +266,14 @@ def test_the_files_of_a_plan_are_what_the_plan_says(planned: Plan, tmp_path: Pat
         ),
     ],
 )
-def test_limits_that_contradict_are_refused(arm: Path, rest: str, message: str) -> None:  # noqa: F811
+def test_limits_that_contradict_are_refused(arm: Path, rest: str, message: str) -> None:
     """In one line that names the joint, tool or support, and what to do."""
     with pytest.raises(ForceTorqueError, match=message) as refused:
         plan(_run(arm, rest))
     assert "\n" not in str(refused.value)
 
 
-def test_what_is_asked_of_a_plan_is_checked(arm: Path) -> None:  # noqa: F811
+def test_what_is_asked_of_a_plan_is_checked(arm: Path) -> None:
     """A use that nobody states, no time for postures, a clearance below zero, a calibration without covariance."""
     run = _run(arm)
     thesis = calibrate_sensor(run, code_version="1", created="2020-01-01T00:00:00+00:00", regularisation=0.0)

@@ -122,7 +122,7 @@ class Knowledge:
             together=together,
             seconds=seconds,
             nuisance=nuisance,
-            centre=posterior.load_centre if seconds > 0.0 else None,
+            centre=None,
         )
 
     def taught(self, lesson: Lesson) -> Knowledge:
