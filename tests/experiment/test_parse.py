@@ -217,8 +217,8 @@ TABLES = {
     ),
     'name = "small arm"': (
         "top level",
-        "calibration, contact, estimation, interval, load, name, processing, recording, robot, schema, sensor, "
-        "support, trial",
+        "calibration, contact, estimation, interval, load, load_case, name, plan, processing, recording, robot, "
+        "schema, sensor, support, trial",
     ),
 }
 

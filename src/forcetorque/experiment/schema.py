@@ -25,6 +25,7 @@ from forcetorque.errors import known_names
 from forcetorque.estimation import ContactType
 from forcetorque.exchange.formats import AnyLog
 from forcetorque.experiment.load_case_schema import LoadCaseTable
+from forcetorque.experiment.plan_schema import PlanTable
 from forcetorque.recording import Use
 from forcetorque.robot import SensorFrame
 from forcetorque.spatial import MeasureDirection
@@ -346,6 +347,8 @@ class ExperimentFile(Table):
     """Condition and number, for `forcetorque compare`."""
     load_case: tuple[LoadCaseTable, ...] = ()
     """What the sensors are to be used for."""
+    plan: PlanTable | None = None
+    """What can be recorded next, for `forcetorque plan`."""
 
     @model_validator(mode="after")
     def _robot_or_load(self) -> ExperimentFile:
