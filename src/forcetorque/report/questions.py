@@ -18,8 +18,7 @@ from forcetorque.report.calibration_sections import (
     uncertainty_blocks,
 )
 from forcetorque.report.document import Block, Figure, List, Text
-from forcetorque.report.vague import in_words
-from forcetorque.result import short_names, table_of
+from forcetorque.result import short_names, table_of, without_vague
 
 Question = tuple[str, Callable[[Assessment], Iterator[Block]]]
 """Title of a section, and what makes its blocks."""
@@ -27,8 +26,7 @@ Question = tuple[str, Callable[[Assessment], Iterator[Block]]]
 
 def _errors(sensor: Assessment) -> Iterator[Block]:
     if sensor.evaluation:
-        for table in error_tables(sensor.evaluation, f"Errors of {sensor.evaluation[0].samples} samples"):
-            yield in_words(table)
+        yield from error_tables(sensor.evaluation, f"Errors of {sensor.evaluation[0].samples} samples")
         words = "; ".join((ERROR_WORDS, *sensor.smoothing))
         yield Text(text=f"Numbers of these tables: {words}. The verdict goes by root mean squares.")
     if sensor.independence:
@@ -97,7 +95,7 @@ def _contacts(sensor: Assessment) -> Iterator[Block]:
         "should be zero",
         leave_out=WORTH,
     )
-    yield in_words(contacts)
+    yield without_vague(contacts)
     yield mean_contact_table(sensor.contact_forces)
     names = short_names([row.candidate for row in sensor.contact_forces])
     if len(names) > 1:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Intervals that say nothing are said in words."""
+"""Intervals that say nothing give way to a mark."""
 
 from __future__ import annotations
 
@@ -7,17 +7,17 @@ import re
 from dataclasses import replace
 from typing import Final
 
-from forcetorque.result import Table
+from forcetorque.result.table import Table
 
-TOO_FEW: Final = "too few data for an interval"
+VAGUE: Final = "±?"
 """What stands in the place of such an interval."""
-_WIDEST: Final = 10.0
-"""Width of an interval over the number itself beyond which it says nothing of an error, which is never below zero."""
+VAGUE_WORDS: Final = "±?: too few independent data for an interval"
+"""What it means."""
 _WITH_ERROR: Final = re.compile(r"([0-9.]+) ±([0-9.]+|inf)")
 
 
-def in_words(table: Table) -> Table:
-    """Put words where the interval of an error is wider than ten times the error.
+def without_vague(table: Table) -> Table:
+    """Put a mark where half of the interval of an error is larger than the error, which is never below zero.
 
     Args:
         table: A table of errors, which are never below zero, with half-widths of intervals behind `±`.
@@ -33,4 +33,4 @@ def _cell(cell: str) -> str:
     if match is None:
         return cell
     number, half_width = match.groups()
-    return cell if 2.0 * float(half_width) <= _WIDEST * float(number) else f"{number} ({TOO_FEW})"
+    return cell if float(half_width) <= float(number) else f"{number} {VAGUE}"
