@@ -113,7 +113,8 @@ def test_the_table_is_the_default(arm: Path, run: Run) -> None:
     assert shown.err.splitlines() == shown.log
     lines = shown.out.splitlines()
     assert lines[0].rstrip() == f"small arm: arm_ft (SIM001), {verdicts[0]['samples']} samples that were not fitted"
-    rows = [line.split() for line in lines if line.startswith((" prior", " fitted.json"))]
+    errors = lines[: lines.index("mean error, by its own offset")]
+    rows = [line.split() for line in errors if line.startswith((" prior", " fitted.json"))]
     assert [row[:2] for row in rows] == [[verdict["candidate"], verdict["offset"]] for verdict in verdicts]
     for row, verdict in zip(rows, verdicts, strict=True):
         assert row[2:8] == [f"{value:.3f}" for value in verdict["rmse"]]

@@ -19,9 +19,12 @@ from matplotlib.text import Text
 
 from forcetorque.analysis import (
     LearntDirection,
+    Reason,
     SensorSphere,
     TrialGroup,
     TrialSphere,
+    UseError,
+    UseVerdict,
     group_trials,
 )
 from forcetorque.evaluation.sphere import analyse_sphere
@@ -39,6 +42,7 @@ from forcetorque.report.figures import (
     residual_figure,
     space_figure,
     sphere_figure,
+    use_figure,
 )
 from forcetorque.spatial import WRENCH_COMPONENTS
 
@@ -152,6 +156,63 @@ def _learnt(rng: np.random.Generator) -> bytes:
     return learnt_figure({"one recording": learnt_of(rng), "all": learnt_of(rng)})
 
 
+def use_of(
+    candidate: str = "leg.json",
+    load_case: str = "push",
+    *,
+    force: float = 4.0,
+    before: float | None = 20.0,
+    allowed: float | None = 8.0,
+    reasons: tuple[Reason, ...] = (),
+    **changed: Any,
+) -> UseVerdict:
+    """A verdict whose force error has this median; moment errors are a hundredth of it, intervals half to double."""
+
+    def error(quantity: Any, unit: Any, scale: float) -> UseError:
+        old, limit = (None if value is None else scale * value for value in (before, allowed))
+        return UseError(
+            quantity=quantity,
+            unit=unit,
+            load=100.0 * scale,
+            before=old,
+            before_at_least=None if old is None else 0.5 * old,
+            before_at_most=None if old is None else 2.0 * old,
+            after=scale * force,
+            after_at_least=0.5 * scale * force,
+            after_at_most=2.0 * scale * force,
+            allowed=limit,
+            axes=(scale * force,) * 3,
+            from_matrix=scale * force,
+            from_offset=0.0,
+            from_variables=0.0,
+            from_noise=0.0,
+        )
+
+    enough = allowed is None or 2.0 * force <= allowed
+    values: dict[str, Any] = {
+        "decision": "use" if enough else "do not use",
+        "sentence": f"{'use' if enough else 'do not use'} for a push of 100 N: it errs by some {force:g} N",
+        "within": 0.99 if enough else 0.01,
+        "stated": True,
+        "offset": "fitted",
+    }
+    return UseVerdict(
+        sensor="leg_ft",
+        serial="SN1",
+        candidate=candidate,
+        load_case=load_case,
+        loads="a push of 100 N",
+        reasons=reasons,
+        errors=(error("force", "N", 1.0), error("moment", "N m", 0.01)),
+        **(values | changed),
+    )
+
+
+def _use(rng: np.random.Generator) -> bytes:
+    uses = [use_of(load_case=name, force=rng.uniform(0.5, 30.0)) for name in ("push", "weight of the robot", "tool")]
+    return use_figure(uses, {"leg.json": "leg.json"})
+
+
 def _held_out(rng: np.random.Generator) -> bytes:
     finite, lambdas = LAMBDAS, np.append(10.0 ** np.arange(-2.0, 9.0), np.inf)
     curves = {
@@ -200,6 +261,7 @@ FIGURES: dict[str, Callable[[np.random.Generator], bytes]] = {
     "held out": _held_out,
     "learnt": _learnt,
     "index": _index,
+    "use": _use,
 }
 """A figure of every kind that is drawn from plain arrays, of random data."""
 

@@ -51,9 +51,12 @@ from forcetorque.analysis.inspect import (
 from forcetorque.analysis.interval_quality import IntervalQuality
 from forcetorque.analysis.joint_torques import JointTorqueErrors, JointTorques, joint_torques
 from forcetorque.analysis.judged import JudgedWrenches
-from forcetorque.analysis.learnt import LITTLE_LEARNT, LearntDirection, learnt_directions, learnt_words
+from forcetorque.analysis.learnt import LITTLE_LEARNT, LearntDirection, learnt_directions, learnt_words, to_learn
 from forcetorque.analysis.loads_of_use import loads_of_use
 from forcetorque.analysis.payload import WeighedLoad, weigh_load
+from forcetorque.analysis.plan import Plan, plan, plan_sentence
+from forcetorque.analysis.plan_files import refuse_full_folder, write_plan
+from forcetorque.analysis.plan_rows import PlannedPosture, PlannedRecording
 from forcetorque.analysis.population import read_population
 from forcetorque.analysis.prior_comparison import Independence, PriorComparison, compare_with_prior
 from forcetorque.analysis.reading import Correction
@@ -80,6 +83,13 @@ from forcetorque.analysis.validate import Validation, validate
 from forcetorque.analysis.verdict import VerdictLine
 
 __all__ = [
+    "write_plan",
+    "refuse_full_folder",
+    "plan_sentence",
+    "plan",
+    "PlannedRecording",
+    "PlannedPosture",
+    "Plan",
     "LITTLE_LEARNT",
     "Reason",
     "UseError",
@@ -91,6 +101,7 @@ __all__ = [
     "LearntDirection",
     "learnt_directions",
     "learnt_words",
+    "to_learn",
     "recording_moments",
     "store_moments",
     "Acceptance",

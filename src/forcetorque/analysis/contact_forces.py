@@ -28,6 +28,7 @@ from forcetorque.result import (
     finite_or_none,
     table_of,
     with_first_column,
+    without_vague,
 )
 
 WORTH = frozenset({"bias", "independent", "excitation_N", "excitation_Nm"})
@@ -179,13 +180,13 @@ def contact_force_blocks(
     """
     for sensor in dict.fromkeys(row.sensor for row in verdicts):
         rows = [row for row in verdicts if row.sensor == sensor]
-        yield _table(rows)
+        yield without_vague(_table(rows))
         yield mean_contact_table(rows)
         apart = [row for row in recordings if row.sensor == sensor]
         if apart:
             names = [row.recording for row in apart]
             caption = f"{sensor} ({apart[0].serial}), each recording by itself"
-            yield with_first_column(table_of(apart, caption, leave_out=WORTH), "recording", names)
+            yield with_first_column(without_vague(table_of(apart, caption, leave_out=WORTH)), "recording", names)
             yield with_first_column(mean_contact_table(apart), "recording", names)
     if len({row.candidate for row in verdicts}) > 1:
         yield from (candidate.sentence for candidate in best)

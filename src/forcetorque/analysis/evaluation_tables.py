@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from forcetorque.evaluation import Offset
-from forcetorque.result import Table, table_of, with_first_column
+from forcetorque.result import VAGUE_WORDS, Table, table_of, with_first_column, without_vague
 
 if TYPE_CHECKING:
     from forcetorque.analysis.evaluate import CandidateErrors
@@ -21,7 +21,7 @@ _VARYING = {"offset", "rmse", "force_error_mean_N", "moment_error_mean_Nm"}
 
 ERROR_WORDS = (
     "per axis: RMSE, and below it the constant part of it; force, moment: mean norm of the error ± half its 95 % "
-    "interval; moved: standard deviation of the load"
+    f"interval ({VAGUE_WORDS}); moved: standard deviation of the load"
 )
 """Which number is which."""
 
@@ -40,7 +40,7 @@ def error_tables(
         RMSE per axis with norms; and mean errors per axis of the same candidates, where the offset is not that of the
         judged samples themselves, which leaves none, with what tells how much the errors are worth.
     """
-    yield _named(table_of(rows, caption, leave_out={"bias", *_WORTH}), recordings)
+    yield _named(without_vague(table_of(rows, caption, leave_out={"bias", *_WORTH})), recordings)
     kept = [k for k, row in enumerate(rows) if row.offset is not Offset.JUDGED_MEAN]
     names = None if recordings is None else [recordings[k] for k in kept]
     shown = table_of([rows[k] for k in kept], "mean error, by its own offset", leave_out=_VARYING)

@@ -8,6 +8,15 @@ from typing import Final, Literal
 
 import numpy as np
 
+from forcetorque.analysis.remedies import (
+    FIT_GENERATIVE,
+    JUDGE,
+    JUDGE_WHAT_MOVES,
+    LOOK_FOR_CAUSE,
+    MEND_DATA,
+    TARE,
+    lower_the_predicted,
+)
 from forcetorque.analysis.use_verdict import Decision, Reason, UseError
 from forcetorque.calibration import Calibration
 from forcetorque.calibration.posterior import Posterior
@@ -83,9 +92,9 @@ class UseJudge:
         yield from self._predicted()
         yield from self._measured()
         for doubt in self.calibration.doubts:
-            yield Reason(against="data", text=f"the fitted data were in doubt: {doubt}")
+            yield Reason(against="data", text=f"the fitted data were in doubt: {doubt}", remedy=MEND_DATA)
         if self.worse is not None:
-            yield Reason(against="use", text=self.worse)
+            yield Reason(against="use", text=self.worse, remedy=LOOK_FOR_CAUSE)
 
     def _predicted(self) -> Iterator[Reason]:
         if self.after is None:
@@ -93,16 +102,18 @@ class UseJudge:
                 f"a calibration of type {self.calibration.estimation_type} knows no error at other loads than those "
                 "that were judged; fit it by the generative model"
             )
-            yield Reason(against="data", text=text)
+            yield Reason(against="data", text=text, remedy=FIT_GENERATIVE)
             return
         share = self.after.within(*self.case.requirement)
         words = self._predicted_words()
+        remedy = lower_the_predicted(self.after, self.case.requirement)
         if share >= CONFIDENCE:
             yield Reason(against=None, text=words)
         elif share <= HOPELESS:
-            yield Reason(against="use", text=words)
+            yield Reason(against="use", text=words, remedy=remedy)
         else:
-            yield Reason(against="data", text=f"{words}; the chance that it is within that is {100.0 * share:.0f} %")
+            chance = f"{words}; the chance that it is within that is {100.0 * share:.0f} %"
+            yield Reason(against="data", text=chance, remedy=remedy)
 
     def _predicted_words(self) -> str:
         """Such as `it errs by some 4.1 N, at most 6.3 N, where 16 N are allowed, and by some 0.1 N m, ...`."""
@@ -148,7 +159,8 @@ class UseJudge:
 
     def _measured(self) -> Iterator[Reason]:
         if self.measured is None:
-            yield Reason(against="data", text="no data that were not fitted test it; state a validation interval")
+            text = "no data that were not fitted test it; state a validation interval"
+            yield Reason(against="data", text=text, remedy=JUDGE)
             return
         loads = (self.case.force_N, self.case.moment_Nm)
         expected = self._expected_there()
@@ -158,14 +170,14 @@ class UseJudge:
             rest = f"on data that were not fitted its {quantity} error is {amount(error.rest, unit)} (RMS)"
             if error.rest_at_least > allowed:
                 text = f"{rest} without the constant part, {amount(allowed, unit)} allowed"
-                yield Reason(against="use", text=text)
+                yield Reason(against="use", text=text, remedy=LOOK_FOR_CAUSE)
             elif expected is not None and error.rest_at_least > expected[quantity]:
                 text = (
                     f"{rest}, at most {amount(expected[quantity], unit)} were predicted: something is not in the model"
                 )
-                yield Reason(against="data", text=text)
+                yield Reason(against="data", text=text, remedy=LOOK_FOR_CAUSE)
         if self.still is not None:
-            yield Reason(against="data", text=f"{self.still}; judge data that move")
+            yield Reason(against="data", text=f"{self.still}; judge data that move", remedy=JUDGE_WHAT_MOVES)
 
     def _constant(
         self, error: MeasuredError, quantity: str, unit: str, allowed: float, load: float
@@ -178,7 +190,7 @@ class UseJudge:
                 f"on data that were not fitted {amount(error.constant, unit)} of its {quantity} error are constant, "
                 f'{amount(limit, unit)} allowed; tare it before use, and state offset = "tared" in [[load_case]]'
             )
-            yield Reason(against="use", text=text)
+            yield Reason(against="use", text=text, remedy=TARE)
 
     def _expected_there(self) -> dict[str, float] | None:
         """Error that is predicted, at most, at the loads of the judged data; noise that is slow included."""

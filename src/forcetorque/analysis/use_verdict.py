@@ -21,6 +21,8 @@ class Reason(Row):
     """Whether it forbids the use, or says that data are lacking; None where it speaks for the use or only informs."""
     text: str
     """The reason, in words."""
+    remedy: str | None = None
+    """What to do about it; None where the reason says it itself, or where nothing is to be done."""
 
 
 class UseError(Row):

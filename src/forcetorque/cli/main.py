@@ -18,6 +18,7 @@ from forcetorque.cli.gains import gains
 from forcetorque.cli.inspect import inspect
 from forcetorque.cli.output import report_error
 from forcetorque.cli.payload import payload
+from forcetorque.cli.plan import plan
 from forcetorque.cli.report import report
 from forcetorque.cli.schema import schema
 from forcetorque.cli.simulate import simulate
@@ -67,6 +68,7 @@ for _command in (
     gains,
     inspect,
     payload,
+    plan,
     report,
     schema,
     simulate,

@@ -13,8 +13,9 @@ from forcetorque.calibration.generative import REPEATABILITY
 from forcetorque.errors import ExperimentError, known_names
 from forcetorque.estimation import Contact, Payload, Processing
 from forcetorque.experiment.load_case_schema import LoadCaseTable
+from forcetorque.experiment.plan_schema import PlanTable
 from forcetorque.experiment.recording_names import path_endings, recording_name
-from forcetorque.recording import Interval, Recording, ScalarSource, Use
+from forcetorque.recording import Interval, Recording, ScalarSource, Support, Use
 from forcetorque.robot import RobotModel
 
 
@@ -175,6 +176,10 @@ class Experiment:
     """Which trial of its condition it is; None for the order of the files."""
     load_cases: tuple[LoadCaseTable, ...] = ()
     """What the sensors are to be used for, as the file states it."""
+    supports: tuple[Support, ...] = ()
+    """Supports at rest that the file states, used or not."""
+    plan: PlanTable | None = None
+    """What can be recorded next, as the file states it."""
 
     def sensor(self, name: str) -> ExperimentSensor:
         """Find a sensor of the experiment.

@@ -10,9 +10,12 @@ from forcetorque.result.row import AxisValues, FloatOrNull, Row, Values, WrenchV
 from forcetorque.result.shown import COMPONENTS, Shown, ShownWrench
 from forcetorque.result.table import Table, table_of, with_first_column
 from forcetorque.result.text import table_text, wrapped
+from forcetorque.result.vague import VAGUE_WORDS, without_vague
 
 __all__ = [
     "html_table",
+    "VAGUE_WORDS",
+    "without_vague",
     "COMPONENTS",
     "AxisValues",
     "FloatOrNull",

@@ -110,9 +110,24 @@ def predict(calibration: Calibration, case: LoadCase) -> PredictedError:
     Raises:
         FitError: If the calibration has no posterior, or not the variables of the use.
     """
-    posterior = _posterior(calibration)
+    return predict_by(_posterior(calibration), case)
+
+
+def predict_by(posterior: Posterior, case: LoadCase) -> PredictedError:
+    """Predict the error at the loads of a use by what is known of a sensor.
+
+    Args:
+        posterior: What is known.
+        case: The use.
+
+    Returns:
+        The error, noise of a reading included.
+
+    Raises:
+        FitError: If the posterior has not the variables of the use.
+    """
     unknowns = posterior.to_wrench @ _draws(posterior)
-    return _error(unknowns, posterior, posterior.to_wrench, _design(posterior, case))
+    return _error(unknowns, posterior, posterior.to_wrench, moment_of_use(posterior, case))
 
 
 def predict_prior(calibration: Calibration, case: LoadCase) -> PredictedError | None:
@@ -139,7 +154,7 @@ def predict_prior(calibration: Calibration, case: LoadCase) -> PredictedError | 
         unknowns[..., :6] -= np.eye(6)
     if case.offset is UseOffset.FITTED:
         unknowns[..., _offset_place(posterior)] += calibration.prior.offset
-    return _error(unknowns, posterior, to_wrench, _design(posterior, case))
+    return _error(unknowns, posterior, to_wrench, moment_of_use(posterior, case))
 
 
 def predict_unfitted(posterior: Posterior, case: LoadCase) -> PredictedError | None:
@@ -158,7 +173,7 @@ def predict_unfitted(posterior: Posterior, case: LoadCase) -> PredictedError | N
     spread[:, :6, :6] = posterior.prior_covariance
     tared = LoadCase(name=case.name, words=case.words, wrench=case.wrench, offset=UseOffset.TARED)
     to_wrench = posterior.to_wrench
-    return _error(to_wrench @ _draws(posterior, spread), posterior, to_wrench, _design(posterior, tared))
+    return _error(to_wrench @ _draws(posterior, spread), posterior, to_wrench, moment_of_use(posterior, tared))
 
 
 def _posterior(calibration: Calibration) -> Posterior:
@@ -185,8 +200,19 @@ def _offset_place(posterior: Posterior) -> int:
     return 6 + len(posterior.variables) + len(posterior.sessions) - 1
 
 
-def _design(posterior: Posterior, case: LoadCase) -> FloatArray:
-    """Mean of the products of what the unknowns are multiplied by; shape (p, p)."""
+def moment_of_use(posterior: Posterior, case: LoadCase) -> FloatArray:
+    """Average the products of what the unknowns of a row are multiplied by over the loads of a use.
+
+    Args:
+        posterior: What the unknowns are of.
+        case: The use.
+
+    Returns:
+        Mean products; shape (p, p).
+
+    Raises:
+        FitError: If the posterior has not the variables of the use.
+    """
     absent = [name for name in case.changes if name not in posterior.variables]
     if absent:
         raise FitError(

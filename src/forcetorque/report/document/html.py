@@ -41,7 +41,7 @@ def html_bytes(document: Document) -> bytes:
         raise MissingExtraError("reports are written by jinja2: pip install forcetorque[report]") from error
     folder = resources.files("forcetorque.report.document")
     environment = Environment(autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True)
-    environment.filters |= {"kind": _kind, "data_url": _data_url}
+    environment.filters |= {"kind": _kind, "data_url": _data_url, "pieces": _pieces}
     template = environment.from_string((folder / "document.html.j2").read_text(encoding="utf-8"))
     style = (folder / "document.css").read_text(encoding="utf-8")
     return template.render(document=document, style=style, no_rows=NO_ROWS).encode(errors="backslashreplace")
@@ -49,6 +49,14 @@ def html_bytes(document: Document) -> bytes:
 
 def _kind(block: Block) -> str:
     return _KINDS[type(block)]
+
+
+def _pieces(text: str) -> list[tuple[str, bool]]:
+    """Cut a text at backquotes: its pieces, and whether each is a command, which stands between two of them."""
+    pieces = text.split("`")
+    if len(pieces) % 2 == 0:  # one that has no other is a letter of a name
+        return [(text, False)]
+    return [(piece, bool(k % 2)) for k, piece in enumerate(pieces)]
 
 
 def _data_url(png: bytes) -> str:
