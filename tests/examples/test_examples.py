@@ -74,17 +74,17 @@ def test_the_readme_shows_what_the_demo_prints(demo: tuple[Path, str]) -> None:
 
 
 def test_the_readmes_script_runs(demo: tuple[Path, str]) -> None:
-    """The Python block of the README runs after the demo."""
-    folder, _ = demo
+    """The Python block of the README runs after the demo: short, and with the verdict of the command line."""
+    folder, output = demo
+    assert len(_block("example").splitlines()) <= 25
     done = subprocess.run(
         [sys.executable, "-c", _block("example")], cwd=folder.parents[1], capture_output=True, text=True, check=True
     )
     assert "arm with known truth: arm_ft (SIM001), 5800 samples that were not fitted" in done.stdout
-    *_, numbers = done.stdout.splitlines()
-    rmse, _, warnings = numbers.strip("[").partition("] ")
-    assert max(float(value) for value in rmse.split()) < 0.1
-    assert warnings.startswith("('new: ")
-    assert "% of 5800 readings lie outside what was fitted, by up to " in warnings
+    *_, sentence = done.stdout.splitlines()
+    assert sentence in " ".join(output.split())
+    assert read_calibration(folder / "mine.json").sensor.serial == "SIM001"
+    assert (folder / "report.html").stat().st_size > 10_000
 
 
 def test_the_script_of_the_page_on_uses_runs(demo: tuple[Path, str]) -> None:

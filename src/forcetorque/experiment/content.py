@@ -136,7 +136,7 @@ class ExperimentContact:
     """Labels of the intervals in which it may touch; None for all."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False, repr=False)
 class Experiment:
     """Everything that an experiment file points to."""
 
@@ -180,6 +180,12 @@ class Experiment:
     """Supports at rest that the file states, used or not."""
     plan: PlanTable | None = None
     """What can be recorded next, as the file states it."""
+
+    def __repr__(self) -> str:
+        sensors = ", ".join(f"{sensor.name} ({sensor.serial})" for sensor in self.sensors)
+        intervals = ", ".join(f"{one.label!r} {one.use}" for one in self.recording.intervals)
+        what = f"{self.model.name}; sensors {sensors}; {intervals or 'no intervals'}"
+        return f"<Experiment {self.name!r}: {what}>"
 
     def sensor(self, name: str) -> ExperimentSensor:
         """Find a sensor of the experiment.

@@ -9,7 +9,7 @@ from typing import Any, Literal
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray, require_shape
+from forcetorque.arrays import FloatArray, IntArray, require_shape
 from forcetorque.errors import ExperimentError
 from forcetorque.estimation import Processing
 from forcetorque.experiment.content import ExperimentSensor, FitOptions, Role
@@ -30,6 +30,7 @@ def experiment_of_arrays(
     time_s: Any,
     reading: Any,
     joints: Mapping[str, Any],
+    joint_time_s: Any = None,
     support: str,
     gravity_direction: Any,
     calibrate: Span,
@@ -47,8 +48,9 @@ def experiment_of_arrays(
         sensor: Name of the sensor in it.
         time_s: Instants of the samples, rising; shape (n,); s.
         reading: What the sensor logged; shape (n, c) in counts, or (n, 6) in N and N m for the quantity `wrench`.
-        joints: Positions at the same instants by name of the joint, shape (n,) each, rad or m: a dictionary or a
-            pandas frame.
+        joints: Positions by name of the joint, shape (m,) each, rad or m: a dictionary or a pandas frame.
+        joint_time_s: Instants of the positions on the same clock, rising; shape (m,); s; those of the readings if left
+            out.
         support: Link that stands still and is the only one to touch the world.
         gravity_direction: Direction in which things fall, in the axes of that link; shape (3,).
         calibrate: Span that is fitted.
@@ -68,11 +70,12 @@ def experiment_of_arrays(
         ShapeError: If the shapes are not these.
     """
     model = robot if isinstance(robot, RobotModel) else read_urdf(robot)
-    stamps = _stamps(time_s)
+    stamps = _stamps(time_s, "time_s")
+    joint_stamps = stamps if joint_time_s is None else _stamps(joint_time_s, "joint_time_s")
     recording = Recording(
         streams={
             _READINGS: _reading_stream(model, sensor, stamps, reading, quantity),
-            _JOINTS: _joint_stream(model, stamps, joints),
+            _JOINTS: _joint_stream(model, joint_stamps, joints),
         }
     )
     if quantity == "wrench" and prior is None:
@@ -126,15 +129,15 @@ def _ns(seconds: float) -> int:
     return round(seconds * 1e9)
 
 
-def _stamps(time_s: Any) -> Any:
+def _stamps(time_s: Any, name: str) -> IntArray:
     time = np.asarray(time_s, dtype=np.float64)
-    require_shape(time, name="time_s", shape=(None,))
+    require_shape(time, name=name, shape=(None,))
     if not np.isfinite(time).all() or (np.diff(time) <= 0.0).any():
-        raise ExperimentError("time_s: expected finite instants that rise; sort the samples, drop repeated ones")
+        raise ExperimentError(f"{name}: expected finite instants that rise; sort the samples, drop repeated ones")
     return np.round(time * 1e9).astype(np.int64)
 
 
-def _reading_stream(model: RobotModel, sensor: str, stamps: Any, reading: Any, quantity: str) -> Stream:
+def _reading_stream(model: RobotModel, sensor: str, stamps: IntArray, reading: Any, quantity: str) -> Stream:
     values = np.asarray(reading, dtype=np.float64)
     require_shape(values, name="reading", shape=(len(stamps), 6 if quantity == "wrench" else None))
     if quantity == "wrench":
@@ -147,7 +150,7 @@ def _reading_stream(model: RobotModel, sensor: str, stamps: Any, reading: Any, q
     return Stream(name=_READINGS, clock="arrays", stamp_ns=stamps, signals={quantity: signal})
 
 
-def _joint_stream(model: RobotModel, stamps: Any, joints: Mapping[str, Any]) -> Stream:
+def _joint_stream(model: RobotModel, stamps: IntArray, joints: Mapping[str, Any]) -> Stream:
     names = tuple(str(joint) for joint in joints)
     absent = [joint for joint in names if joint not in model.joints]
     if absent or not names:

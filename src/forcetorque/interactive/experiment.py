@@ -43,13 +43,6 @@ class Experiment(experiments.Experiment):
         """
         return Run(self, self.sensor(sensor))
 
-    def __repr__(self) -> str:
-        sensors = ", ".join(f"{sensor.name} ({sensor.serial})" for sensor in self.sensors)
-        intervals = ", ".join(f"{one.label!r} {one.use}" for one in self.recording.intervals)
-        start, end = self.recording.span_ns
-        duration = (end - start) * 1e-9
-        return f"<Experiment {self.name!r}: {self.model.name}, {duration:.1f} s; sensors {sensors}; {intervals}>"
-
     def _repr_html_(self) -> str:
         start = self.recording.start_ns
         table = Table(

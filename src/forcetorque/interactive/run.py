@@ -10,7 +10,10 @@ from typing import TYPE_CHECKING, Any
 
 from forcetorque import analysis
 from forcetorque.analysis import SensorRun
+from forcetorque.arrays import FloatArray
 from forcetorque.calibration import Calibration
+from forcetorque.errors import ExperimentError, known_names
+from forcetorque.recording.alignment import seconds_since
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -40,6 +43,25 @@ class Run(SensorRun):
             The calibration.
         """
         return analysis.calibrate_sensor(self, code_version=version("forcetorque"), created=_now(), **options)
+
+    def expected_wrenches(self, label: str) -> tuple[FloatArray, FloatArray]:
+        """Give what mechanics demands that the sensor reads over an interval.
+
+        Args:
+            label: Label of the interval: `calibrate` or `judge` where the experiment is made from arrays.
+
+        Returns:
+            Instants since the start of the recording, shape (n,), s; and wrenches in the sensor's frame and direction,
+            shape (n, 6), N, N m.
+
+        Raises:
+            ExperimentError: If there is no interval of that label.
+        """
+        intervals = {interval.label: interval for interval in self.experiment.recording.intervals}
+        if label not in intervals:
+            raise ExperimentError(f"no interval is labelled {label!r}; {known_names(label, intervals)}")
+        samples = self.interval_samples(intervals[label]).samples
+        return seconds_since(samples.stamp_ns, self.experiment.recording.start_ns), samples.reference
 
     def evaluate(self, calibrations: Calibrations | None = None) -> analysis.Evaluation:
         """Judge calibrations, and their priors, on the validation intervals.
