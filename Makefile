@@ -10,7 +10,7 @@ demo: $(VENV)/run.stamp
 	$(BIN)/python examples/01_known_truth.py build/demo
 
 test: lint types web-check
-	$(BIN)/pytest tests -n auto --dist loadfile --data=$(DATA) -m "not long"
+	$(BIN)/pytest tests -n auto --dist loadfile --no-loadscope-reorder --data=$(DATA) -m "not long"
 
 test-long: $(VENV)/test.stamp
 	$(BIN)/pytest tests --data=$(DATA) -m long
