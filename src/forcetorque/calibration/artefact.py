@@ -203,7 +203,9 @@ class Calibration(Part):
     Where there are quadratic terms, what they add at the load is taken off that.
     """
 
-    model_config = ConfigDict(extra="forbid", frozen=True, arbitrary_types_allowed=True, populate_by_name=True)
+    model_config = ConfigDict(
+        defer_build=True, extra="forbid", frozen=True, arbitrary_types_allowed=True, populate_by_name=True
+    )
 
     schema_name: Literal["forcetorque/calibration/3"] = Field(default=SCHEMA, alias="schema")
     """Form of the file."""

@@ -205,7 +205,9 @@ class VariableDescription(Part):
 class RecordingMoments(Part):
     """All that a calibration needs of the calibration intervals of one recording."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True, arbitrary_types_allowed=True, populate_by_name=True)
+    model_config = ConfigDict(
+        defer_build=True, extra="forbid", frozen=True, arbitrary_types_allowed=True, populate_by_name=True
+    )
 
     schema_name: Literal["forcetorque/moments/1"] = Field(default=SCHEMA, alias="schema")
     """Form of the file."""

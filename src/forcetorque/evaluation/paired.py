@@ -14,7 +14,6 @@ from dataclasses import dataclass
 from typing import Any, Literal, Self
 
 import numpy as np
-from scipy.special import stdtrit
 
 from forcetorque.arrays import FloatArray, require_shape
 from forcetorque.errors import ShapeError
@@ -189,6 +188,8 @@ def ratio_over(stretches: Sequence[FloatArray], errors: Sequence[float], *, pool
     count, mean = len(logs), float(logs.mean())
     half = math.inf
     if count >= FEWEST_STRETCHES:
+        from scipy.special import stdtrit  # here because importing it takes longer than most commands
+
         half = float(stdtrit(count - 1, 0.5 + 0.5 * CONFIDENCE)) * _standard_error(stretches, errors, mean)
     low, high = mean - half, mean + half
     return ErrorRatio(
