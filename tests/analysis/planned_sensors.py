@@ -9,7 +9,8 @@ from pathlib import Path
 
 import numpy as np
 
-from forcetorque.analysis import Plan, SensorRun
+from forcetorque.analysis import SensorRun
+from forcetorque.analysis.plan_proposal import Proposal
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration import DataSet, LinearVariable
 from forcetorque.calibration.generative import REPEATABILITY, Assumptions, GenerativeFit, WindowMeans, fit_generative
@@ -84,10 +85,10 @@ def _reference(recording: Recording, movement: Movement, sensor: str) -> tuple[F
     return np.flatnonzero(inside), samples.reference, samples.flattening
 
 
-def planned_motions(plan: Plan, sensor: str, *, first: int) -> list[Motion]:
-    """Follow the recordings of a plan, each a power-up of its own."""
+def planned_motions(proposals: Sequence[Proposal], sensor: str, *, first: int) -> list[Motion]:
+    """Follow planned recordings, each a power-up of its own."""
     motions = []
-    for number, proposal in enumerate(plan.proposals, start=first):
+    for number, proposal in enumerate(proposals, start=first):
         way = proposal.trajectory
         movement = proposal.place.stand.movement(f"planned {number}", MovementKind.GRID, way, way.duration_s)
         motions.append(Motion.of(movement, sensor, number=number, power_up=number))

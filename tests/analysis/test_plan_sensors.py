@@ -219,7 +219,7 @@ def _nuisance(specimen: Specimen) -> Nuisance:
 
 def _followed(planned: Plan, sensor: str, specimen: Specimen, seed: int) -> list[GenerativeFit]:
     """Calibrations after the first recording, after two, and so on."""
-    data = [motion.recorded(sensor, specimen, seed) for motion in planned_motions(planned, sensor, first=100)]
+    data = [motion.recorded(sensor, specimen, seed) for motion in planned_motions(planned.proposals, sensor, first=100)]
     return [calibrated(data[: k + 1], specimen) for k in range(len(data))]
 
 

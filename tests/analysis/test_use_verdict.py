@@ -12,7 +12,7 @@ import pytest
 from forcetorque.analysis import SensorRun, UseVerdict, accept, calibrate_sensor, loads_of_use, use_verdicts
 from forcetorque.analysis.acceptance_file import AcceptanceFile
 from forcetorque.calibration import Calibration
-from forcetorque.errors import ExperimentError, FormatError
+from forcetorque.errors import ExperimentError, ForceTorqueError, FormatError
 from forcetorque.experiment import load_experiment
 from tests.experiments import PARQUET, edit
 
@@ -158,6 +158,23 @@ def test_a_use_that_cannot_be_is_refused(arm: Path, keys: str, message: str) -> 
     """In one line that names the table and the key."""
     with pytest.raises((ExperimentError, FormatError), match=message):
         loads_of_use([_run(arm, f"\n[[load_case]]\n{keys}\n")])
+
+
+def test_a_use_that_cannot_be_may_leave_the_others_to_be_judged(arm: Path) -> None:
+    """By who asks for it; where no other is stated none is taken for granted."""
+    giant = PUSH.replace('"push"', '"giant"').replace("force_N = 20.0", "force_N = 5000.0")
+    warm = PUSH.replace('"push"', '"warm"') + "changes = { temperature = 5.0 }\n"
+    text = (arm / PARQUET).read_text()
+    calibration = _fit(_run(arm))
+    for cases, judged, refused in ((PUSH + giant + warm, ["push"], ["giant", "warm"]), (giant, [], ["giant"])):
+        (arm / PARQUET).write_text(text)
+        run = _run(arm, cases)
+        with pytest.raises(ForceTorqueError, match="load case 'giant'"):
+            use_verdicts(run, {"new": calibration})
+        errors: list[ForceTorqueError] = []
+        verdicts = use_verdicts(run, {"new": calibration}, refuse=errors.append)
+        assert [verdict.load_case for verdict in verdicts] == judged
+        assert [str(error).split("'")[1] for error in errors] == refused
 
 
 def test_two_load_cases_of_one_name_are_refused(arm: Path) -> None:

@@ -271,11 +271,44 @@ def test_load_cases_of_the_acceptance_file_are_judged(arm: Path, run: Run) -> No
     result = run("report", *words).result()
     assert [(row["load_case"], row["stated"]) for row in result["uses"]] == [("light", True), ("firm", True)]
     assert not any("Check that this is your use" in step for step in result["next_steps"][0]["steps"])
-    Path("limits.toml").write_text(LIMITS + case.format("giant", 1e6), encoding="utf-8")
+    Path("limits.toml").write_text(LIMITS + case.format("giant", 1e6) + case.format("light", 2.0), encoding="utf-8")
     result = run("report", *words).result()
-    assert result["uses"] == []
-    assert "load case 'giant'" in result["undecided"][0]["reason"]
+    assert [row["load_case"] for row in result["uses"]] == ["light"]
+    (undecided,) = result["undecided"]
+    assert "load case 'giant': reaches" in undecided["reason"]
     assert _sensor(result)["evaluation"]
+
+
+USE = """
+[[load_case]]
+name = "push"
+force_N = 20.0
+radius_m = 0.2
+offset = "tared"
+force_error_N = {allowed}
+
+[plan]
+clearance_deg = {clearance}
+"""
+
+
+def test_what_to_record_first_is_said_where_limits_are_stated(arm: Path, run: Run) -> None:
+    """Of a use whose predicted error is too large: postures, and the error to expect; else why it is not known."""
+    text = (arm / PARQUET).read_text(encoding="utf-8")
+    words = ("report", PARQUET, "fitted.json", "-o", "report.html", "--format", "json")
+
+    def steps(rest: str) -> list[str]:
+        (arm / PARQUET).write_text(text + rest, encoding="utf-8")
+        return list(run(*words).result()["next_steps"][0]["steps"])
+
+    planned = [step for step in steps(USE.format(allowed=1e-3, clearance=12)) if step.startswith("For “push”, ")]
+    assert len(planned) == 1
+    pattern = r"record first \d+ postures in \d+ s, .*: the expected error falls from .* N m to .* N \(at most"
+    assert re.search(pattern, planned[0])
+    impossible = steps(USE.format(allowed=1e-3, clearance=900))
+    assert any("For “push”, no recording could be planned: plan: joint" in step for step in impossible)
+    # negative control: an error that is allowed
+    assert not any("For “push”" in step for step in steps(USE.format(allowed=5.0, clearance=12)))
 
 
 REFUSED = {

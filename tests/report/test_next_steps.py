@@ -3,9 +3,12 @@
 
 from __future__ import annotations
 
+from types import SimpleNamespace
+from typing import cast
+
 import numpy as np
 
-from forcetorque.analysis import Reason, UseVerdict
+from forcetorque.analysis import Reason, SensorRun, UseVerdict
 from forcetorque.report.next_steps import next_steps
 from forcetorque.report.repeated import gathered, said_once
 from forcetorque.report.uses import Undecided
@@ -19,7 +22,8 @@ MOVE = Reason(against="data", text="the load hardly moved; judge data that move"
 def _steps(*uses: UseVerdict, undecided: tuple[Undecided, ...] = ()) -> tuple[str, ...]:
     names = dict.fromkeys(row.candidate for row in (*uses, *undecided) if row.candidate is not None)
     calibrations = {name: make_calibration() for name in names}
-    return next_steps(KEY, uses, undecided, calibrations, ["walk.toml"]).steps
+    run = cast("SensorRun", SimpleNamespace(experiment=SimpleNamespace(plan=None)))
+    return next_steps(KEY, uses, undecided, calibrations, {"walk.toml": run}).steps
 
 
 def test_a_calibration_that_may_be_used_is_put_on_the_robot() -> None:

@@ -9,12 +9,13 @@ from typing import Final
 from forcetorque.analysis.campaign import Campaign, Runs
 from forcetorque.analysis.judged_evidence import judged_evidence
 from forcetorque.analysis.judged_excitation import JudgedExcitation
-from forcetorque.analysis.loads_of_use import loads_of_use
+from forcetorque.analysis.loads_of_use import Refuse, loads_of_use, raise_refused
 from forcetorque.analysis.prior_comparison import compare_with_prior
 from forcetorque.analysis.unseen import require_unseen
 from forcetorque.analysis.use_judge import UseJudge, amount
 from forcetorque.analysis.use_verdict import UseVerdict
 from forcetorque.calibration import Calibration
+from forcetorque.errors import FitError
 from forcetorque.evaluation import Offset
 from forcetorque.evaluation.use import UseOffset
 from forcetorque.experiment.load_case_schema import LoadCaseTable
@@ -25,6 +26,8 @@ def use_verdicts(
     runs: Runs,
     calibrations: Mapping[str, Calibration],
     more: Sequence[LoadCaseTable] = (),
+    *,
+    refuse: Refuse = raise_refused,
 ) -> tuple[UseVerdict, ...]:
     """Say of every calibration whether it may be used for the loads to come.
 
@@ -35,6 +38,7 @@ def use_verdicts(
         runs: The sensor in one recording, or in several.
         calibrations: Its calibrations by name, which have not seen the validation intervals.
         more: Load cases beside those of the experiments, such as those of an acceptance file.
+        refuse: Called with what is wrong with a load case, on which there is then no verdict; raises it if left out.
 
     Returns:
         A verdict for every calibration and load case.
@@ -53,16 +57,20 @@ def use_verdicts(
     worse = _worse(campaign, calibrations) if judged and calibrations else {}
     verdicts = []
     for name, calibration in calibrations.items():
-        for case in loads_of_use(campaign.runs, more, matrix=calibration.matrix):
+        for case in loads_of_use(campaign.runs, more, matrix=calibration.matrix, refuse=refuse):
             seen = measured.get(name)
-            judge = UseJudge(
-                case,
-                calibration,
-                seen,
-                still=None if seen is None else JudgedExcitation.of(seen.reference, [calibration]).words,
-                worse=worse.get((name, _COMPARED[case.offset])),
-            )
-            verdicts.append(_verdict(campaign, name, judge))
+            try:
+                judge = UseJudge(
+                    case,
+                    calibration,
+                    seen,
+                    still=None if seen is None else JudgedExcitation.of(seen.reference, [calibration]).words,
+                    worse=worse.get((name, _COMPARED[case.offset])),
+                )
+            except FitError as error:
+                refuse(error)
+            else:
+                verdicts.append(_verdict(campaign, name, judge))
     return tuple(verdicts)
 
 

@@ -3,14 +3,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Final
 
 import numpy as np
 
 from forcetorque.analysis.sensor_run import SensorRun
 from forcetorque.arrays import FloatArray
-from forcetorque.errors import ExperimentError, RobotError
+from forcetorque.errors import ExperimentError, ForceTorqueError, RobotError
 from forcetorque.evaluation.use import LoadCase, pushes_at, pushes_within, shares_of, weights
 from forcetorque.experiment.load_case_schema import LoadCaseTable
 from forcetorque.robot import BodyTree, JointMotion, RobotModel, build_tree
@@ -27,8 +27,28 @@ _POSTURES, _SEED = 40, 5
 _SOLES = ("sole", "foot")
 
 
+Refuse = Callable[[ForceTorqueError], None]
+"""Called with why a load case cannot be had at a sensor."""
+
+
+def raise_refused(error: ForceTorqueError) -> None:
+    """Refuse all load cases because of one.
+
+    Args:
+        error: What is wrong with it.
+
+    Raises:
+        ForceTorqueError: Always.
+    """
+    raise error
+
+
 def loads_of_use(
-    runs: Sequence[SensorRun], more: Sequence[LoadCaseTable] = (), *, matrix: FloatArray | None = None
+    runs: Sequence[SensorRun],
+    more: Sequence[LoadCaseTable] = (),
+    *,
+    matrix: FloatArray | None = None,
+    refuse: Refuse = raise_refused,
 ) -> tuple[LoadCase, ...]:
     """Give what a sensor is to be used for.
 
@@ -37,6 +57,7 @@ def loads_of_use(
         more: Load cases beside those of the experiments, such as those of an acceptance file.
         matrix: Matrix by which loads are turned into counts, to see whether the sensor can read them, shape (6, c); the
             prior of the experiment if left out.
+        refuse: Called with what is wrong with a load case, which is then left out; raises it if left out.
 
     Returns:
         The load cases that are stated for the sensor; without any the weight of the robot on its sole for a sensor in
@@ -51,13 +72,20 @@ def loads_of_use(
         if table.name in tables:
             raise ExperimentError(f"two load cases are called {table.name!r}; expected one of each name")
         tables[table.name] = table
-    cases = [case for table in tables.values() if (case := place.case(table)) is not None]
-    if not cases:
-        default = place.default(max(_Place(run).outboard_weight for run in runs))
-        return () if default is None else (default,)
-    for case in cases:
-        _require_readable(case, runs[0], matrix)
-    return tuple(cases)
+    cases, refused = [], False
+    for table in tables.values():
+        try:
+            case = place.case(table)
+            if case is not None:
+                _require_readable(case, runs[0], matrix)
+                cases.append(case)
+        except ExperimentError as error:
+            refused = True
+            refuse(error)
+    if cases or refused:
+        return tuple(cases)
+    default = place.default(max(_Place(run).outboard_weight for run in runs))
+    return () if default is None else (default,)
 
 
 class _Place:

@@ -12,10 +12,10 @@ from pydantic import Field
 
 from forcetorque.analysis.campaign import Campaign, Runs
 from forcetorque.analysis.loads_of_use import loads_of_use
-from forcetorque.analysis.plan_proposal import TEMPERATURE, Demand, Effort, Proposal, propose
+from forcetorque.analysis.plan_proposal import TEMPERATURE, Demand, Effort, Proposal, proposals
 from forcetorque.analysis.plan_rows import PlannedPosture, PlannedRecording, posture_rows, recording_row
 from forcetorque.analysis.plan_words import advice, limits_of, posture_tables, recordings_table
-from forcetorque.analysis.plan_workplace import Workplace, supports_of, workplaces
+from forcetorque.analysis.plan_workplace import supports_of, workplaces
 from forcetorque.analysis.sensor_run import SensorRun
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration import Calibration
@@ -29,8 +29,6 @@ from forcetorque.result import Result, Table
 
 RECORDINGS, SECONDS = 3, 60.0
 """Recordings that are planned unless told otherwise, and about how long each is."""
-_SAME = 1e-6
-"""Part of the criterion below which one recording is as good as another; the simpler one is then made."""
 _QUICK = Effort(postures=150, swaps=0)
 
 
@@ -115,16 +113,23 @@ def plan(
         effort=effort or Effort(),
     )
     places = workplaces(start.runs[0], table, _clearance(table, clearance_deg), supports_of(start.runs, table))
-    known, before = start.known, start.error
-    proposals: list[Proposal] = []
+    wanted = proposals(
+        places,
+        start.known,
+        demand,
+        recordings=recordings,
+        temperatures=_temperatures(table, start),
+        progress=progress,
+    )
+    planned: list[Proposal] = []
     rows: list[PlannedRecording] = []
-    for number in range(1, recordings + 1):
-        progress(f"planning recording {number}")
-        best = _best(places, known, demand, _temperatures(table, start))
+    before = start.error
+    for number, best in enumerate(wanted, start=1):
         after = predict_by(best.after.posterior, start.case)
-        proposals.append(best)
+        planned.append(best)
         rows.append(recording_row(number, best, before, after, start.case))
-        known, before = best.after, after
+        before = after
+    known = planned[-1].after
     return Plan(
         sensor=start.runs[0].sensor.name,
         serial=start.runs[0].sensor.serial,
@@ -133,9 +138,9 @@ def plan(
         start="prior" if calibration is None else "calibration",
         advice=advice(rows, start.known.posterior, known.posterior, demand.criterion, places),
         recordings=tuple(rows),
-        postures=tuple(row for k, one in enumerate(proposals, 1) for row in posture_rows(k, one)),
+        postures=tuple(row for k, one in enumerate(planned, 1) for row in posture_rows(k, one)),
         limits=limits_of(calibrated=calibration is not None, posterior=start.known.posterior),
-        proposals=tuple(proposals),
+        proposals=tuple(planned),
     )
 
 
@@ -286,21 +291,3 @@ def _temperatures(table: PlanTable, start: _Start) -> list[tuple[float, float] |
         )
     steady = (values[0], values[0])
     return [steady] if len(set(values)) == 1 else [steady, (min(values), max(values))]
-
-
-def _best(
-    places: Sequence[Workplace],
-    known: Knowledge,
-    demand: Demand,
-    temperatures: Sequence[tuple[float, float] | None],
-) -> Proposal:
-    best: Proposal | None = None
-    for temperature in temperatures:
-        for place in places:
-            proposal = propose(place, known, demand, temperature)
-            # what comes first is simpler: nothing attached, one temperature
-            if best is None or proposal.value < best.value * (1.0 - _SAME):
-                best = proposal
-    if best is None:
-        raise ExperimentError("plan: nothing can be recorded")
-    return best

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,6 +11,7 @@ import numpy as np
 from forcetorque.analysis.plan_workplace import Workplace
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration.posterior import Posterior
+from forcetorque.errors import ExperimentError
 from forcetorque.evaluation.planning import Choices, Criterion, Knowledge, Lesson, pick
 from forcetorque.noise import means_over
 from forcetorque.robot import JointMotion
@@ -17,6 +19,8 @@ from forcetorque.simulation.motions import Waypoints
 
 TEMPERATURE = "temperature"
 """The variable whose values a plan may choose."""
+_SAME = 1e-6
+"""Part of the criterion below which one recording is as good as another; the simpler one is then made."""
 _SEED = 31
 _SAMPLED_HZ = 4.0
 """Rate at which loads on the way are averaged over a second: moves take seconds."""
@@ -63,6 +67,38 @@ class Proposal:
     """What is known after it."""
     value: float
     """The criterion after it."""
+
+
+def proposals(
+    places: Sequence[Workplace],
+    known: Knowledge,
+    demand: Demand,
+    *,
+    recordings: int,
+    temperatures: Sequence[tuple[float, float] | None] = (None,),
+    progress: Callable[[str], None] = lambda _: None,
+) -> Iterator[Proposal]:
+    """Find recordings one after the other, each the best once those before it are made.
+
+    Args:
+        places: Where they can be made, the simplest first.
+        known: What is known before.
+        demand: What is wanted of each.
+        recordings: How many.
+        temperatures: Temperatures at the start and at the end that are tried, the simplest first.
+        progress: Called with what is being done.
+
+    Yields:
+        The recordings.
+
+    Raises:
+        ExperimentError: If there is no place.
+    """
+    for number in range(1, recordings + 1):
+        progress(f"planning recording {number}")
+        best = _best(places, known, demand, temperatures)
+        yield best
+        known = best.after
 
 
 def propose(place: Workplace, known: Knowledge, demand: Demand, temperature: tuple[float, float] | None) -> Proposal:
@@ -117,6 +153,24 @@ def lesson_of(
     columns = np.hstack([place.loads(motion), _variables(posterior, temperature, share)])
     time, means, _ = means_over(sampled, columns)
     return Lesson(time_s=time, wrench=means[:, :6], variables=means[:, 6:])
+
+
+def _best(
+    places: Sequence[Workplace],
+    known: Knowledge,
+    demand: Demand,
+    temperatures: Sequence[tuple[float, float] | None],
+) -> Proposal:
+    best: Proposal | None = None
+    for temperature in temperatures:
+        for place in places:
+            proposal = propose(place, known, demand, temperature)
+            # what comes first is simpler: nothing attached, one temperature
+            if best is None or proposal.value < best.value * (1.0 - _SAME):
+                best = proposal
+    if best is None:
+        raise ExperimentError("plan: nothing can be recorded")
+    return best
 
 
 def _proposal(

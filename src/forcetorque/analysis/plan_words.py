@@ -110,9 +110,9 @@ def advice(
     warm = "" if first.temperature_start_degC is None else f", {_temperature(first)} degC"
     return (
         f"record first {first.postures} postures in {first.seconds:.0f} s, held at {first.support}, {attached}{warm}: "
-        f"{first.force_before_N:.3g} N and {first.moment_before_Nm:.3g} N m become {first.force_after_N:.3g} N "
-        f"(at most {first.force_after_at_most_N:.3g}) and {first.moment_after_Nm:.3g} N m (at most "
-        f"{first.moment_after_at_most_Nm:.3g}){_in_the_end(rows)}{left}"
+        f"the expected error falls from {first.force_before_N:.3g} N and {first.moment_before_Nm:.3g} N m to "
+        f"{first.force_after_N:.3g} N (at most {first.force_after_at_most_N:.3g}) and {first.moment_after_Nm:.3g} N m "
+        f"(at most {first.moment_after_at_most_Nm:.3g}){_in_the_end(rows)}{left}"
     )
 
 
@@ -121,7 +121,7 @@ def _in_the_end(rows: Sequence[PlannedRecording]) -> str:
     last = rows[-1]
     if len(rows) == 1:
         return ""
-    return f"; after all {len(rows)} it is {last.force_after_N:.3g} N and {last.moment_after_Nm:.3g} N m"
+    return f"; after all {len(rows)} to {last.force_after_N:.3g} N and {last.moment_after_Nm:.3g} N m"
 
 
 def limits_of(*, calibrated: bool, posterior: Posterior) -> tuple[str, ...]:

@@ -6,8 +6,17 @@ from __future__ import annotations
 import shlex
 from collections.abc import Iterator, Mapping, Sequence
 
-from forcetorque.analysis import LITTLE_LEARNT, UseVerdict, learnt_directions, to_learn
+from forcetorque.analysis import (
+    LITTLE_LEARNT,
+    SensorRun,
+    UseVerdict,
+    learnt_directions,
+    loads_of_use,
+    plan_sentence,
+    to_learn,
+)
 from forcetorque.calibration import Calibration
+from forcetorque.errors import ForceTorqueError
 from forcetorque.evaluation.use import CONFIDENCE
 from forcetorque.report.repeated import gathered, said_once
 from forcetorque.report.uses import SensorKey, Undecided
@@ -30,7 +39,7 @@ def next_steps(
     uses: Sequence[UseVerdict],
     undecided: Sequence[Undecided],
     calibrations: Mapping[str, Calibration],
-    files: Sequence[str],
+    runs: Mapping[str, SensorRun],
 ) -> NextSteps:
     """Say what to do next about a sensor.
 
@@ -39,7 +48,7 @@ def next_steps(
         uses: Verdicts on its calibrations.
         undecided: Its calibrations on which there is none.
         calibrations: All of its calibrations by name of their file.
-        files: Experiment files that have the sensor.
+        runs: The sensor in every experiment that has it, by name of the file.
 
     Returns:
         The steps: what to do with the calibration today, what to mend, what to record, what to state.
@@ -51,8 +60,9 @@ def next_steps(
             ((names[verdict.candidate], step) for verdict in uses for step in _remedies(verdict)), names.values()
         ),
         *said_once(_to_record(uses, calibrations, names), names.values()),
-        *_plan(uses, files),
-        *_begin(undecided, key[0], files, names),
+        *said_once(_first_recording(uses, calibrations, [*runs.values()], names), names.values()),
+        *_plan(uses, [*runs]),
+        *_begin(undecided, key[0], [*runs], names),
         *_state_use(uses),
     ]
     return NextSteps(sensor=key[0], serial=key[1], steps=tuple(dict.fromkeys(steps)))
@@ -116,6 +126,34 @@ def _to_record(
 
 def _predicts_too_much(verdict: UseVerdict) -> bool:
     return verdict.within is not None and verdict.within < CONFIDENCE
+
+
+def _first_recording(
+    uses: Sequence[UseVerdict],
+    calibrations: Mapping[str, Calibration],
+    runs: Sequence[SensorRun],
+    names: Mapping[str, str],
+) -> Iterator[tuple[str, str]]:
+    """By name of a calibration what to record first for the use that it is farthest from, where limits are stated."""
+    if not any(run.experiment.plan is not None and run.experiment.plan.clearance_deg is not None for run in runs):
+        return
+    for file, calibration in calibrations.items():
+        wanted = [verdict for verdict in uses if verdict.candidate == file and _predicts_too_much(verdict)]
+        cases = {case.name for case in loads_of_use(runs, matrix=calibration.matrix, refuse=lambda _: None)}
+        known = [verdict for verdict in wanted if verdict.load_case in cases]
+        if not known:  # a use of an acceptance file, which no plan reads
+            continue
+        worst = min(known, key=_chance)
+        try:
+            words = plan_sentence(runs, calibration, load_case=worst.load_case)
+        except ForceTorqueError as error:
+            words = f"no recording could be planned: {error}"
+        yield names[file], f"For “{worst.load_case}”, {words}."
+
+
+def _chance(verdict: UseVerdict) -> float:
+    """Predicted probability of an error within what is allowed."""
+    return 1.0 if verdict.within is None else verdict.within
 
 
 def _plan(uses: Sequence[UseVerdict], files: Sequence[str]) -> Iterator[str]:

@@ -239,11 +239,12 @@ def report(
                 [row for row in uses if (row.sensor, row.serial) == key],
                 [row for row in undecided if (row.sensor, row.serial) == key],
                 {file: one for groups in calibrations for file, one in groups.get(key[0], {}).items()},
-                [
-                    file
+                {
+                    file: run
                     for (file, _), own in zip(experiments, runs, strict=True)
-                    if key in map(sensor_key, own.values())
-                ],
+                    for run in own.values()
+                    if sensor_key(run) == key
+                },
             )
             for key in sensor_keys(uses, undecided)
         ),

@@ -48,23 +48,26 @@ def decide_uses(
     more = demands.acceptance.load_case if demands.acceptance is not None else ()
     verdicts: list[UseVerdict] = []
     undecided: list[Undecided] = []
+
+    def refuse(key: SensorKey, file: str | None, reason: object) -> None:
+        undecided.append(Undecided(sensor=key[0], serial=key[1], candidate=file, reason=str(reason)))
+
     for key, own in _by_sensor(runs).items():
-        name, serial = key
         files = {
             file: one
             for run, groups in zip(runs, calibrations, strict=True)
-            if name in run and sensor_key(run[name]) == key
-            for file, one in groups.get(name, {}).items()
+            if key[0] in run and sensor_key(run[key[0]]) == key
+            for file, one in groups.get(key[0], {}).items()
         }
-        undecided_of = partial(Undecided, sensor=name, serial=serial)
         if not files:
-            reason = "no calibration was given; without one nothing tells what its errors will be"
-            undecided.append(undecided_of(candidate=None, reason=reason))
+            refuse(key, None, "no calibration was given; without one nothing tells what its errors will be")
         for file, calibration in files.items():
             try:
-                verdicts += use_verdicts(Campaign(_unseen(own, file, calibration)), {file: calibration}, more)
+                campaign = Campaign(_unseen(own, file, calibration))
+                # a load case that cannot be had leaves the others to be judged
+                verdicts += use_verdicts(campaign, {file: calibration}, more, refuse=partial(refuse, key, file))
             except ForceTorqueError as error:
-                undecided.append(undecided_of(candidate=file, reason=str(error)))
+                refuse(key, file, error)
     return tuple(verdicts), tuple(undecided)
 
 
