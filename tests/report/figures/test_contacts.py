@@ -9,6 +9,7 @@ from matplotlib.figure import Figure
 
 from forcetorque.errors import ShapeError, UnitError
 from forcetorque.report.figures import contact_figure
+from forcetorque.report.figures.canvas import png_bytes
 from tests.report.drawing import legend_of, panels
 
 COUNT = 600
@@ -131,7 +132,7 @@ def test_candidates_have_points_that_do_not_meet(drawn: list[Figure]) -> None:
 def test_a_few_samples_are_drawn(count: int) -> None:
     """The shortest recordings, and sessions of one sample, make a figure too."""
     spans = [(f"s{k}", k, k + 1) for k in range(count)]
-    assert contact_figure(TIME[:count], {"a": _forces()[:count]}, unit="N", spans=spans)[:4] == b"\x89PNG"
+    assert png_bytes(contact_figure(TIME[:count], {"a": _forces()[:count]}, unit="N", spans=spans))[:4] == b"\x89PNG"
 
 
 def test_what_cannot_be_drawn_is_refused() -> None:
