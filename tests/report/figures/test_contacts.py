@@ -55,9 +55,8 @@ def test_sessions_of_two_days_are_drawn_end_to_end(drawn: list[Figure]) -> None:
     spans = [("day 1", 0, 200), ("day 2", 200, 600)]
     again = np.concatenate([TIME[:200], TIME[:400]])
     day_later = again + np.repeat([0.0, 86400.0], [200, 400])
-    assert contact_figure(again, {"a": forces}, unit="N", spans=spans) == contact_figure(
-        day_later, {"a": forces}, unit="N", spans=spans
-    )
+    first, later = (contact_figure(time, {"a": forces}, unit="N", spans=spans) for time in (again, day_later))
+    assert png_bytes(first) == png_bytes(later)
     # 1.99 s and 3.99 s: from the first to the last sample of each
     assert _drawn(drawn[0], 1)[-1, 0] == pytest.approx(1.99 + 3.99)
     for panel in panels(drawn[0]):
