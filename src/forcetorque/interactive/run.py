@@ -126,10 +126,10 @@ class Run(SensorRun):
         Returns:
             A figure of matplotlib.
         """
-        from forcetorque.report.figures import draw_comparison
+        from forcetorque.report.figures import comparison_figure
 
         judged = self.judged(named(calibrations))
-        return draw_comparison(judged.time_s, judged.reference, dict(judged.measured))
+        return comparison_figure(judged.time_s, judged.reference, dict(judged.measured))
 
 
 def named(calibrations: Calibrations | None) -> dict[str, Calibration]:

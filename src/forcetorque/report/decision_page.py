@@ -9,7 +9,7 @@ from forcetorque.analysis import UseVerdict
 from forcetorque.calibration import Calibration
 from forcetorque.evaluation.use import CONFIDENCE
 from forcetorque.report import figures
-from forcetorque.report.document import Block, Figure, List, Place, Section, Tone, Verdict
+from forcetorque.report.document import Block, Figure, List, Picture, Place, Section, Tone, Verdict
 from forcetorque.report.next_steps import NextSteps
 from forcetorque.report.repeated import said_once
 from forcetorque.report.uses import Undecided
@@ -96,7 +96,7 @@ def _figure(uses: Sequence[UseVerdict], names: Mapping[str, str]) -> Iterator[Bl
         for verdict in drawn
     )
     yield Figure(
-        png=figures.use_figure(drawn, names),
+        picture=Picture(lambda: figures.use_figure(drawn, names)),
         caption="How much readings are predicted to err, root mean square over the loads of the use. Before: with the "
         f"matrix that the calibration came from. After: with the calibration. Loads of “{cases}.{_beside(drawn)}",
         description=f"Predicted force and moment errors with the prior and after calibration: {sizes}.",

@@ -17,7 +17,7 @@ from forcetorque.report.calibration_sections import (
     learnt_blocks,
     uncertainty_blocks,
 )
-from forcetorque.report.document import Block, Figure, List, Text
+from forcetorque.report.document import Block, Figure, List, Picture, Text
 from forcetorque.result import short_names, table_of, without_vague
 
 Question = tuple[str, Callable[[Assessment], Iterator[Block]]]
@@ -37,15 +37,18 @@ def _errors(sensor: Assessment) -> Iterator[Block]:
     names = short_names([name for name, _ in judged.measured])
     shown = {names[name]: wrench for name, wrench in judged.measured}
     yield Figure(
-        png=figures.comparison_figure(judged.time_s, judged.reference, shown),
+        picture=Picture(lambda: figures.comparison_figure(judged.time_s, judged.reference, shown)),
         caption="Measured wrenches against what the model demands (dashed), on data that was not fitted.",
         description=f"Six plots over time, one per component, of the reference and of {', '.join(shown)}.",
     )
-    errors = {name: wrench - judged.reference for name, wrench in shown.items()}
     yield Figure(
-        png=figures.residual_figure(judged.time_s, errors),
+        picture=Picture(
+            lambda: figures.residual_figure(
+                judged.time_s, {name: wrench - judged.reference for name, wrench in shown.items()}
+            )
+        ),
         caption="Errors: their distribution, and how long they repeat themselves.",
-        description=f"Histograms and autocorrelations of the six error components of {', '.join(errors)}.",
+        description=f"Histograms and autocorrelations of the six error components of {', '.join(shown)}.",
     )
 
 
@@ -70,7 +73,7 @@ def _space(sensor: Assessment) -> Iterator[Block]:
         if reasons:
             yield List(points=tuple(sorted(reasons)))
         yield Figure(
-            png=figures.sphere_figure(sensor.clouds),
+            picture=Picture(lambda: figures.sphere_figure(sensor.clouds)),
             caption="Forces, the ellipsoid through them and the sphere of the weight; dotted: not identifiable.",
             description="Clouds of forces seen along the three axes, with ellipsoids and a circle of the weight.",
         )
@@ -80,7 +83,7 @@ def _space(sensor: Assessment) -> Iterator[Block]:
         read = [*((names[name], wrench) for name, wrench in judged.measured), ("reference", judged.reference)]
         clouds = [(name, wrench[:, 3:]) for name, wrench in read]
         yield Figure(
-            png=figures.force_space_figure({sensor.sensor: clouds}, quantity="moment"),
+            picture=Picture(lambda: figures.force_space_figure({sensor.sensor: clouds}, quantity="moment")),
             caption="Moments on data that was not fitted, and what the model demands.",
             description="Clouds of moments seen along the three axes, measured and expected.",
         )

@@ -7,13 +7,14 @@ import io
 import re
 
 import pytest
-from PIL import Image
+from matplotlib.figure import Figure as MplFigure
 from pypdf import PageObject, PdfReader
 
 from forcetorque.report.document import (
     Document,
     Figure,
     List,
+    Picture,
     Place,
     Section,
     Table,
@@ -23,12 +24,11 @@ from forcetorque.report.document import (
     html_bytes,
     pdf_bytes,
 )
+from forcetorque.report.figures.canvas import DOTS_PER_INCH
 
 
-def _picture(width: int = 1200, height: int = 400) -> bytes:
-    png = io.BytesIO()
-    Image.new("RGB", (width, height), "white").save(png, format="png")
-    return png.getvalue()
+def _picture(width: int = 1200, height: int = 400) -> Picture:
+    return Picture(lambda: MplFigure(figsize=(width / DOTS_PER_INCH, height / DOTS_PER_INCH)))
 
 
 def _page(name: str, *, steps: int = 3, height: int = 400, spare: int = 2) -> Section:
@@ -38,7 +38,7 @@ def _page(name: str, *, steps: int = 3, height: int = 400, spare: int = 2) -> Se
         title=name,
         blocks=(
             Verdict(tone=Tone.BAD, word="do not use", text=f"because of {name}"),
-            Figure(png=_picture(height=height), caption="errors", description="d"),
+            Figure(picture=_picture(height=height), caption="errors", description="d"),
         ),
         sections=(
             Section(title="next", blocks=(List(points=("do this " * 20,) * steps, numbered=True),)),

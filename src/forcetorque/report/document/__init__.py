@@ -15,6 +15,7 @@ from forcetorque.report.document.content import (
 )
 from forcetorque.report.document.html import html_bytes
 from forcetorque.report.document.pdf import pdf_bytes
+from forcetorque.report.document.picture import Picture
 from forcetorque.result import Table
 
 __all__ = [
@@ -23,6 +24,7 @@ __all__ = [
     "Figure",
     "List",
     "Page",
+    "Picture",
     "Place",
     "Section",
     "Table",

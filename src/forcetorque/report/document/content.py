@@ -8,6 +8,7 @@ from datetime import datetime
 from enum import StrEnum
 
 from forcetorque.errors import FormatError
+from forcetorque.report.document.picture import Picture
 from forcetorque.result import Table
 
 NO_ROWS = "no rows"
@@ -73,8 +74,8 @@ class List:
 class Figure:
     """A picture."""
 
-    png: bytes
-    """The picture as PNG."""
+    picture: Picture
+    """The picture."""
     caption: str
     """What stands below it."""
     description: str

@@ -17,7 +17,7 @@ from forcetorque.report.document.content import (
     Text,
     Verdict,
 )
-from forcetorque.report.document.small_png import small_png
+from forcetorque.report.document.undrawn import without_undrawn
 from forcetorque.result import Table
 
 _KINDS = {Verdict: "verdict", Text: "text", List: "list", Table: "table", Figure: "figure", Page: "page"}
@@ -44,7 +44,9 @@ def html_bytes(document: Document) -> bytes:
     environment.filters |= {"kind": _kind, "data_url": _data_url, "pieces": _pieces}
     template = environment.from_string((folder / "document.html.j2").read_text(encoding="utf-8"))
     style = (folder / "document.css").read_text(encoding="utf-8")
-    return template.render(document=document, style=style, no_rows=NO_ROWS).encode(errors="backslashreplace")
+    return template.render(document=without_undrawn(document), style=style, no_rows=NO_ROWS).encode(
+        errors="backslashreplace"
+    )
 
 
 def _kind(block: Block) -> str:
@@ -60,4 +62,4 @@ def _pieces(text: str) -> list[tuple[str, bool]]:
 
 
 def _data_url(png: bytes) -> str:
-    return "data:image/png;base64," + base64.b64encode(small_png(png)).decode("ascii")
+    return "data:image/png;base64," + base64.b64encode(png).decode("ascii")

@@ -23,6 +23,7 @@ from forcetorque.report.document.pdf_blocks import (
     paragraph_mm,
 )
 from forcetorque.report.document.pdf_table import first_rows_mm
+from forcetorque.report.document.undrawn import without_undrawn
 from forcetorque.result import Table
 
 if TYPE_CHECKING:
@@ -96,12 +97,13 @@ def _draw(page: FPDF, document: Document) -> None:
     page.set_title(document.title)
     page.set_lang("en")
     page.set_creation_date(document.instant.astimezone(UTC))
-    spelled = spelled_document(document, _letters(page))
+    drawn = without_undrawn(document)
+    spelled = spelled_document(drawn, _letters(page))
     page.add_page()
     draw_line(page, spelled.title, _TITLE_POINTS, bold=True)
     draw_line(page, spelled.subtitle, BODY_POINTS, colour=FAINT)
     draw_line(page, f"made {document.created}", BODY_POINTS, colour=FAINT)
-    if spelled != document:
+    if spelled != drawn:
         draw_line(page, MISSING_LETTERS, BODY_POINTS, colour=FAINT)
     later: list[Section] = []
     for k, section in enumerate(spelled.sections):

@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING
 from forcetorque.report.document.content import NO_ROWS, Block, Figure, List, Page, Text, Tone, Verdict
 from forcetorque.report.document.lines import lines_of
 from forcetorque.report.document.pdf_table import draw_table, table_mm
-from forcetorque.report.document.small_png import small_png
 from forcetorque.result import Table
 
 if TYPE_CHECKING:
@@ -147,7 +146,7 @@ def figure_size_mm(page: FPDF, figure: Figure, most_mm: float | None = None) -> 
     room = max(page.eph - 4.0 * LINE_MM - words, 0.5 * page.eph)
     if most_mm is not None:
         room = min(room, most_mm - words)
-    with Image.open(io.BytesIO(figure.png)) as picture:
+    with Image.open(io.BytesIO(figure.picture.png)) as picture:
         height = page.epw * picture.height / picture.width
     scale = min(1.0, room / height)
     return page.epw * scale, height * scale + min(words, 0.3 * page.eph)
@@ -161,7 +160,7 @@ def _draw_figure(page: FPDF, figure: Figure, most_mm: float | None) -> None:
     width, height = figure_size_mm(page, figure, most_mm)
     if page.will_page_break(height):
         page.add_page()
-    page.image(io.BytesIO(small_png(figure.png)), w=width, alt_text=figure.description)
+    page.image(io.BytesIO(figure.picture.png), w=width, alt_text=figure.description)
     draw_line(page, figure.caption, CAPTION_POINTS, colour=FAINT)
     page.ln(0.5 * LINE_MM)
 

@@ -16,12 +16,12 @@ from forcetorque.report.figures.canvas import (
     legend_below,
     look,
     new_figure,
-    png_bytes,
     shown_name,
 )
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 _POINTS = 13.0
 """Size of the letters: the figure is read on paper, at half its width."""
@@ -39,7 +39,7 @@ _AFTER_BEYOND: dict[str, Any] = {"color": look(1).colour, "marker": "X", "linest
 _LIMIT: dict[str, Any] = {"color": REFERENCE_COLOUR, "linestyle": (0, (4, 3)), "linewidth": 1.6}
 
 
-def use_figure(verdicts: Sequence[UseVerdict], names: Mapping[str, str]) -> bytes:
+def use_figure(verdicts: Sequence[UseVerdict], names: Mapping[str, str]) -> Figure:
     """Draw how large the errors at the loads of use will be: with the prior matrix, and with the calibration.
 
     Args:
@@ -47,7 +47,7 @@ def use_figure(verdicts: Sequence[UseVerdict], names: Mapping[str, str]) -> byte
         names: What to show by name of a calibration.
 
     Returns:
-        The figure as PNG: a row per calibration and load case; force on the left, moment on the right.
+        The figure: a row per calibration and load case; force on the left, moment on the right.
 
     Raises:
         MissingExtraError: If matplotlib is not installed.
@@ -72,7 +72,7 @@ def use_figure(verdicts: Sequence[UseVerdict], names: Mapping[str, str]) -> byte
         title="mark: half of such sensors err less; line: 95 % of them; “at most”: its upper end",
         points=_POINTS,
     )
-    return png_bytes(figure)
+    return figure
 
 
 def _keys(rows: Sequence[UseError]) -> list[tuple[str, Mapping[str, Any]]]:
