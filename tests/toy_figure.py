@@ -4,12 +4,16 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import TYPE_CHECKING
 
 from forcetorque.arrays import FloatArray
-from forcetorque.report.figures.canvas import ROW_INCHES, legend_below, look, new_figure, png_bytes, shown_name
+from forcetorque.report.figures.canvas import ROW_INCHES, legend_below, look, new_figure, shown_name
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 
-def toy_figure(time_s: FloatArray, forces: Mapping[str, FloatArray]) -> bytes:
+def toy_figure(time_s: FloatArray, forces: Mapping[str, FloatArray]) -> Figure:
     """Draw the norms of forces over time.
 
     Args:
@@ -17,7 +21,7 @@ def toy_figure(time_s: FloatArray, forces: Mapping[str, FloatArray]) -> bytes:
         forces: Forces by name; shape (n, 3) each; N.
 
     Returns:
-        The figure as PNG.
+        The figure.
     """
     figure = new_figure(ROW_INCHES[1])
     panel = figure.subplots()
@@ -26,4 +30,4 @@ def toy_figure(time_s: FloatArray, forces: Mapping[str, FloatArray]) -> bytes:
     panel.set_xlabel("time, s")
     panel.set_ylabel("force, N")
     legend_below(figure, [(shown_name(name), look(k).key) for k, name in enumerate(forces)])
-    return png_bytes(figure)
+    return figure

@@ -170,3 +170,6 @@ def test_the_notebook_runs(arm: Path, monkeypatch: pytest.MonkeyPatch, tmp_path:
     assert read_calibration("build/demo/from_arrays.json").sensor.serial == "SIM001"
     assert Path("build/demo/from_arrays.html").stat().st_size > 10_000
     assert shown["expected"].shape == (len(shown["seconds"]), 6)
+    figure = shown["run"].figure(shown["calibration"])
+    assert len(figure.axes) == 6
+    assert figure._repr_png_().startswith(b"\x89PNG")

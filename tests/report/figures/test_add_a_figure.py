@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from forcetorque.report import figures
-from forcetorque.report.document import Document, Figure, Section, html_bytes
+from forcetorque.report.document import Document, Figure, Picture, Section, html_bytes
 from tests.report import drawing
 from tests.report.figures import test_every_figure as every_figure
 from tests.toy_figure import toy_figure
@@ -49,7 +49,8 @@ def test_it_is_held_to_what_holds_for_every_figure(monkeypatch: pytest.MonkeyPat
 
 def test_a_document_shows_it() -> None:
     """As a block of a section: the picture, its caption and the words for who cannot see it."""
-    block = Figure(png=_toy(np.random.default_rng(1)), caption="Norms of forces.", description="Two noisy curves.")
+    picture = Picture(lambda: _toy(np.random.default_rng(1)))
+    block = Figure(picture=picture, caption="Norms of forces.", description="Two noisy curves.")
     sections = (Section(title="Toy", blocks=(block,)),)
     page = html_bytes(Document(title="t", subtitle="s", created="2026-01-01T00:00:00+00:00", sections=sections))
     assert b"Norms of forces." in page

@@ -75,6 +75,7 @@ def test_words_stay_inside_their_panel(drawn: list[Figure]) -> None:
     for scale in (1.0, 1e-3, 1e3):
         use_figure([use_of(force=4.0, before=20.0), use_of(force=4.0 * scale, before=20.0 * scale)], NAMES)
     for figure in drawn:
+        figure.draw_without_rendering()  # which places texts and panels
         renderer = figure.canvas.get_renderer()  # type: ignore[attr-defined]
         for panel in panels(figure):
             frame = panel.get_window_extent(renderer)

@@ -11,6 +11,7 @@ import io
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import cache
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -76,7 +77,7 @@ def look(k: int) -> Look:
 
 
 def new_figure(height: float) -> Figure:
-    """Make an empty figure of the common width.
+    """Make an empty figure of the common width, which a notebook shows by itself.
 
     Args:
         height: Height; inch.
@@ -89,13 +90,24 @@ def new_figure(height: float) -> Figure:
     """
     try:
         from matplotlib.backends.backend_agg import FigureCanvasAgg
-        from matplotlib.figure import Figure
     except ImportError as error:
         raise MissingExtraError("figures are drawn by matplotlib: pip install forcetorque[report]") from error
     # a Figure with its own canvas, not pyplot: no window, no state that others share
-    figure = Figure(figsize=(ROW_INCHES[0], height), dpi=DOTS_PER_INCH, layout="constrained")
+    figure = _figure_class()(figsize=(ROW_INCHES[0], height), dpi=DOTS_PER_INCH, layout="constrained")
     FigureCanvasAgg(figure)
     return figure
+
+
+@cache
+def _figure_class() -> type[Figure]:
+    """Figures that show themselves as a picture, also where no one has set up pyplot; made when one is first drawn."""
+    from matplotlib.figure import Figure
+
+    class ShownFigure(Figure):
+        def _repr_png_(self) -> bytes:
+            return png_bytes(self)
+
+    return ShownFigure
 
 
 def shown_name(name: str) -> str:
