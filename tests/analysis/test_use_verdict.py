@@ -11,8 +11,12 @@ import pytest
 
 from forcetorque.analysis import SensorRun, UseVerdict, accept, calibrate_sensor, loads_of_use, use_verdicts
 from forcetorque.analysis.acceptance_file import AcceptanceFile
+from forcetorque.analysis.judged_excitation import JudgedExcitation
+from forcetorque.analysis.prior_comparison import compare_with_prior
+from forcetorque.analysis.use_judge import UseJudge
 from forcetorque.calibration import Calibration
 from forcetorque.errors import ExperimentError, ForceTorqueError, FormatError
+from forcetorque.evaluation.use.evidence import Evidence, evidence
 from forcetorque.experiment import load_experiment
 from tests.experiments import PARQUET, edit
 
@@ -184,10 +188,69 @@ def test_two_load_cases_of_one_name_are_refused(arm: Path) -> None:
 
 
 def test_pushes_at_a_frame_that_does_not_pass_the_sensor_are_refused(arm: Path) -> None:
-    """Where the sensor is named; else the case is of another sensor."""
+    """Where the sensor is named, and where no sensor of the experiment is passed."""
     stated = PUSH.replace("radius_m = 0.2", 'frame = "base"\nsensor = "arm_ft"')
     with pytest.raises(ExperimentError, match="what acts on 'base' does not pass the sensor 'arm_ft'"):
         loads_of_use([_run(arm, stated)])
+    # nor where no sensor is named and it passes none of the experiment's: it would be judged by nobody
     edit(arm / PARQUET, 'sensor = "arm_ft"\n', "")
     run = SensorRun(load_experiment(arm / PARQUET), "arm_ft")
-    assert not loads_of_use([run])[0].is_stated
+    with pytest.raises(ExperimentError, match="what acts on 'base' does not pass the sensor 'arm_ft'"):
+        loads_of_use([run])
+
+
+def test_one_name_for_two_uses_is_refused(arm: Path) -> None:
+    """Also in the file and in what is asked for besides; the same use twice is one."""
+    run = _run(arm)
+    (stated,) = run.experiment.load_cases
+    assert len(loads_of_use([run], [stated])) == 1
+    with pytest.raises(ExperimentError, match="two different load cases are called 'push'"):
+        loads_of_use([run], [stated.model_copy(update={"force_error_N": 7.0})])
+
+
+def _evidence(*offsets: float, sway: float = 10.0) -> Evidence:
+    """Recordings of 30 s, each with its own constant error along x and a load that sways."""
+    rng = np.random.default_rng(4)
+    time = 0.1 * np.arange(300)
+    recordings = []
+    for k, offset in enumerate(offsets):
+        reference = np.zeros((300, 6))
+        reference[:, 0] = 40.0 * (k + 1) + sway * np.sin(time)
+        error = 0.01 * rng.normal(size=(300, 6)) + [offset, 0.0, 0.0, 0.0, 0.0, 0.0]
+        recordings.append((time, reference + error, reference))
+    return evidence(recordings)
+
+
+def test_constant_errors_of_two_recordings_do_not_cancel() -> None:
+    """8 N and -8 N are 8 N; negative control: none is none."""
+    assert _evidence(8.0, -8.0).force.constant_at_least > 7.5
+    assert _evidence(8.0, 0.0).force.constant_at_least > 7.5
+    assert _evidence(0.0, 0.0).force.constant_at_least < 0.05
+
+
+def test_recordings_at_rest_in_several_postures_do_not_move() -> None:
+    """The load differs by 40 N between them, and moves in neither."""
+    still, swaying = (_evidence(0.0, 0.0, sway=sway) for sway in (0.0, 10.0))
+    assert JudgedExcitation.of(still.reference, [], moved=still.moved).words is not None
+    assert "forces" not in (JudgedExcitation.of(swaying.reference, [], moved=swaying.moved).words or "")
+
+
+def test_a_trifle_worse_than_the_prior_is_no_reason(arm: Path) -> None:
+    """Neither is a quantity that is not judged; an error by a half larger is one."""
+    run = _run(arm, f"{PUSH}force_error_N = 5.0\n")
+    calibration = _fit(run)
+    row = compare_with_prior(run, {"new": calibration})[0].model_copy(update={"prior_mean": 1.0})
+    (case,) = loads_of_use([run])
+    for quantity, mean, forbidden in (("force", 1.1, False), ("force", 1.5, True), ("moment", 1.5, False)):
+        worse = [row.model_copy(update={"mean": mean, "quantity": quantity})]
+        decision, _ = UseJudge(case, calibration, _evidence(0.0), worse=worse).verdict()
+        assert (decision == "do not use") is forbidden
+
+
+def test_judged_data_of_a_moment_test_nothing(arm: Path) -> None:
+    """Less than five seconds are said to be too short, and do not stop the evaluation."""
+    edit(arm / PARQUET, "end_s = 23.5", "end_s = 14.8")
+    run = _run(arm)
+    verdict = _verdict(run, _fit(run))
+    assert verdict.decision == "not enough data"
+    assert any("too short to test it" in reason.text for reason in verdict.reasons)

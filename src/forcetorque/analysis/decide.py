@@ -12,12 +12,13 @@ from forcetorque.analysis.judged_excitation import JudgedExcitation
 from forcetorque.analysis.loads_of_use import Refuse, loads_of_use, raise_refused
 from forcetorque.analysis.prior_comparison import compare_with_prior
 from forcetorque.analysis.unseen import require_unseen
-from forcetorque.analysis.use_judge import UseJudge, amount
+from forcetorque.analysis.use_judge import UseJudge
 from forcetorque.analysis.use_verdict import UseVerdict
 from forcetorque.calibration import Calibration
 from forcetorque.errors import FitError
 from forcetorque.evaluation import Offset
 from forcetorque.evaluation.use import UseOffset
+from forcetorque.evaluation.use.evidence import Evidence
 from forcetorque.experiment.load_case_schema import LoadCaseTable
 from forcetorque.recording import Use
 
@@ -50,11 +51,14 @@ def use_verdicts(
     """
     campaign = Campaign.of(runs)
     judged = [run for run in campaign.runs if run.has(Use.VALIDATION)]
-    for run in judged:
-        for name, calibration in calibrations.items():
+    for name, calibration in calibrations.items():
+        for run in campaign.runs:
+            run.require_fit(name, calibration)
+        for run in judged:
             require_unseen(name, calibration, run)
     measured = judged_evidence(judged, calibrations)
-    worse = _worse(campaign, calibrations) if judged and calibrations else {}
+    compared = compare_with_prior(campaign, calibrations) if judged and calibrations else ()
+    worse = [row for row in compared if row.judgement == "worse"]
     verdicts = []
     for name, calibration in calibrations.items():
         for case in loads_of_use(campaign.runs, more, matrix=calibration.matrix, refuse=refuse):
@@ -64,8 +68,8 @@ def use_verdicts(
                     case,
                     calibration,
                     seen,
-                    still=None if seen is None else JudgedExcitation.of(seen.reference, [calibration]).words,
-                    worse=worse.get((name, _COMPARED[case.offset])),
+                    still=None if seen is None else _still(seen, calibration),
+                    worse=[row for row in worse if (row.candidate, row.offset) == (name, _COMPARED[case.offset])],
                 )
             except FitError as error:
                 refuse(error)
@@ -78,16 +82,9 @@ _COMPARED: Final = {UseOffset.FITTED: Offset.FITTED, UseOffset.TARED: Offset.JUD
 """With which offset judged data compare a calibration and its prior for a use."""
 
 
-def _worse(campaign: Campaign, calibrations: Mapping[str, Calibration]) -> dict[tuple[str, Offset], str]:
-    """That the judged data find a calibration worse than its prior, in words by its name and offset."""
-    words = "on data that were not fitted its {} error is larger than that of its prior, {} against {}"
-    return {
-        (row.candidate, row.offset): words.format(
-            row.quantity, amount(row.mean, row.unit), amount(row.prior_mean, row.unit)
-        )
-        for row in compare_with_prior(campaign, calibrations)
-        if row.judgement == "worse"
-    }
+def _still(seen: Evidence, calibration: Calibration) -> str | None:
+    """That the judged loads hardly moved, in words; recordings at rest in several postures do not move either."""
+    return JudgedExcitation.of(seen.reference, [calibration], moved=seen.moved).words
 
 
 def _verdict(campaign: Campaign, name: str, judge: UseJudge) -> UseVerdict:

@@ -36,21 +36,24 @@ class JudgedExcitation:
     """The same of the moment; N m."""
 
     @classmethod
-    def of(cls, reference: FloatArray, calibrations: Iterable[Calibration]) -> JudgedExcitation:
+    def of(
+        cls, reference: FloatArray, calibrations: Iterable[Calibration], *, moved: FloatArray | None = None
+    ) -> JudgedExcitation:
         """Sum up judged loads.
 
         Args:
             reference: Expected wrenches of the judged samples; shape (n, 6); N, N m.
             calibrations: Calibrations that are judged, for the loads that they were fitted to.
+            moved: The same about their means in each of several recordings; shape (n, 6); about one mean if left out.
 
         Returns:
             Their size and movement.
         """
-        moved = np.sqrt(reference.var(axis=0))
+        moving = np.sqrt((reference if moved is None else moved).var(axis=0))
         load = np.sqrt((reference**2).mean(axis=0))
         fitted = [calibration.validity.reference_deviation for calibration in calibrations]
         force, moment = (
-            (float(np.linalg.norm(moved[part])), max(float(np.linalg.norm(one[part])) for one in (load, *fitted)))
+            (float(np.linalg.norm(moving[part])), max(float(np.linalg.norm(one[part])) for one in (load, *fitted)))
             for part in (slice(3), slice(3, 6))
         )
         return cls(force=force[0], moment=moment[0], load_force=force[1], load_moment=moment[1])

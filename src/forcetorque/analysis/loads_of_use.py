@@ -67,11 +67,13 @@ def loads_of_use(
         ExperimentError: If a stated load is beyond what the sensor can read, or its frame is not outboard of it.
     """
     place = _Place(runs[0])
-    tables = {table.name: table for run in runs for table in run.experiment.load_cases}
-    for table in more:
-        if table.name in tables:
-            raise ExperimentError(f"two load cases are called {table.name!r}; expected one of each name")
-        tables[table.name] = table
+    tables: dict[str, LoadCaseTable] = {}
+    for table in (*(table for run in runs for table in run.experiment.load_cases), *more):
+        same = tables.setdefault(table.name, table)
+        if same.model_dump_json() != table.model_dump_json():
+            raise ExperimentError(
+                f"two different load cases are called {table.name!r} in these files; expected one of each name"
+            )
     cases, refused = [], False
     for table in tables.values():
         try:
@@ -109,6 +111,11 @@ class _Place:
         """Whether what acts on a link passes the sensor."""
         return bool(self.outboard[self.tree.frames[link][0]])
 
+    def _passes_another(self, link: str) -> bool:
+        """Whether what acts on a link passes another sensor of the experiment, whose load case it then is."""
+        others = [sensor for sensor in self.run.experiment.sensors if sensor.name != self.run.sensor.name]
+        return any(_Place(SensorRun(self.run.experiment, sensor)).passes(link) for sensor in others)
+
     def case(self, table: LoadCaseTable) -> LoadCase | None:
         """The loads of a table at this sensor; None where they do not pass it and nobody says that they do."""
         sensor = self.model.sensor(self.run.sensor.name)
@@ -116,7 +123,7 @@ class _Place:
             return None
         link = table.frame or table.weight_on
         if link is not None and not self.passes(link):
-            if table.sensor is None:
+            if table.sensor is None and self._passes_another(link):
                 return None
             raise ExperimentError(
                 f"load case {table.name!r}: what acts on {link!r} does not pass the sensor {sensor.name!r}; expected a "

@@ -204,6 +204,10 @@ def _before(calibration: Calibration | None, posterior: Posterior, case: LoadCas
 
 def _chosen(cases: Sequence[LoadCase], errors: Sequence[PredictedError], wanted: str | None) -> int:
     names = [case.name for case in cases]
+    if not cases:
+        raise ExperimentError(
+            "a plan needs loads of use: nothing with a mass hangs on the sensor; state a [[load_case]]"
+        )
     if wanted is None:
         ratios = [_excess(case, error) for case, error in zip(cases, errors, strict=True)]
         return int(np.argmax(ratios))

@@ -3,11 +3,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import Final, Literal
 
 import numpy as np
 
+from forcetorque.analysis.prior_comparison import PriorComparison
 from forcetorque.analysis.remedies import (
     FIT_GENERATIVE,
     JUDGE,
@@ -33,6 +34,10 @@ from forcetorque.evaluation.use.evidence import Evidence, MeasuredError
 
 HOPELESS: Final = 0.1
 """Predicted probability of an error within what is allowed up to which the verdict is `do not use`."""
+ALIKE: Final = 1.25
+"""Error over that of the prior up to which a calibration is not called worse for a use."""
+FEWEST_S: Final = 5
+"""Seconds of judged data below which they test nothing."""
 CONSTANT_SHARE: Final = 0.01
 """Constant error that is allowed where nobody states an error, as a share of the loads."""
 _QUANTITIES: Final[tuple[tuple[Literal["force", "moment"], Literal["N", "N m"], slice], ...]] = (
@@ -51,7 +56,7 @@ class UseJudge:
         measured: Evidence | None,
         *,
         still: str | None = None,
-        worse: str | None = None,
+        worse: Sequence[PriorComparison] = (),
     ) -> None:
         """Take what a verdict rests on.
 
@@ -60,7 +65,7 @@ class UseJudge:
             calibration: The calibration.
             measured: What it measured on data that were not fitted; None where there are none.
             still: That the loads hardly moved in these data, in words; None where they did.
-            worse: That these data find it worse than its prior, in words; None where they do not.
+            worse: Comparisons in which these data find it worse than its prior.
 
         Raises:
             FitError: If the use changes a variable that the calibration does not know.
@@ -93,8 +98,19 @@ class UseJudge:
         yield from self._measured()
         for doubt in self.calibration.doubts:
             yield Reason(against="data", text=f"the fitted data were in doubt: {doubt}", remedy=MEND_DATA)
-        if self.worse is not None:
-            yield Reason(against="use", text=self.worse, remedy=LOOK_FOR_CAUSE)
+        yield from self._worse()
+
+    def _worse(self) -> Iterator[Reason]:
+        """Where the judged data find a quantity that is judged worse than with the prior, by more than a trifle."""
+        limits = {quantity: limit for (quantity, _, _), limit in zip(_QUANTITIES, self.case.requirement, strict=True)}
+        for row in self.worse:
+            if row.mean <= ALIKE * row.prior_mean or np.isinf(limits[row.quantity]):
+                continue
+            text = (
+                f"on data that were not fitted its {row.quantity} error is larger than that of its prior, "
+                f"{amount(row.mean, row.unit)} against {amount(row.prior_mean, row.unit)}"
+            )
+            yield Reason(against="use", text=text, remedy=LOOK_FOR_CAUSE)
 
     def _predicted(self) -> Iterator[Reason]:
         if self.after is None:
@@ -162,6 +178,9 @@ class UseJudge:
             text = "no data that were not fitted test it; state a validation interval"
             yield Reason(against="data", text=text, remedy=JUDGE)
             return
+        if len(self.measured.reference) < FEWEST_S:
+            text = f"the data that were not fitted last {len(self.measured.reference)} s only, too short to test it"
+            yield Reason(against="data", text=text, remedy=JUDGE)
         loads = (self.case.force_N, self.case.moment_Nm)
         expected = self._expected_there()
         for (quantity, unit, _), allowed, load in zip(_QUANTITIES, self.case.requirement, loads, strict=True):
@@ -194,12 +213,12 @@ class UseJudge:
 
     def _expected_there(self) -> dict[str, float] | None:
         """Error that is predicted, at most, at the loads of the judged data; noise that is slow included."""
-        if self.posterior is None or self.measured is None:
+        if self.posterior is None or self.measured is None or not self.measured.moved.any():
             return None
         there = LoadCase(
             name="judged",
             words="",
-            wrench=self.measured.reference - self.measured.reference.mean(axis=0),
+            wrench=self.measured.moved,
             offset=UseOffset.TARED,
         )
         predicted = predict(self.calibration, there)

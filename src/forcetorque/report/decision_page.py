@@ -142,7 +142,7 @@ def _numbers(uses: Sequence[UseVerdict], names: Mapping[str, str]) -> list[Block
     table: Table = table_of(
         rows,
         "Root mean square: of the loads, of the error with the prior and with the calibration (half of such sensors "
-        "err less, and 95 % less than `at most`), what is allowed, and what matrix, offset, variables and noise add",
+        "err less, and 97.5 % less than `at most`), what is allowed, and what matrix, offset, variables and noise add",
     )
     for heading, cells in (
         ("use", [verdict.load_case for verdict in uses for _ in verdict.errors]),

@@ -43,6 +43,8 @@ class Evidence:
     """Of the moment; N m."""
     reference: FloatArray
     """The reference, in means of a second; shape (n, 6); N, N m."""
+    moved: FloatArray
+    """The reference about its mean in each recording; shape (n, 6); N, N m."""
     samples: int
     """Number of judged samples."""
 
@@ -55,7 +57,8 @@ def evidence(recordings: Sequence[tuple[FloatArray, FloatArray, FloatArray]]) ->
             those that mechanics demands, shape (n, 6); N, N m.
 
     Returns:
-        The errors. The mean is taken over all recordings, what is left is about the mean of each.
+        The errors. The constant part is that of the recording in which it is largest: of two that cancel each other
+        either would hurt. What is left is about the mean of each recording.
     """
     instants, errors, references = [], [], []
     for time_s, measured, reference in recordings:
@@ -64,23 +67,35 @@ def evidence(recordings: Sequence[tuple[FloatArray, FloatArray, FloatArray]]) ->
         errors.append(columns[:, :6])
         references.append(columns[:, 6:])
     line = one_after_another(instants)
-    error, wanted = np.concatenate(errors), np.concatenate(references)
-    left = np.concatenate([own - own.mean(axis=0) for own in errors])
+    left, moved = (np.concatenate([own - own.mean(axis=0) for own in parts]) for parts in (errors, references))
     squares = np.column_stack([(left[:, part] ** 2).sum(axis=1) for part in _PARTS])
-    known = mean_error(np.hstack([error, squares]), line).half_width
+    widths = mean_error(squares, line).half_width
+    constants = [
+        (own.mean(axis=0), mean_error(own, time).half_width) for time, own in zip(instants, errors, strict=True)
+    ]
     force, moment = (
-        _measured(error[:, part], known[part], squares[:, k], float(known[6 + k])) for k, part in enumerate(_PARTS)
+        _measured(
+            [(float(np.linalg.norm(mean[part])), float(np.linalg.norm(width[part]))) for mean, width in constants],
+            squares[:, k],
+            float(widths[k]),
+        )
+        for k, part in enumerate(_PARTS)
     )
-    samples = sum(len(time_s) for time_s, _, _ in recordings)
-    return Evidence(force=force, moment=moment, reference=wanted, samples=samples)
+    return Evidence(
+        force=force,
+        moment=moment,
+        reference=np.concatenate(references),
+        moved=moved,
+        samples=sum(len(time_s) for time_s, _, _ in recordings),
+    )
 
 
-def _measured(error: FloatArray, half_width: FloatArray, square: FloatArray, square_half_width: float) -> MeasuredError:
-    constant, rest = float(np.linalg.norm(error.mean(axis=0))), float(square.mean())
+def _measured(constants: Sequence[tuple[float, float]], square: FloatArray, square_half_width: float) -> MeasuredError:
+    rest = float(square.mean())
     least = rest - square_half_width
     return MeasuredError(
-        constant=constant,
-        constant_at_least=max(constant - float(np.linalg.norm(half_width)), 0.0),
+        constant=max(size for size, _ in constants),
+        constant_at_least=max(max(size - half_width, 0.0) for size, half_width in constants),
         rest=float(np.sqrt(rest)),
         rest_at_least=float(np.sqrt(least)) if least > 0.0 else 0.0,
     )

@@ -16,6 +16,8 @@ from forcetorque.errors import SensorError
 
 ALLOWED_SHARE: Final = 0.05
 """Error that is allowed where nobody states it, as a share of the loads: root mean square over root mean square."""
+_LEAST_LEVER_M: Final = 1e-9
+"""Lever below which a moment is rounding; m."""
 
 
 class UseOffset(StrEnum):
@@ -67,7 +69,9 @@ class LoadCase:
     @property
     def moment_Nm(self) -> float:
         """Root mean square of the moments."""
-        return _root_mean_square(self.wrench[:, 3:])
+        size = _root_mean_square(self.wrench[:, 3:])
+        # a force through the sensor has a moment of rounding, of which nothing can be a share
+        return size if size > _LEAST_LEVER_M * self.force_N else 0.0
 
     @property
     def states_requirement(self) -> bool:
