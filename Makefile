@@ -10,7 +10,8 @@ demo: $(VENV)/run.stamp
 	$(BIN)/python examples/01_known_truth.py build/demo
 
 test: lint types web-check
-	$(BIN)/pytest tests -n auto --dist loadfile --no-loadscope-reorder --data=$(DATA) -m "not long"
+	# a worker for every core: threads of their linear algebra would only wait for each other
+	OMP_NUM_THREADS=1 $(BIN)/pytest tests -n auto --dist loadfile --no-loadscope-reorder --data=$(DATA) -m "not long"
 
 test-long: $(VENV)/test.stamp
 	$(BIN)/pytest tests --data=$(DATA) -m long
