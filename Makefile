@@ -10,7 +10,8 @@ demo: $(VENV)/run.stamp
 	$(BIN)/python examples/01_known_truth.py build/demo
 
 test: lint types web-check
-	$(BIN)/pytest tests -n auto --dist loadfile --data=$(DATA) -m "not long"
+	# a worker for every core: threads of their linear algebra would only wait for each other
+	OMP_NUM_THREADS=1 $(BIN)/pytest tests -n auto --dist loadfile --no-loadscope-reorder --data=$(DATA) -m "not long"
 
 test-long: $(VENV)/test.stamp
 	$(BIN)/pytest tests --data=$(DATA) -m long
@@ -41,18 +42,19 @@ web-check: $(VENV)/test.stamp
 web-types: $(VENV)/run.stamp
 	$(BIN)/python -m forcetorque.viewer.typescript web/src/scene_types.ts
 
-# uv installs exactly what uv.lock says; it is itself installed here, so nothing is assumed
+# uv installs exactly what uv.lock says; it is itself installed here, so nothing is assumed; bytecode is made once,
+# where the first commands, and every test process, would otherwise compile all they import
 $(BIN)/uv:
 	$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and "Python 3.11 or later is needed; make PYTHON=...")'
 	$(PYTHON) -m venv $(VENV)
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check "uv>=0.5"
 
 $(VENV)/run.stamp: $(BIN)/uv pyproject.toml uv.lock
-	$(BIN)/uv sync --quiet --locked --inexact
+	$(BIN)/uv sync --quiet --locked --inexact --compile-bytecode
 	touch $@
 
 $(VENV)/test.stamp: $(BIN)/uv pyproject.toml uv.lock
-	$(BIN)/uv sync --quiet --locked --inexact --extra test
+	$(BIN)/uv sync --quiet --locked --inexact --compile-bytecode --extra test
 	touch $@ $(VENV)/run.stamp
 
 clean:

@@ -94,13 +94,13 @@ def main(folder: Path) -> None:
     command = [sys.executable, "-m", "forcetorque"]
     experiment, result = str(folder / "experiment.toml"), str(folder / "calibration.json")
     subprocess.run([*command, "calibrate", experiment, "-o", result], check=True)
-    subprocess.run([*command, "evaluate", experiment, "--calibration", result], check=True)
-
     fitted = read_calibration(result)
     print("error against the true matrix, per row, relative to the row:")
     for name, matrix in (("prior", factory), ("new", fitted.matrix)):
         relative = np.linalg.norm(matrix - mounted, axis=1) / np.linalg.norm(mounted, axis=1)
-        print(f"  {name:6s}" + "".join(f"{100 * value:8.2f} %" for value in relative))
+        print(f"  {name:6s}" + "".join(f"{100 * value:8.2f} %" for value in relative), flush=True)
+    subprocess.run([*command, "evaluate", experiment, "--calibration", result], check=True)
+
     rng = np.random.default_rng(3)
     force, point = rng.normal(size=(2, 1000, 3))
     force *= 50.0 / np.linalg.norm(force, axis=1, keepdims=True)

@@ -17,6 +17,7 @@ import numpy as np
 from forcetorque import load_experiment
 from forcetorque.analysis import corrections_of, estimate_experiment
 from forcetorque.report.figures import force_space_figure
+from forcetorque.report.figures.canvas import png_bytes
 
 
 def main() -> None:
@@ -29,7 +30,7 @@ def main() -> None:
         measured = np.concatenate([span.measured.of_name(sensor)[:, :3] for span in spans])
         expected = np.concatenate([span.estimates.expected_of(sensor)[:, :3] for span in spans])
         clouds[experiment.name] = [("prior matrix", measured), ("model", expected)]
-    Path(output).write_bytes(force_space_figure(clouds))
+    Path(output).write_bytes(png_bytes(force_space_figure(clouds)))
 
 
 if __name__ == "__main__":

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 
 import pytest
@@ -12,6 +13,9 @@ from hypothesis import settings
 settings.register_profile("reproducible", derandomize=True, deadline=None)
 settings.load_profile("reproducible")
 
+_HEAVY = ("study/test_icub_insitu.py", "evaluation/sphere/")
+"""Files and folders that take longest, the longest first: begun last, one worker would end long after the other."""
+
 _DEFAULT_DATA = Path(__file__).resolve().parents[2] / "shared" / "data"
 
 
@@ -19,6 +23,26 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     """Let the caller say where the measured data are, and renew pictures of what commands show."""
     parser.addoption("--data", type=Path, default=_DEFAULT_DATA, help="folder of measured data")
     parser.addoption("--write-snapshots", action="store_true", help="take what commands show now as the pictures")
+
+
+def heavy_first(paths: Sequence[str]) -> list[int]:
+    """Order of tests by the paths of their files: the heavy ones first, all others as they come.
+
+    Args:
+        paths: Path of the file of every test, from the folder of the tests, with `/`.
+
+    Returns:
+        Indices of the tests in the new order.
+    """
+    rank = [next((k for k, heavy in enumerate(_HEAVY) if path.startswith(heavy)), len(_HEAVY)) for path in paths]
+    return sorted(range(len(paths)), key=rank.__getitem__)
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Begin with the files that take longest; parallel runs keep this order with --no-loadscope-reorder."""
+    root = Path(__file__).parent
+    paths = [item.path.relative_to(root).as_posix() if root in item.path.parents else "" for item in items]
+    items[:] = [items[k] for k in heavy_first(paths)]
 
 
 @pytest.fixture(scope="session")

@@ -34,6 +34,7 @@ ORDER = (
     "analysis",
     "viewer",
     "report",
+    "interactive",
     "live",
     "fleet",
     "cli",

@@ -16,7 +16,9 @@ from forcetorque.errors import FormatError, MissingFileError, known_names
 class Table(BaseModel):
     """A table of the file; a key that it does not know is an error that lists the known ones."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True, arbitrary_types_allowed=True, populate_by_name=True)
+    model_config = ConfigDict(
+        defer_build=True, extra="forbid", frozen=True, arbitrary_types_allowed=True, populate_by_name=True
+    )
 
     @model_validator(mode="before")
     @classmethod

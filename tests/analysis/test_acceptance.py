@@ -25,6 +25,7 @@ from forcetorque.analysis import (
     evaluate,
     read_acceptance,
 )
+from forcetorque.analysis.validity import sentences
 from forcetorque.calibration import Calibration, FittedInterval, Selection
 from forcetorque.errors import ExperimentError, ForceTorqueError, FormatError, MissingFileError
 from forcetorque.evaluation import Offset
@@ -278,8 +279,10 @@ def test_a_choice_made_on_the_judged_interval_is_a_warning(drifting: Experiment)
     for table in tables:
         expected = (words,) if table not in ("matrix", "offset") else ()
         spec = _spec(**{table: LIMITS[table]})
-        assert accept(_run(drifting), spec, (name, chosen)).warnings == expected
-        assert accept(_run(drifting), spec, (name, calibration)).warnings == ()
+        plain = accept(_run(drifting), spec, (name, calibration))
+        assert len(plain.validity) == len(expected)
+        assert plain.warnings == sentences(plain.validity)
+        assert accept(_run(drifting), spec, (name, chosen)).warnings == (*plain.warnings, *expected)
 
 
 def test_together_every_sensor_must_pass(arm: Path) -> None:
@@ -315,7 +318,7 @@ def test_an_acceptance_shows_itself(drifting: Experiment) -> None:
     assert len(repr(result)) < 600
     assert result.records()[0]["passed"] is True
     assert list(json.loads(result.json_text())) == [
-        "schema", "experiment", "specification", "accepted", "criteria", "measured"
+        "schema", "experiment", "specification", "accepted", "criteria", "measured", "validity"
     ]  # fmt: skip
 
 

@@ -77,6 +77,16 @@ def test_the_re_estimated_offset_leaves_no_mean_error(experiment: Experiment, fi
     assert bias["judged-mean"] < 1e-11 < 1e-3 < bias["fitted"]
 
 
+def test_a_calibration_that_is_called_prior_is_compared_with_its_prior(
+    experiment: Experiment, fitted: Calibration
+) -> None:
+    """As under any other name; with itself it would be no different."""
+    run = SensorRun(experiment, experiment.sensors[0])
+    one, other = (evaluate(run, {name: fitted}).comparisons for name in ("new", "prior"))
+    assert {row.judgement for row in one} == {"better"}
+    assert [row.ratio for row in one] == [row.ratio for row in other]
+
+
 def test_a_shared_prior_comes_once(experiment: Experiment, fitted: Calibration) -> None:
     """Two calibrations of the same data and prior have one prior, whose offset may differ by rounding."""
     candidates = {}

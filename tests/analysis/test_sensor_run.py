@@ -91,5 +91,5 @@ def test_an_answer_shows_itself(run: SensorRun) -> None:
     rmse = f"{evaluation.verdicts[2].rmse[0]:.3f}"
     assert rmse in evaluation.text(60)
     assert f">{rmse}<" in evaluation._repr_html_()
-    assert len(repr(evaluation)) < 200
-    assert len(repr(evaluation.verdicts[0])) < 700
+    assert len(repr(evaluation.model_copy(update={"warnings": ()}))) < 200  # these are whole sentences
+    assert len(repr(evaluation.verdicts[0])) < 800

@@ -11,6 +11,7 @@ import pytest
 from forcetorque.analysis import (
     AcceptanceFile,
     accept,
+    compare_with_prior,
     contact_forces,
     evaluate,
     validate,
@@ -88,6 +89,23 @@ def test_each_recording_has_the_errors_that_it_has_alone(recorded: Path, fitted:
     removed = [row for row in evaluation.verdicts if row.offset is Offset.JUDGED_MEAN]
     assert removed
     assert all(np.abs(row.bias).max() < ROUNDING for row in removed)
+
+
+def test_calibrations_are_compared_with_their_priors_over_all_recordings(recorded: Path, fitted: Calibration) -> None:
+    """Each is cut by itself: stretches add up; contact forces are compared over both too."""
+    pooled = evaluate(two_days(recorded), {NAME: fitted}).comparisons
+    days = [evaluate(run_of(recorded, file), {NAME: fitted}).comparisons for file in VALIDATION]
+    assert pooled == compare_with_prior(two_days(recorded), {NAME: fitted})
+    assert [(row.quantity, row.offset) for row in pooled] == [(row.quantity, row.offset) for row in days[0]]
+    for row, *apart in zip(pooled, *days, strict=True):
+        assert row.samples == sum(day.samples for day in apart)
+        assert row.stretches == sum(day.stretches for day in apart)
+        log = np.average(np.log([day.ratio for day in apart]), weights=[day.stretches for day in apart])
+        assert np.log(row.ratio) == pytest.approx(log, abs=ROUNDING)
+    for best in validate(two_days(recorded), {NAME: fitted}).best:
+        (row,) = best.comparisons
+        assert (best.best, row.judgement) == (NAME, "better")
+        assert row.stretches > 2
 
 
 def test_contact_forces_and_torques_are_pooled(recorded: Path, fitted: Calibration) -> None:

@@ -16,6 +16,7 @@ from forcetorque.analysis import (
     sensor_run,
     validate,
 )
+from forcetorque.analysis.validity import sentences
 from forcetorque.calibration import Calibration
 from forcetorque.estimation.samples import robot_motion_at
 from forcetorque.experiment import load_experiment
@@ -38,11 +39,27 @@ def test_it_joins_contact_forces_and_joint_torques(arm: Path) -> None:
     assert [row.flat() for row in validation.contact_forces] == [row.flat() for row in forces.verdicts]
     assert [row.flat() for row in validation.joint_torques] == [row.flat() for row in torques.verdicts]
     assert validation.best == forces.best
-    assert {best.by_magnitude for best in validation.best} == {"new"}
+    assert {best.best for best in validation.best} == {"new"}
     (words,) = forces.left_out
     assert validation.left_out == (f"arm_ft: {words}",)
-    assert validation.warnings == (f"left out: arm_ft: {words}",)
+    assert [row.candidate for row in validation.validity] == ["new"]
+    assert validation.warnings == (*sentences(validation.validity), f"left out: arm_ft: {words}")
     assert forces.warnings == torques.warnings == (f"left out: {words}",)
+
+
+def test_nobody_is_best_among_equals(arm: Path) -> None:
+    """Two of one kind are both better than the prior, and no different; alone there is nothing to be better than."""
+    run = SensorRun(load_experiment(arm / PARQUET), "arm_ft")
+    first = _fitted(run)
+    for best in validate(run, {"a": first, "b": first}).best:
+        judgements = {row.other: row.judgement for row in best.comparisons}
+        (prior,) = judgements.keys() - {"a", "b"}
+        assert judgements == {prior: "better", "b": "no difference"}
+        assert (best.by_magnitude, best.judgement, best.best) == ("a", "no difference", None)
+        assert f"offset {best.offset}: none is best; " in best.sentence
+        assert "with b (no difference: the same in every sample)" in best.sentence
+    for best in validate(run, {}).best:
+        assert (best.best, best.judgement, best.comparisons) == (None, None, ())
 
 
 def test_the_motion_of_an_interval_is_computed_once(arm: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -86,7 +103,9 @@ def test_it_shows_itself(arm: Path) -> None:
         assert len(repr(result)) < 600
         if result is not torques:
             for row in validation.contact_forces:
-                assert f"{row.force_mean_N:.2f} ±{row.force_mean_half_width_95_N:.2f}" in text
+                half_width = row.force_mean_half_width_95_N
+                known = half_width is not None and round(half_width, 2) <= round(row.force_mean_N, 2)
+                assert f"{row.force_mean_N:.2f} ±{f'{half_width:.2f}' if known else '?'}" in text
                 assert f'<td style="text-align:right">{row.moment_mean_Nm:.3f}</td>' in page
                 shown += 1
         if result is not forces:

@@ -10,14 +10,19 @@ import pytest
 
 from forcetorque.analysis import Assessment, CandidateErrors, LearntDirection, PriorComparison
 from forcetorque.analysis.verdict import verdict
-from forcetorque.evaluation import Offset
+from forcetorque.evaluation import Judgement, Offset
 from forcetorque.spatial import WRENCH_COMPONENTS
 
-Gain = tuple[float | None, float | None]
-BETTER: Gain = (0.5, 1.5)
-WORSE: Gain = (-1.5, -0.5)
-UNCLEAR: Gain = (-0.5, 0.5)
-UNKNOWN: Gain = (None, None)
+BETTER: Judgement = "better"
+WORSE: Judgement = "worse"
+ALIKE: Judgement = "no difference"
+UNTOLD: Judgement = "not told apart"
+INTERVALS: dict[str, tuple[float, float]] = {
+    BETTER: (0.4, 0.6),
+    WORSE: (1.5, 2.5),
+    ALIKE: (0.9, 1.1),
+    UNTOLD: (0.6, 1.4),
+}
 
 
 def _row(candidate: str) -> CandidateErrors:
@@ -26,15 +31,19 @@ def _row(candidate: str) -> CandidateErrors:
         rmse=[1.0] * 6, bias=[0.0] * 6, largest=[1.0] * 6, force_error_mean_N=1.0, force_error_standard_error_N=0.1,
         force_error_largest_N=2.0, moment_error_mean_Nm=0.1, moment_error_standard_error_Nm=0.01,
         moment_error_largest_Nm=0.2, force_error_half_width_95_N=0.2, moment_error_half_width_95_Nm=0.02,
+        independent=50.0, excitation_N=20.0, excitation_Nm=2.0, load_N=30.0, load_Nm=3.0,
         prior=None if candidate.startswith("prior") else "prior",
     )  # fmt: skip
 
 
-def _comparison(quantity: Literal["force", "moment"], gain: Gain, samples: int = 100, **other: Any) -> PriorComparison:
-    given = {"candidate": "new.json", "prior": "prior", "offset": Offset.JUDGED_MEAN, "independent": 50.0} | other
+def _comparison(quantity: Literal["force", "moment"], judgement: Judgement, **other: Any) -> PriorComparison:
+    low, high = INTERVALS[judgement]
+    given = {"sensor": "leg_ft", "candidate": "new.json", "prior": "prior", "offset": Offset.JUDGED_MEAN} | {
+        "ratio": 0.5 * (low + high), "ratio_low": low, "ratio_high": high, "stretches": 10,
+    } | other  # fmt: skip
     return PriorComparison(
-        **given, quantity=quantity, unit="N" if quantity == "force" else "N m", samples=samples, mean=1.0,
-        prior_mean=2.0, gain=1.0, gain_low=gain[0], gain_high=gain[1], constant=0.3,
+        **given, quantity=quantity, unit="N" if quantity == "force" else "N m", samples=100, mean=1.0,
+        prior_mean=2.0, judgement=judgement, constant=0.3,
     )  # fmt: skip
 
 
@@ -55,23 +64,20 @@ def _report(comparisons: list[PriorComparison], **other: Any) -> Assessment:
     ("force", "moment", "tone"),
     [
         (BETTER, BETTER, "good"),
-        (BETTER, UNCLEAR, "good"),
+        (BETTER, ALIKE, "good"),
         (BETTER, WORSE, "bad"),
         (WORSE, BETTER, "bad"),
-        (UNCLEAR, UNCLEAR, "caution"),
-        (BETTER, UNKNOWN, "good"),
-        (UNKNOWN, UNKNOWN, "caution"),
+        (ALIKE, ALIKE, "caution"),
+        (BETTER, UNTOLD, "good"),
+        (UNTOLD, UNTOLD, "caution"),
     ],
 )
-def test_a_better_force_does_not_hide_a_worse_moment(force: Gain, moment: Gain, tone: str) -> None:
+def test_a_better_force_does_not_hide_a_worse_moment(force: Judgement, moment: Judgement, tone: str) -> None:
     """Both are named, and the worse of the two gives the tone."""
     (line,) = verdict(_report([_comparison("force", force), _comparison("moment", moment)]))
     assert line.tone == tone
-    assert "force error 1.00 N against 2.00 N" in line.text
-    assert "moment error 1.000 N m against 2.000 N m" in line.text
-    words = {BETTER: "better", WORSE: "worse", UNCLEAR: "no difference", UNKNOWN: "too few samples"}
-    assert words[force] in line.text
-    assert words[moment] in line.text
+    assert f"force error 1.00 N against 2.00 N with the prior ({force}: " in line.text
+    assert f"moment error 1.000 N m against 2.000 N m with the prior ({moment}: " in line.text
 
 
 def test_a_calibration_in_doubt_is_never_good() -> None:
@@ -112,15 +118,6 @@ def test_what_a_generative_fit_did_not_learn_is_said_and_raw_directions_are_not(
     assert "the fitted loads moved 3 of 6 raw directions" in line.text
 
 
-def test_few_samples_are_never_good() -> None:
-    """Nineteen samples with an interval that leaves out zero, and twenty."""
-    lines = [
-        verdict(_report([_comparison(q, BETTER, samples) for q in ("force", "moment")]))[0] for samples in (19, 20)
-    ]
-    assert [line.tone for line in lines] == ["caution", "good"]
-    assert "too few samples" in lines[0].text
-
-
 def test_an_own_offset_is_called_one_draw() -> None:
     """The constant part is stated, and that intervals do not hold the change of offset."""
     fitted = [_comparison(q, BETTER, offset=Offset.FITTED) for q in ("force", "moment")]
@@ -143,14 +140,28 @@ def test_what_was_left_out_is_said() -> None:
     assert (last.tone, last.text) == ("unknown", "left out: torque of l_knee: no stream holds it")
 
 
-@pytest.mark.parametrize("independent", [5.9, None])
-def test_few_independent_samples_are_said_in_place_of_an_interval(independent: float | None) -> None:
-    """No interval is printed from fewer than six; how many there are is, where it is known."""
-    rows = [_comparison(q, UNKNOWN, independent=independent) for q in ("force", "moment")]
-    line = verdict(_report(rows))[0]
-    assert line.tone == "caution"
-    assert " to " not in line.text.partition("(")[2].replace("to tell", "")
-    assert ("worth 5.9 independent ones" in line.text) is (independent is not None)
+def test_the_interval_stands_beside_the_judgement() -> None:
+    """As a share of the prior's error."""
+    (line,) = verdict(_report([_comparison("force", BETTER)]))
+    assert line.text.endswith("with the prior (better: 0.50 of it, 0.40 to 0.60 over 10 stretches)")
+
+
+@pytest.mark.parametrize(
+    ("ends", "stretches", "words"),
+    [
+        ((None, None), 1, "the errors repeat themselves, and are worth 1 stretch only"),
+        ((0.01, 20.0), 3, "3 stretches are too few, or too unlike"),
+        ((0.3, 1.7), 4, "1.00 of it, 0.30 to 1.70 over 4 stretches"),
+        ((1.0, 1.0), 10, "the same in every sample"),
+    ],
+)
+def test_an_interval_that_says_nothing_is_words(
+    ends: tuple[float | None, float | None], stretches: int, words: str
+) -> None:
+    """None, or one whose ends are more than ten times apart."""
+    low, high = ends
+    row = _comparison("force", UNTOLD, ratio=1.0, ratio_low=low, ratio_high=high, stretches=stretches)
+    assert row.against(row.prior_mean, "the prior").endswith(f"({UNTOLD}: {words})")
 
 
 def test_a_prior_that_nothing_gave_an_offset_is_called_so() -> None:

@@ -26,6 +26,7 @@ from forcetorque.simulation.scenario import (
     simulate,
     trace_recordings,
 )
+from forcetorque.simulation.scenario.specimen import Specimen
 from forcetorque.toml_table import read_toml
 
 TEMPERATURE = LinearVariable(name="temperature", unit="degC")
@@ -38,14 +39,23 @@ NOMINAL = 1.96
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Case:
-    """One sensor with the recordings of one motion, its workbench matrix and its truth."""
+    """One sensor with the recordings of one motion."""
 
     sensor: str
     motion: str
     seed: int
     data: list[DataSet]
-    prior: FloatArray
-    truth: FloatArray
+    specimen: Specimen
+
+    @property
+    def prior(self) -> FloatArray:
+        """Workbench matrix."""
+        return self.specimen.workbench
+
+    @property
+    def truth(self) -> FloatArray:
+        """True matrix."""
+        return self.specimen.sensor.matrix
 
     def fitted(self, regularisation: float | None = None) -> CalibrationFit:
         """Calibrate with the default type, temperature and all."""
@@ -144,8 +154,7 @@ def cases(
                     motion=motion,
                     seed=seed,
                     data=[data[sensor, name] for name in motions[motion]],
-                    prior=drawn.specimens[sensor].workbench,
-                    truth=drawn.specimens[sensor].sensor.matrix,
+                    specimen=drawn.specimens[sensor],
                 )
 
 

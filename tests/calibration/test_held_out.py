@@ -183,6 +183,37 @@ def test_blocks_too_small_to_fit_alone_are_refused() -> None:
         choose_lambda(_moments(short), Estimation(prior=PRIOR))
 
 
+def test_two_blocks_of_the_fewest_samples_are_enough() -> None:
+    """Eight samples of six channels in each of two blocks: a choice is made, and of a candidate."""
+    least = [(raw[:8], reference[:8]) for raw, reference in _blocks(matrix=TRUTH, drift=0.1, count=2)]
+    curve = choose_lambda(_moments(least), Estimation(prior=PRIOR))
+    assert curve.chosen in curve.regularisations
+
+
+def test_candidates_are_four_per_decade_of_the_strongest_direction() -> None:
+    """From 1e-8 to 1e3 times the largest variance, then infinity: 46 in all."""
+    raw, reference = _blocks(matrix=TRUTH, drift=0.0)[0]
+    candidates = candidate_lambdas(Moments.of(raw, reference))
+    largest = np.linalg.eigvalsh(np.cov(raw.T, bias=True))[-1]
+    np.testing.assert_allclose(candidates[:-1], largest * 10.0 ** (np.arange(-32, 13) / 4), rtol=1e-9)
+    assert candidates[-1] == math.inf
+
+
+def test_the_prior_is_kept_where_nothing_else_is_harmless() -> None:
+    """A prior without any error cannot be improved: lambda is infinite, and no ratio is a number out of 0 / 0."""
+    blocks = []
+    for raw, _ in _blocks(matrix=TRUTH, drift=0.0):
+        whole = np.rint(raw)
+        blocks.append((whole, whole @ np.eye(6)))
+    exact = choose_lambda(_moments(blocks), Estimation(prior=np.eye(6)))
+    assert not np.isnan(exact.worst_ratio).any()
+    assert exact.worst_ratio[-1] == 1.0
+    disturbed = _blocks(matrix=TRUTH, drift=50.0, amplitude=30.0, seed=4)
+    curve = choose_lambda(_moments(disturbed), Estimation(prior=TRUTH))
+    assert (curve.worst_ratio[:-1] > 1.0).all()
+    assert curve.chosen == math.inf
+
+
 def test_one_block_has_no_choice_and_no_spread() -> None:
     """A choice needs two blocks; a single sample cannot be divided."""
     raw, reference = _blocks(matrix=TRUTH, drift=0.0)[0]

@@ -9,6 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from forcetorque.calibration import Moments, WrenchModel, pooled
+from forcetorque.calibration.moments import _BLOCK
 from forcetorque.errors import FitError, ShapeError
 
 ROUNDING = 1e-12
@@ -80,3 +81,24 @@ def test_bad_samples_are_refused(raw: np.ndarray, reference: np.ndarray, error: 
     """No samples, missing values and shapes that do not fit are errors."""
     with pytest.raises(error, match="expected"):
         Moments.of(raw, reference)
+
+
+@pytest.mark.parametrize("n", [8191, 8192, 8193, 2 * 8192 + 1000])
+def test_more_samples_than_a_pass_takes_are_all_counted_once(n: int) -> None:
+    """Mean and covariance are NumPy's over all samples, about the edges of a pass of 8192 and beyond the second."""
+    raw, reference = _samples(6, n)
+    raw[8000:] += 500.0  # the rough mean of the first pass is not that of the whole
+    moments = Moments.of(raw, reference)
+    assert _BLOCK == 8192
+    assert moments.count == n
+    columns = np.hstack([raw, reference])
+    np.testing.assert_allclose(moments.mean, columns.mean(axis=0), rtol=ROUNDING)
+    exact = np.cov(columns.T, bias=True)
+    np.testing.assert_allclose(moments.second, exact, rtol=0.0, atol=1e-11 * np.abs(exact).max())
+
+
+def test_a_pass_left_out_is_noticed() -> None:
+    """Negative control: without the samples of the last pass the moments are others."""
+    raw, reference = _samples(6, 8192 + 500)
+    whole, first = Moments.of(raw, reference), Moments.of(raw[:8192], reference[:8192])
+    assert np.abs(whole.second - first.second).max() > 1e-6 * np.abs(whole.second).max()

@@ -113,7 +113,8 @@ def test_the_table_is_the_default(arm: Path, run: Run) -> None:
     assert shown.err.splitlines() == shown.log
     lines = shown.out.splitlines()
     assert lines[0].rstrip() == f"small arm: arm_ft (SIM001), {verdicts[0]['samples']} samples that were not fitted"
-    rows = [line.split() for line in lines if line.startswith((" prior", " fitted.json"))]
+    errors = lines[: lines.index("mean error, by its own offset")]
+    rows = [line.split() for line in errors if line.startswith((" prior", " fitted.json"))]
     assert [row[:2] for row in rows] == [[verdict["candidate"], verdict["offset"]] for verdict in verdicts]
     for row, verdict in zip(rows, verdicts, strict=True):
         assert row[2:8] == [f"{value:.3f}" for value in verdict["rmse"]]
@@ -131,6 +132,9 @@ def test_several_calibrations_are_compared(arm: Path, run: Run) -> None:
         ("tool_ft", "prior"),
         ("tool_ft", tool),
     ]
+    shown = " ".join(run("evaluate", TWO, "-c", "fitted.json", "-c", tool, "-c", ours).out.split())
+    assert f"arm_ft: {Path(ours).name} with its own offset, " in shown
+    assert f"tool_ft: {Path(tool).name} with its own offset, " in shown
 
 
 def test_the_table_tells_files_of_one_name_apart(arm: Path, run: Run) -> None:
@@ -151,7 +155,8 @@ def test_the_table_tells_files_of_one_name_apart(arm: Path, run: Run) -> None:
 def test_findings_of_the_log_are_warnings(arm: Path, run: Run) -> None:
     """A verdict on a log with findings says so."""
     judged = run("evaluate", YARP, "-c", "fitted.json")
-    assert [line.partition(":")[0] for line in judged.log] == ["INFO", "WARNING", "WARNING", "INFO"]
+    assert [line.partition(":")[0] for line in judged.log] == ["INFO", "WARNING", "WARNING", "INFO", "WARNING"]
+    assert "readings lie outside what was fitted" in judged.log[-1]
     assert judged.err.splitlines() == judged.log
 
 

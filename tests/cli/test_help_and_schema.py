@@ -32,6 +32,7 @@ JSON_SCHEMAS = (
     "estimate",
     "evaluate",
     "gains",
+    "plan",
     "report",
     "study",
 )

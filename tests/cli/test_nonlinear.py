@@ -114,8 +114,6 @@ def test_judging_says_where_loads_are_beyond_the_fitted_ones(arm: Path, run: Run
             maximum=np.full(6, reach),
         )
         write_calibration(f"{name}.json", fitted.model_copy(update={"quadratic": quadratic}))
-    words = (
-        "narrow.json: 100 % of the judged readings are of loads beyond those that its quadratic terms were fitted to"
-    )
+    words = "narrow.json: 100 % of the readings are of loads beyond those that its quadratic terms were fitted to"
     assert words in run("evaluate", PARQUET, "-c", "narrow.json").err
     assert "beyond" not in run("evaluate", PARQUET, "-c", "wide.json").err

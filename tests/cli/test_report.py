@@ -111,7 +111,44 @@ def test_the_numbers_are_those_of_the_other_commands(result: Any, run: Run) -> N
     assert sensor["not_judged"] == {}
 
 
-def test_the_verdict_comes_first_and_says_what_the_numbers_say(result: Any) -> None:
+def test_evaluate_and_validate_say_what_the_report_says(result: Any, run: Run) -> None:
+    """Word by word, of every offset; who is best in one is so in the others."""
+    sensor = _sensor(result)
+    sentences = [line["text"] for line in sensor["verdict"] if "samples that were not fitted" in line["text"]]
+    assert len(sentences) == 2
+    shown = " ".join(run("evaluate", PARQUET, "-c", "fitted.json").out.split())
+    assert all(sentence in shown for sentence in sentences)
+    assert {row["judgement"] for row in sensor["comparisons"]} == {"better"}
+    assert {best["judgement"] for best in sensor["best"]} == {"better"}
+    shown = " ".join(run("validate", PARQUET, "-c", "fitted.json").out.split())
+    lines = [line for line in _words("report.html") if "best is fitted.json" in line]
+    assert len(lines) == 2
+    assert all(line in shown for line in lines)
+
+
+def test_the_decision_comes_first_and_says_what_the_numbers_say(result: Any, run: Run) -> None:
+    """The word on the use, the figure and the steps, then all else, folded; the JSON has the same verdict and steps."""
+    (use,) = result["uses"]
+    assert result["undecided"] == []
+    assert (use["sensor"], use["candidate"], use["stated"]) == ("arm_ft", "fitted.json", False)
+    lines = _words("report.html")
+    said = use["sentence"].removeprefix(use["decision"]).strip()
+    (steps,) = result["next_steps"]
+    first_step = steps["steps"][0].split("`")[0].strip()
+    order = [
+        lines.index(text)
+        for text in (result["title"], f"fitted.json, {said}.", "What to do next", first_step, "Better than the prior?")
+    ]
+    assert order == sorted(order)
+    assert any(line.endswith(use["decision"]) for line in lines[: order[1]])
+    assert any("Check that this is your use." in step for step in steps["steps"])
+    csv = run("report", PARQUET, "fitted.json", "-o", "again.html", "--format", "csv").out.splitlines()
+    assert csv[0] == "experiment,sensor,serial,tone,text"
+    assert csv[1].startswith(",arm_ft,SIM001,")
+    assert use["decision"] in csv[1]
+
+
+def test_the_sentences_about_the_recording_say_what_the_numbers_say(result: Any) -> None:
     """A failed limit is the first sentence; better by far is good, with both numbers of the evaluation."""
     sensor = _sensor(result)
     first, second, *_ = sensor["verdict"]
@@ -125,7 +162,9 @@ def test_the_verdict_comes_first_and_says_what_the_numbers_say(result: Any) -> N
     )
     assert f"moment error {moment['mean']:.3f} N m against {moment['prior_mean']:.3f} N m" in second["text"]
     lines = _words("report.html")
-    title, verdict, measured = (lines.index(text) for text in (result["title"], first["text"], "Intervals"))
+    title, verdict, measured = (
+        lines.index(text) for text in (result["title"], first["text"].removeprefix("fitted.json: "), "Intervals")
+    )
     assert title < verdict < measured
 
 
@@ -153,7 +192,7 @@ def test_the_document_holds_the_tables_and_pictures(result: Any) -> None:
     matrix = sensor["calibrations"]["fitted.json"]["matrix"]
     assert any(line.startswith(f"{matrix[2][3]:.3e} ±") for line in lines)
     html = Path("report.html").read_bytes()
-    assert html.count(b"<img ") == 5
+    assert html.count(b"<img ") == 6
     assert len(html) < NORMAL_BYTES
     assert Path("report.pdf").read_bytes().startswith(b"%PDF")
 
@@ -175,6 +214,9 @@ def test_without_a_calibration_the_priors_are_shown(arm: Path, run: Run) -> None
         assert {row["candidate"] for row in sensor["evaluation"]} == {"prior"}
         assert sensor["verdict"][0]["tone"] == "unknown"
         assert sensor["verdict"][0]["text"].endswith("no calibration was given to compare it with")
+    assert result["uses"] == []
+    assert [row["sensor"] for row in result["undecided"]] == ["arm_ft", "tool_ft"]
+    assert "forcetorque calibrate two.toml --sensor arm_ft" in result["next_steps"][0]["steps"][0]
 
 
 def test_what_cannot_be_judged_is_said_and_the_rest_is_shown(arm: Path, run: Run) -> None:
@@ -197,7 +239,12 @@ def test_nothing_is_shown_of_a_calibration_on_data_that_it_was_fitted_on(arm: Pa
     assert run("calibrate", PARQUET, "-o", "early.json").code == 0
     edit(arm / PARQUET, "start_s = 14.5\nend_s = 23.5", "start_s = 8.0\nend_s = 13.0")
     words = (PARQUET, "fitted.json", "early.json", "-o", "report.html", "--format", "json")
-    sensor = _sensor(run("report", *words).result())
+    result = run("report", *words).result()
+    sensor = _sensor(result)
+    assert [row["candidate"] for row in result["uses"]] == ["early.json"]
+    (unjudged,) = result["undecided"]
+    assert unjudged["candidate"] == "fitted.json"
+    assert "was fitted on the interval" in unjudged["reason"]
     assert "was fitted on the interval" in sensor["not_judged"]["errors of fitted.json"]
     for rows in ("evaluation", "contact_forces", "joint_torques", "comparisons", "independence"):
         assert {row["candidate"] for row in sensor[rows]} <= {"prior", "early.json"}
@@ -214,6 +261,54 @@ def test_the_order_of_intervals_in_the_file_does_not_matter(arm: Path, run: Run)
     sensor = _sensor(run("report", PARQUET, "fitted.json", "-o", "report.html", "--format", "json").result())
     assert sensor["not_judged"] == {}
     assert sensor["comparisons"]
+
+
+def test_load_cases_of_the_acceptance_file_are_judged(arm: Path, run: Run) -> None:
+    """Each has a verdict; one that the sensor cannot read is said in a line, and the rest of the report is there."""
+    case = '\n[[load_case]]\nname = "{}"\nforce_N = {}\nradius_m = 0.1\n'
+    Path("limits.toml").write_text(LIMITS + case.format("light", 2.0) + case.format("firm", 5.0), encoding="utf-8")
+    words = (PARQUET, "fitted.json", "limits.toml", "-o", "report.html", "--format", "json")
+    result = run("report", *words).result()
+    assert [(row["load_case"], row["stated"]) for row in result["uses"]] == [("light", True), ("firm", True)]
+    assert not any("Check that this is your use" in step for step in result["next_steps"][0]["steps"])
+    Path("limits.toml").write_text(LIMITS + case.format("giant", 1e6) + case.format("light", 2.0), encoding="utf-8")
+    result = run("report", *words).result()
+    assert [row["load_case"] for row in result["uses"]] == ["light"]
+    (undecided,) = result["undecided"]
+    assert "load case 'giant': reaches" in undecided["reason"]
+    assert _sensor(result)["evaluation"]
+
+
+USE = """
+[[load_case]]
+name = "push"
+force_N = 20.0
+radius_m = 0.2
+offset = "tared"
+force_error_N = {allowed}
+
+[plan]
+clearance_deg = {clearance}
+"""
+
+
+def test_what_to_record_first_is_said_where_limits_are_stated(arm: Path, run: Run) -> None:
+    """Of a use whose predicted error is too large: postures, and the error to expect; else why it is not known."""
+    text = (arm / PARQUET).read_text(encoding="utf-8")
+    words = ("report", PARQUET, "fitted.json", "-o", "report.html", "--format", "json")
+
+    def steps(rest: str) -> list[str]:
+        (arm / PARQUET).write_text(text + rest, encoding="utf-8")
+        return list(run(*words).result()["next_steps"][0]["steps"])
+
+    planned = [step for step in steps(USE.format(allowed=1e-3, clearance=12)) if step.startswith("For “push”, ")]
+    assert len(planned) == 1
+    pattern = r"record first \d+ postures in \d+ s, .*: the expected error falls from .* N m to .* N \(at most"
+    assert re.search(pattern, planned[0])
+    impossible = steps(USE.format(allowed=1e-3, clearance=900))
+    assert any("For “push”, no recording could be planned: plan: joint" in step for step in impossible)
+    # negative control: an error that is allowed
+    assert not any("For “push”" in step for step in steps(USE.format(allowed=5.0, clearance=12)))
 
 
 REFUSED = {
@@ -296,12 +391,12 @@ def test_a_real_leg(data_dir: Path, run: Run, tmp_path: Path, monkeypatch: pytes
     for line in (own, of_judged):
         assert line["tone"] == "caution"
         assert not {"(better:", "(worse:"} & set(line["text"].split())
-    assert re.search(r"too few samples, worth [1-5]\.\d independent ones, to tell them apart", own["text"])
-    assert "no difference that the recording shows" in of_judged["text"]
+    assert re.search(r"not told apart: the errors repeat themselves, and are worth [12] stretch(es)? only", own["text"])
+    assert re.search(r"not told apart: 0\.\d\d of it, 0\.\d\d to 1\.\d\d over \d stretches", of_judged["text"])
     # three times smaller in the mean, and yet: sixteen seconds of slow errors are worth a handful of samples
     force = next(row for row in sensor["comparisons"] if (row["offset"], row["quantity"]) == ("fitted", "force"))
     assert force["mean"] < 0.4 * force["prior_mean"]
-    assert force["independent"] < 10.0
+    assert (force["judgement"], force["ratio_low"]) == ("not told apart", None)
     assert any("for fx, fy, fz, ty, tz the prior decides" in line["text"] for line in rest)
     assert any("independent samples" in line["text"] for line in rest)
     assert Path("leg.html").stat().st_size < NORMAL_BYTES

@@ -32,6 +32,7 @@ COMMANDS = {
     "export": ("export", "fitted.json", "--to", "csv", "-o", "matrix.csv"),
     "gains": ("gains", PARQUET),
     "inspect": ("inspect", "faulty.toml"),
+    "plan": ("plan", PARQUET, "-c", "fitted.json", "--clearance-deg", "12", "--seconds", "20", "--recordings", "2"),
     "report": ("report", PARQUET, "fitted.json", "-o", "report.html"),
     "sphere": ("sphere", PARQUET, "-c", "fitted.json"),
     "study": ("study", PARQUET, "-o", "study", *SHORT),

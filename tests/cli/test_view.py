@@ -220,16 +220,50 @@ def test_a_real_process_stops_at_the_first_interrupt(arm: Path) -> None:
     if not all((ASSETS / name).is_file() for name in BUNDLE):
         pytest.skip("the page's bundle has not been built; run make web")
     words = [sys.executable, "-m", "forcetorque", "view", PARQUET, "--no-browser", "--format", "csv"]
-    process = subprocess.Popen(words, cwd=arm, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-    assert process.stdout is not None
-    header, row = process.stdout.readline(), process.stdout.readline()
-    url = dict(zip(header.strip().split(","), row.strip().split(","), strict=True))["url"]
-    with urllib.request.urlopen(url, timeout=10) as answer:
-        assert answer.status == 200
-    process.send_signal(signal.SIGINT)
-    out, err = process.communicate(timeout=20)
+    process = subprocess.Popen(
+        words,
+        cwd=arm,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        preexec_fn=_heed_interrupts,
+    )
+    try:
+        assert process.stdout is not None
+        header, row = process.stdout.readline(), process.stdout.readline()
+        url = dict(zip(header.strip().split(","), row.strip().split(","), strict=True))["url"]
+        with urllib.request.urlopen(url, timeout=10) as answer:
+            assert answer.status == 200
+        process.send_signal(signal.SIGINT)
+        out, err = process.communicate(timeout=60)
+    finally:
+        process.kill()
+        process.wait()
     assert (process.returncode, out) == (0, "")
     assert all(line.startswith("INFO: ") for line in err.splitlines())
+
+
+def _heed_interrupts() -> None:
+    """A shell starts what runs in the background with interrupts ignored, and processes inherit that."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+
+
+def test_an_interrupt_before_the_command_waits_ends_it_in_good_order(
+    run: Run, arm: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The address is out before the command waits: Ctrl-C in between is no traceback, and nothing serves on."""
+
+    def interrupt(url: str) -> bool:
+        opened.append(url)
+        raise KeyboardInterrupt
+
+    opened: list[str] = []
+    monkeypatch.setattr("webbrowser.open", interrupt)
+    ended = run("view", PARQUET)
+    assert ended.code == 0
+    assert "INFO: stopped" in ended.log
+    with pytest.raises(OSError, match="refused"):
+        urllib.request.urlopen(opened[0], timeout=10)
 
 
 def _report(run: Run, **changes: object) -> Path:

@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Paired differences: by hand, how often one is found that is not there, and that one that is there is found."""
+"""Ratios of paired errors: by hand, how often equal candidates are told apart, and how often unequal ones."""
 
 from __future__ import annotations
 
 import math
+from collections import Counter
+from collections.abc import Callable
 
 import numpy as np
 import pytest
@@ -12,143 +14,253 @@ from scipy.special import stdtrit
 
 from forcetorque.arrays import FloatArray
 from forcetorque.errors import ShapeError
-from forcetorque.evaluation import PairedMean, paired_difference
+from forcetorque.evaluation import ErrorRatio, PairedErrors, compare_errors
+from forcetorque.evaluation.paired import ratio_over
 
 EXACT = 1e-12
-"""N, N m: norms of some 10 N by two ways."""
+"""Ratios of some 1 by two ways."""
 
-COUNT, STEP_S, RECORDINGS = 1000, 0.01, 1000
+COUNT, STEP_S = 1000, 0.01
 
-FALSE = 0.07 + 2.0 * math.sqrt(0.07 * 0.93 / RECORDINGS)
-"""Largest share of recordings in which a difference that is not there may be found: 7 %, and two standard deviations of
-what is counted in 1000 of them."""
-
-LEVEL_N = 50.0
-"""Force error that both candidates have, so large that its norm changes by what is added along it."""
+Pair = tuple[FloatArray, FloatArray]
+Recordings = list[Pair]
+Draw = Callable[[np.random.Generator], Recordings]
 
 
-def _of_blocks(values: FloatArray) -> float:
-    """Standard error of a mean by ten blocks."""
-    means = [block.mean() for block in np.array_split(values, min(10, len(values)))]
-    return float(np.std(means, ddof=1)) / math.sqrt(len(means))
-
-
-def _time(count: int = COUNT) -> FloatArray:
-    return STEP_S * np.arange(count)
-
-
-def _process(effective: float, rng: np.random.Generator) -> FloatArray:
-    """AR(1) process of mean 0 and variance 1 that is worth so many independent samples."""
-    phi = (COUNT - effective) / (COUNT + effective)
-    noise = rng.normal(size=COUNT)
+def _process(part: float, rng: np.random.Generator) -> FloatArray:
+    """Force errors of deviation 1 that forget themselves after this part of the recording; 0 for white noise."""
+    noise = rng.normal(size=(COUNT, 3))
+    phi = math.exp(-1.0 / (part * COUNT)) if part else 0.0
     noise[0] /= math.sqrt(1.0 - phi**2)
-    return np.asarray(lfilter([math.sqrt(1.0 - phi**2)], [1.0, -phi], noise))
+    return np.asarray(lfilter([math.sqrt(1.0 - phi**2)], [1.0, -phi], noise, axis=0))
 
 
-def _force(difference: FloatArray) -> PairedMean:
-    """Two candidates whose force errors differ by this much in every sample."""
-    reference = np.zeros((len(difference), 6))
-    second = np.zeros_like(reference)
-    second[:, 2] = LEVEL_N
-    first = second.copy()
-    first[:, 2] += difference
-    return paired_difference(first, second, reference, _time(len(difference))).force
+def _alike(part: float, white: float = 0.0, common: float = 0.0, recordings: int = 1, constant: float = 0.0) -> Draw:
+    """Two candidates whose errors are drawn in one way: slow, white, and what both have in common."""
+
+    def draw(rng: np.random.Generator) -> Recordings:
+        pairs = []
+        for _ in range(recordings):
+            shared = common * _process(part, rng) + [constant, 0.0, 0.0]
+            first, second = (shared + _process(part, rng) + white * _process(0.0, rng) for _ in range(2))
+            pairs.append((first, second))
+        return pairs
+
+    return draw
+
+
+def _by(ratio: float, draw: Draw) -> Draw:
+    """The same with the first candidate's errors this times as large."""
+    return lambda rng: [(ratio * first, second) for first, second in draw(rng)]
+
+
+def _motions(ratio: float, count: int) -> Draw:
+    """Recordings of white errors, each with a ratio of its own that scatters by .4."""
+
+    def draw(rng: np.random.Generator) -> Recordings:
+        factors = ratio * np.exp(0.4 * rng.normal(size=count))
+        return [(factor * rng.normal(size=(100, 3)), rng.normal(size=(100, 3))) for factor in factors]
+
+    return draw
+
+
+def _judged(recordings: Recordings) -> ErrorRatio:
+    """Judge by force errors alone; the moments are the same."""
+    return compare_errors(
+        [
+            PairedErrors(first=np.pad(first, ((0, 0), (0, 3))), second=np.pad(second, ((0, 0), (0, 3))))
+            for first, second in recordings
+        ]
+    ).force
+
+
+def _shares(draw: Draw, campaigns: int, seed: int = 1) -> dict[str, float]:
+    """Share of campaigns by what is said of the first candidate."""
+    rng = np.random.default_rng(seed)
+    said = Counter(_judged(draw(rng)).judgement for _ in range(campaigns))
+    return {judgement: count / campaigns for judgement, count in said.items()}
+
+
+def _most(share: float, campaigns: int) -> float:
+    """Largest share that is counted where the true one is this: two standard deviations above."""
+    return share + 2.0 * math.sqrt(share * (1.0 - share) / campaigns)
+
+
+NULLS: dict[str, Draw] = {
+    "white": _alike(0.0),
+    **{f"slow {part}": _alike(part) for part in (0.01, 0.02, 0.05, 0.1, 0.2)},
+    **{f"slow {part} and {white} white": _alike(part, white) for part in (0.05, 0.1, 0.2) for white in (0.3, 1.0, 3.0)},
+    **{f"slow {part} and common": _alike(part, common=2.0) for part in (0.05, 0.2)},
+    **{f"slow {part} and constant": _alike(part, constant=3.0) for part in (0.05, 0.2)},
+    **{f"slow {part}, {n} recordings": _alike(part, recordings=n) for part in (0.05, 0.2) for n in (2, 5)},
+}
+"""Candidates of equal errors."""
+
+QUICK = ("white", "slow 0.05", "slow 0.2", "slow 0.2 and 1.0 white", "slow 0.2 and common", "slow 0.05, 5 recordings")
+
+
+def _require_seldom_wrong(name: str, campaigns: int) -> None:
+    shares = _shares(NULLS[name], campaigns)
+    for judgement in ("better", "worse"):
+        assert shares.get(judgement, 0.0) <= _most(0.05, campaigns), (name, shares)
+
+
+@pytest.mark.parametrize("name", QUICK)
+def test_equal_candidates_are_seldom_called_better(name: str) -> None:
+    """At most 5 % of campaigns, and as few worse, but for what 200 of them count by chance."""
+    _require_seldom_wrong(name, 200)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("name", NULLS)
+def test_equal_candidates_are_seldom_called_better_in_2000_campaigns(name: str) -> None:
+    """The same where chance counts at most 1 % more."""
+    _require_seldom_wrong(name, 2000)
+
+
+def test_ten_stretches_taken_for_independent_err_far_more_often() -> None:
+    """Negative control: Student's t over ten stretches, whatever they have in common."""
+    rng = np.random.default_rng(2)
+    wrong = 0
+    for _ in range(300):
+        ((first, second),) = NULLS["slow 0.2 and constant"](rng)
+        logs = 0.5 * np.log(
+            [
+                (a**2).sum() / (b**2).sum()
+                for a, b in zip(*(np.array_split(e, 10) for e in (first, second)), strict=True)
+            ]
+        )
+        wrong += logs.mean() + stdtrit(9, 0.975) * logs.std(ddof=1) / math.sqrt(10) < 0.0
+    assert wrong / 300 > 0.1
+
+
+def test_an_improvement_by_a_third_is_mostly_found() -> None:
+    """Ten stretches whose log ratio scatters by .4, given or as recordings, and errors that soon forget themselves."""
+    rng = np.random.default_rng(3)
+    logs = math.log(2.0 / 3.0) + 0.4 * rng.normal(size=(2000, 10))
+    better = [ratio_over([ten], [0.0], pooled=-1.0).judgement == "better" for ten in logs]
+    assert np.mean(better) >= 0.8
+    assert _shares(_motions(2.0 / 3.0, 10), 200)["better"] >= 0.8
+    for part in (0.02, 0.03):
+        assert _shares(_by(2.0 / 3.0, _alike(part)), 200)["better"] >= 0.85
+
+
+@pytest.mark.parametrize("stretches", [4, 5, 6])
+def test_a_large_improvement_is_found_in_few_stretches(stretches: int) -> None:
+    """By a factor of 3, with a scatter of .4; never the wrong way round."""
+    rng = np.random.default_rng(stretches)
+    logs = -math.log(3.0) + 0.4 * rng.normal(size=(1000, stretches))
+    judgements = [ratio_over([few], [0.0], pooled=-1.0).judgement for few in logs]
+    assert np.mean([judgement == "better" for judgement in judgements]) > 0.85
+    assert "worse" not in judgements
+    assert _shares(_motions(1.0 / 3.0, stretches), 100)["better"] > 0.85
+
+
+def test_slow_errors_that_are_much_smaller_are_found() -> None:
+    """By a factor of 3, where errors last for a tenth and a fifth of the recording."""
+    assert _shares(_by(1.0 / 3.0, _alike(0.1)), 200)["better"] > 0.85
+    assert _shares(_by(1.0 / 3.0, _alike(0.2)), 200)["better"] > 0.6
+
+
+def test_equal_candidates_that_are_known_well_are_no_different() -> None:
+    """White errors are; of slow ones the recording does not tell; a third less is neither."""
+    assert _shares(NULLS["white"], 100)["no difference"] > 0.9
+    assert _shares(NULLS["slow 0.2"], 100)["not told apart"] > 0.85
+    assert _shares(_by(2.0 / 3.0, _alike(0.0)), 100)["better"] == 1.0
 
 
 def test_by_hand() -> None:
-    """Errors 3 4 0 and 0 0 1 N: norms 5 and 1, so a difference of 4 N; the moments' is -2 N m; both change a little."""
-    ripple = 0.1 * np.random.default_rng(1).normal(size=(200, 1))
-    reference = np.tile([1.0, 2.0, 3.0, 0.1, 0.2, 0.3], (200, 1))
-    first = reference + (1.0 + ripple) * [3.0, 4.0, 0.0, 0.0, 0.0, 1.0]
-    second = reference + [0.0, 0.0, 1.0, 0.0, 3.0, 0.0]
-    found = paired_difference(first, second, reference, _time(200))
-    norms = 5.0 * (1.0 + ripple[:, 0]) - 1.0
-    assert found.count == 200
-    assert found.force.mean == pytest.approx(norms.mean(), abs=EXACT)
-    assert found.moment.mean == pytest.approx((norms.mean() + 1.0) / 5.0 - 3.0, abs=EXACT)
-    n = found.force.effective_count**2 / (found.force.effective_count + 7.0)
-    error = max(_of_blocks(norms), norms.std() / math.sqrt(n - 1.0))
-    assert found.force.degrees_of_freedom == 9.0
-    assert found.force.standard_error == pytest.approx(error, abs=EXACT)
-    assert found.force.high - found.force.mean == pytest.approx(stdtrit(9.0, 0.975) * error, abs=EXACT)
-    assert (found.force.is_higher, found.force.is_lower) == (True, False)
-    assert (found.moment.is_higher, found.moment.is_lower) == (False, True)
+    """White errors, ten stretches: geometric mean of the ratios and Student's interval; exchanged it is inverse."""
+    rng = np.random.default_rng(5)
+    reference, first, second = rng.normal(size=(3, COUNT, 6))
+    first[:, 3:] *= 2.0
+    one = compare_errors([PairedErrors.of(first + reference, second + reference, reference)])
+    other = compare_errors([PairedErrors.of(second, first, np.zeros_like(reference))])
+    for axes, ratio, inverse in ((slice(0, 3), one.force, other.force), (slice(3, 6), one.moment, other.moment)):
+        squares = [(errors[:, axes] ** 2).sum(axis=1).reshape(10, 100).mean(axis=1) for errors in (first, second)]
+        logs = 0.5 * np.log(squares[0] / squares[1])
+        assert ratio.stretches == 10
+        assert ratio.ratio == pytest.approx(math.exp(logs.mean()), abs=EXACT)
+        half = math.log(ratio.high / ratio.ratio)
+        assert half >= stdtrit(9, 0.975) * logs.std(ddof=1) / math.sqrt(10) - EXACT
+        assert math.log(ratio.ratio / ratio.low) == pytest.approx(half, abs=EXACT)
+        assert (1 / inverse.high, 1 / inverse.ratio, 1 / inverse.low) == pytest.approx(
+            (ratio.low, ratio.ratio, ratio.high), abs=EXACT
+        )
+    assert one.count == COUNT
+    assert (one.force.judgement, one.moment.judgement, other.moment.judgement) == ("no difference", "worse", "better")
 
 
-@pytest.mark.parametrize(
-    ("effective", "plain_errs"), [(5.0, 0.25), (10.0, 0.14), (30.0, 0.08), (160.0, 0.05)], ids=["5", "10", "30", "160"]
-)
-def test_a_difference_that_is_not_there_is_seldom_found(effective: float, plain_errs: float) -> None:
-    """Whatever the number of independent samples, at most 7 % of recordings say better or worse.
-
-    Negative control: mean and two standard errors of ten blocks err far more often where samples repeat each other.
-    """
-    rng = np.random.default_rng(int(effective))
-    wrong, plain = 0, 0
-    for _ in range(RECORDINGS):
-        difference = _process(effective, rng)
-        found = _force(difference)
-        wrong += found.is_lower or found.is_higher
-        plain += abs(difference.mean()) > 2.0 * _of_blocks(difference)
-    assert wrong / RECORDINGS <= FALSE
-    assert plain / RECORDINGS > plain_errs
-
-
-def test_a_difference_that_is_there_is_found() -> None:
-    """One of its standard deviation, worth 30 samples: mostly found, never with the wrong sign; from 5 seldom."""
-    rng = np.random.default_rng(3)
-    many = [_force(_process(30.0, rng) - 1.0) for _ in range(100)]
-    assert sum(found.is_lower for found in many) > 90
-    assert not any(found.is_higher for found in many)
-    few = [_force(_process(5.0, rng) - 1.0) for _ in range(100)]
-    assert sum(found.is_lower for found in few) < 50
-
-
-def test_exchanged_candidates_have_the_opposite_difference() -> None:
-    """Mean and interval change their sign; the standard error stays."""
-    rng = np.random.default_rng(4)
-    first, second, reference = rng.normal(size=(3, COUNT, 6))
-    one = paired_difference(first, second, reference, _time())
-    other = paired_difference(second, first, reference, _time())
-    for a, b in ((one.force, other.force), (one.moment, other.moment)):
-        assert (a.mean, a.low, a.high) == pytest.approx((-b.mean, -b.high, -b.low), abs=EXACT)
-        assert a.standard_error == pytest.approx(b.standard_error, abs=EXACT)
+def test_a_better_mean_ratio_does_not_outvote_larger_errors() -> None:
+    """Smaller in every stretch but one in which it is far larger: the root mean square is larger, so not better."""
+    logs = np.array([-1.0, -1.1, -0.9, -1.05, -0.95, -1.0, -1.1, -0.9, -1.0, -0.6])
+    assert ratio_over([logs], [0.0], pooled=-0.5).judgement == "better"
+    assert ratio_over([logs], [0.0], pooled=0.1).judgement == "not told apart"
 
 
 def test_samples_with_a_gap_in_either_are_left_out() -> None:
-    """They change nothing but the count, where a pause is taken for one."""
-    rng = np.random.default_rng(5)
+    """As if they had not been recorded; so is a recording that has no other."""
+    rng = np.random.default_rng(6)
     first, second, reference = rng.normal(size=(3, COUNT, 6))
     kept = np.ones(COUNT, dtype=bool)
     kept[[3, 500, 501, 900]] = False
-    expected = paired_difference(first[kept], second[kept], reference[kept], _time()[kept])
+    expected = compare_errors([PairedErrors.of(first[kept], second[kept], reference[kept])])
     first[3, 0] = second[500:502, 4] = reference[900, 2] = np.nan
-    assert paired_difference(first, second, reference, _time()) == expected
+    gaps = PairedErrors.of(first, np.full_like(first, np.nan), reference)
+    assert compare_errors([PairedErrors.of(first, second, reference), gaps]) == expected
     assert expected.count == COUNT - 4
 
 
 @pytest.mark.parametrize("count", [1, 2, 300])
-def test_where_nothing_can_be_told_it_is_undecided(count: int) -> None:
-    """A single sample, and candidates that never differ or differ by one constant: no finite interval."""
-    for constant in (0.0, -3.0):
-        found = _force(np.full(count, constant))
-        assert found.mean == pytest.approx(constant, abs=EXACT)
-        assert math.isnan(found.standard_error)
-        assert (found.low, found.high) == (-math.inf, math.inf)
-        assert not found.is_lower
-        assert not found.is_higher
+def test_what_never_changes_is_seen_once(count: int) -> None:
+    """A single sample, and constant errors: the ratio, and no interval; the same errors are no different."""
+    ratio = _judged([(np.full((count, 3), 1.0), np.full((count, 3), 3.0))])
+    assert ratio.ratio == pytest.approx(1.0 / 3.0, abs=EXACT)
+    assert (ratio.low, ratio.high, ratio.stretches) == (0.0, math.inf, 1)
+    assert ratio.judgement == "not told apart"
+    for level in (0.0, 2.0):
+        same = _judged([(np.full((count, 3), level), np.full((count, 3), -level))])
+        assert (same.ratio, same.low, same.high, same.judgement) == (1.0, 1.0, 1.0, "no difference")
+
+
+def test_identical_candidates_are_exactly_no_different() -> None:
+    """Whatever their errors are."""
+    errors = _process(0.2, np.random.default_rng(7))
+    same = _judged([(errors, errors.copy())])
+    assert (same.ratio, same.low, same.high, same.judgement) == (1.0, 1.0, 1.0, "no difference")
+
+
+def test_errors_of_zero_have_a_ratio() -> None:
+    """Throughout, in some samples, and in a half; nothing is divided by zero."""
+    errors = _process(0.0, np.random.default_rng(8))
+    assert _judged([(np.zeros_like(errors), errors)]).judgement == "better"
+    assert _judged([(errors, np.zeros_like(errors))]).judgement == "worse"
+    some, half = errors.copy(), errors.copy()
+    some[::2] = half[: COUNT // 2] = 0.0
+    assert _judged([(some, errors)]).judgement == "better"
+    ratio = _judged([(half, errors)])
+    assert ratio.judgement == "not told apart"
+    assert math.isfinite(ratio.ratio)
+
+
+def test_a_level_of_a_recording_counts_once_however_long_it_is() -> None:
+    """Four recordings, two better and two worse by as much: not told apart, though each is clear in itself."""
+    rng = np.random.default_rng(9)
+    pairs = [(factor * _process(0.0, rng), _process(0.0, rng)) for factor in (0.5, 0.6, 1.4, 1.6)]
+    assert {_judged([pair]).judgement for pair in pairs} == {"better", "worse"}
+    together = _judged(pairs)
+    assert (together.judgement, together.stretches) == ("not told apart", 40)
+    assert together.high / together.low > 2.0
 
 
 def test_bad_input_is_refused() -> None:
     """Other shapes, and nothing that is whole."""
     good = np.zeros((5, 6))
     with pytest.raises(ShapeError, match="reference: expected an array of shape"):
-        paired_difference(good, good, np.zeros(6), _time(5))
+        PairedErrors.of(good, good, np.zeros(6))
     with pytest.raises(ShapeError, match="second: expected an array of shape"):
-        paired_difference(good, good[:4], good, _time(5))
-    with pytest.raises(ShapeError, match="time_s: expected an array of shape"):
-        paired_difference(good, good, good, _time(4))
-    with pytest.raises(
-        ShapeError, match="expected at least one sample in which everything is finite, got none among 5"
-    ):
-        paired_difference(good, np.full((5, 6), np.nan), good, _time(5))
+        PairedErrors.of(good, good[:4], good)
+    with pytest.raises(ShapeError, match="expected at least one sample in which everything is finite, got none"):
+        compare_errors([PairedErrors.of(good, np.full((5, 6), np.nan), good)])
+    with pytest.raises(ShapeError, match="got none"):
+        compare_errors([])

@@ -13,6 +13,7 @@ import pytest
 
 from forcetorque.analysis import (
     CandidateErrors,
+    PriorComparison,
     SensorRun,
     calibrate_sensor,
     corrections_of,
@@ -111,6 +112,36 @@ def _over(experiment: Experiment, first_s: float, last_s: float) -> SensorSample
 
 def _columns(samples: SensorSamples) -> FloatArray:
     return np.hstack([samples.reference, samples.reading.values])
+
+
+def _judgements(path: Path, data_dir: Path, tmp_path: Path) -> dict[tuple[str, str], PriorComparison]:
+    experiment = _load(path, data_dir, tmp_path)
+    run = SensorRun(experiment, experiment.sensors[0])
+    calibration = calibrate_sensor(run, code_version="test", created="test")
+    return {(row.offset, row.quantity): row for row in evaluate(run, {"new": calibration}).comparisons}
+
+
+def test_the_reverse_is_better_where_the_offset_is_that_of_the_judged_half(data_dir: Path, tmp_path: Path) -> None:
+    """Force 3.8 to 1.0 N, better in every stretch: .27 of it. With the fitted offset one stretch is all there is."""
+    rows = _judgements(YOGA[1], data_dir, tmp_path)
+    for quantity in ("force", "moment"):
+        row = rows["judged-mean", quantity]
+        assert row.judgement == "better"
+        assert row.ratio_high is not None
+        assert row.ratio_high < 0.45
+        assert rows["fitted", quantity].judgement == "not told apart"
+        assert rows["fitted", quantity].stretches == 1
+    assert rows["judged-mean", "force"].ratio == pytest.approx(0.27, abs=0.02)
+
+
+def test_forward_with_the_offset_of_the_judged_half_is_not_better(data_dir: Path, tmp_path: Path) -> None:
+    """Negative control: .67 to .55 N, in some stretches more and in some less."""
+    row = _judgements(YOGA[0], data_dir, tmp_path)["judged-mean", "force"]
+    assert row.mean < row.prior_mean
+    assert row.judgement == "not told apart"
+    assert row.ratio_low is not None
+    assert row.ratio_high is not None
+    assert row.ratio_low < 1.0 < row.ratio_high
 
 
 def test_half_the_error_where_the_fitted_part_moves(data_dir: Path, tmp_path: Path) -> None:

@@ -9,8 +9,9 @@ from pathlib import Path
 import pytest
 
 from forcetorque.errors import FormatError, MissingFileError
+from forcetorque.exchange.parquet import ParquetLog
+from forcetorque.exchange.yarp.log_tables import StateExtPort, YarpLog
 from forcetorque.experiment import ExperimentFile, parse_experiment
-from forcetorque.experiment.log_schema import ParquetLog, StateExtPort, YarpLog
 from forcetorque.experiment.schema import Smoothing
 from forcetorque.recording import Use
 from tests.experiments import JOINTS, PARQUET, TEXTS, TWO, YARP
@@ -216,8 +217,8 @@ TABLES = {
     ),
     'name = "small arm"': (
         "top level",
-        "calibration, contact, estimation, interval, load, name, processing, recording, robot, schema, sensor, "
-        "support, trial",
+        "calibration, contact, estimation, interval, load, load_case, name, plan, processing, recording, robot, "
+        "schema, sensor, support, trial",
     ),
 }
 

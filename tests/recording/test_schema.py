@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import json
+import re
 from pathlib import Path
 from typing import Any
 
@@ -67,3 +68,10 @@ def test_every_quantity_is_described_as_it_is_written(written: Path, name: str) 
         assert (choice == "any") is (name == "scalar")
     assert described["frame"] == ("none" if metadata["frame"] is None else "named")
     assert described["description"] == QUANTITIES[name].description
+
+
+def test_the_page_of_recordings_has_every_quantity() -> None:
+    """Its table of columns has a row for each, in the same order, and for nothing else."""
+    page = (Path(__file__).parents[2] / "docs" / "recording.md").read_text(encoding="utf-8")
+    table = page.partition("## Columns")[2].partition("\n## ")[0]
+    assert re.findall(r"^\| `(\w+)` \|", table, re.MULTILINE) == list(QUANTITIES)

@@ -13,6 +13,6 @@ from tests.report.drawing import recorded_figures
 
 @pytest.fixture
 def drawn() -> Iterator[list[Figure]]:
-    """Figures that were written as PNG so far during the test, so that what is in them can be asked."""
+    """Figures that were made so far during the test, not drawn, so that what is in them can be asked."""
     with recorded_figures() as figures:
         yield figures

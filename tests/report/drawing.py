@@ -19,9 +19,12 @@ from matplotlib.text import Text
 
 from forcetorque.analysis import (
     LearntDirection,
+    Reason,
     SensorSphere,
     TrialGroup,
     TrialSphere,
+    UseError,
+    UseVerdict,
     group_trials,
 )
 from forcetorque.evaluation.sphere import analyse_sphere
@@ -39,7 +42,9 @@ from forcetorque.report.figures import (
     residual_figure,
     space_figure,
     sphere_figure,
+    use_figure,
 )
+from forcetorque.report.figures.canvas import png_bytes
 from forcetorque.spatial import WRENCH_COMPONENTS
 
 LAMBDAS = np.array([0, 1, 5, 10, 50, 100, 1e3, 5e3, 1e4, 5e4, 1e5, 5e5, 1e6])
@@ -51,15 +56,15 @@ def _wrenches(rng: np.random.Generator, count: int = 400) -> np.ndarray:
     return np.cumsum(rng.normal(size=(count, 6)), axis=0) * [2.0, 2.0, 4.0, 0.1, 0.1, 0.05]
 
 
-def _space(rng: np.random.Generator) -> bytes:
+def _space(rng: np.random.Generator) -> Figure:
     return space_figure({name: _wrenches(rng) for name in ("grid", "z-torque", "support leg", "other leg")})
 
 
-def _force_space(rng: np.random.Generator) -> bytes:
+def _force_space(rng: np.random.Generator) -> Figure:
     return force_space_figure({"leg": [("prior", _wrenches(rng)[:, :3]), ("model", _wrenches(rng)[:, :3])]})
 
 
-def _difference(rng: np.random.Generator) -> bytes:
+def _difference(rng: np.random.Generator) -> Figure:
     matrices = rng.normal(size=(7, 36))
     between = np.abs(matrices[:, None] - matrices[None]).mean(axis=2)
     return difference_figure(["Workbench", *TYPES], 10.0 * between, unit="1e-4 N/count")
@@ -69,22 +74,22 @@ def _curves(rng: np.random.Generator) -> dict[str, np.ndarray]:
     return {kind: np.cumsum(rng.uniform(size=len(LAMBDAS))) + 2.0 for kind in TYPES}
 
 
-def _lambda_difference(rng: np.random.Generator) -> bytes:
+def _lambda_difference(rng: np.random.Generator) -> Figure:
     return lambda_difference_figure(LAMBDAS, _curves(rng), unit="1e-4 N/count")
 
 
-def _lambda_force(rng: np.random.Generator) -> bytes:
+def _lambda_force(rng: np.random.Generator) -> Figure:
     curves = {name: _curves(rng) for name in ("noTz", "suppOnly", "All")}
     return lambda_force_figure(LAMBDAS, curves, workbench=16.7, chosen=("All", "OwTrTO", 1e3))
 
 
-def _contact(rng: np.random.Generator) -> bytes:
+def _contact(rng: np.random.Generator) -> Figure:
     candidates = {name: _wrenches(rng)[:, :3] for name in ("Workbench", "best", "best by axis")}
     spans = [("grid, day 1", 0, 180), ("support leg, day 2", 180, 400)]
     return contact_figure(np.arange(400) * 0.01, candidates, unit="N", spans=spans)
 
 
-def _comparison(rng: np.random.Generator) -> bytes:
+def _comparison(rng: np.random.Generator) -> Figure:
     reference = _wrenches(rng)
     candidates = {name: reference + 0.1 * _wrenches(rng) for name in ("ex situ", "in situ")}
     return comparison_figure(np.arange(400) * 0.01, reference, candidates)
@@ -108,14 +113,14 @@ def sphere_of(
     )
 
 
-def _sphere(rng: np.random.Generator) -> bytes:
+def _sphere(rng: np.random.Generator) -> Figure:
     directions = rng.normal(size=(500, 3))
     reference = 46.0 * directions / np.linalg.norm(directions, axis=1, keepdims=True)
     force = reference @ (np.eye(3) + 0.2 * rng.normal(size=(3, 3))) + rng.normal(size=3) + rng.normal(size=(500, 3))
     return sphere_figure([sphere_of(force, reference), sphere_of(force[:40], None, candidate="new.json", mass=4.7)])
 
 
-def _residual(rng: np.random.Generator) -> bytes:
+def _residual(rng: np.random.Generator) -> Figure:
     time = 0.01 * np.arange(400) + 3.0 * (np.arange(400) > 250)
     return residual_figure(time, {"prior": 0.3 * _wrenches(rng), "new": 0.1 * _wrenches(rng)})
 
@@ -129,7 +134,7 @@ def excitation_of_sensors(rng: np.random.Generator, *channels: int) -> tuple[lis
     return names, variance, explained, [share > 0.5 for share in explained], directions
 
 
-def _excitation(rng: np.random.Generator) -> bytes:
+def _excitation(rng: np.random.Generator) -> Figure:
     return excitation_figure(*excitation_of_sensors(rng, 6, 12))
 
 
@@ -148,11 +153,68 @@ def learnt_of(rng: np.random.Generator) -> tuple[LearntDirection, ...]:
     )
 
 
-def _learnt(rng: np.random.Generator) -> bytes:
+def _learnt(rng: np.random.Generator) -> Figure:
     return learnt_figure({"one recording": learnt_of(rng), "all": learnt_of(rng)})
 
 
-def _held_out(rng: np.random.Generator) -> bytes:
+def use_of(
+    candidate: str = "leg.json",
+    load_case: str = "push",
+    *,
+    force: float = 4.0,
+    before: float | None = 20.0,
+    allowed: float | None = 8.0,
+    reasons: tuple[Reason, ...] = (),
+    **changed: Any,
+) -> UseVerdict:
+    """A verdict whose force error has this median; moment errors are a hundredth of it, intervals half to double."""
+
+    def error(quantity: Any, unit: Any, scale: float) -> UseError:
+        old, limit = (None if value is None else scale * value for value in (before, allowed))
+        return UseError(
+            quantity=quantity,
+            unit=unit,
+            load=100.0 * scale,
+            before=old,
+            before_at_least=None if old is None else 0.5 * old,
+            before_at_most=None if old is None else 2.0 * old,
+            after=scale * force,
+            after_at_least=0.5 * scale * force,
+            after_at_most=2.0 * scale * force,
+            allowed=limit,
+            axes=(scale * force,) * 3,
+            from_matrix=scale * force,
+            from_offset=0.0,
+            from_variables=0.0,
+            from_noise=0.0,
+        )
+
+    enough = allowed is None or 2.0 * force <= allowed
+    values: dict[str, Any] = {
+        "decision": "use" if enough else "do not use",
+        "sentence": f"{'use' if enough else 'do not use'} for a push of 100 N: it errs by some {force:g} N",
+        "within": 0.99 if enough else 0.01,
+        "stated": True,
+        "offset": "fitted",
+    }
+    return UseVerdict(
+        sensor="leg_ft",
+        serial="SN1",
+        candidate=candidate,
+        load_case=load_case,
+        loads="a push of 100 N",
+        reasons=reasons,
+        errors=(error("force", "N", 1.0), error("moment", "N m", 0.01)),
+        **(values | changed),
+    )
+
+
+def _use(rng: np.random.Generator) -> Figure:
+    uses = [use_of(load_case=name, force=rng.uniform(0.5, 30.0)) for name in ("push", "weight of the robot", "tool")]
+    return use_figure(uses, {"leg.json": "leg.json"})
+
+
+def _held_out(rng: np.random.Generator) -> Figure:
     finite, lambdas = LAMBDAS, np.append(10.0 ** np.arange(-2.0, 9.0), np.inf)
     curves = {
         "left": (finite, rng.uniform(2.0, 9.0, len(finite)), 50.0),
@@ -182,11 +244,11 @@ def trial_groups(
     return group_trials(spheres)[0]
 
 
-def _index(rng: np.random.Generator) -> bytes:
+def _index(rng: np.random.Generator) -> Figure:
     return index_figure(trial_groups(rng, sensors=2, trials=2, caps=1))
 
 
-FIGURES: dict[str, Callable[[np.random.Generator], bytes]] = {
+FIGURES: dict[str, Callable[[np.random.Generator], Figure]] = {
     "space": _space,
     "force space": _force_space,
     "difference": _difference,
@@ -200,22 +262,23 @@ FIGURES: dict[str, Callable[[np.random.Generator], bytes]] = {
     "held out": _held_out,
     "learnt": _learnt,
     "index": _index,
+    "use": _use,
 }
 """A figure of every kind that is drawn from plain arrays, of random data."""
 
 
 @contextmanager
 def recorded_figures() -> Iterator[list[Figure]]:
-    """Every figure that is written as PNG meanwhile."""
+    """Every figure that is made meanwhile, not drawn."""
     figures: list[Figure] = []
-    save = Figure.savefig
+    make = Figure.__init__
 
     def record(figure: Figure, *args: Any, **options: Any) -> None:
-        save(figure, *args, **options)
+        make(figure, *args, **options)
         figures.append(figure)
 
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(Figure, "savefig", record)
+        patch.setattr(Figure, "__init__", record)
         yield figures
 
 
@@ -224,9 +287,9 @@ def size_of(png: bytes) -> tuple[int, int]:
     return struct.unpack(">II", png[16:24])
 
 
-def pixels(png: bytes) -> np.ndarray:
-    """Red, green and blue from 0 to 255; shape (height, width, 3)."""
-    return np.rint(255 * np.asarray(imread(io.BytesIO(png), format="png"))[:, :, :3]).astype(int)
+def pixels(figure: Figure) -> np.ndarray:
+    """Draw a figure: red, green and blue from 0 to 255; shape (height, width, 3)."""
+    return np.rint(255 * np.asarray(imread(io.BytesIO(png_bytes(figure)), format="png"))[:, :, :3]).astype(int)
 
 
 def count_of(image: np.ndarray, colour: str) -> int:

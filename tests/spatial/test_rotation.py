@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
+from scipy.spatial.transform import Rotation
 
 from forcetorque.arrays import FloatArray
 from forcetorque.errors import ShapeError
@@ -131,3 +132,11 @@ def test_rpy_of_wrong_length_is_refused() -> None:
     """Angles that are not three name the argument."""
     with pytest.raises(ShapeError, match=r"rpy: expected shape \(\.\.\., 3\), got \(4,\)"):
         rotation_from_rpy(np.zeros(4))
+
+
+def test_rpy_equals_scipys() -> None:
+    """The library's own few lines and SciPy's agree to 1e-12; angles about moving axes would not."""
+    rpy = np.random.default_rng(7).uniform(-7.0, 7.0, (1000, 3))
+    ours = rotation_from_rpy(rpy)
+    np.testing.assert_allclose(ours, Rotation.from_euler("xyz", rpy).as_matrix(), rtol=0, atol=1e-12)
+    assert np.abs(ours - Rotation.from_euler("XYZ", rpy).as_matrix()).max() > VISIBLE

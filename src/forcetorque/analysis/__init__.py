@@ -5,19 +5,20 @@ from forcetorque.analysis.acceptance import Acceptance, accept, criteria_table
 from forcetorque.analysis.acceptance_file import AcceptanceFile, read_acceptance
 from forcetorque.analysis.applicability import by_sensor, one_per_sensor
 from forcetorque.analysis.assessment import Assessment, Demands, assess
+from forcetorque.analysis.best_candidate import BestCandidate, CandidateComparison
 from forcetorque.analysis.calibrate import calibrate_sensor
 from forcetorque.analysis.campaign import Campaign, Runs
 from forcetorque.analysis.campaign_interval import CampaignInterval
 from forcetorque.analysis.candidate import JudgedCandidate
 from forcetorque.analysis.compare import Comparison, compare
 from forcetorque.analysis.contact_forces import (
-    BestCandidate,
     ContactForceErrors,
     ContactForces,
     contact_forces,
 )
 from forcetorque.analysis.corrections import corrections_of
 from forcetorque.analysis.criterion import Bound, Criterion
+from forcetorque.analysis.decide import use_verdicts
 from forcetorque.analysis.estimate import IntervalEstimates, estimate_experiment
 from forcetorque.analysis.estimate_summary import (
     EstimateSummary,
@@ -50,8 +51,12 @@ from forcetorque.analysis.inspect import (
 from forcetorque.analysis.interval_quality import IntervalQuality
 from forcetorque.analysis.joint_torques import JointTorqueErrors, JointTorques, joint_torques
 from forcetorque.analysis.judged import JudgedWrenches
-from forcetorque.analysis.learnt import LITTLE_LEARNT, LearntDirection, learnt_directions, learnt_words
+from forcetorque.analysis.learnt import LITTLE_LEARNT, LearntDirection, learnt_directions, learnt_words, to_learn
+from forcetorque.analysis.loads_of_use import loads_of_use
 from forcetorque.analysis.payload import WeighedLoad, weigh_load
+from forcetorque.analysis.plan import Plan, plan, plan_sentence
+from forcetorque.analysis.plan_files import refuse_full_folder, write_plan
+from forcetorque.analysis.plan_rows import PlannedPosture, PlannedRecording
 from forcetorque.analysis.population import read_population
 from forcetorque.analysis.prior_comparison import Independence, PriorComparison, compare_with_prior
 from forcetorque.analysis.reading import Correction
@@ -73,20 +78,37 @@ from forcetorque.analysis.study_data import StudyData, read_study_data
 from forcetorque.analysis.study_result import StudiedSensor, Studies, studied_sensor, study_warnings
 from forcetorque.analysis.trial_group import TrialGroup, group_trials
 from forcetorque.analysis.trials import TrialSphere, read_trials
+from forcetorque.analysis.use_verdict import Reason, UseError, UseVerdict, use_sentences, use_table
 from forcetorque.analysis.validate import Validation, validate
 from forcetorque.analysis.verdict import VerdictLine
 
 __all__ = [
+    "write_plan",
+    "refuse_full_folder",
+    "plan_sentence",
+    "plan",
+    "PlannedRecording",
+    "PlannedPosture",
+    "Plan",
     "LITTLE_LEARNT",
+    "Reason",
+    "UseError",
+    "UseVerdict",
+    "loads_of_use",
+    "use_sentences",
+    "use_table",
+    "use_verdicts",
     "LearntDirection",
     "learnt_directions",
     "learnt_words",
+    "to_learn",
     "recording_moments",
     "store_moments",
     "Acceptance",
     "AcceptanceFile",
     "Assessment",
     "BestCandidate",
+    "CandidateComparison",
     "Bound",
     "Campaign",
     "CampaignInterval",

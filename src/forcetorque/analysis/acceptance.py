@@ -13,8 +13,9 @@ from forcetorque.analysis.acceptance_file import AcceptanceFile
 from forcetorque.analysis.campaign import Campaign, Runs
 from forcetorque.analysis.criteria import Subject, criteria_of
 from forcetorque.analysis.criterion import Bound, Criterion, RecordingCriterion
-from forcetorque.analysis.evaluate import doubts_about_choice
 from forcetorque.analysis.static_checks import RecordingChecks, StaticChecks, check
+from forcetorque.analysis.unseen import doubts_about_choice
+from forcetorque.analysis.validity import ReadingsOutside, readings_outside, sentences
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration import Calibration
 from forcetorque.recording import Use
@@ -42,6 +43,8 @@ class Acceptance(Result):
     """One per sensor, with or without limits; of several recordings they stand in `recordings_measured`."""
     recordings_measured: tuple[RecordingChecks, ...] = ()
     """One per sensor and recording; none where there is one recording."""
+    validity: tuple[ReadingsOutside, ...] = ()
+    """One per calibration whose errors were judged: how far the readings lie outside what it was fitted on."""
 
     @model_validator(mode="after")
     def _accept_what_passes(self) -> Self:
@@ -147,23 +150,30 @@ def accept(
         )
     judges_errors = spec.evaluate is not None or spec.improvement is not None or spec.validate_ is not None
     judged = campaign.runs_with(Use.VALIDATION) if calibration and judges_errors else ()
+    # what cannot be judged says first which limit asks for it
+    criteria = tuple(criteria_of(subjects, spec))
+    validity = readings_outside(campaign, dict([calibration])) if calibration and judged else ()
     return Acceptance(
         experiment="; ".join(campaign.recordings),
         specification=spec.name,
-        criteria=tuple(criteria_of(subjects, spec)),
+        criteria=criteria,
         recordings=tuple(row for subject in subjects for row in _apart(subject, spec)) if several else (),
         measured=() if several else (subjects[0].checks,),
         recordings_measured=tuple(
             RecordingChecks(recording_name=campaign.recording(subject.run), **dict(subject.checks))
             for subject in (subjects if several else ())
         ),
-        warnings=tuple(words for run in judged if calibration for words in doubts_about_choice(run, *calibration)),
+        validity=validity,
+        warnings=(
+            *sentences(validity),
+            *(words for run in judged if calibration for words in doubts_about_choice(run, *calibration)),
+        ),
     )
 
 
 def _apart(subject: Subject, spec: AcceptanceFile) -> Iterator[RecordingCriterion]:
     """What one recording shows by itself, without what only the calibration says."""
-    absent = {"uncertainty": None, "excitation": None}
+    absent: dict[str, object] = {"uncertainty": None, "excitation": None, "load_case": ()}
     if not subject.run.has(Use.VALIDATION):
         absent |= {"evaluate": None, "improvement": None, "validate_": None}
     alone = replace(subject, campaign=Campaign(subject.run))

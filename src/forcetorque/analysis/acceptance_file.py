@@ -10,6 +10,7 @@ from pydantic import BeforeValidator, Field, WithJsonSchema, model_validator
 from pydantic_core import PydanticCustomError
 
 from forcetorque.evaluation import OtherSensors
+from forcetorque.experiment.load_case_schema import LoadCaseTable
 from forcetorque.toml_table import Positive, Table, Text, read_toml
 
 Component = Literal["fx", "fy", "fz", "tx", "ty", "tz"]
@@ -254,11 +255,13 @@ class AcceptanceFile(Table):
     """What the data moved, in raw directions."""
     learnt: Learnt | None = None
     """What the data taught of loads; for calibrations of the generative model."""
+    load_case: tuple[LoadCaseTable, ...] = ()
+    """What the sensor is to be used for: the verdict on each must be `use`."""
 
     @model_validator(mode="after")
     def _states_something(self) -> AcceptanceFile:
         tables = [key for key in type(self).model_fields if key not in {"schema_name", "name"}]
-        if all(getattr(self, key) is None for key in tables):
+        if all(not getattr(self, key) for key in tables):
             raise PydanticCustomError(
                 "no_criterion",
                 "expected at least one table of limits: {tables}",

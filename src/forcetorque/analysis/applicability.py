@@ -122,7 +122,9 @@ def overlapping(
     Yields:
         Label of an interval, and of one that was used and overlaps it.
     """
-    log_went_in = experiment.log_sha256 <= set(calibration.provenance.inputs_sha256.values())
+    log_went_in = bool(experiment.log_sha256) and experiment.log_sha256 <= set(
+        calibration.provenance.inputs_sha256.values()
+    )
     for interval in intervals:
         for earlier in used:
             same = log_went_in or earlier.experiment in (None, experiment.name)

@@ -12,19 +12,22 @@ from pydantic import Field
 
 from forcetorque.analysis.acceptance import accept
 from forcetorque.analysis.acceptance_file import AcceptanceFile
+from forcetorque.analysis.best_candidate import BestCandidate
 from forcetorque.analysis.candidate import PRIOR
-from forcetorque.analysis.contact_forces import BestCandidate, ContactForceErrors, contact_forces
+from forcetorque.analysis.contact_forces import ContactForceErrors, contact_forces
 from forcetorque.analysis.criterion import Criterion
-from forcetorque.analysis.evaluate import CandidateErrors, doubts, evaluate, require_unseen
+from forcetorque.analysis.evaluate import CandidateErrors, Evaluation, at_rest, evaluate
 from forcetorque.analysis.joint_torques import JointTorqueErrors, joint_torques
 from forcetorque.analysis.judged import JudgedWrenches
 from forcetorque.analysis.learnt import LearntDirection, learnt_directions
-from forcetorque.analysis.prior_comparison import Independence, PriorComparison, compare_with_prior, independence
+from forcetorque.analysis.prior_comparison import Independence, PriorComparison, independence
 from forcetorque.analysis.sensor_run import SensorRun
 from forcetorque.analysis.sensor_sphere import SensorSphere
 from forcetorque.analysis.sphere import spheres
 from forcetorque.analysis.sphere_rows import SphereRow
 from forcetorque.analysis.static_checks import StaticChecks, check
+from forcetorque.analysis.unseen import doubts_about_choice, require_unseen
+from forcetorque.analysis.validity import ReadingsOutside, sentences
 from forcetorque.analysis.verdict import VerdictLine, verdict
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration import Calibration
@@ -65,6 +68,10 @@ class Assessment(Row):
     """Calibrations of the sensor, with their uncertainty, excitation and choice of lambda, by file."""
     learnt: dict[str, tuple[LearntDirection, ...]] = Field(default_factory=dict)
     """What the recordings taught each of those that are fitted by the generative model towards a prior, by file."""
+    smoothing: tuple[str, ...] = ()
+    """Whether reading and reference were smoothed, in words."""
+    validity: tuple[ReadingsOutside, ...] = ()
+    """How far the judged readings lie outside what each calibration was fitted on."""
     warnings: tuple[str, ...]
     """What makes a verdict flatter or doubtful."""
     not_judged: dict[str, str]
@@ -129,7 +136,7 @@ def assess(
         for file, calibration in calibrations.items()
         if tried.passes(f"errors of {names[file]}", partial(require_unseen, file, calibration, run))
     }
-    evaluation = contacts = torques = comparisons = counts = judged = None
+    evaluation = contacts = torques = counts = judged = None
     # where every calibration has seen the judged data there is nothing to judge it on; without any, the prior is judged
     if unseen or not calibrations:
         evaluation = tried.attempt("evaluation", partial(evaluate, run, unseen))
@@ -139,13 +146,12 @@ def assess(
     if evaluation:
         judged = run.judged(unseen)
         counts = tried.attempt("independence", partial(independence, judged))
-        comparisons = tried.attempt("comparison", partial(compare_with_prior, run, unseen))
     static, criteria = _checked(run, calibrations, others or {}, demands or Demands(), tried)
     assessment = Assessment(
         sensor=run.sensor.name,
         serial=run.sensor.serial,
         evaluation=evaluation.verdicts if evaluation else (),
-        comparisons=comparisons or (),
+        comparisons=evaluation.comparisons if evaluation else (),
         independence=counts or (),
         contact_forces=contacts.verdicts if contacts else (),
         best=contacts.best if contacts else (),
@@ -155,7 +161,13 @@ def assess(
         criteria=criteria,
         calibrations=dict(calibrations),
         learnt={file: rows for file, one in calibrations.items() if (rows := learnt_directions(one)) is not None},
-        warnings=_warnings(run, unseen, names, tried),
+        smoothing=evaluation.smoothing if evaluation else (),
+        validity=evaluation.validity if evaluation else (),
+        warnings=(
+            *at_rest(evaluation.verdicts if evaluation else ()),
+            *_outside(evaluation, names),
+            *_warnings(run, unseen, names, tried),
+        ),
         not_judged=tried.reasons,
         left_out=tuple(
             dict.fromkeys([*(contacts.left_out if contacts else ()), *(torques.left_out if torques else ())])
@@ -195,11 +207,16 @@ def _checked(
     return tuple(static), tuple(criteria)
 
 
+def _outside(evaluation: Evaluation | None, names: Mapping[str, str]) -> tuple[str, ...]:
+    rows = evaluation.validity if evaluation else ()
+    return sentences(row.model_copy(update={"candidate": names[row.candidate]}) for row in rows)
+
+
 def _warnings(
     run: SensorRun, calibrations: Mapping[str, Calibration], names: Mapping[str, str], tried: _Attempts
 ) -> tuple[str, ...]:
     warnings: list[str] = []
     for file, calibration in calibrations.items():
-        name = names[file]
-        warnings += tried.attempt(f"doubts about {name}", lambda c=calibration, n=name: [*doubts(run, n, c)]) or []  # type: ignore[misc]
+        said = partial(doubts_about_choice, run, names[file], calibration)
+        warnings += tried.attempt(f"doubts about {names[file]}", lambda said=said: [*said()]) or []  # type: ignore[misc]
     return tuple(warnings)

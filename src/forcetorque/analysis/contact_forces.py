@@ -8,9 +8,11 @@ from typing import Annotated
 
 import numpy as np
 
+from forcetorque.analysis.best_candidate import BestCandidate, judged_best
 from forcetorque.analysis.campaign import Campaign, Runs
 from forcetorque.analysis.contact_wrenches import ContactWrenches, contact_wrenches, pooled_contacts
 from forcetorque.analysis.free_sub_model import FreeSubModel
+from forcetorque.analysis.judged_excitation import JudgedExcitation, fewest_independent
 from forcetorque.calibration import Calibration
 from forcetorque.errors import ExperimentError
 from forcetorque.evaluation import Offset, OtherSensors, errors_from_zero
@@ -26,8 +28,11 @@ from forcetorque.result import (
     finite_or_none,
     table_of,
     with_first_column,
+    without_vague,
 )
-from forcetorque.spatial import WRENCH_COMPONENTS
+
+WORTH = frozenset({"bias", "independent", "excitation_N", "excitation_Nm"})
+"""Fields of a second table: the constant part, and what tells how much the errors are worth."""
 
 
 class ContactForceErrors(Row):
@@ -59,30 +64,14 @@ class ContactForceErrors(Row):
     """Mean norm of the moment."""
     mean_absolute: Annotated[WrenchValues, ShownWrench(digits=3)]
     """Mean absolute value per component; N, N m."""
-
-
-class BestCandidate(Row):
-    """The best candidate of a sensor with one offset."""
-
-    sensor: str
-    """Sensor."""
-    offset: Offset
-    """Which offset the candidates are judged with."""
-    by_magnitude: str
-    """Candidate with the smallest mean norm of the force."""
-    by_axis: tuple[str, ...]
-    """Candidate with the smallest mean absolute value, per component."""
-
-    @property
-    def sentence(self) -> str:
-        """Who is best, and on which axes somebody else is."""
-        others = [
-            f"{component} {name}"
-            for component, name in zip(WRENCH_COMPONENTS, self.by_axis, strict=True)
-            if name != self.by_magnitude
-        ]
-        words = f"; but for {', '.join(others)}" if others else ", on every axis"
-        return f"{self.sensor}, offset {self.offset}: best is {self.by_magnitude}{words}"
+    bias: Annotated[WrenchValues, ShownWrench(digits=3)]
+    """Mean per component, the constant part; N, N m."""
+    independent: Annotated[float | None, Shown("independent", digits=0)]
+    """How many independent samples they are worth, of the component worth the fewest; None where none changes."""
+    excitation_N: Annotated[float, Shown("moved", "N", digits=1)]
+    """Standard deviation of the force that the sensor should read, all three components together."""
+    excitation_Nm: Annotated[float, Shown("moved", "N m", digits=2)]
+    """The same of the moment."""
 
 
 class ContactForces(Result):
@@ -146,15 +135,15 @@ def contact_forces(
                 run, others=others, other_sensors=other_sensors, sub_model=sub_model, contact=contact
             )
             recordings[campaign.recording(run)] = contact_wrenches(free, calibrations)
-    return contact_forces_of(campaign.sensor, pooled_contacts(recordings))
+    return contact_forces_of(campaign.sensor, recordings)
 
 
-def contact_forces_of(sensor: ExperimentSensor, contacts: ContactWrenches) -> ContactForces:
+def contact_forces_of(sensor: ExperimentSensor, recordings: Mapping[str, ContactWrenches]) -> ContactForces:
     """Judge candidates of a sensor by given contact wrenches.
 
     Args:
         sensor: The sensor.
-        contacts: Contact wrenches by every candidate.
+        recordings: Contact wrenches by every candidate, by name of the recording, candidates in the same order.
 
     Returns:
         The same as `contact_forces`.
@@ -162,12 +151,13 @@ def contact_forces_of(sensor: ExperimentSensor, contacts: ContactWrenches) -> Co
     Raises:
         ExperimentError: If there is nothing to judge.
     """
+    contacts = pooled_contacts(recordings)
     verdicts = tuple(contact_force_rows(sensor, contacts))
     if not verdicts:
         raise ExperimentError(f"nothing can be judged: {'; '.join(contacts.left_out)}")
     return ContactForces(
         verdicts=verdicts,
-        best=tuple(_best(verdicts)),
+        best=tuple(_best(sensor, contacts, list(recordings.values()))),
         left_out=contacts.left_out,
         warnings=tuple(f"left out: {words}" for words in contacts.left_out),
     )
@@ -189,11 +179,15 @@ def contact_force_blocks(
         A table per sensor, one of its recordings, and a sentence per sensor and offset.
     """
     for sensor in dict.fromkeys(row.sensor for row in verdicts):
-        yield _table([row for row in verdicts if row.sensor == sensor])
+        rows = [row for row in verdicts if row.sensor == sensor]
+        yield without_vague(_table(rows))
+        yield mean_contact_table(rows)
         apart = [row for row in recordings if row.sensor == sensor]
         if apart:
-            table = table_of(apart, f"{sensor} ({apart[0].serial}), each recording by itself")
-            yield with_first_column(table, "recording", [row.recording for row in apart])
+            names = [row.recording for row in apart]
+            caption = f"{sensor} ({apart[0].serial}), each recording by itself"
+            yield with_first_column(without_vague(table_of(apart, caption, leave_out=WORTH)), "recording", names)
+            yield with_first_column(mean_contact_table(apart), "recording", names)
     if len({row.candidate for row in verdicts}) > 1:
         yield from (candidate.sentence for candidate in best)
 
@@ -208,8 +202,11 @@ def contact_force_rows(sensor: ExperimentSensor, contacts: ContactWrenches) -> I
     Yields:
         A row per candidate and offset that has samples without gaps.
     """
-    for (index, offset), wrenches in contacts.wrenches.items():
-        if np.isnan(wrenches).any(axis=1).all():
+    expected = contacts.expected[np.isfinite(contacts.expected).all(axis=1)]
+    moved = JudgedExcitation.of(expected, ()) if len(expected) else None
+    for index, offset in _judgeable(contacts):
+        wrenches = contacts.wrenches[index, offset]
+        if moved is None:
             continue
         candidate, errors = contacts.candidates[index], errors_from_zero(wrenches, contacts.time_s[index, offset])
         yield ContactForceErrors(
@@ -226,20 +223,27 @@ def contact_force_rows(sensor: ExperimentSensor, contacts: ContactWrenches) -> I
             force_mean_half_width_95_N=finite_or_none(errors.force_mean_half_width),
             moment_mean_Nm=errors.moment_mean,
             mean_absolute=errors.mean_absolute,
+            bias=errors.bias,
+            independent=fewest_independent(wrenches, contacts.time_s[index, offset]),
+            excitation_N=moved.force,
+            excitation_Nm=moved.moment,
         )
 
 
-def _best(verdicts: Sequence[ContactForceErrors]) -> Iterator[BestCandidate]:
+def _judgeable(contacts: ContactWrenches) -> list[tuple[int, Offset]]:
+    """Keys of the wrenches that have a sample without a gap."""
+    return [key for key, wrenches in contacts.wrenches.items() if not np.isnan(wrenches).any(axis=1).all()]
+
+
+def _best(
+    sensor: ExperimentSensor, contacts: ContactWrenches, recordings: Sequence[ContactWrenches]
+) -> Iterator[BestCandidate]:
     """Best candidate with each offset, of one sensor."""
-    for offset in dict.fromkeys(row.offset for row in verdicts):
-        rows = [row for row in verdicts if row.offset is offset]
-        values = np.stack([row.mean_absolute for row in rows])
-        yield BestCandidate(
-            sensor=rows[0].sensor,
-            offset=offset,
-            by_magnitude=min(rows, key=lambda row: row.force_mean_N).candidate,
-            by_axis=tuple(rows[k].candidate for k in values.argmin(axis=0)),
-        )
+    groups: dict[Offset, list[tuple[int, Offset]]] = {}
+    for index, offset in _judgeable(contacts):
+        groups.setdefault(contacts.candidates[index].offset(offset), []).append((index, offset))
+    for offset, candidates in groups.items():
+        yield judged_best(sensor.name, offset, candidates, contacts, recordings)
 
 
 def _table(rows: Sequence[ContactForceErrors]) -> Table:
@@ -250,5 +254,21 @@ def _table(rows: Sequence[ContactForceErrors]) -> Table:
         rows,
         f"{row.sensor} ({row.serial}): contact wrench of the free sub-model {row.sub_model}{count}; "
         "force: mean norm ± half its 95 % interval; per axis: mean absolute value",
-        leave_out={"samples"} if alike else (),
+        leave_out={"samples", *WORTH} if alike else WORTH,
+    )
+
+
+def mean_contact_table(rows: Sequence[ContactForceErrors]) -> Table:
+    """Put the constant part of contact wrenches into a table, with what tells how much the wrenches are worth.
+
+    Args:
+        rows: The rows.
+
+    Returns:
+        A line per row.
+    """
+    return table_of(
+        rows,
+        "mean contact wrench, the constant part; moved: standard deviation of what the sensor should read",
+        leave_out={"samples", "force_mean_N", "moment_mean_Nm", "mean_absolute"},
     )

@@ -35,6 +35,8 @@ class ContactWrenches:
     is asked for; shape (n, 6) each; N, N m; NaN in gaps."""
     time_s: Mapping[tuple[int, Offset], FloatArray]
     """Instants of these, since the start of the recording; shape (n,) each; s."""
+    expected: FloatArray
+    """Readings with which there would be no contact, at the judged instants; shape (n, 6); N, N m; NaN in gaps."""
     left_out: tuple[str, ...]
     """What could not be judged of the intervals, in words."""
 
@@ -56,6 +58,7 @@ def contact_wrenches(free: FreeSubModel, calibrations: Mapping[str, Calibration]
     candidates = run.candidates(calibrations)
     wrenches: dict[tuple[int, Offset], list[FloatArray]] = {}
     times: dict[tuple[int, Offset], list[FloatArray]] = {}
+    expected: list[FloatArray] = []
     left_out: dict[str, None] = {}
     name = ""
     for interval in run.intervals(Use.VALIDATION):
@@ -67,7 +70,8 @@ def contact_wrenches(free: FreeSubModel, calibrations: Mapping[str, Calibration]
             if short is not None:
                 left_out[short] = None
                 continue
-            over = _over(free, interval, sub_model, candidates)
+            over, without = _over(free, interval, sub_model, candidates)
+        expected.append(instants.judged(without))
         for index, wrench in enumerate(over):
             judged = instants.judged_with_both(wrench)
             words = gap_words(f"contact force by {candidates[index].name}", interval, judged)
@@ -82,6 +86,7 @@ def contact_wrenches(free: FreeSubModel, calibrations: Mapping[str, Calibration]
         candidates=candidates,
         wrenches={key: np.concatenate(pieces) for key, pieces in wrenches.items()},
         time_s={key: np.concatenate(pieces) for key, pieces in times.items()},
+        expected=np.concatenate(expected) if expected else np.empty((0, 6)),
         left_out=tuple(left_out),
     )
 
@@ -109,6 +114,7 @@ def pooled_contacts(recordings: Mapping[str, ContactWrenches]) -> ContactWrenche
         candidates=first.candidates,
         wrenches={key: np.concatenate(several) for key, several in pieces.items()},
         time_s={key: one_after_another(several) for key, several in times.items()},
+        expected=np.concatenate([contacts.expected for contacts in recordings.values()]),
         left_out=tuple(f"{name}: {words}" for name, contacts in recordings.items() for words in contacts.left_out),
     )
 
@@ -118,11 +124,11 @@ def _over(
     interval: Interval,
     sub_model: ContactForceValidation,
     candidates: tuple[JudgedCandidate, ...],
-) -> list[FloatArray]:
-    """Contact wrench at the sensor, candidate by candidate, with its own offset and not filtered; shape (n, 6)."""
+) -> tuple[list[FloatArray], FloatArray]:
+    """Contact wrench at the sensor by every candidate and its own offset, and the reading without any; not filtered."""
     joints, root = free.run.motion(interval, sub_model.required_joints)
     measured = free.measured(sub_model.others if free.corrections else (), interval)
     # by their places, because a calibration may be called `prior` too
     readings = {str(k): free.run.measured(interval, candidate.correction) for k, candidate in enumerate(candidates)}
     forces = forces_of_readings(sub_model, joints, root, readings, measured=Wrenches.of(measured) if measured else None)
-    return [forces.of(place) for place in readings]
+    return [forces.of(place) for place in readings], forces.free_reading

@@ -14,6 +14,7 @@ from forcetorque.analysis.campaign import Campaign
 from forcetorque.analysis.candidate import PRIOR
 from forcetorque.analysis.contact_forces import ContactForceErrors, contact_forces
 from forcetorque.analysis.criterion import Bound, Criterion, Judge
+from forcetorque.analysis.decide import use_verdicts
 from forcetorque.analysis.evaluate import CandidateErrors, evaluate
 from forcetorque.analysis.interval_quality import IntervalQuality
 from forcetorque.analysis.learnt import learnt_directions
@@ -22,6 +23,7 @@ from forcetorque.analysis.static_checks import StaticChecks
 from forcetorque.calibration import Calibration
 from forcetorque.errors import ExperimentError, ForceTorqueError
 from forcetorque.evaluation import Offset, OtherSensors, PopulationPosition
+from forcetorque.experiment.load_case_schema import LoadCaseTable
 from forcetorque.spatial import WRENCH_COMPONENTS
 
 _Checked = TypeVar("_Checked")
@@ -97,7 +99,7 @@ def criteria_of(subjects: Sequence[Subject], spec: limits.AcceptanceFile) -> Ite
     """
     for table, criteria in _TABLES.items():
         stated = getattr(spec, "validate_" if table == "validate" else table)
-        if stated is None:
+        if not stated:
             continue
         try:
             if table in _OF_RECORDING:
@@ -286,6 +288,22 @@ def _learnt(subject: Subject, stated: limits.Learnt) -> Iterator[Criterion]:
         yield from subject.judge.at_limit(f"learnt.{row.direction}", row.learnt, limit, bound=Bound.AT_LEAST, count=n)
 
 
+def _load_case(subject: Subject, stated: Sequence[LoadCaseTable]) -> Iterator[Criterion]:
+    name, fitted = subject.fitted()
+    tables = {table.name for table in stated}
+    for verdict in use_verdicts(subject.campaign, {name: fitted}, stated):
+        if verdict.load_case not in tables:
+            continue  # one of the experiment, which decides nothing here
+        start = f"load_case.{verdict.load_case}"
+        for error in verdict.errors:
+            key, note = f"{start}.{error.quantity}_error", "predicted, at most with 95 %"
+            yield from subject.judge.at_limit(key, error.after_at_most, error.allowed, error.unit, note=note)
+        note = "" if verdict.decision == "use" else verdict.reasons[0].text
+        yield from subject.judge.at_limit(
+            f"{start}.use", float(verdict.decision == "use"), 1.0, bound=Bound.AT_LEAST, note=note
+        )
+
+
 _TABLES: dict[str, Callable[..., Iterable[Criterion]]] = {
     "evaluate": _evaluate,
     "improvement": _improvement,
@@ -297,6 +315,7 @@ _TABLES: dict[str, Callable[..., Iterable[Criterion]]] = {
     "uncertainty": _uncertainty,
     "excitation": _excitation,
     "learnt": _learnt,
+    "load_case": _load_case,
 }
 """What judges each table of the file."""
 

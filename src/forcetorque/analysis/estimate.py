@@ -3,13 +3,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from forcetorque.analysis.answerable import narrowed
-from forcetorque.analysis.reading import Correction, wrench_at
+from forcetorque.analysis.reading import Correction, Readings, readings_at, wrench_at
+from forcetorque.analysis.validity import AppliedReadings, applied_readings
 from forcetorque.arrays import FloatArray, IntArray
 from forcetorque.errors import ExperimentError
 from forcetorque.estimation import (
@@ -48,6 +49,8 @@ class IntervalEstimates:
     """What the log does not allow to estimate, in words."""
     ambiguous: Mapping[str, tuple[tuple[str, ...], ...]]
     """Unknowns that cannot be told apart, by sub-model."""
+    applied: Mapping[str, AppliedReadings]
+    """Of every sensor that a calibration reads, which readings lie outside what was fitted; n samples, smoothed."""
 
 
 def estimate_experiment(
@@ -142,7 +145,26 @@ def _over(
         estimates=_smoothed(estimates, samples),
         left_out=tuple(left_out),
         ambiguous=indistinguishable(question, JointMotion.at_rest(joints.names, joints.position[inside])),
+        applied=dict(_applied(experiment, corrections, interval, samples)),
     )
+
+
+def _applied(
+    experiment: Experiment, corrections: Mapping[str, Correction], interval: Interval, samples: PaddedSamples
+) -> Iterator[tuple[str, AppliedReadings]]:
+    """Which readings lie outside what was fitted: smoothed, as those were that were fitted."""
+    sessions = experiment.session_names(interval.label)
+    for sensor in experiment.sensors:
+        calibration = corrections[sensor.name].calibration
+        if calibration is None:
+            continue
+        names = corrections[sensor.name].variables
+        readings = readings_at(experiment, sensor, names, samples.stamp_ns)
+        columns = [readings.logged, *(readings.variables[name][:, None] for name in names)]
+        values, channels = samples.smoothed(np.hstack(columns)), readings.logged.shape[1]
+        variables = dict(zip(names, values[:, channels:].T, strict=True))
+        smoothed = Readings.of(sensor, values[:, :channels], variables)
+        yield sensor.name, applied_readings(calibration, smoothed, sessions)
 
 
 def _reading_streams(experiment: Experiment, corrections: Mapping[str, Correction]) -> list[str]:

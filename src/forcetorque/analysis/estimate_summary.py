@@ -12,6 +12,7 @@ from pydantic import Field
 
 from forcetorque.analysis.estimate import IntervalEstimates
 from forcetorque.analysis.reading import Correction
+from forcetorque.analysis.validity import ReadingsOutside, outside_row, sentences
 from forcetorque.arrays import FloatArray, IntArray
 from forcetorque.evaluation import WrenchErrors, wrench_errors
 from forcetorque.exchange.estimates_table import EstimatedSpan, write_estimates
@@ -77,6 +78,8 @@ class EstimatedRecording(Row):
     """One per interval and sub-model."""
     left_out: tuple[str, ...]
     """What the log does not allow to estimate."""
+    validity: tuple[ReadingsOutside, ...] = ()
+    """One per sensor that a calibration reads: how far its readings lie outside what was fitted."""
 
 
 class EstimateSummary(Result):
@@ -100,6 +103,8 @@ class EstimateSummary(Result):
     """One per interval and sub-model."""
     left_out: tuple[str, ...]
     """What the log does not allow to estimate."""
+    validity: tuple[ReadingsOutside, ...] = ()
+    """One per sensor that a calibration reads: how far its readings lie outside what was fitted."""
     recordings: tuple[EstimatedRecording, ...] = ()
     """Of several recordings one each, where these things then stand; none where there is one recording."""
 
@@ -200,6 +205,7 @@ def summarise_estimates(
     if file is not None:
         write_estimates(file, [_for_table(experiment, span) for span in spans], experiment.model)
     left_out = tuple(dict.fromkeys(sentence for span in spans for sentence in span.left_out))
+    validity = tuple(_outside(corrections, spans))
     return EstimateSummary(
         experiment=experiment.name,
         file=None if file is None else str(file),
@@ -208,8 +214,15 @@ def summarise_estimates(
         contacts=tuple(row for span in spans for row in _contacts(span)),
         parts=tuple(row for span in spans for row in _parts(span)),
         left_out=left_out,
-        warnings=tuple(f"left out: {sentence}" for sentence in left_out),
+        validity=validity,
+        warnings=(*sentences(validity), *(f"left out: {sentence}" for sentence in left_out)),
     )
+
+
+def _outside(corrections: Mapping[str, Correction], spans: Sequence[IntervalEstimates]) -> Iterator[ReadingsOutside]:
+    for sensor, correction in corrections.items():
+        if correction.calibration is not None:
+            yield outside_row(correction.source, correction.calibration, [span.applied[sensor] for span in spans])
 
 
 def _for_table(experiment: Experiment, span: IntervalEstimates) -> EstimatedSpan:
@@ -219,6 +232,9 @@ def _for_table(experiment: Experiment, span: IntervalEstimates) -> EstimatedSpan
         time_s=seconds_since(span.stamp_ns, experiment.recording.start_ns),
         measured=span.measured,
         estimates=span.estimates,
+        outside={
+            sensor: np.ma.masked_array(applied.outside, mask=~applied.known) for sensor, applied in span.applied.items()
+        },
     )
 
 

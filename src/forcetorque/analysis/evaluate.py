@@ -3,20 +3,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Annotated, Any, ClassVar, Literal
 
 import numpy as np
 from pydantic import Field
 
-from forcetorque.analysis.applicability import overlapping
 from forcetorque.analysis.campaign import Campaign, Runs
 from forcetorque.analysis.candidate import JudgedCandidate, JudgedRow
-from forcetorque.analysis.sensor_run import SensorRun
+from forcetorque.analysis.decide import use_verdicts
+from forcetorque.analysis.evaluation_tables import ERROR_WORDS, error_tables, smoothing_words
+from forcetorque.analysis.judged import JudgedWrenches
+from forcetorque.analysis.judged_excitation import JudgedExcitation, fewest_independent, still_words
+from forcetorque.analysis.prior_comparison import PriorComparison, comparison_sentence, prior_comparisons
+from forcetorque.analysis.unseen import doubts_about_choice, require_unseen
+from forcetorque.analysis.use_verdict import UseVerdict, use_sentences
+from forcetorque.analysis.validity import ReadingsOutside, readings_outside, sentences
 from forcetorque.arrays import FloatArray
-from forcetorque.calibration import Calibration, FittedInterval
-from forcetorque.errors import ExperimentError
+from forcetorque.calibration import Calibration
 from forcetorque.evaluation import Offset, wrench_errors
 from forcetorque.noise import one_after_another
 from forcetorque.recording import Use
@@ -27,12 +32,8 @@ from forcetorque.result import (
     Table,
     WrenchValues,
     finite_or_none,
-    table_of,
-    with_first_column,
+    short_names,
 )
-
-_BEYOND = 0.1
-"""Share of the fitted range of a variable by which it may be left before that is worth a word."""
 
 
 class CandidateErrors(JudgedRow):
@@ -42,8 +43,8 @@ class CandidateErrors(JudgedRow):
     """Number of judged samples."""
     rmse: Annotated[WrenchValues, ShownWrench(digits=3)]
     """Root mean square error per component; N, N m."""
-    bias: WrenchValues
-    """Mean error per component; N, N m."""
+    bias: Annotated[WrenchValues, ShownWrench(digits=3)]
+    """Mean error per component, its constant part; N, N m."""
     largest: WrenchValues
     """Largest absolute error per component; N, N m."""
     force_error_mean_N: Annotated[float, Shown("force", "N", digits=2, error="force_error_half_width_95_N")]
@@ -62,6 +63,27 @@ class CandidateErrors(JudgedRow):
     """Half-width of its 95 % interval; None where it cannot be told."""
     moment_error_largest_Nm: float
     """Largest norm of the moment error."""
+    independent: Annotated[float | None, Shown("independent", digits=0)]
+    """How many independent samples the errors are worth, of the component worth the fewest; None where none changes."""
+    excitation_N: Annotated[float, Shown("moved", "N", digits=1)]
+    """Standard deviation of the reference force over the judged samples, all three components together."""
+    excitation_Nm: Annotated[float, Shown("moved", "N m", digits=2)]
+    """The same of the reference moment."""
+    load_N: float
+    """What that is little or much of: root mean square judged force, or standard deviation of the fitted ones where
+    that is larger."""
+    load_Nm: float
+    """The same of the moment."""
+
+    @property
+    def hardly_moved(self) -> bool:
+        """Whether force or moment moved so little that a wrong matrix would show nothing in this error."""
+        return self.hardly_moved_words is not None
+
+    @property
+    def hardly_moved_words(self) -> str | None:
+        """The same in words; None where the loads moved."""
+        return still_words(self.excitation_N, self.load_N, self.excitation_Nm, self.load_Nm)
 
 
 class RecordingErrors(CandidateErrors):
@@ -84,12 +106,20 @@ class Evaluation(Result):
     """One per sensor, candidate and offset, errors of all recordings pooled."""
     recordings: tuple[RecordingErrors, ...] = ()
     """One per sensor, candidate, offset and recording; none where there is one recording."""
+    comparisons: tuple[PriorComparison, ...] = ()
+    """Calibrations against their priors, force and moment, all recordings pooled."""
+    smoothing: tuple[str, ...] = ()
+    """Whether reading and reference were smoothed, in words; of several recordings one per way."""
+    validity: tuple[ReadingsOutside, ...] = ()
+    """One per calibration: how far the judged readings lie outside what it was fitted on."""
+    uses: tuple[UseVerdict, ...] = ()
+    """One per calibration and load case: whether it may be used."""
 
     def blocks(self) -> Iterator[Table | str]:
-        """Give a table per sensor, and one of its recordings where there are several.
+        """Give a table per sensor, one of its recordings where there are several, and what calibrations are worth.
 
         Yields:
-            Tables and a sentence.
+            Tables and sentences.
         """
         for sensor in dict.fromkeys(row.sensor for row in self.verdicts):
             rows = [row for row in self.verdicts if row.sensor == sensor]
@@ -97,11 +127,23 @@ class Evaluation(Result):
             names = list(dict.fromkeys(row.recording for row in apart))
             where = f"{len(names)} recordings" if names else self.experiment
             judged = f"{rows[0].samples} samples that were not fitted"
-            yield table_of(rows, f"{where}: {sensor} ({rows[0].serial}), {judged}")
+            yield from error_tables(rows, f"{where}: {sensor} ({rows[0].serial}), {judged}")
             if apart:
-                table = table_of(apart, f"{sensor} ({rows[0].serial}), each recording by itself")
-                yield with_first_column(table, "recording", [row.recording for row in apart])
-        yield "per axis: RMSE; force and moment: mean norm of the error ± half its 95 % interval"
+                caption = f"{sensor} ({rows[0].serial}), each recording by itself"
+                yield from error_tables(apart, caption, recordings=[row.recording for row in apart])
+        yield f"{ERROR_WORDS}; {'; '.join(self.smoothing)}"
+        yield from self._sentences()
+        yield from use_sentences(self.uses)
+
+    def _sentences(self) -> Iterator[str]:
+        """Say what every calibration is worth against its prior, with either offset."""
+        names = short_names([row.candidate for row in self.verdicts])
+        several = len({row.sensor for row in self.verdicts}) > 1
+        pairs: dict[tuple[str, str, Offset], list[PriorComparison]] = {}
+        for row in self.comparisons:
+            pairs.setdefault((row.sensor, row.candidate, row.offset), []).append(row)
+        for (sensor, candidate, _), rows in pairs.items():
+            yield (f"{sensor}: " if several else "") + comparison_sentence(names[candidate], rows)
 
     def records(self) -> list[dict[str, object]]:
         """Give the verdicts as flat lines, and where there are several recordings those on each.
@@ -145,32 +187,39 @@ def evaluate(runs: Runs, calibrations: Mapping[str, Calibration]) -> Evaluation:
         ShapeError: If a matrix does not have one column per channel of the sensor.
     """
     campaign = Campaign.of(runs)
-    judged: dict[str, list[_Judged]] = {}
+    wrenches: dict[str, JudgedWrenches] = {}
     warnings: list[str] = []
     for run in campaign.runs_with(Use.VALIDATION):
         with campaign.stated(run):
             for name, calibration in calibrations.items():
                 require_unseen(name, calibration, run)
-            judged[campaign.recording(run)] = list(_judged(run, calibrations))
-        said = [sentence for name, calibration in calibrations.items() for sentence in doubts(run, name, calibration)]
+            wrenches[campaign.recording(run)] = run.judged(calibrations)
+        said = [words for name, one in calibrations.items() for words in doubts_about_choice(run, name, one)]
         warnings += [f"{campaign.recording(run)}: {sentence}" for sentence in said] if len(campaign.runs) > 1 else said
+    validity = readings_outside(campaign, calibrations)
+    judged = {recording: list(_judged(wrenches[recording])) for recording in wrenches}
     apart = (
-        RecordingErrors(recording=recording, **_statistics(campaign, row))
+        RecordingErrors(recording=recording, **_statistics(campaign, row, calibrations))
         for rows in zip(*judged.values(), strict=True)
         for recording, row in zip(judged, rows, strict=True)
     )
+    verdicts = tuple(
+        CandidateErrors(**_statistics(campaign, _pooled(rows), calibrations))
+        for rows in zip(*judged.values(), strict=True)
+    )
     return Evaluation(
         experiment="; ".join(campaign.recordings),
-        verdicts=tuple(
-            CandidateErrors(**_statistics(campaign, _pooled(rows))) for rows in zip(*judged.values(), strict=True)
-        ),
+        verdicts=verdicts,
         recordings=tuple(apart) if len(campaign.runs) > 1 else (),
-        warnings=tuple(warnings),
+        comparisons=prior_comparisons(campaign.sensor.name, list(wrenches.values())),
+        smoothing=tuple(dict.fromkeys(map(smoothing_words, campaign.runs_with(Use.VALIDATION)))),
+        validity=validity,
+        uses=use_verdicts(campaign, calibrations),
+        warnings=(*at_rest(verdicts), *sentences(validity), *warnings),
     )
 
 
-def _judged(run: SensorRun, calibrations: Mapping[str, Calibration]) -> Iterator[_Judged]:
-    judged = run.judged(calibrations)
+def _judged(judged: JudgedWrenches) -> Iterator[_Judged]:
     for candidate, offset, wrench in judged.with_either_offset():
         yield _Judged(
             candidate=candidate, offset=offset, wrench=wrench, reference=judged.reference, time_s=judged.time_s
@@ -188,8 +237,22 @@ def _pooled(rows: Sequence[_Judged]) -> _Judged:
     )
 
 
-def _statistics(campaign: Campaign, judged: _Judged) -> dict[str, Any]:
+def at_rest(verdicts: Sequence[CandidateErrors]) -> tuple[str, ...]:
+    """Say where the loads hardly moved while errors were measured.
+
+    Args:
+        verdicts: The errors.
+
+    Returns:
+        A sentence per sensor where it is so: all its candidates are judged on the same samples.
+    """
+    words = [(row.sensor, row.hardly_moved_words) for row in verdicts]
+    return tuple(dict.fromkeys(f"{sensor}: {still}" for sensor, still in words if still is not None))
+
+
+def _statistics(campaign: Campaign, judged: _Judged, calibrations: Mapping[str, Calibration]) -> dict[str, Any]:
     errors = wrench_errors(judged.wrench, judged.reference, judged.time_s)
+    excitation = JudgedExcitation.of(judged.reference, calibrations.values())
     return {
         "sensor": campaign.sensor.name,
         "serial": campaign.sensor.serial,
@@ -209,91 +272,9 @@ def _statistics(campaign: Campaign, judged: _Judged) -> dict[str, Any]:
         "moment_error_standard_error_Nm": finite_or_none(errors.moment_mean_error),
         "moment_error_half_width_95_Nm": finite_or_none(errors.moment_mean_half_width),
         "moment_error_largest_Nm": errors.moment_largest,
+        "independent": fewest_independent(judged.wrench - judged.reference, judged.time_s),
+        "excitation_N": excitation.force,
+        "excitation_Nm": excitation.moment,
+        "load_N": excitation.load_force,
+        "load_Nm": excitation.load_moment,
     }
-
-
-def require_unseen(name: str, calibration: Calibration, run: SensorRun) -> None:
-    """Refuse a calibration that may not be applied, or that has seen the samples on which it would be judged.
-
-    Args:
-        name: Name of the calibration, for messages.
-        calibration: The calibration.
-        run: The sensor.
-
-    Raises:
-        SerialNumberError: If it is of another sensor.
-        ExperimentError: If it was fitted on a judged interval, or the robot now reads the sensor in another way.
-    """
-    run.require_fit(name, calibration)
-    for judged, fitted in _overlaps(run, calibration, calibration.provenance.intervals):
-        raise ExperimentError(
-            f"calibration {name!r} was fitted on the interval {fitted!r}, which overlaps the judged "
-            f"interval {judged!r}; judge it on data that it has not seen"
-        )
-
-
-def doubts(run: SensorRun, name: str, calibration: Calibration) -> Iterator[str]:
-    """Say what makes a verdict on the validation intervals doubtful.
-
-    Args:
-        run: The sensor.
-        name: Name of the calibration.
-        calibration: The calibration.
-
-    Yields:
-        A sentence per variable that leaves the fitted range by more than a tenth of it, where the line is drawn on;
-        one on loads beyond those that quadratic terms were fitted to; and one per interval on which the calibration was
-        chosen among others.
-    """
-    for sentence in _beyond_fitted_range(run, calibration):
-        yield f"{name}: {sentence}"
-    yield from _beyond_fitted_loads(run, name, calibration)
-    yield from doubts_about_choice(run, name, calibration)
-
-
-def doubts_about_choice(run: SensorRun, name: str, calibration: Calibration) -> Iterator[str]:
-    """Say where a calibration is judged on what it was chosen on.
-
-    Args:
-        run: The sensor.
-        name: Name of the calibration.
-        calibration: The calibration.
-
-    Yields:
-        A sentence per validation interval on which it was chosen among others.
-    """
-    for label in dict.fromkeys(judged for judged, _ in _overlaps(run, calibration, calibration.selection.chosen_on)):
-        yield f"{name} was chosen among others on {label!r} too, so the verdict on it flatters"
-
-
-def _beyond_fitted_range(run: SensorRun, calibration: Calibration) -> Iterator[str]:
-    stamps = run.stream.stamp_ns
-    judged = np.zeros(len(stamps), dtype=bool)
-    for interval in run.intervals(Use.VALIDATION):
-        judged |= interval.holds(stamps)
-    for variable in calibration.variables:
-        values = run.sensor.variable(variable.name).source.at(run.experiment.recording, stamps[judged])
-        margin = _BEYOND * (variable.maximum - variable.minimum)
-        low, high = float(np.nanmin(values)), float(np.nanmax(values))
-        if low < variable.minimum - margin or high > variable.maximum + margin:
-            yield (
-                f"{variable.name} is {low:.4g} to {high:.4g} {variable.unit}, "
-                f"fitted were {variable.minimum:.4g} to {variable.maximum:.4g}"
-            )
-
-
-def _beyond_fitted_loads(run: SensorRun, name: str, calibration: Calibration) -> Iterator[str]:
-    if calibration.quadratic is None:
-        return
-    _, wrench = run.judged({name: calibration}).measured[-1]
-    share = float(calibration.quadratic.beyond(wrench).mean())
-    if share > 0.0:
-        yield (
-            f"{name}: {100 * share:.3g} % of the judged readings are of loads beyond those that its quadratic terms "
-            "were fitted to; they are corrected as at the limit"
-        )
-
-
-def _overlaps(run: SensorRun, calibration: Calibration, used: Iterable[FittedInterval]) -> Iterator[tuple[str, str]]:
-    """Labels of judged intervals and of those used before that overlap them."""
-    return overlapping(run.experiment, run.experiment.intervals(Use.VALIDATION), calibration, used)

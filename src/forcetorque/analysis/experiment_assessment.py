@@ -44,6 +44,7 @@ def assess_experiment(
     *,
     file: str,
     demands: Demands,
+    runs: Mapping[str, SensorRun] | None = None,
     progress: Callable[[str], None] | None = None,
 ) -> ExperimentAssessment:
     """Ask every question about the sensors of an experiment.
@@ -54,6 +55,7 @@ def assess_experiment(
             none has.
         file: Name of its file.
         demands: Limits and other sensors.
+        runs: The sensors to judge by name, where other questions share what they have computed; made if left out.
         progress: Called with what is done next.
 
     Returns:
@@ -71,7 +73,7 @@ def assess_experiment(
             if other != sensor.name
             for name, calibration in group.items()
         }
-        run = SensorRun(experiment, sensor)
+        run = SensorRun(experiment, sensor) if runs is None else runs[sensor.name]
         sensors.append(assess(run, calibrations.get(sensor.name, {}), others=others, demands=demands))
     start, end = experiment.recording.span_ns
     return ExperimentAssessment(

@@ -165,6 +165,8 @@ def _entry(
         session=calibration.sessions[-1].name if len(calibration.sessions) > 1 else None,
         variables={variable.name: variable.coefficients for variable in calibration.variables},
         variables_stored=variables_stored,
+        fitted_minimum=None if calibration.validity.loads is None else calibration.validity.loads.minimum,
+        fitted_maximum=None if calibration.validity.loads is None else calibration.validity.loads.maximum,
     )
 
 

@@ -36,6 +36,10 @@ class ExportedCalibration(Row):
     """Coefficients of each linear variable that go with the matrix; N, N m per unit."""
     variables_stored: bool
     """Whether the file holds them."""
+    fitted_minimum: WrenchValues | None = None
+    """Smallest fitted load per component; N, N m; None where the calibration file is older and does not hold it."""
+    fitted_maximum: WrenchValues | None = None
+    """Largest fitted load per component; N, N m."""
     full_scale: tuple[int, ...] | None = None
     """icub-matrix: full scale; N, N m."""
     largest_rounding_error: WrenchValues | None = None
@@ -46,6 +50,19 @@ class ExportedCalibration(Row):
         """The offset with its units."""
         force, moment = (", ".join(f"{value:.4g}" for value in half) for half in (self.offset[:3], self.offset[3:]))
         return f"({force}) N, ({moment}) N m"
+
+    @property
+    def fitted_text(self) -> str:
+        """The fitted loads with their units; beyond them nothing was seen of the sensor."""
+        if self.fitted_minimum is None or self.fitted_maximum is None:
+            return f"{self.sensor}: the file does not hold which loads were fitted; fit again to know where it holds"
+        ranges = [
+            f"{component} {low:.3g} to {high:.3g} {unit}"
+            for component, low, high, unit in zip(
+                WRENCH_COMPONENTS, self.fitted_minimum, self.fitted_maximum, WRENCH_UNITS, strict=True
+            )
+        ]
+        return f"{self.sensor}: fitted loads, outside which it extrapolates: {', '.join(ranges)}"
 
     def components(self) -> Iterator[dict[str, object]]:
         """Give a flat line per component.
@@ -64,6 +81,9 @@ class ExportedCalibration(Row):
             line |= {f"m{j}": float(value) for j, value in enumerate(self.matrix[k])}
             line |= {"offset": float(self.offset[k]), "offset_stored": self.offset_stored}
             line |= {f"{name}_coefficient": float(values[k]) for name, values in self.variables.items()}
+            if self.fitted_minimum is not None and self.fitted_maximum is not None:
+                line |= {"fitted_minimum": float(self.fitted_minimum[k])}
+                line |= {"fitted_maximum": float(self.fitted_maximum[k])}
             if self.full_scale is not None and self.largest_rounding_error is not None:
                 error = float(self.largest_rounding_error[k])
                 line |= {"full_scale": self.full_scale[k], "largest_rounding_error": error}
@@ -92,6 +112,7 @@ class Export(Result):
         """
         for entry in self.calibrations:
             yield _matrix_table(entry, is_secondary=self.format is ExportFormat.WHOLEBODYDYNAMICS)
+            yield entry.fitted_text
         yield f"offset: {self.offset_handling}"
         yield f"written to {self.file}"
 

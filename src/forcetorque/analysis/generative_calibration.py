@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -83,6 +84,7 @@ def generative_calibration(
             np.min([interval.raw_minimum_counts for interval in intervals], axis=0),
             np.max([interval.raw_maximum_counts for interval in intervals], axis=0),
             excitation_of(moments.without_variables()),
+            [_fitted_loads(fit, interval) for interval in intervals],
         ),
         selection=Selection(rule=_RULE),
         doubts=(*dict.fromkeys(d for recording in recordings for d in recording.doubts), *_disagreeing(fit, stretches)),
@@ -96,6 +98,12 @@ def generative_calibration(
             inputs_sha256=_inputs(recordings),
         ),
     )
+
+
+def _fitted_loads(fit: GenerativeFit, interval: IntervalMoments) -> FloatArray:
+    """Fitted loads of an interval, by its readings."""
+    offset = fit.offsets[fit.posterior.sessions.index(interval.session)]
+    return replace(fit.model, offset=offset).linear.wrench(*interval.readings)
 
 
 def _inputs(recordings: Sequence[RecordingMoments]) -> dict[str, str]:

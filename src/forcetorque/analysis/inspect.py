@@ -12,9 +12,9 @@ from pydantic import Field
 
 from forcetorque.analysis.findings import inspect_experiment, inspect_recording
 from forcetorque.errors import MissingFileError
-from forcetorque.exchange.yarp import read_log_folder
+from forcetorque.exchange.formats import not_recognised, recognised_format
 from forcetorque.experiment import load_experiment
-from forcetorque.recording import Finding, read_recording
+from forcetorque.recording import Finding, Recording
 from forcetorque.result import Result, Row, Table
 
 _MOST_ALIKE = 8
@@ -86,26 +86,16 @@ class Inspection(Result):
 
 
 def inspect_log(path: Path | str) -> Inspection:
-    """Inspect an experiment file, a folder of the project's own form, or a YARP dumper folder.
+    """Inspect an experiment file, or a log of any format that is recognised by what is there.
 
     Args:
-        path: Experiment file or folder.
+        path: Experiment file, or folder or file of a log.
 
     Returns:
         What is wrong with it.
-
-    Raises:
-        MissingFileError: If there is nothing there.
     """
     source = Path(path)
-    if source.is_dir():
-        recording = read_recording(source) if (source / "recording.json").is_file() else read_log_folder(source)
-        findings = inspect_recording(recording)
-    elif source.is_file():
-        experiment = load_experiment(source)
-        recording, findings = experiment.recording, inspect_experiment(experiment)
-    else:
-        raise MissingFileError(f"{source}: expected an experiment file or the folder of a log, there is none")
+    recording, findings = _recorded(source)
     start, end = recording.span_ns
     return Inspection(
         source=str(source),
@@ -113,6 +103,20 @@ def inspect_log(path: Path | str) -> Inspection:
         duration_s=(end - start) * 1e-9,
         findings=finding_rows(start, findings),
     )
+
+
+def _recorded(source: Path) -> tuple[Recording, tuple[Finding, ...]]:
+    if not (source.is_dir() or source.is_file()):
+        raise MissingFileError(f"{source}: expected an experiment file or the folder of a log, there is none")
+    log_format = recognised_format(source)
+    if log_format is not None:
+        reading = log_format.describe(source).reading
+        recording = Recording(streams={stream.name: stream for stream in reading.streams}, findings=reading.findings)
+        return recording, inspect_recording(recording)
+    if source.is_dir():
+        raise not_recognised(source)
+    experiment = load_experiment(source)
+    return experiment.recording, inspect_experiment(experiment)
 
 
 def finding_rows(recording_start: int, findings: Iterable[Finding]) -> tuple[FindingRow, ...]:

@@ -79,9 +79,22 @@ def learnt_words(directions: Sequence[LearntDirection]) -> str:
     little = [row.direction for row in directions if row.learnt < LITTLE_LEARNT]
     if not little:
         return f"learnt: {shares}"
+    return f"learnt: {shares}; for {', '.join(little)} the prior decides: {to_learn(directions)}"
+
+
+def to_learn(directions: Sequence[LearntDirection]) -> str | None:
+    """Say what to record for the directions of which little was learnt.
+
+    Args:
+        directions: What the recordings taught.
+
+    Returns:
+        Words such as `add a load off the axis`; None where enough is known of all.
+    """
+    little = [row.direction for row in directions if row.learnt < LITTLE_LEARNT]
     advice = []
     if any(name.startswith("t") for name in little):
         advice.append("add a load off the axis, or another tool or posture with its centre of mass elsewhere")
     if any(name.startswith("f") for name in little):
         advice.append("turn the sensor so that the weight acts along it, or add weight")
-    return f"learnt: {shares}; for {', '.join(little)} the prior decides: {'; '.join(advice)}"
+    return "; ".join(advice) or None

@@ -3,27 +3,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from typing import Annotated, Literal
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Annotated, Any, Literal
 
 import numpy as np
 
+from forcetorque.analysis.campaign import Campaign, Runs
+from forcetorque.analysis.error_comparison import OFFSET_WORDS, ErrorComparison, Quantity, ratio_fields
 from forcetorque.analysis.judged import JudgedWrenches
-from forcetorque.analysis.sensor_run import SensorRun
-from forcetorque.arrays import FloatArray
 from forcetorque.calibration import Calibration
-from forcetorque.evaluation import Offset, PairedMean, autocorrelation, paired_difference
+from forcetorque.evaluation import ErrorRatio, Offset, PairedErrors, autocorrelation, compare_errors
+from forcetorque.recording import Use
 from forcetorque.result import Row, Shown, ShownWrench, finite_or_none
-
-FEWEST_INDEPENDENT = 6.0
-"""Independent samples below which an interval of a difference is not worth its name: at 3 it misses in 8 to 12 %,
-and it can be a thousand times as wide as the difference."""
-
-_FEWEST = 20
-"""Samples below which nothing is called better."""
-
-Quantity = Literal["force", "moment"]
-Judgement = Literal["better", "worse", "no difference that the recording shows"]
 
 
 class Independence(Row):
@@ -37,44 +28,33 @@ class Independence(Row):
     """Effective number of independent samples per component; none where the error does not change."""
 
 
-class PriorComparison(Row):
-    """A calibration against its prior on the same samples: norms of the errors, and what they differ by."""
+class PriorComparison(ErrorComparison):
+    """A calibration against its prior."""
 
-    candidate: Annotated[str, Shown("candidate", file=True)]
-    """The calibration file."""
+    sensor: str
+    """Sensor."""
     prior: Annotated[str, Shown("prior", file=True)]
     """Its prior, as the evaluation names it."""
-    offset: Annotated[Offset, Shown("offset")]
-    """Offset of the fitted data, or mean of the judged samples."""
-    quantity: Annotated[Quantity, Shown("error of")]
-    """What the errors are of."""
-    unit: Annotated[Literal["N", "N m"], Shown("unit")]
-    """Unit of the errors."""
-    samples: int
-    """Number of judged samples."""
-    independent: Annotated[float | None, Shown("independent", digits=0)]
-    """How many independent ones their differences are worth; none where they do not change."""
-    mean: Annotated[float, Shown("mean", digits=3)]
-    """Mean norm of the error with the calibration."""
     prior_mean: Annotated[float, Shown("of the prior", digits=3)]
-    """The same with its prior."""
-    gain: Annotated[float, Shown("less by", digits=3)]
-    """Mean of the differences, prior less calibration."""
-    gain_low: Annotated[float | None, Shown("at least", digits=3)]
-    """Lower end of its 95 % interval; none where fewer than 6 independent samples do not give one."""
-    gain_high: Annotated[float | None, Shown("at most", digits=3)]
-    """Upper end."""
+    """Mean norm of the error with its prior."""
     constant: Annotated[float, Shown("constant", digits=3)]
     """Norm of the mean error vector: the part that another offset would take away."""
 
-    @property
-    def judgement(self) -> Judgement | None:
-        """What the interval of the difference says; None where the samples are too few to say anything."""
-        if self.gain_low is None or self.gain_high is None or self.samples < _FEWEST:
-            return None
-        if self.gain_low <= 0.0 <= self.gain_high:
-            return "no difference that the recording shows"
-        return "better" if self.gain_low > 0.0 else "worse"
+
+def comparison_sentence(name: str, rows: Sequence[PriorComparison]) -> str:
+    """Say how a calibration does against its prior, the same wherever it is said.
+
+    Args:
+        name: The calibration.
+        rows: Its comparisons with one offset, force and moment.
+
+    Returns:
+        A sentence.
+    """
+    words = "; ".join(f"{row.quantity} error {row.against(row.prior_mean, 'the prior')}" for row in rows)
+    constant = f"; {rows[0].constant:.2f} N is constant" if rows[0].offset is Offset.FITTED else ""
+    offset, samples = OFFSET_WORDS[rows[0].offset], rows[0].samples
+    return f"{name} with {offset}, {samples} samples that were not fitted: {words}{constant}"
 
 
 def independence(judged: JudgedWrenches) -> tuple[Independence, ...]:
@@ -99,50 +79,69 @@ def independence(judged: JudgedWrenches) -> tuple[Independence, ...]:
     )
 
 
-def compare_with_prior(run: SensorRun, calibrations: Mapping[str, Calibration]) -> tuple[PriorComparison, ...]:
-    """Compare every calibration with its own prior, sample by sample, on the validation intervals.
+def compare_with_prior(runs: Runs, calibrations: Mapping[str, Calibration]) -> tuple[PriorComparison, ...]:
+    """Compare every calibration with its own prior on the validation intervals.
 
     Args:
-        run: The sensor.
+        runs: The sensor in one recording, or in several, which are pooled.
         calibrations: Its calibrations by name.
 
     Returns:
         Two rows, force and moment, per calibration that has a prior and offset.
     """
-    judged = run.judged(calibrations)
-    measured = {(candidate.name, offset): wrench for candidate, offset, wrench in judged.with_either_offset()}
+    campaign = Campaign.of(runs)
+    recordings = [run.judged(calibrations) for run in campaign.runs_with(Use.VALIDATION)]
+    return prior_comparisons(campaign.sensor.name, recordings)
+
+
+def prior_comparisons(sensor: str, recordings: Sequence[JudgedWrenches]) -> tuple[PriorComparison, ...]:
+    """Compare every calibration with its own prior by what they measure.
+
+    Args:
+        sensor: Name of the sensor.
+        recordings: Wrenches on data that was not fitted, by the same candidates in every recording.
+
+    Returns:
+        Two rows, force and moment, per calibration that has a prior and offset, pooled over the recordings.
+    """
+    # a calibration may be called `prior` too
+    measured = [
+        {
+            (candidate.name, candidate.prior is None, offset): wrench
+            for candidate, offset, wrench in judged.with_either_offset()
+        }
+        for judged in recordings
+    ]
     return tuple(
         row
-        for name, prior in judged.priors.items()
+        for name, prior in recordings[0].priors.items()
         for offset in (Offset.FITTED, Offset.JUDGED_MEAN)
-        for row in _compared(name, prior, offset, measured[name, offset], measured[prior, offset], judged)
+        for row in _compared(
+            {"sensor": sensor, "candidate": name, "prior": prior, "offset": offset},
+            [
+                PairedErrors.of(wrenches[name, False, offset], wrenches[prior, True, offset], judged.reference)
+                for wrenches, judged in zip(measured, recordings, strict=True)
+            ],
+        )
     )
 
 
-def _compared(
-    name: str, prior: str, offset: Offset, new: FloatArray, old: FloatArray, judged: JudgedWrenches
-) -> Iterator[PriorComparison]:
-    difference = paired_difference(new, old, judged.reference, judged.time_s)
-    errors = (new - judged.reference, old - judged.reference)
-    quantities: tuple[tuple[Quantity, Literal["N", "N m"], slice, PairedMean], ...] = (
-        ("force", "N", slice(0, 3), difference.force),
-        ("moment", "N m", slice(3, 6), difference.moment),
+def _compared(names: Mapping[str, Any], pairs: Sequence[PairedErrors]) -> Iterator[PriorComparison]:
+    comparison = compare_errors(pairs)
+    new, old = (np.concatenate(errors) for errors in zip(*((pair.first, pair.second) for pair in pairs), strict=True))
+    quantities: tuple[tuple[Quantity, Literal["N", "N m"], slice, ErrorRatio], ...] = (
+        ("force", "N", slice(0, 3), comparison.force),
+        ("moment", "N m", slice(3, 6), comparison.moment),
     )
-    for quantity, unit, axes, gain in quantities:
-        mean, prior_mean = (float(np.linalg.norm(error[:, axes], axis=1).mean()) for error in errors)
-        low, high = (-gain.high, -gain.low) if gain.effective_count >= FEWEST_INDEPENDENT else (np.nan, np.nan)
+    for quantity, unit, axes, ratio in quantities:
+        mean, prior_mean = (float(np.linalg.norm(error[:, axes], axis=1).mean()) for error in (new, old))
         yield PriorComparison(
-            candidate=name,
-            prior=prior,
-            offset=offset,
+            **names,
             quantity=quantity,
             unit=unit,
-            samples=difference.count,
-            independent=finite_or_none(gain.effective_count),
+            samples=comparison.count,
             mean=mean,
             prior_mean=prior_mean,
-            gain=-gain.mean,
-            gain_low=finite_or_none(low),
-            gain_high=finite_or_none(high),
-            constant=float(np.linalg.norm(errors[0][:, axes].mean(axis=0))),
+            constant=float(np.linalg.norm(new[:, axes].mean(axis=0))),
+            **ratio_fields(ratio),
         )

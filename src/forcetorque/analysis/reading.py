@@ -33,6 +33,8 @@ class Correction:
     """Whether data gave its offset; without, its wrenches have whatever offset the sensor has."""
     sessions: Mapping[str, FloatArray] = field(default_factory=dict)
     """Offset of every session that was fitted, by its name; shape (6,); N, N m."""
+    calibration: Calibration | None = None
+    """The calibration that it is of, which knows where it holds; None for a prior and the logged wrench."""
 
     @classmethod
     def of(cls, name: str, calibration: Calibration) -> Self:
@@ -47,7 +49,9 @@ class Correction:
         """
         variables = tuple(variable.name for variable in calibration.variables)
         sessions = {session.name: session.offset for session in calibration.sessions}
-        return cls(model=calibration.model, source=name, variables=variables, sessions=sessions)
+        return cls(
+            model=calibration.model, source=name, variables=variables, sessions=sessions, calibration=calibration
+        )
 
     @classmethod
     def of_prior(cls, name: str, prior: Prior, sessions: Sequence[SessionOffset] = ()) -> Self:
@@ -169,6 +173,26 @@ class Readings:
         return correction.model.wrench(values, np.stack(columns, axis=-1) if columns else None)
 
 
+def readings_at(
+    experiment: Experiment, sensor: ExperimentSensor, variables: Sequence[str], at_ns: IntArray
+) -> Readings:
+    """Give what a sensor read at given instants.
+
+    Args:
+        experiment: The experiment.
+        sensor: One of its sensors.
+        variables: Names of the linear variables that are wanted.
+        at_ns: Instants; shape (n,); ns.
+
+    Returns:
+        Its readings; NaN in gaps and while the board is saturated.
+    """
+    stream = experiment.recording.stream(sensor.stream)
+    logged = np.where(stream.held[:, None], np.nan, stream.signal(sensor.quantity).values)
+    values = {name: sensor.variable(name).source.at(experiment.recording, at_ns) for name in variables}
+    return Readings.of(sensor, interpolate(stream, logged, at_ns), values)
+
+
 def wrench_at(
     experiment: Experiment,
     sensor: ExperimentSensor,
@@ -190,10 +214,7 @@ def wrench_at(
     Returns:
         Wrenches in its frame and direction; shape (n, 6); N, N m; NaN in gaps and while the board is saturated.
     """
-    stream = experiment.recording.stream(sensor.stream)
-    logged = np.where(stream.held[:, None], np.nan, stream.signal(sensor.quantity).values)
-    variables = {name: sensor.variable(name).source.at(experiment.recording, at_ns) for name in correction.variables}
-    readings = Readings.of(sensor, interpolate(stream, logged, at_ns), variables)
+    readings = readings_at(experiment, sensor, correction.variables, at_ns)
     if interval is not None:
         return readings.wrench(correction.in_session(experiment.session_names(interval.label)))
     wrench = readings.wrench(correction.in_session(experiment.session_names(None)))

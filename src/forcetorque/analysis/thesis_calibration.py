@@ -18,6 +18,7 @@ from forcetorque.calibration import (
     CalibrationFit,
     EstimationType,
     Excitation,
+    FittedLoads,
     Prior,
     Provenance,
     Selection,
@@ -137,6 +138,7 @@ def artefact(
             np.min([part.raw.min(axis=0) for part in parts], axis=0),
             np.max([part.raw.max(axis=0) for part in parts], axis=0),
             result.fit.excitation,
+            [result.fit.model.linear.wrench(part.raw, part.samples.variables) for part in parts],
         ),
         selection=_selection(result),
         provenance=Provenance(
@@ -169,13 +171,20 @@ def _variables(intervals: Sequence[CampaignInterval], result: CalibrationFit) ->
     )
 
 
-def validity_of(minimum: FloatArray, maximum: FloatArray, excitation: Excitation) -> Validity:
+def validity_of(
+    minimum: FloatArray,
+    maximum: FloatArray,
+    excitation: Excitation,
+    loads: Sequence[FloatArray],
+) -> Validity:
     """Tell where data support a fit.
 
     Args:
         minimum: Smallest fitted reading per channel; shape (c,); counts.
         maximum: Largest fitted reading per channel; shape (c,); counts.
         excitation: How the loads moved the readings.
+        loads: Fitted loads by the linear part of the fit, with the offset of their session, per interval; shape (n, 6)
+            each; N, N m.
 
     Returns:
         The same for the artefact.
@@ -190,6 +199,7 @@ def validity_of(minimum: FloatArray, maximum: FloatArray, excitation: Excitation
         variance_counts2=excitation.variance,
         explained=excitation.explained,
         excited=excitation.excited,
+        loads=FittedLoads.of(loads, excitation.reference_deviation),
     )
 
 

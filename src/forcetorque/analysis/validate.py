@@ -8,16 +8,18 @@ from typing import ClassVar, Literal
 
 from pydantic import Field
 
+from forcetorque.analysis.best_candidate import BestCandidate
 from forcetorque.analysis.campaign import Campaign, Runs
 from forcetorque.analysis.contact_forces import (
-    BestCandidate,
     ContactForceErrors,
     RecordingContactForces,
     contact_force_blocks,
     contact_force_rows,
     contact_forces_of,
 )
-from forcetorque.analysis.contact_wrenches import ContactWrenches, contact_wrenches, pooled_contacts
+from forcetorque.analysis.contact_wrenches import ContactWrenches, contact_wrenches
+from forcetorque.analysis.decide import use_verdicts
+from forcetorque.analysis.evaluation_tables import smoothing_words
 from forcetorque.analysis.free_sub_model import FreeSubModel
 from forcetorque.analysis.joint_torques import (
     JointTorqueErrors,
@@ -26,7 +28,10 @@ from forcetorque.analysis.joint_torques import (
     joint_torques_of,
 )
 from forcetorque.analysis.torque_samples import JudgedTorques, judged_torques, pooled_torques
+from forcetorque.analysis.use_verdict import UseVerdict, use_sentences
+from forcetorque.analysis.validity import ReadingsOutside, readings_outside, sentences
 from forcetorque.calibration import Calibration
+from forcetorque.errors import ForceTorqueError
 from forcetorque.evaluation import Offset, OtherSensors
 from forcetorque.recording import Use
 from forcetorque.result import Result, Table
@@ -55,6 +60,13 @@ class Validation(Result):
     """Joint torques of every recording by itself; none where there is one."""
     left_out: tuple[str, ...]
     """Torques that the log does not allow to estimate, and what gaps and short intervals leave out, in words."""
+    smoothing: tuple[str, ...] = ()
+    """Whether reading and reference were smoothed, in words; of several recordings one per way."""
+    validity: tuple[ReadingsOutside, ...] = ()
+    """One per calibration: how far the judged readings lie outside what it was fitted on."""
+
+    uses: tuple[UseVerdict, ...] = ()
+    """One per calibration and load case: whether it may be used."""
 
     def blocks(self) -> Iterator[Table | str]:
         """Give tables of contact forces, who is best, and tables of joint torques.
@@ -67,7 +79,9 @@ class Validation(Result):
             yield from self._without_offset(sensor)
             torques = [row for row in self.joint_torques if row.sensor == sensor]
             yield joint_torque_table(torques) if torques else f"{sensor}: no joint torque is estimated from it"
-        yield f"other sensors: as {'the model expects' if self.other_sensors == 'model' else 'they measured'}"
+        yield from use_sentences(self.uses)
+        others = "the model expects" if self.other_sensors == "model" else "they measured"
+        yield "; ".join((f"other sensors: as {others}", *self.smoothing))
 
     def records(self) -> list[dict[str, object]]:
         """Give contact forces and joint torques as flat lines.
@@ -132,9 +146,12 @@ def validate(
             torques[campaign.recording(run)] = judged_torques(free, calibrations)
             contacts[campaign.recording(run)] = contact_wrenches(free, calibrations)
     judged = joint_torques_of(campaign, pooled_torques(torques))
-    forces = contact_forces_of(campaign.sensor, pooled_contacts(contacts))
+    forces = contact_forces_of(campaign.sensor, contacts)
     name = campaign.sensor.name
-    left_out = tuple(dict.fromkeys(f"{name}: {words}" for words in (*forces.left_out, *judged.left_out)))
+    validity, unknown = _validity(campaign, calibrations)
+    uses, undecided = _uses(campaign, calibrations)
+    reasons = (*forces.left_out, *judged.left_out, *unknown, *undecided)
+    left_out = tuple(dict.fromkeys(f"{name}: {words}" for words in reasons))
     several = len(campaign.runs) > 1
     return Validation(
         experiment="; ".join(campaign.recordings),
@@ -145,8 +162,31 @@ def validate(
         recordings=tuple(_forces_apart(campaign, contacts)) if several else (),
         recording_torques=tuple(_torques_apart(campaign, torques)) if several else (),
         left_out=left_out,
-        warnings=tuple(f"left out: {words}" for words in left_out),
+        smoothing=tuple(dict.fromkeys(map(smoothing_words, campaign.runs_with(Use.VALIDATION)))),
+        validity=validity,
+        uses=uses,
+        warnings=(*sentences(validity), *(f"left out: {words}" for words in left_out)),
     )
+
+
+def _validity(
+    campaign: Campaign, calibrations: Mapping[str, Calibration]
+) -> tuple[tuple[ReadingsOutside, ...], tuple[str, ...]]:
+    """How far readings lie outside what was fitted; else why that is not known: joints beyond the sensor may lack."""
+    try:
+        return readings_outside(campaign, calibrations), ()
+    except ForceTorqueError as error:
+        return (), (f"whether readings lie within what was fitted: {error}",)
+
+
+def _uses(
+    campaign: Campaign, calibrations: Mapping[str, Calibration]
+) -> tuple[tuple[UseVerdict, ...], tuple[str, ...]]:
+    """Whether calibrations may be used; else why that cannot be told, such as that one has seen the judged data."""
+    try:
+        return use_verdicts(campaign, calibrations), ()
+    except ForceTorqueError as error:
+        return (), (f"whether it may be used: {error}",)
 
 
 def _forces_apart(campaign: Campaign, recordings: Mapping[str, ContactWrenches]) -> Iterator[RecordingContactForces]:

@@ -6,9 +6,10 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Annotated, Literal
 
+from forcetorque.analysis.error_comparison import OFFSET_WORDS
 from forcetorque.analysis.evaluate import CandidateErrors
 from forcetorque.analysis.learnt import LITTLE_LEARNT, learnt_words
-from forcetorque.analysis.prior_comparison import FEWEST_INDEPENDENT, PriorComparison
+from forcetorque.analysis.prior_comparison import PriorComparison, comparison_sentence
 from forcetorque.evaluation import Offset
 from forcetorque.result import Row, Shown, short_names, with_error
 
@@ -19,14 +20,6 @@ _FEW_INDEPENDENT = 20.0
 """Independent samples below which a standard error from ten blocks is itself a guess."""
 
 Tone = Literal["good", "caution", "bad", "unknown", "note"]
-
-OFFSET_WORDS = {
-    Offset.FITTED: "its own offset",
-    Offset.FIRST_SECOND: "the offset of the first second",
-    Offset.JUDGED_MEAN: "the mean of the judged samples taken off",
-    Offset.NONE: "no offset removed",
-}
-"""The offsets in sentences."""
 
 
 class VerdictLine(Row):
@@ -81,12 +74,11 @@ def _acceptance(assessment: Assessment) -> Iterator[tuple[Tone, str]]:
 def _errors(assessment: Assessment) -> Iterator[tuple[Tone, str]]:
     names = short_names([row.candidate for row in assessment.evaluation])
     for row in assessment.evaluation:
-        start = f"{names[row.candidate]} with {OFFSET_WORDS[row.offset]}, {row.samples} samples that were not fitted: "
+        name = names[row.candidate]
+        start = f"{name} with {OFFSET_WORDS[row.offset]}, {row.samples} samples that were not fitted: "
         compared = [one for one in assessment.comparisons if (one.candidate, one.offset) == (row.candidate, row.offset)]
         if compared:
-            constant = f"; {compared[0].constant:.2f} N is constant" if row.offset is Offset.FITTED else ""
-            words = "; ".join(f"{one.quantity} error {_compared(one)}" for one in compared)
-            yield _unless_doubted(_tone(compared), assessment, row.candidate), start + words + constant
+            yield _unless_doubted(_tone(compared), assessment, row.candidate), comparison_sentence(name, compared)
         elif row.candidate in assessment.calibrations:
             yield "unknown", f"{start}{_plain(row)}; it has no prior to compare it with"
         elif not assessment.calibrations:
@@ -116,18 +108,6 @@ def _plain(row: CandidateErrors) -> str:
     force = with_error(row.force_error_mean_N, row.force_error_half_width_95_N, digits=2)
     moment = with_error(row.moment_error_mean_Nm, row.moment_error_half_width_95_Nm, digits=3)
     return f"force error {force} N, moment error {moment} N m"
-
-
-def _compared(row: PriorComparison) -> str:
-    digits = 2 if row.quantity == "force" else 3
-    means = f"{row.mean:.{digits}f} {row.unit} against {row.prior_mean:.{digits}f} {row.unit} with the prior"
-    judgement = row.judgement
-    if judgement is None:
-        few = row.independent is not None and row.independent < FEWEST_INDEPENDENT
-        what = f"too few samples, worth {row.independent:.1f} independent ones," if few else "too few samples"
-        return f"{means} ({what} to tell them apart)"
-    interval = f"less by {row.gain:.{digits}f}, {row.gain_low:.{digits}f} to {row.gain_high:.{digits}f}"
-    return f"{means} ({judgement}: {interval})"
 
 
 def _tone(rows: Sequence[PriorComparison]) -> Tone:

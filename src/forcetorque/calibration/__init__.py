@@ -25,7 +25,9 @@ from forcetorque.calibration.estimation_type import (
     estimation_type,
 )
 from forcetorque.calibration.excitation import Excitation, excitation_of
+from forcetorque.calibration.extrapolation import Extrapolation, extrapolation, predicted_error
 from forcetorque.calibration.fit import MatrixFit, fit_matrix, require_determined
+from forcetorque.calibration.fitted_loads import FittedLoads
 from forcetorque.calibration.generative import (
     Assumptions,
     GenerativeFit,
@@ -79,7 +81,9 @@ __all__ = [
     "Estimation",
     "EstimationType",
     "Excitation",
+    "Extrapolation",
     "FittedInterval",
+    "FittedLoads",
     "HeldOut",
     "LambdaCurve",
     "LinearVariable",
@@ -101,9 +105,11 @@ __all__ = [
     "estimation_of",
     "estimation_type",
     "excitation_of",
+    "extrapolation",
     "fit_matrix",
     "is_invertible",
     "pooled",
+    "predicted_error",
     "read_calibration",
     "recover_raw",
     "require_determined",

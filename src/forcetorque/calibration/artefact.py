@@ -24,6 +24,7 @@ from pydantic_core import PydanticCustomError
 from forcetorque.array_field import ArrayField
 from forcetorque.arrays import BoolArray, FloatArray
 from forcetorque.atomic import write_bytes_atomically
+from forcetorque.calibration.fitted_loads import FittedLoads
 from forcetorque.calibration.nonlinear_trial import NonlinearTrial
 from forcetorque.calibration.part import Part
 from forcetorque.calibration.posterior import Posterior
@@ -31,7 +32,8 @@ from forcetorque.calibration.quadratic_correction import QuadraticCorrection
 from forcetorque.calibration.secondary import secondary_matrix
 from forcetorque.calibration.wrench_model import WrenchModel
 from forcetorque.errors import FormatError, MissingFileError, RecordingError, SerialNumberError, ShapeError
-from forcetorque.spatial import MeasureDirection
+from forcetorque.result import Table, html_table
+from forcetorque.spatial import WRENCH_COMPONENTS, WRENCH_UNITS, MeasureDirection
 
 SCHEMA: Final = "forcetorque/calibration/3"
 """Name and version of the file's form."""
@@ -125,6 +127,8 @@ class Validity(Part):
     """Share of each variance that the reference explains."""
     excited: tuple[bool, ...]
     """Whether the loads move the direction more than anything else does."""
+    loads: FittedLoads | None = None
+    """Range of the fitted loads; None in files of earlier versions, where the ranges of the channels stand for it."""
 
 
 class SessionOffset(Part):
@@ -199,7 +203,9 @@ class Calibration(Part):
     Where there are quadratic terms, what they add at the load is taken off that.
     """
 
-    model_config = ConfigDict(extra="forbid", frozen=True, arbitrary_types_allowed=True, populate_by_name=True)
+    model_config = ConfigDict(
+        defer_build=True, extra="forbid", frozen=True, arbitrary_types_allowed=True, populate_by_name=True
+    )
 
     schema_name: Literal["forcetorque/calibration/3"] = Field(default=SCHEMA, alias="schema")
     """Form of the file."""
@@ -262,6 +268,41 @@ class Calibration(Part):
             reference_values=np.array([variable.reference_value for variable in self.variables]),
             quadratic=self.quadratic,
         )
+
+    def __repr__(self) -> str:
+        sensor, count = self.sensor, self.provenance.samples
+        prior = "no prior" if self.prior is None else f"prior {self.prior.source}"
+        what = f"{self.estimation_type}, {count} samples of {self.provenance.experiment!r}, {prior}"
+        return f"<Calibration of {sensor.name} ({sensor.serial}): {what}>"
+
+    __str__ = __repr__
+
+    def _repr_html_(self) -> str:
+        errors = self.matrix_standard_error
+        table = Table(
+            caption=f"{self!r}: matrix with standard errors, offset",
+            headings=("component", *(f"channel {k}" for k in range(self.matrix.shape[1])), "offset"),
+            rows=tuple(
+                (
+                    f"{name}, {unit}",
+                    *(
+                        f"{value:.4g}" if errors is None else f"{value:.4g} ±{errors[k, j]:.1g}"
+                        for j, value in enumerate(self.matrix[k])
+                    ),
+                    f"{self.offset[k]:.4g}",
+                )
+                for k, (name, unit) in enumerate(zip(WRENCH_COMPONENTS, WRENCH_UNITS, strict=True))
+            ),
+        )
+        return html_table(table)
+
+    def save(self, path: Path | str) -> None:
+        """Write the calibration as JSON; on any error the file keeps what it held before.
+
+        Args:
+            path: File to write or to replace, in an existing folder.
+        """
+        write_calibration(path, self)
 
     def in_session(self, name: str) -> Calibration:
         """Give the calibration with the offset of a session.

@@ -9,4 +9,4 @@ from pydantic import BaseModel, ConfigDict
 class Part(BaseModel):
     """A frozen table of a file; unknown keys are errors."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True, arbitrary_types_allowed=True)
+    model_config = ConfigDict(defer_build=True, extra="forbid", frozen=True, arbitrary_types_allowed=True)

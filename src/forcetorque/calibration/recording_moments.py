@@ -12,7 +12,7 @@ import numpy as np
 from pydantic import ConfigDict, Field, ValidationError
 
 from forcetorque.array_field import ArrayField
-from forcetorque.arrays import FloatArray
+from forcetorque.arrays import FloatArray, IntArray
 from forcetorque.atomic import write_bytes_atomically
 from forcetorque.calibration.artefact import FittedInterval, SensorIdentity
 from forcetorque.calibration.data_set import DataSet
@@ -66,6 +66,10 @@ class IntervalMoments(Part):
     """What a derivative window of twice the length takes from them; N, N m."""
     variables: _Table
     """Mean variables."""
+    extreme_raw: _Table | None = None
+    """Readings that lie at an end of the interval's range; counts; None in files of earlier versions."""
+    extreme_variables: _Table | None = None
+    """Variables at the same samples."""
 
     @classmethod
     def of(cls, data: DataSet, interval: FittedInterval, *, dropped: int) -> IntervalMoments:
@@ -80,6 +84,7 @@ class IntervalMoments(Part):
             What is kept of them.
         """
         means, moments = WindowMeans.of(data), Moments.of(data.raw, data.reference, data.variables)
+        ends = _ends(data, moments)
         return cls(
             interval=interval,
             recording=data.recording,
@@ -98,7 +103,19 @@ class IntervalMoments(Part):
             flattening=means.flattening,
             # without a variable JSON would keep no rows
             variables=means.variables if means.variables.shape[1] else np.zeros((0, 0)),
+            extreme_raw=data.raw[ends],
+            extreme_variables=data.variables[ends] if data.variables.shape[1] else np.zeros((0, 0)),
         )
+
+    @property
+    def readings(self) -> tuple[FloatArray, FloatArray]:
+        """Readings that tell the range of the interval, shape (n, c), and the variables beside them, shape (n, v)."""
+        means = self.means
+        if self.extreme_raw is None or self.extreme_variables is None:
+            return means.raw, means.variables
+        raw = np.concatenate([means.raw, self.extreme_raw])
+        variables = self.extreme_variables.reshape(len(self.extreme_raw), means.variables.shape[1])
+        return raw, np.concatenate([means.variables, variables])
 
     @property
     def session(self) -> str:
@@ -132,6 +149,18 @@ class IntervalMoments(Part):
             step=np.zeros_like(self.mean),
             second=self.second_moment,
         )
+
+
+def _ends(data: DataSet, moments: Moments) -> IntArray:
+    """Samples at the ends of the range along channels, components of the load, and principal directions of both."""
+    # which directions the recordings have together is known only when they are fitted, and means over a second miss
+    # what fast movements reach
+    _, of_raw = np.linalg.eigh(moments.raw_raw)
+    scale = np.sqrt(np.maximum(np.diag(moments.reference_reference), np.finfo(float).tiny))
+    _, of_loads = np.linalg.eigh(moments.reference_reference / np.outer(scale, scale))
+    along = np.hstack([data.raw, data.raw @ of_raw, data.reference, data.reference / scale @ of_loads])
+    ends: IntArray = np.unique([along.argmin(axis=0), along.argmax(axis=0)])
+    return ends
 
 
 class VariableDescription(Part):
@@ -176,7 +205,9 @@ class VariableDescription(Part):
 class RecordingMoments(Part):
     """All that a calibration needs of the calibration intervals of one recording."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True, arbitrary_types_allowed=True, populate_by_name=True)
+    model_config = ConfigDict(
+        defer_build=True, extra="forbid", frozen=True, arbitrary_types_allowed=True, populate_by_name=True
+    )
 
     schema_name: Literal["forcetorque/moments/1"] = Field(default=SCHEMA, alias="schema")
     """Form of the file."""

@@ -176,16 +176,7 @@ def _fitted(estimation: Estimation) -> tuple[LinearVariable, ...]:
 def _columns(moments: Moments, estimation: Estimation) -> tuple[FloatArray, FloatArray, BoolArray]:
     """Origin of the columns, their second moment about it with the reference last, and which are penalised."""
     c, fitted = moments.channels, _fitted(estimation)
-    values = estimation.reference_values if fitted else moments.variable_mean
-    zero = np.zeros(6)
-    if estimation.kind.offset is OffsetStrategy.SPHERE and estimation.raw_offset is not None:
-        origin = np.concatenate([estimation.raw_offset, values, zero])
-    elif estimation.kind.offset is OffsetStrategy.CENTRALISED:
-        origin = moments.mean
-    else:
-        # a constant takes up any shift of the columns; from the means no digits are lost to large raw offsets or to
-        # variables far from zero, such as kelvins and seconds since 1970
-        origin = np.concatenate([moments.raw_mean, moments.variable_mean, zero])
+    origin = _origin(moments, estimation)
     gram, step = moments.about(origin), moments.mean - origin
     kept = np.r_[: c + len(fitted), len(origin) - 6 : len(origin)]
     gram, step, constants = gram[np.ix_(kept, kept)], step[kept], 0
@@ -194,3 +185,19 @@ def _columns(moments: Moments, estimation: Estimation) -> tuple[FloatArray, Floa
         gram = np.insert(np.insert(gram, place, step, axis=0), place, np.insert(step, place, 1.0), axis=1)
     penalised = [True] * c + [variable.prior is not None for variable in fitted] + [False] * constants
     return origin, gram, np.array(penalised)
+
+
+def _origin(moments: Moments, estimation: Estimation) -> FloatArray:
+    """Point about which raw, variables and reference are taken, which is where the offset strategies differ."""
+    strategy, zero = estimation.kind.offset, np.zeros(6)
+    if strategy is OffsetStrategy.SPHERE and estimation.raw_offset is not None:
+        values = estimation.reference_values if _fitted(estimation) else moments.variable_mean
+        return np.concatenate([estimation.raw_offset, values, zero])
+    if strategy is OffsetStrategy.CENTRALISED:
+        return moments.mean
+    if strategy is OffsetStrategy.ONE_SHOT:
+        # a constant takes up any shift of the columns; from the means no digits are lost to large raw offsets or to
+        # variables far from zero, such as kelvins and seconds since 1970
+        return np.concatenate([moments.raw_mean, moments.variable_mean, zero])
+    # a strategy that was added without its line here must not pass for one of these
+    raise FitError(f"type {estimation.kind.name}: no origin of the columns is stated for the offset {strategy.value!r}")

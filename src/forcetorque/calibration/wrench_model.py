@@ -65,6 +65,11 @@ class WrenchModel:
         reading = self._linear(raw, variables)
         return reading if self.quadratic is None else self.quadratic.corrected(reading)
 
+    @property
+    def linear(self) -> WrenchModel:
+        """The same without quadratic terms."""
+        return replace(self, quadratic=None)
+
     def beyond(self, raw: Any, variables: Any = None) -> BoolArray:
         """Tell which readings are of loads outside those that the quadratic terms were fitted to.
 

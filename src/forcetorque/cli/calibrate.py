@@ -126,6 +126,7 @@ def _drawn(calibrations: SensorCalibrations, figure: Path) -> SensorCalibrations
     """Draw what the recordings taught of every sensor, and name the file in the result."""
     from forcetorque.atomic import write_bytes_atomically
     from forcetorque.report.figures import learnt_figure
+    from forcetorque.report.figures.canvas import png_bytes
 
     learnt = {
         f"{entry.calibration.sensor.name} ({entry.calibration.sensor.serial})": entry.learnt
@@ -137,7 +138,7 @@ def _drawn(calibrations: SensorCalibrations, figure: Path) -> SensorCalibrations
             f"--figure {figure}: expected a generative fit towards a prior, which tells what the recordings taught; "
             "got none. Leave it out"
         )
-    write_bytes_atomically(figure, learnt_figure(learnt))
+    write_bytes_atomically(figure, png_bytes(learnt_figure(learnt)))
     return calibrations.model_copy(update={"figure": str(figure)})
 
 

@@ -61,9 +61,10 @@ def _drawn(result: Comparison, figure: Path) -> Comparison:
     from forcetorque.atomic import write_bytes_atomically
     from forcetorque.errors import ForceTorqueError
     from forcetorque.report import figures
+    from forcetorque.report.figures.canvas import png_bytes
 
     try:
-        write_bytes_atomically(figure, figures.index_figure(result.analyses))
+        write_bytes_atomically(figure, png_bytes(figures.index_figure(result.analyses)))
     except (ForceTorqueError, OSError) as error:
         failure = FailureRow(file=str(figure), sensor=None, message=" ".join(str(error).split()))
         return result.model_copy(update={"failures": (*result.failures, failure)})

@@ -61,8 +61,10 @@ def gains(
     if figure is not None:
         from forcetorque.atomic import write_bytes_atomically
         from forcetorque.report.figures import gain_figure
+        from forcetorque.report.figures.canvas import png_bytes
 
-        write_bytes_atomically(figure, gain_figure([analysis.sensor_gains(run, margin=margin) for run in runs]))
+        drawn = gain_figure([analysis.sensor_gains(run, margin=margin) for run in runs])
+        write_bytes_atomically(figure, png_bytes(drawn))
         answer = answer.model_copy(update={"figure": str(figure)})
     show(answer, output_format)
 

@@ -14,7 +14,7 @@ from forcetorque.cli.output import Format, show, start_logging
 
 def inspect(
     log: Annotated[
-        Path, typer.Argument(help="Experiment file, YARP dumper folder, or folder of the project's own form.")
+        Path, typer.Argument(help="Experiment file, or a log that is recognised, such as a YARP dumper folder.")
     ],
     output_format: FormatOption = Format.TABLE,
 ) -> None:

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import sys
 from typing import Annotated
 
 import typer
@@ -18,6 +19,7 @@ from forcetorque.cli.gains import gains
 from forcetorque.cli.inspect import inspect
 from forcetorque.cli.output import report_error
 from forcetorque.cli.payload import payload
+from forcetorque.cli.plan import plan
 from forcetorque.cli.report import report
 from forcetorque.cli.schema import schema
 from forcetorque.cli.simulate import simulate
@@ -36,16 +38,6 @@ app = typer.Typer(
 )
 
 
-def main() -> None:
-    """Run the command line; a known error is one line on standard error and exit code 2."""
-    spell_missing_letters()
-    try:
-        app()
-    except (ForceTorqueError, OSError) as error:
-        report_error(error)
-        raise SystemExit(2) from None
-
-
 @app.callback(invoke_without_command=True)
 def _version(
     version: Annotated[bool, typer.Option("--version", help="Print the version and stop.", is_eager=True)] = False,
@@ -57,7 +49,7 @@ def _version(
         raise typer.Exit
 
 
-for _command in (
+_COMMANDS = (
     accept,
     calibrate,
     compare,
@@ -67,6 +59,7 @@ for _command in (
     gains,
     inspect,
     payload,
+    plan,
     report,
     schema,
     simulate,
@@ -74,5 +67,35 @@ for _command in (
     study,
     validate,
     view,
-):
+)
+
+for _command in _COMMANDS:
     app.command(_command.__name__)(_command)
+
+
+def _program(first: list[str]) -> typer.Typer:
+    """The program with the one command that is asked for: making the others and its own options ready takes longer."""
+    # options of the program itself stand before a command, so with a command first there are none
+    for command in _COMMANDS:
+        if [command.__name__] == first:
+            one = typer.Typer(
+                name=app.info.name, add_completion=False, pretty_exceptions_enable=False, rich_markup_mode=None
+            )
+            one.callback(add_help_option=False)(_no_options)
+            one.command(command.__name__)(command)
+            return one
+    return app
+
+
+def _no_options() -> None:
+    pass
+
+
+def main() -> None:
+    """Run the command line; a known error is one line on standard error and exit code 2."""
+    spell_missing_letters()
+    try:
+        _program(sys.argv[1:2])()
+    except (ForceTorqueError, OSError) as error:
+        report_error(error)
+        raise SystemExit(2) from None

@@ -14,6 +14,7 @@ from forcetorque.calibration import Calibration, RecordingMoments, read_calibrat
 from forcetorque.errors import ExperimentError, ForceTorqueError
 from forcetorque.experiment import Experiment, ExperimentSensor, load_experiment
 from forcetorque.experiment.inputs import stated_in
+from forcetorque.experiment.planned import load_planned
 from forcetorque.paths import real_path
 
 
@@ -50,6 +51,52 @@ def read_experiments(paths: Iterable[Path], log: logging.Logger) -> dict[Path, E
     files = list(paths)
     refuse_a_file_twice(files)
     return {path: read_experiment(path, log) for path in files}
+
+
+def planned_experiments(paths: Iterable[Path], log: logging.Logger) -> list[Experiment]:
+    """Read experiments that may lack what was recorded.
+
+    Args:
+        paths: Experiment files.
+        log: Where messages go.
+
+    Returns:
+        Experiments in the order of the files.
+
+    Raises:
+        ExperimentError: If a file comes twice.
+    """
+    files = list(paths)
+    refuse_a_file_twice(files)
+    contents = []
+    for path in files:
+        log.info("reading %s", path)
+        contents.append(load_planned(path))
+    return contents
+
+
+def planned_sensor(experiment: Experiment, wanted: str | None, calibration: Calibration | None) -> str:
+    """Find the one sensor that is meant.
+
+    Args:
+        experiment: The experiment.
+        wanted: Its name, if it was given.
+        calibration: A calibration of it, if there is one.
+
+    Returns:
+        Its name in the robot.
+
+    Raises:
+        ExperimentError: If there are several and nobody says which, or the calibration is of another one.
+    """
+    name = wanted or (None if calibration is None else calibration.sensor.name)
+    if name is None and len(experiment.sensors) > 1:
+        known = ", ".join(sensor.name for sensor in experiment.sensors)
+        raise ExperimentError(f"expected --sensor, as the experiment has several: {known}")
+    sensor = experiment.sensors[0] if name is None else experiment.sensor(name)
+    if calibration is not None:
+        refuse_left_out(experiment, [sensor], {"--calibration": calibration})
+    return sensor.name
 
 
 def campaign_of(experiments: Mapping[Path, Experiment], sensor: str) -> Campaign:

@@ -48,8 +48,9 @@ def sphere(
     )
     if figure is not None:
         from forcetorque.report.figures import sphere_figure
+        from forcetorque.report.figures.canvas import png_bytes
 
-        write_bytes_atomically(figure, sphere_figure(result.analyses))
+        write_bytes_atomically(figure, png_bytes(sphere_figure(result.analyses)))
         result = result.model_copy(update={"figure": str(figure)})
     show(result, output_format)
     stop_at_failures(result.failures)

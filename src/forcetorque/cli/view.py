@@ -110,16 +110,16 @@ def _serve(path: Path, built: BuiltScene, port: int, open_browser: bool, output_
     log = start_logging()
     page = viewer.page_of(built, data_url=DATA_URL, annotations_url=ANNOTATIONS_URL)
     session = viewer.Session(path, built, log.info)
-    with viewer.ViewerServer(page, built.block, session.save, port=port) as server:
-        show(viewer.View.of(built).model_copy(update={"url": server.url}), output_format)
-        sys.stdout.flush()
-        if open_browser and not _opened(server.url):
-            log.warning("no browser could be opened; open the address yourself")
-        log.info("served until Ctrl-C")
-        try:
+    try:  # around all of it: who reads the address may interrupt before the command waits
+        with viewer.ViewerServer(page, built.block, session.save, port=port) as server:
+            show(viewer.View.of(built).model_copy(update={"url": server.url}), output_format)
+            sys.stdout.flush()
+            if open_browser and not _opened(server.url):
+                log.warning("no browser could be opened; open the address yourself")
+            log.info("served until Ctrl-C")
             server.wait()
-        except KeyboardInterrupt:
-            log.info("stopped")
+    except KeyboardInterrupt:
+        log.info("stopped")
 
 
 def _opened(url: str) -> bool:

@@ -23,7 +23,13 @@ from forcetorque.evaluation.gains import (
 from forcetorque.evaluation.joint_torques import TorqueErrors, TorqueMap, joints_of_sensor, torque_errors, torque_map
 from forcetorque.evaluation.model_findings import model_findings
 from forcetorque.evaluation.offset import KNOWN_BEFORE, Offset
-from forcetorque.evaluation.paired import PairedDifference, PairedMean, paired_difference
+from forcetorque.evaluation.paired import (
+    ErrorRatio,
+    Judgement,
+    PairedComparison,
+    PairedErrors,
+    compare_errors,
+)
 from forcetorque.evaluation.population import FeaturePosition, PopulationPosition, position_in_population
 from forcetorque.evaluation.push_error import LEVER_M, PUSH_N, PushError, push_error, pushes
 from forcetorque.evaluation.static_checks import MatrixChecks, OffsetChange, matrix_checks, offset_change
@@ -46,8 +52,10 @@ __all__ = [
     "Offset",
     "OffsetChange",
     "OtherSensors",
-    "PairedDifference",
-    "PairedMean",
+    "PairedComparison",
+    "PairedErrors",
+    "ErrorRatio",
+    "Judgement",
     "PUSH_N",
     "PooledErrors",
     "PopulationPosition",
@@ -67,7 +75,7 @@ __all__ = [
     "model_findings",
     "offset_change",
     "offset_removed",
-    "paired_difference",
+    "compare_errors",
     "position_in_population",
     "push_error",
     "pushes",

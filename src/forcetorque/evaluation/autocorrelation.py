@@ -12,7 +12,6 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from scipy import fft
 
 from forcetorque.arrays import FloatArray, IntArray, read_only, require_shape
 from forcetorque.errors import ShapeError
@@ -148,6 +147,8 @@ def _scaled(signal: FloatArray, known: np.ndarray[Any, np.dtype[np.bool_]]) -> F
 
 def _pooled_products(parts: list[FloatArray]) -> FloatArray:
     """Sums of products of samples of one part that 0, 1, 2 ... lags lie apart; as long as the longest part."""
+    from scipy import fft  # here because importing it takes longer than most commands
+
     sums = np.zeros(max(map(len, parts)))
     for part in parts:
         # zeros behind it, or the end would meet the start

@@ -13,7 +13,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.ndimage import binary_erosion, median_filter
 
 from forcetorque.arrays import BoolArray, FloatArray, IntArray
 from forcetorque.errors import ShapeError
@@ -109,6 +108,8 @@ def model_findings(
 def _residual(
     stream: str, stamp_ns: IntArray, measured: FloatArray, expected: FloatArray, in_use: BoolArray
 ) -> _Residual:
+    from scipy.ndimage import median_filter  # here because importing it takes longer than most commands
+
     values = measured - expected
     values = values - np.median(values[in_use], axis=0)
     rate_hz = 1e9 / float(np.median(np.diff(stamp_ns))) if len(stamp_ns) > 1 else 1.0
@@ -182,6 +183,8 @@ def _off_level(residual: _Residual, free: BoolArray) -> list[Finding]:
 
 def _steps(residual: _Residual, free: BoolArray) -> list[Finding]:
     """Differences between the levels of a second before and a second after, each off by a quarter second."""
+    from scipy.ndimage import binary_erosion, median_filter  # here because importing it takes longer than most commands
+
     width = residual.samples(_LEVEL_S)
     shift = width // 2 + residual.samples(_EDGE_S)
     found: list[Finding] = []

@@ -3,8 +3,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -44,13 +44,16 @@ class EstimatedSpan:
     """What the sensors measured."""
     estimates: Estimates
     """What was estimated."""
+    outside: Mapping[str, npt.NDArray[Any]] = field(default_factory=dict)
+    """By sensor that a calibration reads, whether its reading lies outside what was fitted; shape (n,) each; masked in
+    gaps."""
 
 
 def write_estimates(path: Path | str, spans: Sequence[EstimatedSpan], model: RobotModel) -> int:
     """Write estimates; on any error the file keeps what it held before.
 
     Columns are `interval`, `stamp_ns`, `time_s`, and then `contact.NAME.fx`, `torque.JOINT`,
-    `expected.SENSOR.fx`, `measured.SENSOR.fx`, `rank.PART`, `condition.PART` and `residual.PART.fx`.
+    `expected.SENSOR.fx`, `measured.SENSOR.fx`, `outside.SENSOR`, `rank.PART`, `condition.PART` and `residual.PART.fx`.
     Their units stand in the metadata of the Parquet fields. A cell is empty where an interval lacks the column, or a
     sample has a gap.
 
@@ -85,7 +88,9 @@ def _table(span: EstimatedSpan, model: RobotModel) -> Any:
     fields = [pa.field("interval", pa.string()), pa.field("stamp_ns", pa.int64(), metadata={"unit": "ns"})]
     fields.append(pa.field("time_s", pa.float64(), metadata={"unit": "s"}))
     for name, unit, values in _columns(span, model):
-        made = pa.array(np.ascontiguousarray(values), from_pandas=True)  # NaN is an empty cell
+        masked = values.mask if isinstance(values, np.ma.MaskedArray) else None
+        # NaN, and what is masked, is an empty cell
+        made = pa.array(np.ascontiguousarray(np.ma.getdata(values)), mask=masked, from_pandas=True)
         arrays.append(made)
         fields.append(pa.field(name, made.type, metadata={"unit": unit}))
     return pa.table(arrays, schema=pa.schema(fields))
@@ -99,6 +104,8 @@ def _columns(span: EstimatedSpan, model: RobotModel) -> Iterator[_Column]:
         yield f"torque.{joint}", unit, estimates.torques[:, k]
     yield from _wrenches("expected", layout.sensors, estimates.expected)
     yield from _wrenches("measured", span.measured.names, span.measured.values)
+    for sensor, outside in span.outside.items():
+        yield f"outside.{sensor}", "1", outside
     for k, part in enumerate(layout.parts):
         yield f"rank.{part}", "1", estimates.rank[:, k]
         yield f"condition.{part}", "1", estimates.condition[:, k]

@@ -12,8 +12,10 @@ from forcetorque.calibration import EstimationType, LinearVariable, OffsetStrate
 from forcetorque.calibration.generative import REPEATABILITY
 from forcetorque.errors import ExperimentError, known_names
 from forcetorque.estimation import Contact, Payload, Processing
+from forcetorque.experiment.load_case_schema import LoadCaseTable
+from forcetorque.experiment.plan_schema import PlanTable
 from forcetorque.experiment.recording_names import path_endings, recording_name
-from forcetorque.recording import Interval, Recording, ScalarSource, Use
+from forcetorque.recording import Interval, Recording, ScalarSource, Support, Use
 from forcetorque.robot import RobotModel
 
 
@@ -134,7 +136,7 @@ class ExperimentContact:
     """Labels of the intervals in which it may touch; None for all."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False, repr=False)
 class Experiment:
     """Everything that an experiment file points to."""
 
@@ -172,6 +174,18 @@ class Experiment:
     """What was done to the sensors, in the user's words; None if the file does not say."""
     trial: int | None = None
     """Which trial of its condition it is; None for the order of the files."""
+    load_cases: tuple[LoadCaseTable, ...] = ()
+    """What the sensors are to be used for, as the file states it."""
+    supports: tuple[Support, ...] = ()
+    """Supports at rest that the file states, used or not."""
+    plan: PlanTable | None = None
+    """What can be recorded next, as the file states it."""
+
+    def __repr__(self) -> str:
+        sensors = ", ".join(f"{sensor.name} ({sensor.serial})" for sensor in self.sensors)
+        intervals = ", ".join(f"{one.label!r} {one.use}" for one in self.recording.intervals)
+        what = f"{self.model.name}; sensors {sensors}; {intervals or 'no intervals'}"
+        return f"<Experiment {self.name!r}: {what}>"
 
     def sensor(self, name: str) -> ExperimentSensor:
         """Find a sensor of the experiment.

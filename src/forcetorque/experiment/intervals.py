@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from forcetorque.errors import ExperimentError, known_names
@@ -17,12 +17,12 @@ _FAR_S = 1e9
 
 
 def read_supports(
-    parsed: schema.ExperimentFile, file: Path, recording: Recording, model: RobotModel
+    entries: Sequence[schema.Support], file: Path, recording: Recording, model: RobotModel
 ) -> dict[str, Support | MovingSupport]:
     """Match every support frame to the robot and, where it moves, to the streams of an IMU.
 
     Args:
-        parsed: Content of the experiment file.
+        entries: Supports of the experiment file.
         file: The experiment file, for messages.
         recording: The streams.
         model: The robot.
@@ -34,7 +34,7 @@ def read_supports(
         ExperimentError: If a frame is not in the robot or listed twice.
     """
     supports: dict[str, Support | MovingSupport] = {}
-    for index, entry in enumerate(parsed.support):
+    for index, entry in enumerate(entries):
         where = f"{file}: support[{index}]"
         if entry.frame not in model.links:
             raise ExperimentError(

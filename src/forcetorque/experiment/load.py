@@ -15,11 +15,13 @@ from forcetorque.experiment.contacts import read_contacts
 from forcetorque.experiment.content import Experiment, FitOptions, Role
 from forcetorque.experiment.inputs import Inputs, stated_in
 from forcetorque.experiment.intervals import read_intervals, read_supports
+from forcetorque.experiment.load_cases import read_load_cases
 from forcetorque.experiment.parse import parse_experiment
+from forcetorque.experiment.plan_limits import read_plan
 from forcetorque.experiment.sensors import declare_sensors, read_sensors
 from forcetorque.experiment.streams import read_streams
 from forcetorque.experiment.wrist_load import estimate_load, given_inertia, load_model
-from forcetorque.recording import MovingSupport, SavitzkyGolay, Use
+from forcetorque.recording import MovingSupport, SavitzkyGolay, Support, Use
 from forcetorque.robot import read_urdf
 from forcetorque.spatial import Inertia
 
@@ -48,11 +50,11 @@ def _of_robot(parsed: schema.ExperimentFile, file: Path) -> Experiment:
         raise ExperimentError(f"{file}: expected [robot] or [load]")
     inputs = Inputs(file.parent)
     inputs.file(Path(file.name))
-    model = declare_sensors(parsed, file, read_urdf(inputs.file(parsed.robot.urdf)))
+    model = declare_sensors(parsed.sensor, file, read_urdf(inputs.file(parsed.robot.urdf)))
     before = inputs.names()
     streams = read_streams(parsed, file, model, inputs)
     logs = inputs.names() - before
-    supports = read_supports(parsed, file, streams, model)
+    supports = read_supports(parsed.support, file, streams, model)
     intervals = read_intervals(parsed, file, streams, supports, default=None)
     with stated_in(str(file)):
         recording = streams.with_intervals(intervals)
@@ -65,9 +67,9 @@ def _of_robot(parsed: schema.ExperimentFile, file: Path) -> Experiment:
         sensors=sensors,
         contacts=read_contacts(parsed, file, model, recording),
         length_scale=parsed.estimation.length_scale_m,
-        processing=_processing(parsed, gravity=parsed.robot.gravity),
+        processing=processing_of(parsed.processing, gravity=parsed.robot.gravity),
         regularisation=parsed.calibration.lambda_counts2,
-        fit_options=_fit_options(parsed.calibration),
+        fit_options=fit_options(parsed.calibration),
         sphere_intervals=_sphere_intervals(parsed, file),
         roles=_roles(parsed),
         payload=None,
@@ -75,6 +77,9 @@ def _of_robot(parsed: schema.ExperimentFile, file: Path) -> Experiment:
         log_sha256=frozenset(hashes[name] for name in logs),
         condition=parsed.trial.condition,
         trial=parsed.trial.number,
+        load_cases=read_load_cases(parsed.load_case, file, model),
+        supports=tuple(support for support in supports.values() if isinstance(support, Support)),
+        plan=read_plan(parsed.plan, file, model, supports.values()),
     )
 
 
@@ -94,7 +99,7 @@ def _of_wrist(parsed: schema.ExperimentFile, file: Path) -> Experiment:
     intervals = read_intervals(parsed, file, streams, {}, default=moving)
     (sensor,) = read_sensors(parsed, file, load_model(load, name, Inertia.zero()), streams, inputs)
     inertia, payload = given_inertia(load), None
-    processing = _processing(parsed, gravity=Processing().gravity)
+    processing = processing_of(parsed.processing, gravity=Processing().gravity)
     if inertia is None:
         with stated_in(f"{file}: load"):
             payload = estimate_load(load, sensor, streams, intervals, window=processing.derivative_window)
@@ -112,7 +117,7 @@ def _of_wrist(parsed: schema.ExperimentFile, file: Path) -> Experiment:
         length_scale=parsed.estimation.length_scale_m,
         processing=processing,
         regularisation=parsed.calibration.lambda_counts2,
-        fit_options=_fit_options(parsed.calibration),
+        fit_options=fit_options(parsed.calibration),
         sphere_intervals=_sphere_intervals(parsed, file),
         roles=_roles(parsed),
         payload=payload,
@@ -120,11 +125,21 @@ def _of_wrist(parsed: schema.ExperimentFile, file: Path) -> Experiment:
         log_sha256=frozenset(hashes[name] for name in logs),
         condition=parsed.trial.condition,
         trial=parsed.trial.number,
+        load_cases=read_load_cases(parsed.load_case, file, loaded),
     )
 
 
-def _processing(parsed: schema.ExperimentFile, *, gravity: float) -> Processing:
-    derivatives, smoothing = parsed.processing.derivatives, parsed.processing.smoothing
+def processing_of(table: schema.ProcessingTable, *, gravity: float) -> Processing:
+    """Settle how samples are processed.
+
+    Args:
+        table: What the file says.
+        gravity: Magnitude of gravity; m/s2.
+
+    Returns:
+        Filters and gravity.
+    """
+    derivatives, smoothing = table.derivatives, table.smoothing
     default = Processing()
     return Processing(
         derivative_window=default.derivative_window
@@ -136,7 +151,15 @@ def _processing(parsed: schema.ExperimentFile, *, gravity: float) -> Processing:
     )
 
 
-def _fit_options(table: schema.CalibrationTable) -> FitOptions:
+def fit_options(table: schema.CalibrationTable) -> FitOptions:
+    """Settle the estimator.
+
+    Args:
+        table: What the file says.
+
+    Returns:
+        The estimator, as far as the file settles it.
+    """
     if table.type in ESTIMATION_TYPES:
         kind = ESTIMATION_TYPES[table.type]
         return FitOptions(

@@ -23,7 +23,9 @@ from forcetorque.calibration.generative import REPEATABILITY
 from forcetorque.constants import STANDARD_GRAVITY
 from forcetorque.errors import known_names
 from forcetorque.estimation import ContactType
-from forcetorque.experiment.log_schema import Log
+from forcetorque.exchange.formats import AnyLog
+from forcetorque.experiment.load_case_schema import LoadCaseTable
+from forcetorque.experiment.plan_schema import PlanTable
 from forcetorque.recording import Use
 from forcetorque.robot import SensorFrame
 from forcetorque.spatial import MeasureDirection
@@ -325,7 +327,7 @@ class ExperimentFile(Table):
     """The robot model; a wrist sensor has `load` instead."""
     load: Load | None = None
     """What hangs on a wrist sensor, in place of a robot."""
-    recording: Log
+    recording: AnyLog
     """Where the recording is."""
     sensor: Annotated[tuple[Sensor, ...], Field(min_length=1)]
     """Sensors."""
@@ -343,6 +345,10 @@ class ExperimentFile(Table):
     """How the fit is regularised."""
     trial: Trial = Trial()
     """Condition and number, for `forcetorque compare`."""
+    load_case: tuple[LoadCaseTable, ...] = ()
+    """What the sensors are to be used for."""
+    plan: PlanTable | None = None
+    """What can be recorded next, for `forcetorque plan`."""
 
     @model_validator(mode="after")
     def _robot_or_load(self) -> ExperimentFile:

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -18,18 +19,18 @@ from forcetorque.recording import Recording, ScalarSource
 from forcetorque.robot import RobotModel, SensorFrame
 
 
-def declare_sensors(parsed: schema.ExperimentFile, file: Path, model: RobotModel) -> RobotModel:
+def declare_sensors(sensors: Sequence[schema.Sensor], file: Path, model: RobotModel) -> RobotModel:
     """Check that the robot has the sensors with a tag, and declare those without.
 
     Args:
-        parsed: Content of the experiment file.
+        sensors: Sensors of the experiment file.
         file: The experiment file, for messages.
         model: The robot.
 
     Returns:
         The robot with all sensors.
     """
-    for index, entry in enumerate(parsed.sensor):
+    for index, entry in enumerate(sensors):
         with stated_in(f"{file}: sensor[{index}]"):
             if entry.joint is None or entry.measure_direction is None:
                 model.sensor(entry.name)
@@ -103,7 +104,7 @@ def _sensor(
         serial=entry.serial,
         stream=entry.stream,
         quantity=present[0],
-        prior=_prior(where, entry, inputs),
+        prior=read_prior(where, entry, inputs),
         prior_source=None if entry.prior is None else Path(entry.prior).as_posix(),
         limit_counts=entry.limit_counts,
         full_scale=None if entry.full_scale is None else np.array(entry.full_scale),
@@ -138,7 +139,20 @@ def _variable(where: str, variable: schema.Variable, entry: schema.Sensor, recor
     return SensorVariable(linear=linear, source=source)
 
 
-def _prior(where: str, entry: schema.Sensor, inputs: Inputs) -> FloatArray | None:
+def read_prior(where: str, entry: schema.Sensor, inputs: Inputs) -> FloatArray | None:
+    """Read the prior matrix of a sensor.
+
+    Args:
+        where: File and table, for messages.
+        entry: The sensor.
+        inputs: Resolves and remembers the files.
+
+    Returns:
+        The matrix; shape (6, c); N/count, N m/count; None where the file states none.
+
+    Raises:
+        ExperimentError: If it is that of another sensor.
+    """
     if entry.prior is None:
         return None
     if entry.prior == "identity":

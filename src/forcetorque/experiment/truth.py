@@ -20,7 +20,7 @@ TRUTH_SCHEMA: Final = "forcetorque/truth/1"
 
 
 class _Sensor(BaseModel):
-    model_config = ConfigDict(arbitrary_types_allowed=True)
+    model_config = ConfigDict(defer_build=True, arbitrary_types_allowed=True)
 
     serial: str
     matrix: Annotated[FloatArray, ArrayField((6, None))]

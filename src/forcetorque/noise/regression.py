@@ -12,7 +12,6 @@ from dataclasses import dataclass
 from itertools import product
 
 import numpy as np
-from scipy.special import stdtrit
 
 from forcetorque.arrays import FloatArray, read_only, require_shape
 from forcetorque.noise.slow import SlowNoise
@@ -83,6 +82,8 @@ def half_width(standard_error: FloatArray, degrees_of_freedom: FloatArray) -> Fl
     Returns:
         Half-widths; infinite where there is no degree of freedom.
     """
+    from scipy.special import stdtrit  # here because importing it takes longer than most commands
+
     known = degrees_of_freedom > 0.0
     quantile = stdtrit(np.where(known, degrees_of_freedom, 1.0), 0.5 + 0.5 * CONFIDENCE)
     half: FloatArray = np.where(known, quantile * np.where(known, standard_error, 0.0), np.inf)

@@ -12,7 +12,6 @@ from dataclasses import dataclass
 from typing import Any, Self
 
 import numpy as np
-from scipy.linalg.lapack import dpttrf, dpttrs
 
 from forcetorque.arrays import FloatArray, IntArray, read_only, require_shape
 from forcetorque.errors import FitError
@@ -78,6 +77,8 @@ class Timeline:
         Raises:
             FitError: If instants are too close to each other.
         """
+        from scipy.linalg.lapack import dpttrf, dpttrs  # here because importing it takes longer than most commands
+
         weighed = columns * self.share[:, None]
         white, log_white = columns.T @ weighed, -float(np.log(self.share).sum())
         if noise.is_white or not len(self):

@@ -11,6 +11,7 @@ import numpy as np
 from forcetorque.arrays import FloatArray, IntArray
 from forcetorque.errors import RecordingError
 from forcetorque.recording.alignment import gap_limit_ns, seconds_since, usable_samples
+from forcetorque.recording.window_polynomial import polynomials_through_windows
 
 _HIT = 1e-6
 """A sample this close to an instant of the grid, in steps, is at it: places are rounded."""
@@ -156,11 +157,9 @@ def smooth(
 def _smooth_on_grid(
     grid: FloatArray, places: FloatArray, values: FloatArray, filtering: tuple[int, int, int], step: float
 ) -> FloatArray:
-    from scipy.signal import savgol_filter  # here because importing it takes longer than most filters
-
     length, order, derivative = filtering
     even = np.column_stack([np.interp(grid, places, column) for column in values.T])
-    filtered = savgol_filter(even, length, order, deriv=derivative, delta=step, axis=0)
+    filtered = polynomials_through_windows(even, length, order, derivative=derivative, step=step)
     # a part of a stretch may begin and end between instants of the grid
     before, after = np.minimum(places - grid[0], 0.0), np.maximum(places - grid[-1], 0.0)
     inner = np.column_stack([np.interp(places, grid, column) for column in filtered.T])

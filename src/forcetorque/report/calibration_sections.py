@@ -12,7 +12,7 @@ from forcetorque.analysis import Assessment, learnt_words
 from forcetorque.analysis.calibration_tables import session_table
 from forcetorque.calibration import Calibration, Posterior
 from forcetorque.report import figures, tables
-from forcetorque.report.document import Block, Figure, Text
+from forcetorque.report.document import Block, Figure, Picture, Text
 from forcetorque.result import short_names
 
 
@@ -30,7 +30,7 @@ def learnt_blocks(sensor: Assessment) -> Iterator[Block]:
         yield Text(text=f"{names[file]}: {learnt_words(rows)}.")
     if sensor.learnt:
         yield Figure(
-            png=figures.learnt_figure({names[file]: rows for file, rows in sensor.learnt.items()}),
+            picture=Picture(lambda: figures.learnt_figure({names[file]: rows for file, rows in sensor.learnt.items()})),
             caption="What the recordings taught: by how much the uncertainty of a load along each direction became "
             "narrower, and the error that it makes, one standard deviation, before and after. Before is the prior, "
             "after holds what the sensor does not repeat too.",
@@ -74,7 +74,7 @@ def lambda_blocks(sensor: Assessment) -> Iterator[Block]:
             ratios[name] = np.array(selection.worst_ratio_to_prior)
     if curves:
         yield Figure(
-            png=figures.held_out_figure(curves, worst_ratios=ratios),
+            picture=Picture(lambda: figures.held_out_figure(curves, worst_ratios=ratios)),
             caption="Error on held-out blocks over lambda; the chosen one is marked.",
             description="Curve of the held-out error over lambda for every calibration.",
         )
@@ -98,12 +98,14 @@ def excitation_blocks(sensor: Assessment) -> Iterator[Block]:
     chosen = _of_thesis(sensor)
     if chosen:
         yield Figure(
-            png=figures.excitation_figure(
-                list(chosen),
-                [one.validity.variance_counts2 for one in chosen.values()],
-                [one.validity.explained for one in chosen.values()],
-                [one.validity.excited for one in chosen.values()],
-                [one.validity.directions for one in chosen.values()],
+            picture=Picture(
+                lambda: figures.excitation_figure(
+                    list(chosen),
+                    [one.validity.variance_counts2 for one in chosen.values()],
+                    [one.validity.explained for one in chosen.values()],
+                    [one.validity.excited for one in chosen.values()],
+                    [one.validity.directions for one in chosen.values()],
+                )
             ),
             caption="How far the loads moved each direction of the raw readings while fitting, and how much of that "
             "motion they explain.",

@@ -5,26 +5,39 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import Any, Literal
+from typing import Annotated, Any, Literal
 
 from pydantic import Field
 
-from forcetorque.analysis import Demands, ExperimentAssessment, assess_experiment
+from forcetorque.analysis import Demands, ExperimentAssessment, SensorRun, UseVerdict, assess_experiment
+from forcetorque.analysis.use_verdict import Tone
 from forcetorque.atomic import refuse_unwritable, write_bytes_atomically
 from forcetorque.calibration import Calibration
 from forcetorque.errors import ForceTorqueError
 from forcetorque.experiment import Experiment
 from forcetorque.experiment.inputs import stated_in
+from forcetorque.report.decision_page import decision_page
 from forcetorque.report.document import Document, Section, html_bytes, pdf_bytes
 from forcetorque.report.figures.canvas import new_figure
+from forcetorque.report.next_steps import NextSteps, next_steps
 from forcetorque.report.sections import report_document
-from forcetorque.result import Result, Table, table_of
+from forcetorque.report.uses import Undecided, decide_uses, sensor_key, sensor_keys
+from forcetorque.result import Result, Row, Shown, Table, short_names, table_of
 
 _WRITERS: dict[str, Callable[[Document], bytes]] = {".html": html_bytes, ".pdf": pdf_bytes}
 
 
+class _Line(Row):
+    """A decision in one line of a table."""
+
+    sensor: str
+    serial: str
+    tone: Annotated[Tone, Shown("")]
+    text: Annotated[str, Shown("may it be used?")]
+
+
 class Report(Result):
-    """Everything about the sensors of experiments, verdict first."""
+    """Everything about the sensors of experiments, what to do first."""
 
     schema_name: Literal["forcetorque/report/1"] = Field(default="forcetorque/report/1", alias="schema")
     """Form of the result."""
@@ -34,6 +47,12 @@ class Report(Result):
     """When it was made, ISO 8601 with time zone."""
     code_version: str
     """Version of forcetorque."""
+    uses: tuple[UseVerdict, ...]
+    """Whether every calibration may be used, by load case; pooled over the recordings that it has not seen."""
+    undecided: tuple[Undecided, ...]
+    """Calibrations on which there is no such verdict, and sensors without a calibration."""
+    next_steps: tuple[NextSteps, ...]
+    """What to do next about every sensor."""
     experiments: tuple[ExperimentAssessment, ...]
     """One per experiment file."""
     results: dict[str, dict[str, Any]]
@@ -42,26 +61,60 @@ class Report(Result):
     """Sections of the document with a viewer."""
 
     def blocks(self) -> Iterator[Table | str]:
-        """Give the verdict on every sensor.
+        """Give the decision on every sensor, then what its recordings say of it.
 
         Yields:
-            A table per sensor.
+            For every sensor sentences and what to do next, then a table per sensor and experiment.
         """
+        for steps in self.next_steps:
+            name = f"{steps.sensor} ({steps.serial})"
+            yield table_of(
+                [row for row in self._lines() if (row.sensor, row.serial) == (steps.sensor, steps.serial)], name
+            )
+            if steps.steps:
+                rows = tuple((str(k), step) for k, step in enumerate(steps.steps, start=1))
+                yield Table(caption=f"{name}: what to do next", headings=("", "step"), rows=rows)
         for experiment in self.experiments:
             for sensor in experiment.sensors:
                 yield table_of(sensor.verdict, f"{experiment.experiment}: {sensor.sensor} ({sensor.serial})")
 
     def records(self) -> list[dict[str, object]]:
-        """Give the sentences of the verdicts as lines.
+        """Give the decisions, then the other sentences, as lines.
 
         Returns:
-            A line per sentence.
+            A line per sentence; without an experiment where all recordings of a sensor are judged together.
         """
-        return [
+        decisions: list[dict[str, object]] = [
+            {"experiment": None, "sensor": row.sensor, "serial": row.serial, "tone": row.tone, "text": row.text}
+            for row in self._lines()
+        ]
+        return decisions + [
             {"experiment": experiment.experiment, "sensor": sensor.sensor, "serial": sensor.serial, **line.flat()}
             for experiment in self.experiments
             for sensor in experiment.sensors
             for line in sensor.verdict
+        ]
+
+    def _lines(self) -> list[_Line]:
+        unjudged = [row.candidate for row in self.undecided if row.candidate is not None]
+        names = short_names([*(row.candidate for row in self.uses), *unjudged])
+        decided = [
+            _Line(
+                sensor=row.sensor,
+                serial=row.serial,
+                tone=row.tone,
+                text=f"{names[row.candidate]}: {row.sentence}",
+            )
+            for row in self.uses
+        ]
+        return decided + [
+            _Line(
+                sensor=row.sensor,
+                serial=row.serial,
+                tone="unknown",
+                text=row.reason if row.candidate is None else f"{names[row.candidate]}: {row.reason}",
+            )
+            for row in self.undecided
         ]
 
     @property
@@ -69,11 +122,31 @@ class Report(Result):
         """The document, drawn anew."""
         return report_document(
             self.experiments,
+            [self._page(steps) for steps in self.next_steps],
             title=self.title,
             created=self.created,
             code_version=self.code_version,
             results=self.results,
             viewers=self.viewers,
+        )
+
+    def _page(self, steps: NextSteps) -> Section:
+        def own(row: UseVerdict | Undecided) -> bool:
+            return (row.sensor, row.serial) == (steps.sensor, steps.serial)
+
+        sensors = (sensor for experiment in self.experiments for sensor in experiment.sensors)
+        calibrations = {
+            file: one
+            for sensor in sensors
+            if (sensor.sensor, sensor.serial) == (steps.sensor, steps.serial)
+            for file, one in sensor.calibrations.items()
+        }
+        return decision_page(
+            steps,
+            [*filter(own, self.uses)],
+            [*filter(own, self.undecided)],
+            calibrations,
+            explained=steps is self.next_steps[0],
         )
 
     def save(self, *files: Path | str) -> None:
@@ -141,19 +214,50 @@ def report(
         The report, to be looked at or saved.
     """
     assessments, viewers = [], []
+    demanded = demands or Demands()
+    runs = [_judged_runs(experiment, groups) for (_, experiment), groups in zip(experiments, calibrations, strict=True)]
     for place, ((file, experiment), groups) in enumerate(zip(experiments, calibrations, strict=True)):
         with stated_in(file):
             assessments.append(
-                assess_experiment(experiment, groups, file=file, demands=demands or Demands(), progress=progress)
+                assess_experiment(experiment, groups, file=file, demands=demanded, runs=runs[place], progress=progress)
             )
             if viewer is not None:
                 viewers.append(viewer(place))
+    if progress is not None:
+        progress("deciding")
+    uses, undecided = decide_uses(runs, calibrations, demanded)
     names = ", ".join(dict.fromkeys(assessment.experiment for assessment in assessments))
     return Report(
         title=title or f"Force-torque sensors: {names}",
         created=created,
         code_version=code_version,
+        uses=uses,
+        undecided=undecided,
+        next_steps=tuple(
+            next_steps(
+                key,
+                [row for row in uses if (row.sensor, row.serial) == key],
+                [row for row in undecided if (row.sensor, row.serial) == key],
+                {file: one for groups in calibrations for file, one in groups.get(key[0], {}).items()},
+                {
+                    file: run
+                    for (file, _), own in zip(experiments, runs, strict=True)
+                    for run in own.values()
+                    if sensor_key(run) == key
+                },
+            )
+            for key in sensor_keys(uses, undecided)
+        ),
         experiments=tuple(assessments),
         results=dict(results or {}),
         viewers=tuple(viewers),
     )
+
+
+def _judged_runs(experiment: Experiment, groups: Mapping[str, Mapping[str, Calibration]]) -> dict[str, SensorRun]:
+    """The sensors that have any calibration, or all if none has."""
+    return {
+        sensor.name: SensorRun(experiment, sensor)
+        for sensor in experiment.sensors
+        if not groups or sensor.name in groups
+    }

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -14,7 +15,11 @@ from forcetorque.atomic import write_bytes_atomically
 from forcetorque.calibration import WrenchModel
 from forcetorque.evaluation import KNOWN_BEFORE, Offset
 from forcetorque.report import figures
+from forcetorque.report.figures.canvas import png_bytes
 from forcetorque.study import WORKBENCH, Candidate, ValidationSet, tables, with_offset
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 _PAUSE_S = 2.0
 """Pause that is drawn between validation intervals; s."""
@@ -35,7 +40,7 @@ def write_figures(sensor: SensorStudy, folder: Path) -> list[str]:
     data_set = study.candidates[chosen].data_set
     names, differences = tables.matrix_differences(study, data_set)
     unit = "1e-4 N/count"  # that of `tables.DIFFERENCE_UNIT`
-    draw: dict[str, Callable[[], bytes]] = {
+    draw: dict[str, Callable[[], Figure]] = {
         "figure_5_2_wrench_space.png": lambda: figures.space_figure(_clouds(sensor)),
         "figure_5_3_matrix_differences.png": lambda: figures.difference_figure(names, differences, unit=unit),
         "figure_5_6_contact_forces.png": lambda: _contact_figure(sensor, slice(0, 3), "N"),
@@ -52,7 +57,7 @@ def write_figures(sensor: SensorStudy, folder: Path) -> list[str]:
             name = f"figure_5_5_mean_forces_offset_{offset.replace('-', '_')}.png"
             draw[name] = lambda offset=offset: _lambda_force_figure(sensor, offset)  # type: ignore[misc]
     for name, figure in draw.items():
-        write_bytes_atomically(folder / name, figure())
+        write_bytes_atomically(folder / name, png_bytes(figure()))
     return sorted(draw)
 
 
@@ -63,7 +68,7 @@ def _clouds(sensor: SensorStudy) -> dict[str, FloatArray]:
     return {kind: np.concatenate(parts) for kind, parts in kinds.items()}
 
 
-def _lambda_force_figure(sensor: SensorStudy, offset: Offset) -> bytes:
+def _lambda_force_figure(sensor: SensorStudy, offset: Offset) -> Figure:
     study = sensor.study
     pooled, best = study.judgements[offset].over(), study.choices[offset].by_magnitude
     curves: dict[str, dict[str, list[float]]] = {}
@@ -94,7 +99,7 @@ def _judged_models(sensor: SensorStudy, session: str) -> dict[str, tuple[WrenchM
     return models
 
 
-def _contact_figure(sensor: SensorStudy, axes: slice, unit: str) -> bytes:
+def _contact_figure(sensor: SensorStudy, axes: slice, unit: str) -> Figure:
     sets = [interval.validation_set for interval in sensor.data.validation]
     errors: dict[str, list[FloatArray]] = {}
     for one in sets:
@@ -115,7 +120,7 @@ def _joined_time(sets: Sequence[ValidationSet]) -> tuple[FloatArray, list[tuple[
     return np.concatenate(parts), spans
 
 
-def _comparison_figure(sensor: SensorStudy) -> bytes:
+def _comparison_figure(sensor: SensorStudy) -> Figure:
     sets = [interval.validation_set for interval in sensor.data.validation]
     liveliest = max(sets, key=lambda one: float(one.reference[:, :3].var(axis=0).sum()))
     candidates = {

@@ -2,6 +2,7 @@
 """The one form of every answer: rows whose fields say unit and digits, and all that is shown made from them."""
 
 from forcetorque.result.cells import finite_or_none, interval, number, with_error
+from forcetorque.result.html import html_table
 from forcetorque.result.names import short_names
 from forcetorque.result.registry import result_classes
 from forcetorque.result.result import Result
@@ -9,8 +10,12 @@ from forcetorque.result.row import AxisValues, FloatOrNull, Row, Values, WrenchV
 from forcetorque.result.shown import COMPONENTS, Shown, ShownWrench
 from forcetorque.result.table import Table, table_of, with_first_column
 from forcetorque.result.text import table_text, wrapped
+from forcetorque.result.vague import VAGUE_WORDS, without_vague
 
 __all__ = [
+    "html_table",
+    "VAGUE_WORDS",
+    "without_vague",
     "COMPONENTS",
     "AxisValues",
     "FloatOrNull",

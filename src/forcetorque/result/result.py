@@ -11,6 +11,7 @@ from typing import Any, ClassVar, Self
 from pydantic import Field
 
 from forcetorque.errors import ShapeError
+from forcetorque.result.html import html_table
 from forcetorque.result.row import Row
 from forcetorque.result.table import Table
 from forcetorque.result.text import table_text, wrapped
@@ -86,7 +87,7 @@ class Result(Row):
 
     def _repr_html_(self) -> str:
         return "".join(
-            f"<p>{html.escape(block)}</p>" if isinstance(block, str) else _html_table(block) for block in self.blocks()
+            f"<p>{html.escape(block)}</p>" if isinstance(block, str) else html_table(block) for block in self.blocks()
         )
 
     @classmethod
@@ -128,16 +129,3 @@ class Result(Row):
 
 def _are_words(entries: Sequence[Any]) -> bool:
     return all(isinstance(entry, str) for entry in entries)
-
-
-def _html_table(table: Table) -> str:
-    def line(cells: Sequence[str], tag: str) -> str:
-        aligned = ("right" if numeric else "left" for numeric in table.numeric)
-        return "".join(
-            f'<{tag} style="text-align:{side}">{html.escape(cell)}</{tag}>'
-            for cell, side in zip(cells, aligned, strict=True)
-        )
-
-    rows = "".join(f"<tr>{line(row, 'td')}</tr>" for row in table.rows)
-    caption = f"<caption>{html.escape(table.caption)}</caption>" if table.caption else ""
-    return f"<table>{caption}<thead><tr>{line(table.headings, 'th')}</tr></thead><tbody>{rows}</tbody></table>"

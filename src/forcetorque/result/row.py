@@ -31,7 +31,9 @@ _FEW = 8
 class Row(BaseModel):
     """One line of an answer. Names of fields are its keys in JSON, with the unit where it is not plain."""
 
-    model_config = ConfigDict(extra="forbid", frozen=True, arbitrary_types_allowed=True, populate_by_name=True)
+    model_config = ConfigDict(
+        defer_build=True, extra="forbid", frozen=True, arbitrary_types_allowed=True, populate_by_name=True
+    )
 
     def __repr_args__(self) -> Iterator[tuple[str, Any]]:
         """Say what it holds in a few words: lists are counted."""

@@ -1,12 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Rotation matrices: SciPy's where it has them, and the few it lacks."""
+"""Rotation matrices, of few lines each: importing SciPy's takes longer than most commands."""
 
 from __future__ import annotations
 
 from typing import Any
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
 from forcetorque.arrays import FloatArray, require_last_axis
 
@@ -28,8 +27,13 @@ def rotation_from_rpy(rpy: Any) -> FloatArray:
     """
     angles = np.asarray(rpy, dtype=np.float64)
     require_last_axis(angles, name="rpy", length=3)
-    flat = Rotation.from_euler("xyz", angles.reshape(-1, 3)).as_matrix()
-    matrix: FloatArray = np.where(np.abs(flat) < _EXACT_ZERO, 0.0, flat).reshape(*angles.shape, 3)
+    (cr, cp, cy), (sr, sp, sy) = np.moveaxis(np.cos(angles), -1, 0), np.moveaxis(np.sin(angles), -1, 0)
+    matrix = np.empty((*angles.shape, 3))
+    # about x, then y, then z
+    matrix[..., 0, 0], matrix[..., 0, 1], matrix[..., 0, 2] = cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr
+    matrix[..., 1, 0], matrix[..., 1, 1], matrix[..., 1, 2] = sy * cp, sy * sp * sr + cy * cr, sy * sp * cr - cy * sr
+    matrix[..., 2, 0], matrix[..., 2, 1], matrix[..., 2, 2] = -sp, cp * sr, cp * cr
+    matrix[np.abs(matrix) < _EXACT_ZERO] = 0.0
     return matrix
 
 

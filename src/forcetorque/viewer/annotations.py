@@ -25,7 +25,7 @@ Label = Annotated[str, Field(max_length=200)]
 
 
 class _Sent(BaseModel):
-    model_config = ConfigDict(extra="forbid", frozen=True)
+    model_config = ConfigDict(defer_build=True, extra="forbid", frozen=True)
 
 
 class SavedSample(_Sent):

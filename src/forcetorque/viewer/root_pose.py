@@ -7,7 +7,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
 from forcetorque.arrays import FloatArray, IntArray
 from forcetorque.errors import ForceTorqueError
@@ -86,6 +85,8 @@ def upright(gravity_direction: FloatArray) -> FloatArray:
     Returns:
         `world_R_frame`; shape (..., 3, 3).
     """
+    from scipy.spatial.transform import Rotation  # here because importing it takes longer than most commands
+
     up = -gravity_direction / np.linalg.norm(gravity_direction, axis=-1, keepdims=True)
     # half-way quaternion (1 + up.z, up x z); upside down it is a half turn about x
     quat_xyzw = np.stack([up[..., 1], -up[..., 0], np.zeros_like(up[..., 0]), 1.0 + up[..., 2]], axis=-1)
@@ -132,6 +133,8 @@ def _standing(
     model: RobotModel, posture: Posture, frame: str, world_R_support: FloatArray, chosen: IntArray
 ) -> FloatArray:
     """Poses of the root link seen from a support at the origin; shape (m, 7)."""
+    from scipy.spatial.transform import Rotation  # here because importing it takes longer than most commands
+
     tree = build_tree(model, frame)
     joints = joints_between(tree, model.root_link)
     found = np.empty((len(chosen), 7))

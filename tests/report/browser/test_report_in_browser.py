@@ -35,19 +35,31 @@ def _open(visit: Visit, report: Path) -> Page:
     return page
 
 
+def _open_all(page: Page) -> None:
+    page.evaluate("document.querySelectorAll('details').forEach(one => { one.open = true })")
+
+
 def test_the_verdict_is_on_the_first_screen(visit: Visit, report: Path) -> None:
-    """Title, then verdict, both without scrolling; every picture is drawn and every link leads somewhere."""
+    """Title, then verdict, both without scrolling; every picture is drawn."""
     page = _open(visit, report)
     assert page.get_by_role("heading", level=1).is_visible()
     verdict = page.locator(".verdict").first.bounding_box()
     assert verdict is not None
     assert verdict["y"] + verdict["height"] < page.viewport_size["height"]  # type: ignore[index]
     widths = page.locator("img").evaluate_all("images => images.map(image => image.complete ? image.naturalWidth : 0)")
-    assert len(widths) == 5
+    assert len(widths) == 6
     assert min(widths) >= 1000
-    targets = page.locator("nav a").evaluate_all("links => links.map(a => document.querySelector(a.hash) !== null)")
-    assert len(targets) > 4
-    assert all(targets)
+
+
+def test_what_is_folded_opens_by_keyboard(visit: Visit, report: Path) -> None:
+    """The page to decide by shows its picture; a table of errors is seen once its heading was opened."""
+    page = _open(visit, report)
+    assert page.locator("img").first.is_visible()
+    table = page.get_by_text("mean error, by its own offset")
+    assert not table.is_visible()
+    page.locator("summary").first.focus()
+    page.keyboard.press("Enter")
+    assert table.is_visible()
 
 
 @pytest.mark.parametrize("size", [NARROW, {"width": 1400, "height": 900}], ids=["narrow", "wide"])
@@ -55,6 +67,7 @@ def test_nothing_sticks_out(visit: Visit, report: Path, size: dict[str, int]) ->
     """Wide tables scroll by themselves, the page does not."""
     page = _open(visit, report)
     page.set_viewport_size(size)  # type: ignore[arg-type]
+    _open_all(page)
     assert page.evaluate("document.documentElement.scrollWidth") <= size["width"]
     if size == NARROW:
         tables = page.locator(".scroll").evaluate_all("all => all.some(one => one.scrollWidth > one.clientWidth)")
@@ -78,6 +91,7 @@ def test_it_prints(visit: Visit, report: Path) -> None:
     text = _letters(" ".join(sheet.extract_text() for sheet in printed.pages))
     assert _letters(page.locator(".verdict span").nth(1).inner_text()) in text
     assert _letters("The HTML file has a viewer here") in text
+    assert _letters("mean error, by its own offset") in text, "what is folded on the screen"
     page.emulate_media(media="screen")
     assert not page.get_by_text("The HTML file has a viewer here").is_visible()
 
@@ -85,6 +99,7 @@ def test_it_prints(visit: Visit, report: Path) -> None:
 def test_the_viewer_works_inside(visit: Visit, report: Path) -> None:
     """It draws, jumps, and cannot reach the document around it."""
     page = _open(visit, report)
+    _open_all(page)
     page.locator("iframe").scroll_into_view_if_needed()
     frame = page.frame_locator("iframe")
     number = frame.get_by_label("Sample number")

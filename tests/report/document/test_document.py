@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import base64
 import io
 import re
 from datetime import UTC, datetime, timedelta
@@ -13,7 +14,8 @@ import pytest
 from fontTools import ttLib
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from PIL import Image, UnidentifiedImageError
+from matplotlib.figure import Figure as MplFigure
+from PIL import Image
 from pypdf import PdfReader
 
 from forcetorque.errors import FormatError, ShapeError
@@ -21,6 +23,7 @@ from forcetorque.report.document import (
     Document,
     Figure,
     List,
+    Picture,
     Section,
     Table,
     Text,
@@ -34,17 +37,21 @@ from forcetorque.report.document.letters import spelled
 from forcetorque.report.document.lines import lines_of
 from forcetorque.report.document.pdf import MISSING_LETTERS
 from forcetorque.report.document.small_png import small_png
-from forcetorque.report.figures.canvas import new_figure, png_bytes
+from forcetorque.report.figures.canvas import DOTS_PER_INCH, new_figure, png_bytes
 
 NASTY = '<script>alert("1")</script> & {{ 7 * 7 }} ±λ²'
 """Markup, a template and signs beyond Latin letters, as the name of a file may have."""
 
 
-def _picture() -> bytes:
+def _sine() -> MplFigure:
     figure = new_figure(2.0)
     panel = figure.subplots()
     panel.plot(np.sin(np.linspace(0.0, 20.0, 500)))
-    return png_bytes(figure)
+    return figure
+
+
+def _no_picture() -> MplFigure:
+    raise OSError("no picture")
 
 
 def _document(rows: int = 3) -> Document:
@@ -58,7 +65,7 @@ def _document(rows: int = 3) -> Document:
         Text(text=NASTY),
         List(points=("first point", "second point")),
         table,
-        Figure(png=_picture(), caption="a sine", description="a curve that goes up and down"),
+        Figure(picture=Picture(_sine), caption="a sine", description="a curve that goes up and down"),
     )
     return Document(
         title="A report",
@@ -162,12 +169,43 @@ def test_the_same_document_gives_the_same_bytes() -> None:
 
 def test_a_palette_keeps_the_picture() -> None:
     """A third of the bytes; no pixel moves by more than a shade, which a palette of two colours would do."""
-    png = _picture()
+    png = png_bytes(_sine())
     small = small_png(png)
     assert len(small) < 0.6 * len(png)
     before, after = (np.asarray(Image.open(io.BytesIO(data)).convert("RGB"), dtype=float) for data in (png, small))
     assert np.abs(before - after).max() < 24.0
     assert np.abs(before - after).mean() < 0.2
+
+
+def test_a_picture_is_drawn_once_and_not_before_a_document_is_written() -> None:
+    """HTML and PDF of one document share what was drawn."""
+    drawn: list[MplFigure] = []
+
+    def draw() -> MplFigure:
+        drawn.append(_sine())
+        return drawn[-1]
+
+    document = _of(Section(title="t", blocks=(Figure(picture=Picture(draw), caption="c", description="d"),)))
+    assert drawn == []
+    page, paper = html_bytes(document), pdf_bytes(document)
+    assert len(drawn) == 1
+    assert base64.b64encode(small_png(png_bytes(_sine()))) in page
+    assert len(PdfReader(io.BytesIO(paper)).pages[0].images) == 1
+
+
+def test_a_figure_that_its_data_do_not_make_is_said_and_costs_nothing_else() -> None:
+    """Its reason stands in its place, in both forms; the other figure is there."""
+
+    def refuse() -> MplFigure:
+        raise ShapeError("time_s: expected finite instants")
+
+    figures = tuple(Figure(picture=Picture(draw), caption="c", description="d") for draw in (refuse, _sine))
+    document = _of(Section(title="t", sections=(Section(title="s", blocks=figures),)))
+    page, paper = html_bytes(document), pdf_bytes(document)
+    for words in (" ".join(_read(page).text), _pdf_text(paper)):
+        assert "A figure could not be drawn: time_s: expected finite instants" in words
+    assert page.count(b"<img") == 1
+    assert len(PdfReader(io.BytesIO(paper)).pages[0].images) == 1
 
 
 def _of(*sections: Section, title: str = "a title", created: str = "2020-01-01T00:00:00+00:00") -> Document:
@@ -312,8 +350,8 @@ def test_no_file_of_a_font_stays_open(monkeypatch: pytest.MonkeyPatch) -> None:
 
     monkeypatch.setattr(ttLib.TTFont, "__init__", noting)
     pdf_bytes(_document())
-    broken = Figure(png=b"no picture", caption="", description="")
-    with pytest.raises(UnidentifiedImageError):
+    broken = Figure(picture=Picture(_no_picture), caption="", description="")
+    with pytest.raises(OSError, match="no picture"):
         pdf_bytes(_of(Section(title="t", blocks=(Text(text="x"), broken))))
     assert len(opened) == 4
     assert all(file.closed for file in opened)
@@ -347,9 +385,8 @@ def test_long_words_wrap_in_paragraphs() -> None:
 @pytest.mark.parametrize(("height", "caption"), [(4000, "short"), (4000, "many words " * 200), (10, "short")])
 def test_figures_fit_on_a_page(height: int, caption: str) -> None:
     """However tall, a picture stays below its heading, on the same page."""
-    png = io.BytesIO()
-    Image.new("RGB", (100, height), "white").save(png, format="png")
-    figure = Figure(png=png.getvalue(), caption=caption, description="d")
+    picture = Picture(lambda: MplFigure(figsize=(1.0, height / DOTS_PER_INCH)))
+    figure = Figure(picture=picture, caption=caption, description="d")
     filler = Text(text="a line\n" * 30)
     sections = (Section(title="before", blocks=(filler,)), Section(title="heading", blocks=(figure,)))
     pages = PdfReader(io.BytesIO(pdf_bytes(_of(Section(title="all", sections=sections))))).pages

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 
 from forcetorque.errors import ShapeError
 from forcetorque.report.figures import index_figure, sphere_figure
-from forcetorque.report.figures.canvas import look
+from forcetorque.report.figures.canvas import look, png_bytes
 from tests.report.drawing import legend_of, panels, recorded_figures, size_of, trial_groups, words
 
 
@@ -94,7 +94,7 @@ def test_two_hundred_sensors_have_a_line_each() -> None:
     few = trial_groups(np.random.default_rng(4), sensors=2, trials=1)
     many = [few[k % 2] for k in range(200)]
     with recorded_figures() as figures:
-        png = index_figure(many)
+        png = png_bytes(index_figure(many))
     width, height = size_of(png)
     assert width == 1200
     assert 3000 < height < 5000

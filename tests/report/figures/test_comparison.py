@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 
 from forcetorque.errors import ShapeError
 from forcetorque.report.figures import comparison_figure
-from forcetorque.report.figures.canvas import REFERENCE_COLOUR, look
+from forcetorque.report.figures.canvas import REFERENCE_COLOUR, look, png_bytes
 from tests.report.drawing import count_of, legend_of, panels, pixels
 
 COUNT = 500
@@ -89,7 +89,7 @@ def test_missing_values_break_lines_and_count_in_no_difference(drawn: list[Figur
 @pytest.mark.parametrize("count", [1, 2])
 def test_a_few_samples_are_drawn(count: int) -> None:
     """The shortest recordings make a figure too."""
-    assert comparison_figure(TIME[:count], REFERENCE[:count], {"a": REFERENCE[:count]})[:4] == b"\x89PNG"
+    assert png_bytes(comparison_figure(TIME[:count], REFERENCE[:count], {"a": REFERENCE[:count]}))[:4] == b"\x89PNG"
 
 
 def test_what_cannot_be_drawn_is_refused() -> None:

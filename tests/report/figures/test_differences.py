@@ -10,6 +10,7 @@ from matplotlib.figure import Figure
 
 from forcetorque.errors import ShapeError
 from forcetorque.report.figures import difference_figure
+from forcetorque.report.figures.canvas import png_bytes
 from tests.report.drawing import panels, size_of, words
 
 NAMES = ("Workbench", "SnTdTO", "SwTdTO", "SwTrTO")
@@ -106,7 +107,8 @@ def test_what_is_missing_is_a_dash(drawn: list[Figure]) -> None:
 @pytest.mark.parametrize("count", [1, 22, 55])
 def test_many_matrices_with_long_names_keep_apart(count: int, drawn: list[Figure]) -> None:
     """Numbers stay in their cells or are left out; names of rows do not touch."""
-    png = difference_figure([f"support leg, type {k}" for k in range(count)], np.ones((count, count)), unit=UNIT)
+    names = [f"support leg, type {k}" for k in range(count)]
+    png = png_bytes(difference_figure(names, np.ones((count, count)), unit=UNIT))
     assert size_of(png)[0] == 1200
     panel = panels(drawn[0])[0]
     room = panel.get_window_extent().width / count

@@ -15,7 +15,8 @@ from matplotlib.transforms import Bbox
 
 from forcetorque.errors import MissingExtraError
 from forcetorque.report import figures
-from tests.report.drawing import FIGURES, panels, recorded_figures, shown_texts, size_of
+from forcetorque.report.figures.canvas import png_bytes
+from tests.report.drawing import FIGURES, panels, shown_texts, size_of
 
 every_figure = pytest.mark.parametrize("name", list(FIGURES))
 
@@ -31,10 +32,8 @@ def test_every_public_figure_is_tested_here() -> None:
 
 @cache
 def _drawn(name: str) -> tuple[bytes, Figure]:
-    with recorded_figures() as figures:
-        png = FIGURES[name](np.random.default_rng(1))
-    (figure,) = figures
-    return png, figure
+    figure = FIGURES[name](np.random.default_rng(1))
+    return png_bytes(figure), figure
 
 
 @every_figure
@@ -52,7 +51,7 @@ def test_a_whole_png_of_the_common_width(name: str) -> None:
 def test_the_same_data_give_the_same_bytes(name: str) -> None:
     """Nothing of the moment or of the run is in the file; other data give another file."""
     first, _ = _drawn(name)
-    again, other = (FIGURES[name](np.random.default_rng(seed)) for seed in (1, 2))
+    again, other = (png_bytes(FIGURES[name](np.random.default_rng(seed))) for seed in (1, 2))
     assert first == again
     assert first != other
 
@@ -104,15 +103,16 @@ def test_the_legend_is_beside_the_data(name: str) -> None:
         assert not any(Bbox.intersection(box, panel.get_window_extent()) for panel in panels(figure))
 
 
-def test_an_overlap_is_noticed(drawn: list[Figure]) -> None:
+def test_an_overlap_is_noticed() -> None:
     """Negative control: a title moved onto an axis' numbers, and one pushed over the edge."""
-    FIGURES["comparison"](np.random.default_rng(1))
-    panel = panels(drawn[0])[0]
+    figure = FIGURES["comparison"](np.random.default_rng(1))
+    figure.draw_without_rendering()
+    panel = panels(figure)[0]
     panel.text(0.0, 0.5, panel.get_ylabel(), transform=panel.yaxis.label.get_transform())
     moved = panel.annotate("moved", (0.5, 0.5), xycoords="figure fraction", fontsize=40.0)
-    assert any("moved" in pair for pair in _overlaps(drawn[0]))
+    assert any("moved" in pair for pair in _overlaps(figure))
     moved.set_position((0.99, 0.5))
-    assert _outside(drawn[0]) == ["moved"]
+    assert _outside(figure) == ["moved"]
 
 
 def test_figures_leave_the_program_as_it_is() -> None:
@@ -121,6 +121,7 @@ def test_figures_leave_the_program_as_it_is() -> None:
 import sys
 import numpy as np
 from forcetorque.report import figures
+from forcetorque.report.figures.canvas import png_bytes
 assert "matplotlib" not in sys.modules
 curves = {"a": np.ones(3)}
 figures.lambda_difference_figure(np.arange(3.0), curves, unit="N/count")

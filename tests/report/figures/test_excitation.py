@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from forcetorque.calibration.excitation import EXPLAINED_SHARE
 from forcetorque.errors import ShapeError
 from forcetorque.report.figures import excitation_figure
-from forcetorque.report.figures.canvas import look
+from forcetorque.report.figures.canvas import look, png_bytes
 from tests.report.drawing import excitation_of_sensors, legend_of, panels, words
 
 TURN = np.sqrt(0.5)
@@ -62,7 +62,7 @@ def test_directions_are_written_with_their_largest_part_positive(drawn: list[Fig
     np.testing.assert_allclose(parts.images[0].get_array()[0], [TURN, TURN, 0.0])
     assert [text.get_color() for text in parts.texts[3:6]] == ["black", "black", "white"]
     flipped = (*SENSOR[:4], [-SENSOR[4][0]])
-    assert excitation_figure(*flipped) == excitation_figure(*SENSOR)
+    assert png_bytes(excitation_figure(*flipped)) == png_bytes(excitation_figure(*SENSOR))
 
 
 def test_a_row_per_sensor_each_with_its_channels(drawn: list[Figure]) -> None:

@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 
 from forcetorque.errors import ShapeError
 from forcetorque.report.figures import force_space_figure
-from forcetorque.report.figures.canvas import look
+from forcetorque.report.figures.canvas import look, png_bytes
 from forcetorque.report.figures.thinning import DRAWN_POINTS
 from tests.report.drawing import legend_of, panels, words
 
@@ -38,10 +38,10 @@ def test_every_cloud_is_drawn_whatever_their_number(drawn: list[Figure]) -> None
 def test_axes_name_component_and_unit(quantity: str, labels: list[str], drawn: list[Figure]) -> None:
     """Forces if nothing is said; only the labels differ."""
     clouds = {"leg": [("prior", _cloud(20))]}
-    png = force_space_figure(clouds, quantity=quantity)  # type: ignore[arg-type]
+    png = png_bytes(force_space_figure(clouds, quantity=quantity))  # type: ignore[arg-type]
     assert [panel.get_xlabel() for panel in panels(drawn[0])] == [labels[0], labels[1], labels[0]]
     assert [panel.get_ylabel() for panel in panels(drawn[0])] == [labels[1], labels[2], labels[2]]
-    assert (png == force_space_figure(clouds)) == (quantity == "force")
+    assert (png == png_bytes(force_space_figure(clouds))) == (quantity == "force")
 
 
 def test_a_name_looks_alike_in_all_rows(drawn: list[Figure]) -> None:
@@ -70,8 +70,8 @@ def test_a_missing_component_leaves_out_the_sample() -> None:
     cloud = _cloud(50)
     cloud[7, 2] = np.inf
     kept = cloud.copy()
-    without = force_space_figure({"leg": [("prior", np.delete(cloud, 7, axis=0))]})
-    assert force_space_figure({"leg": [("prior", cloud)]}) == without
+    without = png_bytes(force_space_figure({"leg": [("prior", np.delete(cloud, 7, axis=0))]}))
+    assert png_bytes(force_space_figure({"leg": [("prior", cloud)]})) == without
     np.testing.assert_array_equal(cloud, kept)
 
 

@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 
 from forcetorque.errors import ShapeError
 from forcetorque.report.figures import lambda_difference_figure
-from forcetorque.report.figures.canvas import look
+from forcetorque.report.figures.canvas import look, png_bytes
 from tests.report.drawing import LAMBDAS, TYPES, count_of, legend_of, panels, pixels, words
 
 UNIT = "1e-4 N/count"
@@ -54,8 +54,8 @@ def test_any_lambdas_make_an_axis(lambdas: list[float], drawn: list[Figure]) -> 
 def test_the_order_of_the_lambdas_does_not_matter() -> None:
     """The curve runs from small to large lambda."""
     order = np.random.default_rng(1).permutation(len(LAMBDAS))
-    mixed = lambda_difference_figure(LAMBDAS[order], {"a": FALLING[order]}, unit=UNIT)
-    assert mixed == lambda_difference_figure(LAMBDAS, {"a": FALLING}, unit=UNIT)
+    mixed = png_bytes(lambda_difference_figure(LAMBDAS[order], {"a": FALLING[order]}, unit=UNIT))
+    assert mixed == png_bytes(lambda_difference_figure(LAMBDAS, {"a": FALLING}, unit=UNIT))
 
 
 def test_curves_that_coincide_are_both_seen() -> None:

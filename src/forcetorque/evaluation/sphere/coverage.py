@@ -4,11 +4,14 @@
 from __future__ import annotations
 
 from functools import cache
+from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy.spatial import cKDTree
 
 from forcetorque.arrays import FloatArray
+
+if TYPE_CHECKING:
+    from scipy.spatial import cKDTree
 
 CELLS = 200
 """Parts, all alike, into which the directions are divided: some 16 degrees across."""
@@ -37,6 +40,8 @@ def share_of_directions(cloud: FloatArray, centre: FloatArray) -> float:
 @cache
 def _cells() -> cKDTree:
     """Middles of the parts: a spiral from pole to pole by the golden angle."""
+    from scipy.spatial import cKDTree  # here because importing it takes longer than most commands
+
     index = np.arange(CELLS) + 0.5
     z = 1.0 - 2.0 * index / CELLS
     turn = np.pi * (3.0 - np.sqrt(5.0)) * index

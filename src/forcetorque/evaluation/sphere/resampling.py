@@ -19,7 +19,6 @@ from functools import cache
 from itertools import combinations
 
 import numpy as np
-from scipy.special import stdtrit
 
 from forcetorque.arrays import FloatArray, read_only
 
@@ -100,6 +99,8 @@ def jackknife_margin(without_one: FloatArray) -> FloatArray:
     Returns:
         Standard error by the jackknife, times Student's t with b - 1 degrees of freedom; shape (k,).
     """
+    from scipy.special import stdtrit  # here because importing it takes longer than most commands
+
     b = len(without_one)
     scatter = ((without_one - without_one.mean(axis=0)) ** 2).sum(axis=0)
     margin: FloatArray = stdtrit(b - 1, _UPPER) * np.sqrt((b - 1) / b * scatter)

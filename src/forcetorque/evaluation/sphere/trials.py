@@ -7,7 +7,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.special import stdtrit
 
 from forcetorque.arrays import BoolArray, FloatArray, read_only
 from forcetorque.errors import ForceTorqueError
@@ -18,8 +17,6 @@ _UPPER = 0.975
 """Quantile at the upper end of a 95 % interval."""
 _JUDGED = 7
 """Numbers that a drift is told by: index, three intersections, three coordinates of the centre."""
-_TOGETHER = float(stdtrit(BLOCKS - 1, 1.0 - (1.0 - _UPPER) / _JUDGED) / stdtrit(BLOCKS - 1, _UPPER))
-"""How much wider margins are that hold for all of these at once with 95 %, by Bonferroni: 1.5."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -48,6 +45,8 @@ def mean_of_trials(indices: Sequence[float]) -> TrialMean:
     Raises:
         ForceTorqueError: If there is none, or one is no number.
     """
+    from scipy.special import stdtrit  # here because importing it takes longer than most commands
+
     values = np.asarray(indices, dtype=np.float64)
     if values.ndim != 1 or not len(values) or not np.isfinite(values).all():
         raise ForceTorqueError(f"indices: expected at least one number, all finite, got {list(indices)}")
@@ -121,16 +120,24 @@ def drift_between(first: EllipsoidFit, last: EllipsoidFit) -> Drift | None:
     index, index_margin = _change(
         [first.index], [last.index], [first.index_low], [first.index_high], [last.index_low], [last.index_high]
     )
+    wider = _wider_together()
     change, margin = _change(before, after, first.low, first.high, last.low, last.high)
     return Drift(
         index=float(index[0]),
-        index_margin=_TOGETHER * float(index_margin[0]),
+        index_margin=wider * float(index_margin[0]),
         intersections=change,
-        intersection_margin=_TOGETHER * margin,
+        intersection_margin=wider * margin,
         centre=last.ellipsoid.centre - first.ellipsoid.centre,
-        centre_margin=_TOGETHER * np.hypot(first.centre_margin, last.centre_margin),
+        centre_margin=wider * np.hypot(first.centre_margin, last.centre_margin),
         identifiable=first.identifiable and last.identifiable,
     )
+
+
+def _wider_together() -> float:
+    """How much wider margins are that hold for all judged numbers at once with 95 %, by Bonferroni: 1.5."""
+    from scipy.special import stdtrit  # here because importing it takes longer than most commands
+
+    return float(stdtrit(BLOCKS - 1, 1.0 - (1.0 - _UPPER) / _JUDGED) / stdtrit(BLOCKS - 1, _UPPER))
 
 
 def _change(

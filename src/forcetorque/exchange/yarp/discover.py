@@ -90,6 +90,18 @@ def discover_ports(folder: str | Path) -> tuple[FoundPort, ...]:
     return tuple(_look_at(port, path) for port, path in sorted(paths.items(), key=itemgetter(1)))
 
 
+def has_ports(folder: Path) -> bool:
+    """Tell whether there is any port in a folder, without opening it.
+
+    Args:
+        folder: Folder to search at any depth.
+
+    Returns:
+        Whether there is one, of whatever it holds.
+    """
+    return next(_port_folders(folder), None) is not None
+
+
 def read_port(found: FoundPort) -> tuple[PortReading, ...]:
     """Read a port that was found, with made-up names, to inspect it.
 

@@ -7,6 +7,7 @@ from forcetorque.report.document.content import (
     Figure,
     List,
     Page,
+    Place,
     Section,
     Text,
     Tone,
@@ -14,6 +15,7 @@ from forcetorque.report.document.content import (
 )
 from forcetorque.report.document.html import html_bytes
 from forcetorque.report.document.pdf import pdf_bytes
+from forcetorque.report.document.picture import Picture
 from forcetorque.result import Table
 
 __all__ = [
@@ -22,6 +24,8 @@ __all__ = [
     "Figure",
     "List",
     "Page",
+    "Picture",
+    "Place",
     "Section",
     "Table",
     "Text",

@@ -8,6 +8,7 @@ from datetime import datetime
 from enum import StrEnum
 
 from forcetorque.errors import FormatError
+from forcetorque.report.document.picture import Picture
 from forcetorque.result import Table
 
 NO_ROWS = "no rows"
@@ -37,6 +38,13 @@ class Verdict:
     """How good it is."""
     text: str
     """The sentence."""
+    word: str | None = None
+    """The word beside the sign, such as `do not use`; that of the tone if left out."""
+
+    @property
+    def sign(self) -> str:
+        """Sign and word that say what the colour says."""
+        return f"{self.tone.sign} {self.word or self.tone.value}"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -53,14 +61,21 @@ class List:
 
     points: tuple[str, ...]
     """The points."""
+    numbered: bool = False
+    """Whether they come one after the other, and have numbers."""
+
+    @property
+    def marks(self) -> tuple[str, ...]:
+        """What stands before each."""
+        return tuple(f"{k}." if self.numbered else "•" for k in range(1, len(self.points) + 1))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Figure:
     """A picture."""
 
-    png: bytes
-    """The picture as PNG."""
+    picture: Picture
+    """The picture."""
     caption: str
     """What stands below it."""
     description: str
@@ -83,6 +98,17 @@ Block = Verdict | Text | List | Table | Figure | Page
 """Anything that stands in a section."""
 
 
+class Place(StrEnum):
+    """Where a section stands on paper."""
+
+    FLOW = "flow"
+    """Below what comes before it."""
+    PAGE = "page"
+    """On a page of its own, which its first picture is made small enough for."""
+    SPARE = "spare"
+    """In a section with a page of its own: there if it is room enough, else behind these pages."""
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Section:
     """A heading and what stands below it."""
@@ -93,6 +119,10 @@ class Section:
     """What stands below it."""
     sections: tuple[Section, ...] = ()
     """Sections inside it."""
+    place: Place = Place.FLOW
+    """Where it stands on paper."""
+    folded: bool = False
+    """Whether a screen shows its heading alone until it is opened; paper shows everything."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

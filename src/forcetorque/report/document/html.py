@@ -17,7 +17,7 @@ from forcetorque.report.document.content import (
     Text,
     Verdict,
 )
-from forcetorque.report.document.small_png import small_png
+from forcetorque.report.document.undrawn import without_undrawn
 from forcetorque.result import Table
 
 _KINDS = {Verdict: "verdict", Text: "text", List: "list", Table: "table", Figure: "figure", Page: "page"}
@@ -41,15 +41,25 @@ def html_bytes(document: Document) -> bytes:
         raise MissingExtraError("reports are written by jinja2: pip install forcetorque[report]") from error
     folder = resources.files("forcetorque.report.document")
     environment = Environment(autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True)
-    environment.filters |= {"kind": _kind, "data_url": _data_url}
+    environment.filters |= {"kind": _kind, "data_url": _data_url, "pieces": _pieces}
     template = environment.from_string((folder / "document.html.j2").read_text(encoding="utf-8"))
     style = (folder / "document.css").read_text(encoding="utf-8")
-    return template.render(document=document, style=style, no_rows=NO_ROWS).encode(errors="backslashreplace")
+    return template.render(document=without_undrawn(document), style=style, no_rows=NO_ROWS).encode(
+        errors="backslashreplace"
+    )
 
 
 def _kind(block: Block) -> str:
     return _KINDS[type(block)]
 
 
+def _pieces(text: str) -> list[tuple[str, bool]]:
+    """Cut a text at backquotes: its pieces, and whether each is a command, which stands between two of them."""
+    pieces = text.split("`")
+    if len(pieces) % 2 == 0:  # one that has no other is a letter of a name
+        return [(text, False)]
+    return [(piece, bool(k % 2)) for k, piece in enumerate(pieces)]
+
+
 def _data_url(png: bytes) -> str:
-    return "data:image/png;base64," + base64.b64encode(small_png(png)).decode("ascii")
+    return "data:image/png;base64," + base64.b64encode(png).decode("ascii")

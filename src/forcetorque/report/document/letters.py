@@ -58,7 +58,8 @@ def spelled_document(document: Document, known: Container[int]) -> Document:
 
 
 def _section(section: Section, spell: _Speller) -> Section:
-    return Section(
+    return replace(
+        section,
         title=spell(section.title),
         blocks=tuple(_block(block, spell) for block in section.blocks),
         sections=tuple(_section(part, spell) for part in section.sections),
@@ -67,10 +68,12 @@ def _section(section: Section, spell: _Speller) -> Section:
 
 def _block(block: Block, spell: _Speller) -> Block:
     match block:
-        case Verdict() | Text():
+        case Verdict():
+            return replace(block, text=spell(block.text), word=None if block.word is None else spell(block.word))
+        case Text():
             return replace(block, text=spell(block.text))
         case List():
-            return List(points=tuple(map(spell, block.points)))
+            return replace(block, points=tuple(map(spell, block.points)))
         case Table():
             rows = tuple(tuple(map(spell, row)) for row in block.rows)
             return Table(caption=spell(block.caption), headings=tuple(map(spell, block.headings)), rows=rows)

@@ -1,30 +1,29 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Documents as PDF, with text that can be searched and tables that go on over pages."""
+"""Documents as PDF, with text that can be searched, tables that go on over pages, and numbers on these."""
 
 from __future__ import annotations
 
-import io
 from datetime import UTC
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from forcetorque.errors import MissingExtraError
-from forcetorque.report.document.content import (
-    NO_ROWS,
-    Block,
-    Document,
-    Figure,
-    List,
-    Page,
-    Section,
-    Text,
-    Tone,
-    Verdict,
-)
+from forcetorque.report.document.content import Document, Figure, Place, Section
 from forcetorque.report.document.letters import spelled_document
-from forcetorque.report.document.lines import lines_of
-from forcetorque.report.document.pdf_table import draw_table, first_rows_mm
-from forcetorque.report.document.small_png import small_png
+from forcetorque.report.document.pdf_blocks import (
+    BODY_POINTS,
+    CAPTION_POINTS,
+    FAINT,
+    FONT,
+    LINE_MM,
+    block_mm,
+    draw_block,
+    draw_line,
+    figure_size_mm,
+    paragraph_mm,
+)
+from forcetorque.report.document.pdf_table import first_rows_mm
+from forcetorque.report.document.undrawn import without_undrawn
 from forcetorque.result import Table
 
 if TYPE_CHECKING:
@@ -35,21 +34,14 @@ MISSING_LETTERS = (
 )
 """What is said once where a document has such letters."""
 
-_FONT = "DejaVu"
 _MARGIN_MM = 15.0
-_BODY_POINTS, _CAPTION_POINTS, _LINE_MM = 9.5, 8.5, 4.8
+_NUMBER_MM = 10.0
+"""Height above the lower edge at which the number of the page stands."""
 _TITLE_POINTS, _HEADING_POINTS = 18.0, (14.0, 11.0, 9.5)
 _FULL = 0.5
 """A section begins on a new page if more than this part of the page is full."""
-_INK = (27, 31, 36)
-_FAINT = (91, 101, 112)
-_COLOURS = {
-    Tone.GOOD: (0, 101, 74),
-    Tone.CAUTION: (138, 90, 0),
-    Tone.BAD: (163, 60, 0),
-    Tone.UNKNOWN: (75, 85, 96),
-    Tone.NOTE: _FAINT,
-}
+_LEAST_FIGURE = 0.2
+"""Part of a page below which no picture is made smaller to fit."""
 
 
 def pdf_bytes(document: Document) -> bytes:
@@ -66,18 +58,36 @@ def pdf_bytes(document: Document) -> bytes:
     """
     try:
         import matplotlib as mpl
-        from fpdf import FPDF
     except ImportError as error:
         raise MissingExtraError("PDF is written by fpdf2: pip install forcetorque[report]") from error
-    page = FPDF(format="A4")
+    page = _numbered_pages()
     fonts = Path(mpl.get_data_path()) / "fonts" / "ttf"
     try:
-        page.add_font(_FONT, "", str(fonts / "DejaVuSans.ttf"))
-        page.add_font(_FONT, "B", str(fonts / "DejaVuSans-Bold.ttf"))
+        page.add_font(FONT, "", str(fonts / "DejaVuSans.ttf"))
+        page.add_font(FONT, "B", str(fonts / "DejaVuSans-Bold.ttf"))
         _draw(page, document)
         return bytes(page.output())
     finally:
         _close_fonts(page)
+
+
+def _numbered_pages() -> FPDF:
+    """An empty file that says on every page which of how many it is."""
+    try:
+        from fpdf import FPDF
+    except ImportError as error:
+        raise MissingExtraError("PDF is written by fpdf2: pip install forcetorque[report]") from error
+
+    class Numbered(FPDF):
+        """Pages with their number at the foot."""
+
+        def footer(self) -> None:
+            self.set_y(-_NUMBER_MM)
+            self.set_font(FONT, "", CAPTION_POINTS)
+            self.set_text_color(*FAINT)
+            self.cell(0, LINE_MM, f"page {self.page_no()} of {self.str_alias_nb_pages}", align="R")
+
+    return Numbered(format="A4")
 
 
 def _draw(page: FPDF, document: Document) -> None:
@@ -87,17 +97,65 @@ def _draw(page: FPDF, document: Document) -> None:
     page.set_title(document.title)
     page.set_lang("en")
     page.set_creation_date(document.instant.astimezone(UTC))
-    spelled = spelled_document(document, _letters(page))
+    drawn = without_undrawn(document)
+    spelled = spelled_document(drawn, _letters(page))
     page.add_page()
-    _line(page, spelled.title, _TITLE_POINTS, bold=True)
-    _line(page, spelled.subtitle, _BODY_POINTS, colour=_FAINT)
-    if spelled != document:
-        _line(page, MISSING_LETTERS, _BODY_POINTS, colour=_FAINT)
+    draw_line(page, spelled.title, _TITLE_POINTS, bold=True)
+    draw_line(page, spelled.subtitle, BODY_POINTS, colour=FAINT)
+    draw_line(page, f"made {document.created}", BODY_POINTS, colour=FAINT)
+    if spelled != drawn:
+        draw_line(page, MISSING_LETTERS, BODY_POINTS, colour=FAINT)
+    later: list[Section] = []
     for k, section in enumerate(spelled.sections):
-        if k and page.y > _FULL * page.eph:
-            page.add_page()
-        _section(page, section, level=0)
-    _line(page, f"made {document.created}", _BODY_POINTS, colour=_FAINT)
+        if section.place is Place.PAGE:
+            if k:
+                page.add_page()
+            later += _whole_page(page, section)
+            continue
+        for part in (*later, section):
+            if k and page.y > _FULL * page.eph:
+                page.add_page()
+            _section(page, part, level=0)
+        later = []
+    for part in later:
+        _section(page, part, level=0)
+
+
+def _whole_page(page: FPDF, section: Section) -> list[Section]:
+    """Draw a section on this page, its picture as large as the rest leaves it.
+
+    Returns:
+        Parts for which there is no room, each with the title of the section.
+    """
+    parts = [part for part in section.sections if part.place is not Place.SPARE]
+    pictures = [block for block in section.blocks if isinstance(block, Figure)]
+    # the picture is what gives way
+    words = _section_mm(page, section, 0, parts=parts) - sum(block_mm(page, block) for block in pictures[:1])
+    left = page.page_break_trigger - page.y
+    figure_mm = max(left - words - LINE_MM, _LEAST_FIGURE * page.eph)
+    _heading(page, section, 0)
+    for block in section.blocks:
+        draw_block(page, block, figure_mm=figure_mm if block in pictures[:1] else None)
+    for part in parts:
+        _section(page, part, level=1, fits=words + figure_mm <= left)
+    later: list[Section] = []
+    for part in section.sections:
+        if part.place is Place.SPARE and not page.will_page_break(_section_mm(page, part, 1)):
+            _section(page, part, level=1, fits=True)
+        elif part.place is Place.SPARE:
+            later.append(Section(title=f"{section.title}: {part.title}", blocks=part.blocks, sections=part.sections))
+    return later
+
+
+def _section_mm(page: FPDF, section: Section, level: int, *, parts: list[Section] | None = None) -> float:
+    """Height of a section that is drawn on one page."""
+    below = section.sections if parts is None else parts
+    return (
+        LINE_MM
+        + paragraph_mm(page, section.title, _heading_points(level), bold=True)
+        + sum(block_mm(page, block) for block in section.blocks)
+        + sum(_section_mm(page, part, level + 1) for part in below)
+    )
 
 
 def _letters(page: FPDF) -> set[int]:
@@ -117,85 +175,37 @@ def _close_fonts(page: FPDF) -> None:
             font.ttfont.close()
 
 
-def _section(page: FPDF, section: Section, *, level: int) -> None:
-    page.ln(_LINE_MM)
+def _section(page: FPDF, section: Section, *, level: int, fits: bool = False) -> None:
     # a heading does not stand alone at the end of a page
-    if page.will_page_break(min(_least_mm(page, section), page.eph)) and page.y > 2.0 * page.t_margin:
+    least = LINE_MM + _least_mm(page, section)
+    if not fits and page.will_page_break(min(least, page.eph)) and page.y > 2.0 * page.t_margin:
         page.add_page()
-    page.start_section(section.title, level=level)
-    _line(page, section.title, _HEADING_POINTS[min(level, len(_HEADING_POINTS) - 1)], bold=True)
+    _heading(page, section, level)
     for block in section.blocks:
-        _block(page, block)
+        draw_block(page, block)
     for part in section.sections:
         _section(page, part, level=level + 1)
 
 
-def _block(page: FPDF, block: Block) -> None:
-    match block:
-        case Verdict():
-            _line(page, f"{block.tone.sign} {block.tone.value}", _BODY_POINTS, bold=True, colour=_COLOURS[block.tone])
-            _line(page, block.text, _BODY_POINTS)
-        case Text():
-            _line(page, block.text, _BODY_POINTS)
-        case List():
-            for point in block.points:
-                _line(page, f"• {point}", _BODY_POINTS)
-        case Table():
-            _table(page, block)
-        case Figure():
-            _figure(page, block)
-        case Page():
-            _line(page, block.instead, _BODY_POINTS)
+def _heading(page: FPDF, section: Section, level: int) -> None:
+    page.ln(LINE_MM)
+    page.start_section(section.title, level=level)
+    draw_line(page, section.title, _heading_points(level), bold=True)
 
 
-def _line(page: FPDF, text: str, points: float, *, bold: bool = False, colour: tuple[int, int, int] = _INK) -> None:
-    page.set_font(_FONT, "B" if bold else "", points)
-    page.set_text_color(*colour)
-    for line in lines_of(text, page.epw, page.get_string_width):
-        page.cell(0, _LINE_MM * max(1.0, points / _BODY_POINTS), line, new_x="LMARGIN", new_y="NEXT")
-    page.set_text_color(*_INK)
-
-
-def _figure(page: FPDF, figure: Figure) -> None:
-    width, height = _figure_mm(page, figure)
-    if page.will_page_break(height):
-        page.add_page()
-    page.image(io.BytesIO(small_png(figure.png)), w=width, alt_text=figure.description)
-    _line(page, figure.caption, _CAPTION_POINTS, colour=_FAINT)
-    page.ln(0.5 * _LINE_MM)
-
-
-def _table(page: FPDF, table: Table) -> None:
-    page.ln(0.5 * _LINE_MM)
-    _line(page, table.caption, _CAPTION_POINTS, colour=_FAINT)
-    draw_table(page, table, _FONT)
-    if not table.rows:
-        _line(page, NO_ROWS, _CAPTION_POINTS, colour=_FAINT)
-    page.ln(0.5 * _LINE_MM)
+def _heading_points(level: int) -> float:
+    return _HEADING_POINTS[min(level, len(_HEADING_POINTS) - 1)]
 
 
 def _least_mm(page: FPDF, section: Section) -> float:
     """Height of a heading and of what must stand on the same page below it."""
-    heading = 3.0 * _LINE_MM
+    heading = 3.0 * LINE_MM
     if not section.blocks:
         return heading + (_least_mm(page, section.sections[0]) if section.sections else 0.0)
     match section.blocks[0]:
         case Table() as table:
-            return heading + 2.0 * _LINE_MM + first_rows_mm(page, table, _FONT)
+            return heading + 2.0 * LINE_MM + first_rows_mm(page, table, FONT)
         case Figure() as figure:
-            return heading + _figure_mm(page, figure)[1]
+            return heading + figure_size_mm(page, figure)[1]
         case _:
-            return heading + 3.0 * _LINE_MM
-
-
-def _figure_mm(page: FPDF, figure: Figure) -> tuple[float, float]:
-    """Width of a picture, and its height with its caption; both fit on a page below a heading."""
-    from PIL import Image
-
-    page.set_font(_FONT, "", _CAPTION_POINTS)
-    words = len(lines_of(figure.caption, page.epw, page.get_string_width)) * _LINE_MM
-    room = max(page.eph - 4.0 * _LINE_MM - words, 0.5 * page.eph)
-    with Image.open(io.BytesIO(figure.png)) as picture:
-        height = page.epw * picture.height / picture.width
-    scale = min(1.0, room / height)
-    return page.epw * scale, height * scale + min(words, 0.3 * page.eph)
+            return heading + 3.0 * LINE_MM

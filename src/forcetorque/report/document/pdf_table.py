@@ -59,6 +59,28 @@ def draw_table(page: FPDF, table: Table, font: str) -> None:
         _draw_part(page, table, layout, font)
 
 
+def table_mm(page: FPDF, table: Table, font: str) -> float:
+    """Measure a table that is drawn on one page.
+
+    Args:
+        page: Where it will be drawn.
+        table: The table, in letters of the font.
+        font: Family of the font, with a bold one.
+
+    Returns:
+        Its height, in mm.
+    """
+    if not table.headings:
+        return 0.0
+    layouts = _layouts(page, table, font)
+    heights = [
+        _height_mm(_wrapped(page, cells, layout, font, bold=bold), layout)
+        for layout in layouts
+        for bold, cells in ((True, table.headings), *((False, row) for row in table.rows))
+    ]
+    return sum(heights) + _GAP_MM * (len(layouts) - 1)
+
+
 def first_rows_mm(page: FPDF, table: Table, font: str) -> float:
     """Measure what should not be parted from the caption of a table.
 

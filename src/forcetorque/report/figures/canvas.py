@@ -11,6 +11,7 @@ import io
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import cache
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -76,7 +77,7 @@ def look(k: int) -> Look:
 
 
 def new_figure(height: float) -> Figure:
-    """Make an empty figure of the common width.
+    """Make an empty figure of the common width, which a notebook shows by itself.
 
     Args:
         height: Height; inch.
@@ -89,13 +90,24 @@ def new_figure(height: float) -> Figure:
     """
     try:
         from matplotlib.backends.backend_agg import FigureCanvasAgg
-        from matplotlib.figure import Figure
     except ImportError as error:
         raise MissingExtraError("figures are drawn by matplotlib: pip install forcetorque[report]") from error
     # a Figure with its own canvas, not pyplot: no window, no state that others share
-    figure = Figure(figsize=(ROW_INCHES[0], height), dpi=DOTS_PER_INCH, layout="constrained")
+    figure = _figure_class()(figsize=(ROW_INCHES[0], height), dpi=DOTS_PER_INCH, layout="constrained")
     FigureCanvasAgg(figure)
     return figure
+
+
+@cache
+def _figure_class() -> type[Figure]:
+    """Figures that show themselves as a picture, also where no one has set up pyplot; made when one is first drawn."""
+    from matplotlib.figure import Figure
+
+    class ShownFigure(Figure):
+        def _repr_png_(self) -> bytes:
+            return png_bytes(self)
+
+    return ShownFigure
 
 
 def shown_name(name: str) -> str:
@@ -113,31 +125,38 @@ def shown_name(name: str) -> str:
     return (" " if line.startswith("_") else "") + line.replace("$", r"\$")
 
 
-def legend_below(figure: Figure, keys: Sequence[tuple[str, Mapping[str, Any]]], *, title: str | None = None) -> None:
+def legend_below(
+    figure: Figure,
+    keys: Sequence[tuple[str, Mapping[str, Any]]],
+    *,
+    title: str | None = None,
+    points: float = SMALL_POINTS,
+) -> None:
     """Name what is drawn in rows below all panels, and make the figure higher by these rows.
 
     Args:
         figure: The figure.
         keys: Names, as `shown_name` gives them, and the line that stands for each, as matplotlib takes it.
         title: A line above them.
+        points: Size of the letters; points.
     """
     from matplotlib.lines import Line2D
 
     names = [name for name, _ in keys]
-    widths = [_KEY_INCHES + width for width in text_inches(names)]
+    widths = [_KEY_INCHES * points / SMALL_POINTS + width for width in text_inches(names, points)]
     columns = next((k for k in range(len(names), 1, -1) if _width_in_columns(widths, k) < ROW_INCHES[0]), 1)
     rows = math.ceil(len(names) / columns) + (title is not None)
-    figure.set_figheight(figure.get_figheight() + _LEGEND_ROW_INCHES * rows)
+    figure.set_figheight(figure.get_figheight() + _LEGEND_ROW_INCHES * rows * points / SMALL_POINTS)
     figure.legend(
         [Line2D([], [], **style) for _, style in keys],
         names,
         loc="outside lower center",
         ncols=columns,
         frameon=False,
-        fontsize=SMALL_POINTS,
+        fontsize=points,
         handlelength=3.6,
         title=title,
-        title_fontsize=SMALL_POINTS,
+        title_fontsize=points,
     )
 
 

@@ -18,13 +18,13 @@ from forcetorque.report.figures.canvas import (
     legend_below,
     look,
     new_figure,
-    png_bytes,
     shown_name,
 )
 from forcetorque.result.names import short_names
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 _LINE_INCHES, _GAP_INCHES, _HEAD_INCHES = 0.135, 0.06, 1.1
 """Height of a line, of what separates two groups, and of all but the lines; inch."""
@@ -50,7 +50,7 @@ class _Line:
     known: bool
 
 
-def index_figure(groups: Sequence[TrialGroup]) -> bytes:
+def index_figure(groups: Sequence[TrialGroup]) -> Figure:
     """Draw the performance indices of groups of trials, with their intervals, the smallest on top.
 
     Left by the fits with the model, right without; a panel that has nothing is left out. Each group has a line for
@@ -61,7 +61,7 @@ def index_figure(groups: Sequence[TrialGroup]) -> bytes:
         groups: The groups.
 
     Returns:
-        The figure as PNG, as high as it has lines.
+        The figure, as high as it has lines.
 
     Raises:
         MissingExtraError: If matplotlib is not installed.
@@ -92,7 +92,7 @@ def index_figure(groups: Sequence[TrialGroup]) -> bytes:
     panels[0].set_ylim(inches, 0.0)
     panels[0].set_yticks(0.5 * (tops[:-1] + tops[1:]), _names(ordered), fontsize=SMALL_POINTS)
     legend_below(figure, _keys(groups))
-    return png_bytes(figure)
+    return figure
 
 
 def _place(group: TrialGroup) -> tuple[float, float]:

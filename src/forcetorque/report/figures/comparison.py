@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -14,7 +15,6 @@ from forcetorque.report.figures.canvas import (
     legend_below,
     look,
     new_figure,
-    png_bytes,
     shown_name,
 )
 from forcetorque.report.figures.inputs import drawable, drawable_each, instants
@@ -22,11 +22,14 @@ from forcetorque.report.figures.thinning import thinned_line
 from forcetorque.report.figures.time_lines import draw_over_time
 from forcetorque.spatial.wrench import WRENCH_COMPONENTS
 
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
 _ROW_HEIGHT = 0.7 * ROW_INCHES[1]
 _REFERENCE = {"color": REFERENCE_COLOUR, "linestyle": (0, (4, 3)), "linewidth": 1.6}
 
 
-def comparison_figure(time_s: FloatArray, reference: FloatArray, candidates: Mapping[str, FloatArray]) -> bytes:
+def comparison_figure(time_s: FloatArray, reference: FloatArray, candidates: Mapping[str, FloatArray]) -> Figure:
     """Draw the wrench that sensors or calibrations measure against the reference, component by component [1].
 
     The reference is dashed in black above the others: noise does not hide it, and what agrees with it is seen between
@@ -39,7 +42,7 @@ def comparison_figure(time_s: FloatArray, reference: FloatArray, candidates: Map
             the line.
 
     Returns:
-        The figure as PNG, a column for forces and one for torques.
+        The figure, a column for forces and one for torques.
 
     Raises:
         MissingExtraError: If matplotlib is not installed.
@@ -71,7 +74,7 @@ def comparison_figure(time_s: FloatArray, reference: FloatArray, candidates: Map
         panel.set_xlabel("time, s")
     figure.align_ylabels()
     legend_below(figure, keys)
-    return png_bytes(figure)
+    return figure
 
 
 def _difference(error: FloatArray) -> str:

@@ -18,7 +18,6 @@ from forcetorque.report.figures.canvas import (
     legend_below,
     look,
     new_figure,
-    png_bytes,
     shown_name,
     text_inches,
 )
@@ -28,6 +27,7 @@ from forcetorque.report.figures.time_lines import draw_over_time
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 _AXES = {"N": ("|f|", "fx", "fy", "fz"), "N m": ("|t|", "tx", "ty", "tz")}
 """By unit, what the rows show."""
@@ -43,7 +43,7 @@ Span = tuple[str, int, int]
 
 def contact_figure(
     time_s: FloatArray, candidates: Mapping[str, FloatArray], *, unit: str, spans: Sequence[Span] = ()
-) -> bytes:
+) -> Figure:
     """Draw contact forces, or torques, over time for several calibrations: magnitude and components [1].
 
     Sessions are drawn end to end whatever lies between them, so that two days fit on one axis. A line of many samples
@@ -58,7 +58,7 @@ def contact_figure(
             of all samples. Samples in no session are not drawn.
 
     Returns:
-        The figure as PNG, a row for the magnitude and one for each component.
+        The figure, a row for the magnitude and one for each component.
 
     Raises:
         MissingExtraError: If matplotlib is not installed.
@@ -90,7 +90,7 @@ def contact_figure(
     panels[-1].set_xlabel("time, s" if len(sessions) == 1 else "time, sessions end to end, s")
     _name_sessions(panels[0], sessions)
     legend_below(figure, keys)
-    return png_bytes(figure)
+    return figure
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

@@ -11,11 +11,12 @@ import numpy as np
 
 from forcetorque.arrays import BoolArray, FloatArray
 from forcetorque.errors import ShapeError
-from forcetorque.report.figures.canvas import ROW_INCHES, SMALL_POINTS, new_figure, png_bytes, shown_name, text_inches
+from forcetorque.report.figures.canvas import ROW_INCHES, SMALL_POINTS, new_figure, shown_name, text_inches
 from forcetorque.report.figures.inputs import drawable
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 _CELL_INCHES, _LINE_INCHES = 0.42, 0.17
 """Height of a cell with a number, and of one that only has the name of its row beside it."""
@@ -32,7 +33,7 @@ _MIDDLE_LUMINANCE = 0.179
 """Where black and white letters have the same contrast: (L + 0.05)^2 = 1.05 x 0.05."""
 
 
-def difference_figure(names: Sequence[str], differences: FloatArray, *, unit: str) -> bytes:
+def difference_figure(names: Sequence[str], differences: FloatArray, *, unit: str) -> Figure:
     """Draw a table of differences between matrices, numbers on colours [1].
 
     Args:
@@ -42,7 +43,7 @@ def difference_figure(names: Sequence[str], differences: FloatArray, *, unit: st
         unit: Unit with its power of ten, such as `1e-4 N/count`.
 
     Returns:
-        The figure as PNG.
+        The figure.
 
     Raises:
         MissingExtraError: If matplotlib is not installed.
@@ -74,7 +75,7 @@ def difference_figure(names: Sequence[str], differences: FloatArray, *, unit: st
     if points:
         _write_cells(panel, texts, _luminance(image.to_rgba(given)) < _MIDDLE_LUMINANCE, points)
     figure.colorbar(image, ax=panel, label=f"mean absolute difference, {shown_name(unit)}", pad=0.01)
-    return png_bytes(figure)
+    return figure
 
 
 def _luminance(colours: FloatArray) -> FloatArray:

@@ -19,13 +19,13 @@ from forcetorque.report.figures.canvas import (
     legend_below,
     look,
     new_figure,
-    png_bytes,
     shown_name,
 )
 from forcetorque.report.figures.inputs import drawable
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 _DIRECTION_INCHES, _ROW_INCHES = 0.3, 1.25
 """Height of a direction, and of what a row has beside its directions: title, axis and room; inch."""
@@ -68,7 +68,7 @@ def excitation_figure(
     explained: Sequence[FloatArray],
     excited: Sequence[Sequence[bool]],
     directions: Sequence[FloatArray],
-) -> bytes:
+) -> Figure:
     """Draw what a data set has moved: raw directions, strongest first, and how far loads explain each.
 
     Of every direction there are the standard deviation of the readings along it, the share of their variance that the
@@ -84,7 +84,7 @@ def excitation_figure(
             nothing; each is drawn with its largest part positive.
 
     Returns:
-        The figure as PNG, a row for each sensor.
+        The figure, a row for each sensor.
 
     Raises:
         MissingExtraError: If matplotlib is not installed.
@@ -105,7 +105,7 @@ def excitation_figure(
     keys.append(("not excited", {**_NOT_EXCITED, "markersize": 9.0, "linewidth": 1.2, "linestyle": ":"}))
     keys.append((f"least share of an excited direction, {100 * EXPLAINED_SHARE:.0f} %", _LIMIT))
     legend_below(figure, keys)
-    return png_bytes(figure)
+    return figure
 
 
 def _checked(names: Sequence[str], *given: Sequence[Any]) -> list[_Sensor]:

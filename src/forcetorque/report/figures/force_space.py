@@ -17,7 +17,6 @@ from forcetorque.report.figures.canvas import (
     legend_below,
     look,
     new_figure,
-    png_bytes,
     shown_name,
 )
 from forcetorque.report.figures.inputs import drawable
@@ -27,6 +26,7 @@ from forcetorque.spatial.wrench import WRENCH_COMPONENTS
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 Quantity = Literal["force", "moment"]
 """What the clouds are of."""
@@ -40,7 +40,7 @@ _PLANES = ((0, 1), (1, 2), (0, 2))
 
 def force_space_figure(
     clouds: Mapping[str, Sequence[tuple[str, FloatArray]]], *, quantity: Quantity = "force"
-) -> bytes:
+) -> Figure:
     """Draw clouds of forces, or of moments, as seen along the three axes.
 
     Clouds of one name look alike in all rows. Those of many samples are thinned evenly in time; dashes outline the
@@ -52,7 +52,7 @@ def force_space_figure(
         quantity: What they are, `force` or `moment`; of wrenches (n, 6) the first or the last three columns.
 
     Returns:
-        The figure as PNG, a row of three views per title.
+        The figure, a row of three views per title.
 
     Raises:
         MissingExtraError: If matplotlib is not installed.
@@ -74,7 +74,7 @@ def force_space_figure(
             panel.set_ylabel(labels[plane[1]])
         panels[0].set_title(shown_name(title), fontsize=TITLE_POINTS, loc="left")
     legend_below(figure, [(shown_name(name), each.key) for name, each in looks.items()])
-    return png_bytes(figure)
+    return figure
 
 
 def _checked(clouds: Mapping[str, Sequence[tuple[str, Any]]]) -> dict[str, list[tuple[str, FloatArray]]]:

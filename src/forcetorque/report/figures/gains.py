@@ -10,21 +10,22 @@ import numpy as np
 
 from forcetorque.analysis import SensorGains
 from forcetorque.arrays import FloatArray
-from forcetorque.report.figures.canvas import COLOURS, ROW_INCHES, new_figure, png_bytes
+from forcetorque.report.figures.canvas import COLOURS, ROW_INCHES, new_figure
 from forcetorque.report.figures.thinning import thinned_line
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 
-def gain_figure(sensors: Sequence[SensorGains]) -> bytes:
+def gain_figure(sensors: Sequence[SensorGains]) -> Figure:
     """Draw the raw channels against their limits, with the present and with the recommended gains [1].
 
     Args:
         sensors: Samples and advice of each sensor; one row each.
 
     Returns:
-        The figure as PNG, `ROW_INCHES` times the number of rows at `DOTS_PER_INCH`.
+        The figure, `ROW_INCHES` times the number of rows at `DOTS_PER_INCH`.
 
     Raises:
         MissingExtraError: If matplotlib is not installed.
@@ -42,7 +43,7 @@ def gain_figure(sensors: Sequence[SensorGains]) -> bytes:
         )
         before.set_ylabel("raw, counts")
         after.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), frameon=False)
-    return png_bytes(figure)
+    return figure
 
 
 def _draw(panel: Axes, gains: SensorGains, counts: FloatArray, *, title: str) -> None:

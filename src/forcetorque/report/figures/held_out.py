@@ -18,7 +18,6 @@ from forcetorque.report.figures.canvas import (
     legend_below,
     look,
     new_figure,
-    png_bytes,
     shown_name,
 )
 from forcetorque.report.figures.inputs import drawable
@@ -34,6 +33,7 @@ from forcetorque.report.figures.lambda_axis import (
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 _MEANING = "lambda as thesis (5.4) and calibration files count it: it weighs |C - C_prior|² beside mean |f - C r - o|²"
 _PRIOR = "∞: the prior"
@@ -63,7 +63,7 @@ def held_out_figure(
     curves: Mapping[str, tuple[FloatArray, FloatArray, float | None]],
     *,
     worst_ratios: Mapping[str, FloatArray] | None = None,
-) -> bytes:
+) -> Figure:
     """Draw the error on held-out blocks over lambda, and mark the choice.
 
     Lambda 0, and infinite, with which the prior is kept, have places of their own at the ends of the axis. The axis of
@@ -80,7 +80,7 @@ def held_out_figure(
             names, as many as lambdas; `Calibration.selection.worst_ratio_to_prior`. Names may be missing.
 
     Returns:
-        The figure as PNG.
+        The figure.
 
     Raises:
         MissingExtraError: If matplotlib is not installed.
@@ -105,7 +105,7 @@ def held_out_figure(
         set_lambda_axis(panel, finite, infinite=infinite if has_infinite else None)
     panels[-1].set_xlabel(f"{LAMBDA_LABEL} ({_PRIOR})" if has_infinite else LAMBDA_LABEL)
     legend_below(figure, _keys(given, with_ratio=with_ratio), title=_MEANING)
-    return png_bytes(figure)
+    return figure
 
 
 def _checked(curves: Mapping[str, tuple[Any, Any, float | None]], ratios: Mapping[str, Any]) -> dict[str, _Curve]:

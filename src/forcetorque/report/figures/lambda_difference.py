@@ -4,9 +4,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import TYPE_CHECKING
 
 from forcetorque.arrays import FloatArray
-from forcetorque.report.figures.canvas import ROW_INCHES, legend_below, look, new_figure, png_bytes, shown_name
+from forcetorque.report.figures.canvas import ROW_INCHES, legend_below, look, new_figure, shown_name
 from forcetorque.report.figures.inputs import drawable_each
 from forcetorque.report.figures.lambda_axis import (
     LAMBDA_LABEL,
@@ -16,8 +17,11 @@ from forcetorque.report.figures.lambda_axis import (
     set_lambda_axis,
 )
 
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
-def lambda_difference_figure(lambdas: FloatArray, curves: Mapping[str, FloatArray], *, unit: str) -> bytes:
+
+def lambda_difference_figure(lambdas: FloatArray, curves: Mapping[str, FloatArray], *, unit: str) -> Figure:
     """Draw the difference to the Workbench matrix over lambda [1].
 
     Curves that coincide are dashed in turn, and their points take turns, so that each is seen.
@@ -29,7 +33,7 @@ def lambda_difference_figure(lambdas: FloatArray, curves: Mapping[str, FloatArra
         unit: Unit of the difference with its power of ten, such as `1e-4 N/count`.
 
     Returns:
-        The figure as PNG.
+        The figure.
 
     Raises:
         MissingExtraError: If matplotlib is not installed.
@@ -51,4 +55,4 @@ def lambda_difference_figure(lambdas: FloatArray, curves: Mapping[str, FloatArra
     legend_below(
         figure, [(shown_name(name), each.key) for name, each in zip(given, looks, strict=True)], title=LAMBDA_MEANING
     )
-    return png_bytes(figure)
+    return figure

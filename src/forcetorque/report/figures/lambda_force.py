@@ -19,7 +19,6 @@ from forcetorque.report.figures.canvas import (
     legend_below,
     look,
     new_figure,
-    png_bytes,
     shown_name,
 )
 from forcetorque.report.figures.inputs import drawable_each
@@ -57,7 +56,7 @@ def lambda_force_figure(
     workbench: float | None = None,
     generative: float | None = None,
     chosen: tuple[str, str, float] | None = None,
-) -> bytes:
+) -> Figure:
     """Draw the mean magnitude of the contact force on validation data over lambda [1].
 
     Up to `MOST_HUES` data sets with `MOST_CURVES` curves share a panel, colour by data set, dashes and points by
@@ -73,7 +72,7 @@ def lambda_force_figure(
         chosen: Data set, estimation type and lambda of the point to mark.
 
     Returns:
-        The figure as PNG.
+        The figure.
 
     Raises:
         MissingExtraError: If matplotlib is not installed.
@@ -105,7 +104,7 @@ def lambda_force_figure(
         name, kind = map(shown_name, chosen[:2])
         keys.append((f"{name}, {kind}, lambda {chosen[2]:g}: {best:.4g} N", MARKED))
     legend_below(figure, keys, title=LAMBDA_MEANING)
-    return png_bytes(figure)
+    return figure
 
 
 def _sorted(curves: Mapping[str, Mapping[str, FloatArray]], order: IntArray) -> _Curves:

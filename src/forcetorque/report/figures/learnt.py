@@ -18,13 +18,13 @@ from forcetorque.report.figures.canvas import (
     legend_below,
     look,
     new_figure,
-    png_bytes,
     shown_name,
 )
 from forcetorque.spatial import WRENCH_COMPONENTS
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 _ROW_INCHES = 1.75
 """Height of three directions with the numbers and the label of their axis; inch."""
@@ -47,7 +47,7 @@ _AFTER_LITTLE: dict[str, Any] = {"color": look(1).colour, "marker": "X", "marker
 _LIMIT: dict[str, Any] = {"color": REFERENCE_COLOUR, "linestyle": (0, (4, 3)), "linewidth": 1.2}
 
 
-def learnt_figure(learnt: Mapping[str, Sequence[LearntDirection]]) -> bytes:
+def learnt_figure(learnt: Mapping[str, Sequence[LearntDirection]]) -> Figure:
     """Draw what the recordings taught of every load direction.
 
     The first panels have by how much the uncertainty became narrower; the others the predicted error, before and after,
@@ -58,7 +58,7 @@ def learnt_figure(learnt: Mapping[str, Sequence[LearntDirection]]) -> bytes:
         learnt: The six directions of `learnt_directions`, by name of the calibration.
 
     Returns:
-        The figure as PNG, two rows for each calibration: forces as loads, moments as loads.
+        The figure, two rows for each calibration: forces as loads, moments as loads.
 
     Raises:
         MissingExtraError: If matplotlib is not installed.
@@ -91,7 +91,7 @@ def learnt_figure(learnt: Mapping[str, Sequence[LearntDirection]]) -> bytes:
         ],
         title="predicted error where a load is added along a direction: one standard deviation of the error vector",
     )
-    return png_bytes(figure)
+    return figure
 
 
 def _require_directions(learnt: Mapping[str, Sequence[LearntDirection]]) -> None:

@@ -19,7 +19,6 @@ from forcetorque.report.figures.canvas import (
     legend_below,
     look,
     new_figure,
-    png_bytes,
     shown_name,
 )
 from forcetorque.report.figures.inputs import drawable_each, instants
@@ -46,7 +45,7 @@ _MEANING = (
 )
 
 
-def residual_figure(time_s: FloatArray, residuals: Mapping[str, FloatArray]) -> bytes:
+def residual_figure(time_s: FloatArray, residuals: Mapping[str, FloatArray]) -> Figure:
     """Draw the distribution of residuals, and their autocorrelation, component by component.
 
     The bins are common to all candidates. They reach from the least to the greatest residual, but no further than three
@@ -61,7 +60,7 @@ def residual_figure(time_s: FloatArray, residuals: Mapping[str, FloatArray]) -> 
             is not a finite number is left out.
 
     Returns:
-        The figure as PNG, a row of two pairs of panels for each axis: forces, then torques.
+        The figure, a row of two pairs of panels for each axis: forces, then torques.
 
     Raises:
         MissingExtraError: If matplotlib is not installed.
@@ -83,7 +82,7 @@ def residual_figure(time_s: FloatArray, residuals: Mapping[str, FloatArray]) -> 
         for j, (name, values) in enumerate(given.items())
     ]
     legend_below(figure, [*keys, ("ρ of white noise: 95 % lie within", _BAND)], title=_MEANING)
-    return png_bytes(figure)
+    return figure
 
 
 def _correlations(name: str, values: FloatArray, time: FloatArray) -> list[Autocorrelation]:

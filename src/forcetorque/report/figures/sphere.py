@@ -19,7 +19,6 @@ from forcetorque.report.figures.canvas import (
     legend_below,
     look,
     new_figure,
-    png_bytes,
     shown_name,
 )
 from forcetorque.report.figures.thinning import thinned_cloud
@@ -28,6 +27,7 @@ from forcetorque.spatial.wrench import WRENCH_COMPONENTS
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 _PLANES = ((0, 1), (1, 2), (0, 2))
 _OUTLINE_POINTS = 181
@@ -38,7 +38,7 @@ _FAR = 2.5
 """An outline that is so many times larger than the cloud would hide it and is not drawn."""
 
 
-def sphere_figure(spheres: Sequence[SensorSphere]) -> bytes:
+def sphere_figure(spheres: Sequence[SensorSphere]) -> Figure:
     """Draw the clouds, ellipsoids and spheres of sensors as seen along the axes [1].
 
     Everything is moved so that the offset of the sensor is zero, as well as it is known: the centre of the ellipsoid
@@ -51,7 +51,7 @@ def sphere_figure(spheres: Sequence[SensorSphere]) -> bytes:
         spheres: Analyses, a row each.
 
     Returns:
-        The figure as PNG, three views per row.
+        The figure, three views per row.
 
     Raises:
         MissingExtraError: If matplotlib is not installed.
@@ -75,7 +75,7 @@ def sphere_figure(spheres: Sequence[SensorSphere]) -> bytes:
             fontsize=TITLE_POINTS,
         )
     legend_below(figure, _keys(spheres))
-    return png_bytes(figure)
+    return figure
 
 
 def _keys(spheres: Sequence[SensorSphere]) -> list[tuple[str, dict[str, Any]]]:

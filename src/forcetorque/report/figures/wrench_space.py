@@ -16,7 +16,6 @@ from forcetorque.report.figures.canvas import (
     legend_below,
     look,
     new_figure,
-    png_bytes,
     shown_name,
 )
 from forcetorque.report.figures.inputs import drawable_each
@@ -25,13 +24,14 @@ from forcetorque.spatial.wrench import WRENCH_COMPONENTS
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 _ROWS = (("force space", "N", slice(0, 3)), ("torque space", "N m", slice(3, 6)))
 _PLANES = ((0, 1), (1, 2), (0, 2))
 _SMALL_PANEL_POINTS = 8.0
 
 
-def space_figure(clouds: Mapping[str, FloatArray]) -> bytes:
+def space_figure(clouds: Mapping[str, FloatArray]) -> Figure:
     """Draw which forces and torques each type of data set reaches: in space, and as seen along the axes [1].
 
     Clouds of many samples are thinned evenly in time. The planar views outline the convex hull of all samples, and
@@ -42,7 +42,7 @@ def space_figure(clouds: Mapping[str, FloatArray]) -> bytes:
             N, N m. A sample with a component that is not a finite number is left out.
 
     Returns:
-        The figure as PNG, a row for forces and one for torques.
+        The figure, a row for forces and one for torques.
 
     Raises:
         MissingExtraError: If matplotlib is not installed.
@@ -65,7 +65,7 @@ def space_figure(clouds: Mapping[str, FloatArray]) -> bytes:
             panel.set_xlabel(labels[plane[0]])
             panel.set_ylabel(labels[plane[1]], labelpad=0.0)
     legend_below(figure, [(shown_name(name), look(k).key) for k, name in enumerate(given)])
-    return png_bytes(figure)
+    return figure
 
 
 def _draw_space(panel: Any, parts: list[FloatArray], labels: list[str], *, title: str) -> None:

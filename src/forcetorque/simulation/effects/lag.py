@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy.signal import lfilter
 
 from forcetorque.arrays import FloatArray
 
@@ -20,6 +19,8 @@ def lagging(values: FloatArray, time_constant_s: float, *, rate_hz: float) -> Fl
     Returns:
         The late values; same shape.
     """
+    from scipy.signal import lfilter  # here because importing it takes longer than most commands
+
     keep = float(np.exp(-1.0 / (time_constant_s * rate_hz)))
     late: FloatArray = lfilter([1.0 - keep], [1.0, -keep], values, axis=0, zi=keep * values[:1])[0]
     return late

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The `[recording]` table of the experiment file, one class per format."""
+"""How an experiment file states a folder of yarpdatadumper: its ports, each by what it holds."""
 
 from __future__ import annotations
 
@@ -8,7 +8,8 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from forcetorque.exchange.yarp import MeasuresList
+from forcetorque.exchange.log_format import LogTable
+from forcetorque.exchange.yarp.measures import MeasuresList
 from forcetorque.toml_table import Table, Text
 
 
@@ -89,7 +90,7 @@ class MeasuresPort(Table):
 Port = Annotated[AnalogPort | StateExtPort | InertialPort | StatePort | MeasuresPort, Field(discriminator="kind")]
 
 
-class YarpLog(Table):
+class YarpLog(LogTable):
     """A folder of yarpdatadumper."""
 
     format: Literal["yarp"]
@@ -98,69 +99,3 @@ class YarpLog(Table):
     """Folder that holds the ports."""
     stream: Annotated[tuple[Port, ...], Field(min_length=1)]
     """Ports to read."""
-
-
-class ParquetLog(Table):
-    """A folder in the project's own form."""
-
-    format: Literal["parquet"]
-    """Format of the recording."""
-    path: Path
-    """Folder with recording.json."""
-
-
-class StampTable(Table):
-    """The column of a table that holds the time."""
-
-    column: Text
-    """Name of the column."""
-    unit: Literal["s", "ms", "us", "ns"]
-    """Unit of the times, since the epoch of the clock."""
-
-
-class SignalTable(Table):
-    """Columns of a table that make up one quantity."""
-
-    quantity: Text
-    """Name of the quantity; `forcetorque schema recording` lists them."""
-    columns: Annotated[tuple[Text, ...], Field(min_length=1)]
-    """Columns of the table, in the order of the quantity."""
-    units: Annotated[tuple[Text, ...], Field(min_length=1)]
-    """Unit of each column."""
-    names: tuple[Text, ...] | None = None
-    """Names in the recording, such as joints of the URDF; those of the quantity if left out."""
-    frame: Text | None = None
-    """Frame along whose axes the values are given."""
-
-
-class TabularStream(Table):
-    """One text file of numbers."""
-
-    name: Text
-    """Name of the stream in the recording."""
-    file: Text
-    """File below the log's folder."""
-    stamp: StampTable | Literal["row"]
-    """Column of the time; `row` for still poses without one, whose rows are then a second apart."""
-    clock: Text = "log"
-    """Name of the clock; only streams of one clock are combined."""
-    delimiter: Annotated[str, Field(min_length=1, max_length=1)] = ","
-    """Character between columns; a space stands for any run of blanks."""
-    column_names: tuple[Text, ...] | None = None
-    """Names of the columns of a file without a line of headings."""
-    signal: Annotated[tuple[SignalTable, ...], Field(min_length=1)]
-    """What is read."""
-
-
-class TabularLog(Table):
-    """A folder of text files of numbers."""
-
-    format: Literal["tabular"]
-    """Format of the recording."""
-    path: Path
-    """Folder of the files."""
-    stream: Annotated[tuple[TabularStream, ...], Field(min_length=1)]
-    """Files to read."""
-
-
-Log = Annotated[YarpLog | ParquetLog | TabularLog, Field(discriminator="format")]

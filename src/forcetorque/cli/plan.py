@@ -1,0 +1,72 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""`forcetorque plan`: what to record next, so that a sensor errs less where it is used."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from forcetorque.cli.options import FormatOption
+from forcetorque.cli.output import Format, refuse_standard_output, say, show, start_logging
+
+
+def plan(
+    experiments: Annotated[
+        list[Path],
+        typer.Argument(
+            help="Experiment files (TOML) with the same sensor; one without a recording is taken too, see docs/plan.md."
+        ),
+    ],
+    calibration: Annotated[
+        Path | None, typer.Option("--calibration", "-c", help="What is known so far. Default: the prior matrix.")
+    ] = None,
+    load_case: Annotated[
+        str | None,
+        typer.Option("--load-case", help="Use to plan for. Default: the one furthest from what is allowed."),
+    ] = None,
+    sensor: Annotated[
+        str | None,
+        typer.Option("--sensor", help="Sensor to plan for. Default: that of the calibration."),
+    ] = None,
+    clearance_deg: Annotated[
+        float | None,
+        typer.Option("--clearance-deg", help="What joints keep away from their limits. Default: that of [plan]."),
+    ] = None,
+    recordings: Annotated[int, typer.Option("--recordings", min=1, max=20, help="How many recordings to plan.")] = 3,
+    seconds: Annotated[float, typer.Option("--seconds", help="About how long each recording may be.")] = 60.0,
+    output: Annotated[
+        Path | None, typer.Option("--output", "-o", help="Folder to make, for trajectories (CSV, ROS, YARP) and JSON.")
+    ] = None,
+    output_format: FormatOption = Format.TABLE,
+) -> None:
+    """Say what to record next to lower the error at the loads of use.
+
+    Example: forcetorque plan experiment.toml -c right_leg.json -o next
+    """
+    from forcetorque import analysis
+    from forcetorque.calibration import read_calibration
+    from forcetorque.cli.reading import planned_experiments, planned_sensor
+
+    log = start_logging()
+    refuse_standard_output("--output", output)
+    if output is not None:
+        analysis.refuse_full_folder(output, where="--output ")
+    known = None if calibration is None else read_calibration(calibration)
+    contents = planned_experiments(experiments, log)
+    name = planned_sensor(contents[0], sensor, known)
+    result = analysis.plan(
+        [analysis.SensorRun(content, name) for content in contents],
+        known,
+        load_case=load_case,
+        clearance_deg=clearance_deg,
+        recordings=recordings,
+        seconds=seconds,
+        progress=log.info,
+    )
+    if output is not None:
+        result = analysis.write_plan(result, output)
+    show(result, output_format)
+    if output is not None:
+        say(f"written: {output}", output_format)

@@ -1,0 +1,85 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What is known of a sensor before any recording: its prior matrix, and how far sensors differ from theirs."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Final
+
+import numpy as np
+
+from forcetorque.arrays import FloatArray
+from forcetorque.calibration import LinearVariable
+from forcetorque.calibration.generative import assumptions as expected
+from forcetorque.calibration.generative.assumptions import Assumptions
+from forcetorque.calibration.generative.rows import LOADS, rows_of
+from forcetorque.calibration.posterior import Posterior, RowNoise
+
+ASSUMED_NOISE: Final = 1e-4
+"""White noise of a mean over a second that is assumed where none was measured, as a share of full scale."""
+ASSUMED_DRIFT: Final = 5e-4
+"""Size of the slow offset that is assumed with it, or the accuracy of the reference where that is larger."""
+ASSUMED_TIME_S: Final = 15.0
+"""How long that offset is assumed to last; s."""
+
+
+def unfitted_posterior(
+    matrix: FloatArray, assumptions: Assumptions, variables: Sequence[LinearVariable] = ()
+) -> Posterior:
+    """Say what the generative model takes for granted before any data.
+
+    Args:
+        matrix: Prior matrix; shape (6, c); N/count, N m/count.
+        assumptions: What is known beside it.
+        variables: Linear variables that will be fitted.
+
+    Returns:
+        Prior covariance and assumed noise; its only session has an offset that is known.
+    """
+    rows = rows_of(matrix, assumptions, with_prior=True)
+    unit = rows.unit
+    roots = np.concatenate(
+        [expected.SENSOR.expected * rows.sensor_root, expected.FRAME.expected * rows.frame_root], axis=2
+    )
+    prior = unit[:, None, None] ** 2 * roots @ roots.transpose(0, 2, 1)
+    size = LOADS + len(variables) + 1
+    covariance = np.zeros((len(unit), size, size))
+    covariance[:, :LOADS, :LOADS] = prior + assumptions.repeatability**2 * _spread(rows.sensor_root, unit)
+    for k, variable in enumerate(variables):
+        deviation = variable.prior_deviation
+        own = (
+            np.full(len(unit), expected.DRIFT_SHARE_PER_DEGREE)
+            if deviation is None
+            else np.linalg.norm(rows.from_load * deviation, axis=1)
+        )
+        covariance[:, LOADS + k, LOADS + k] = (unit * own) ** 2
+    drift = np.maximum(ASSUMED_DRIFT, rows.accuracy)
+    in_wrench = rows.space == "wrench"
+    return Posterior(
+        space=rows.space,
+        variables=tuple(variable.name for variable in variables),
+        sessions=("none",),
+        drift=False,
+        mean=np.zeros((len(unit), size)),
+        covariance=covariance,
+        learnt_covariance=prior,
+        prior_covariance=prior,
+        to_wrench=np.eye(LOADS) if in_wrench else matrix,
+        noise=tuple(
+            RowNoise(
+                white=ASSUMED_NOISE * float(one),
+                time_constant_s=ASSUMED_TIME_S,
+                ratio=float((slow / ASSUMED_NOISE) ** 2),
+            )
+            for one, slow in zip(unit, drift, strict=True)
+        ),
+        accuracy=assumptions.reference_accuracy(matrix),
+        repeatability=assumptions.repeatability,
+        load_centre=np.zeros(6),
+    )
+
+
+def _spread(roots: FloatArray, unit: FloatArray) -> FloatArray:
+    scaled = roots * unit[:, None, None]
+    spread: FloatArray = scaled @ scaled.transpose(0, 2, 1)
+    return spread

@@ -1,0 +1,102 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The formats of logs that are known: to add one, write its file and add its line to `LOG_FORMATS`.
+
+The experiment file's schema, its loading, `inspect` and their messages all ask this list.
+"""
+
+from __future__ import annotations
+
+from functools import reduce
+from operator import or_
+from pathlib import Path
+from typing import Annotated, Any, get_args
+
+from pydantic import Field, GetCoreSchemaHandler
+from pydantic_core import CoreSchema
+
+from forcetorque.errors import FormatError
+from forcetorque.exchange.log_format import LogContext, LogFormat, LogReading, LogTable
+from forcetorque.exchange.parquet import ParquetFormat
+from forcetorque.exchange.tabular.log_format import TabularFormat
+from forcetorque.exchange.yarp.log_format import YarpFormat
+
+LOG_FORMATS: tuple[LogFormat[Any], ...] = (
+    YarpFormat(),
+    ParquetFormat(),
+    TabularFormat(),
+)
+
+
+def format_name(known: LogFormat[Any]) -> str:
+    """Name a format as `format` of the `[recording]` table has it.
+
+    Args:
+        known: One of `LOG_FORMATS`.
+
+    Returns:
+        Its name.
+    """
+    return str(get_args(known.table.model_fields["format"].annotation)[0])
+
+
+def read_log(stated: LogTable, context: LogContext) -> LogReading:
+    """Read the log that an experiment file states, by its format.
+
+    Args:
+        stated: The `[recording]` table.
+        context: What else the experiment says; resolves the files.
+
+    Returns:
+        Streams and findings.
+    """
+    (reader,) = (known for known in LOG_FORMATS if format_name(known) == stated.format)
+    return reader.read(stated, context)
+
+
+def recognised_format(path: Path) -> LogFormat[Any] | None:
+    """Find the format of a log by what is there.
+
+    Args:
+        path: File or folder; it exists.
+
+    Returns:
+        The format; None if no format knows it.
+
+    Raises:
+        FormatError: If several do.
+    """
+    formats = [known for known in LOG_FORMATS if known.recognises(path)]
+    if len(formats) > 1:
+        raise FormatError(
+            f"{path}: expected a log of one format, got signs of {' and '.join(map(format_name, formats))} "
+            f"({', '.join(str(known.sign) for known in formats)}); inspect the folder of one of them"
+        )
+    return formats[0] if formats else None
+
+
+def not_recognised(path: Path) -> FormatError:
+    """Say what would have made a path a log.
+
+    Args:
+        path: What no format knows.
+
+    Returns:
+        The error to raise.
+    """
+    signs = [known.sign for known in LOG_FORMATS if known.sign is not None]
+    return FormatError(
+        f"{path}: expected {', or '.join(signs)}; found none of them; name the folder that holds them, or an "
+        f"experiment file with a [recording] of format {', '.join(map(format_name, LOG_FORMATS))}"
+    )
+
+
+class _AnyKnownFormat:
+    """Stands for the tables of all formats, of which `format` chooses one."""
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
+        tables = reduce(or_, (known.table for known in LOG_FORMATS))
+        return handler.generate_schema(Annotated[tables, Field(discriminator="format")])
+
+
+AnyLog = Annotated[LogTable, _AnyKnownFormat()]
+"""The `[recording]` table of any known format."""

@@ -1,0 +1,110 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Folders of text tables as a format of logs: every column that is read is stated."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from forcetorque.errors import FormatError
+from forcetorque.exchange.log_format import LogContext, LogDescription, LogReading, LogTable
+from forcetorque.exchange.tabular.layout import StampColumn, TableLayout, TableSignal
+from forcetorque.exchange.tabular.table import read_table
+from forcetorque.recording import Stream
+from forcetorque.toml_table import Table, Text
+
+
+class StampTable(Table):
+    """The column of a table that holds the time."""
+
+    column: Text
+    """Name of the column."""
+    unit: Literal["s", "ms", "us", "ns"]
+    """Unit of the times, since the epoch of the clock."""
+
+
+class SignalTable(Table):
+    """Columns of a table that make up one quantity."""
+
+    quantity: Text
+    """Name of the quantity; `forcetorque schema recording` lists them."""
+    columns: Annotated[tuple[Text, ...], Field(min_length=1)]
+    """Columns of the table, in the order of the quantity."""
+    units: Annotated[tuple[Text, ...], Field(min_length=1)]
+    """Unit of each column."""
+    names: tuple[Text, ...] | None = None
+    """Names in the recording, such as joints of the URDF; those of the quantity if left out."""
+    frame: Text | None = None
+    """Frame along whose axes the values are given."""
+
+
+class TabularStream(Table):
+    """One text file of numbers."""
+
+    name: Text
+    """Name of the stream in the recording."""
+    file: Text
+    """File below the log's folder."""
+    stamp: StampTable | Literal["row"]
+    """Column of the time; `row` for still poses without one, whose rows are then a second apart."""
+    clock: Text = "log"
+    """Name of the clock; only streams of one clock are combined."""
+    delimiter: Annotated[str, Field(min_length=1, max_length=1)] = ","
+    """Character between columns; a space stands for any run of blanks."""
+    column_names: tuple[Text, ...] | None = None
+    """Names of the columns of a file without a line of headings."""
+    signal: Annotated[tuple[SignalTable, ...], Field(min_length=1)]
+    """What is read."""
+
+
+class TabularLog(LogTable):
+    """A folder of text files of numbers."""
+
+    format: Literal["tabular"]
+    """Format of the recording."""
+    path: Path
+    """Folder of the files."""
+    stream: Annotated[tuple[TabularStream, ...], Field(min_length=1)]
+    """Files to read."""
+
+
+class TabularFormat:
+    """Text tables, which say nothing of their units: none is recognised, all that is read is stated."""
+
+    table = TabularLog
+    sign = None
+
+    def recognises(self, path: Path) -> bool:
+        """Recognise none."""
+        return False
+
+    def describe(self, path: Path) -> LogDescription:
+        """Refuse: nothing is guessed from names or numbers."""
+        raise FormatError(
+            f"{path}: expected a log that says what it holds, got text tables; state their columns and units in an "
+            "experiment file"
+        )
+
+    def read(self, stated: TabularLog, context: LogContext) -> LogReading:
+        """Read every file that is stated."""
+        context.folder(stated.path)
+        return LogReading(streams=tuple(_read_stream(k, stated, context) for k in range(len(stated.stream))))
+
+
+def _read_stream(k: int, stated: TabularLog, context: LogContext) -> Stream:
+    entry = stated.stream[k]
+    path = context.file(stated.path / entry.file)
+    stamp = None if entry.stamp == "row" else StampColumn(column=entry.stamp.column, unit=entry.stamp.unit)
+    with context.stated_in(f"stream[{k}]"):
+        layout = TableLayout(
+            delimiter=entry.delimiter,
+            column_names=entry.column_names,
+            stamp=stamp,
+            signals=tuple(
+                TableSignal(quantity=s.quantity, columns=s.columns, units=s.units, names=s.names, frame=s.frame)
+                for s in entry.signal
+            ),
+        )
+        return read_table(path, layout, stream=entry.name, clock=entry.clock)

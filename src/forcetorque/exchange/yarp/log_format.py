@@ -1,0 +1,85 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Folders of yarpdatadumper as a format of logs."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from forcetorque.errors import ExperimentError
+from forcetorque.exchange.log_format import LogContext, LogDescription, LogReading
+from forcetorque.exchange.yarp.analog import read_analog
+from forcetorque.exchange.yarp.discover import PortKind, discover_ports, has_ports
+from forcetorque.exchange.yarp.inertial import read_inertial
+from forcetorque.exchange.yarp.log_folder import read_log_folder
+from forcetorque.exchange.yarp.log_tables import (
+    AnalogPort,
+    InertialPort,
+    MeasuresEntry,
+    MeasuresPort,
+    Port,
+    StatePort,
+    YarpLog,
+)
+from forcetorque.exchange.yarp.measures import MeasuresSensor, read_measures
+from forcetorque.exchange.yarp.reading import PortReading
+from forcetorque.exchange.yarp.state import read_state
+from forcetorque.exchange.yarp.state_ext import read_state_ext
+from forcetorque.exchange.yarp.stated_port import stated_port
+
+
+class YarpFormat:
+    """Folders with a folder for each port, at any depth."""
+
+    table = YarpLog
+    sign = "ports with data.log"
+
+    def recognises(self, path: Path) -> bool:
+        """Look for a first port."""
+        return path.is_dir() and has_ports(path)
+
+    def describe(self, path: Path) -> LogDescription:
+        """Read every port whose messages tell what they hold; the others are findings."""
+        recording = read_log_folder(path)
+        ports = [stated_port(port, path) for port in discover_ports(path) if port.kind is not PortKind.UNKNOWN]
+        return LogDescription(
+            # unchecked: names of folders need not be UTF-8 as those of a file's text are
+            table=YarpLog.model_construct(format="yarp", path=path, stream=tuple(ports)),
+            reading=LogReading(
+                streams=tuple(recording.streams.values()), findings=recording.findings, origin=recording.origin
+            ),
+        )
+
+    def read(self, stated: YarpLog, context: LogContext) -> LogReading:
+        """Read every port that is stated."""
+        context.folder(stated.path)
+        readings = [
+            reading
+            for k, port in enumerate(stated.stream)
+            for reading in _read_port(f"stream[{k}]", port, stated.path, context)
+        ]
+        return LogReading(
+            streams=tuple(reading.stream for reading in readings),
+            findings=tuple(finding for reading in readings for finding in reading.findings),
+        )
+
+
+def _read_port(where: str, port: Port, log: Path, context: LogContext) -> tuple[PortReading, ...]:
+    folder = context.below(log / port.port, "data.log", "data.log.gz", "info.log")
+    sensors = context.sensors
+    with context.stated_in(where):
+        if isinstance(port, MeasuresPort):
+            return read_measures(folder, sensors=[_measures_sensor(entry, context) for entry in port.sensor])
+        if isinstance(port, InertialPort):
+            return (read_inertial(folder, stream=port.name, frame=port.frame),)
+        if isinstance(port, AnalogPort):
+            if port.name not in sensors:
+                raise ExperimentError(f"no [[sensor]] reads the stream {port.name!r}; add one or leave it out")
+            return (read_analog(folder, stream=port.name, frame=sensors[port.name]),)
+        units = {name: context.joint_units[name] for name in port.joints if name in context.joint_units}
+        read = read_state if isinstance(port, StatePort) else read_state_ext
+        return (read(folder, stream=port.name, joints=port.joints, joint_units=units),)
+
+
+def _measures_sensor(entry: MeasuresEntry, context: LogContext) -> MeasuresSensor:
+    frame = entry.frame or context.sensors.get(entry.name)
+    return MeasuresSensor(list=entry.list, index=entry.index, stream=entry.name, frame=frame)

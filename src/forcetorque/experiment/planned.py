@@ -1,0 +1,148 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Experiment files of what was not recorded yet: a robot, a sensor, its uses, and what can be recorded."""
+
+from __future__ import annotations
+
+import tomllib
+from pathlib import Path
+from typing import Annotated, Literal
+
+import numpy as np
+from pydantic import Field
+
+from forcetorque.calibration import LinearVariable
+from forcetorque.errors import ExperimentError
+from forcetorque.experiment import schema
+from forcetorque.experiment.content import Experiment, ExperimentSensor, SensorVariable
+from forcetorque.experiment.inputs import Inputs
+from forcetorque.experiment.intervals import read_supports
+from forcetorque.experiment.load import fit_options, load_experiment, processing_of
+from forcetorque.experiment.load_case_schema import LoadCaseTable
+from forcetorque.experiment.load_cases import read_load_cases
+from forcetorque.experiment.plan_limits import read_plan
+from forcetorque.experiment.plan_schema import PlanTable
+from forcetorque.experiment.sensors import declare_sensors, read_prior
+from forcetorque.recording import Recording, ScalarSource, Support
+from forcetorque.robot import RobotModel, read_urdf
+from forcetorque.toml_table import Table, Text, read_toml
+
+
+class PlannedSensor(schema.Sensor):
+    """A sensor of which nothing was recorded yet."""
+
+    stream: Text = "none"
+    """Stream that will hold its reading; may be left out."""
+
+
+class PlannedFile(Table):
+    """An experiment file without recording, streams and intervals, which only `forcetorque plan` reads."""
+
+    schema_name: Literal["forcetorque/experiment/1"] = Field(alias="schema")
+    """Form of the file."""
+    name: Text
+    """Name of the experiment."""
+    robot: schema.Robot
+    """The robot model."""
+    sensor: Annotated[tuple[PlannedSensor, ...], Field(min_length=1)]
+    """Sensors."""
+    support: Annotated[tuple[schema.Support, ...], Field(min_length=1)]
+    """Support frames."""
+    processing: schema.ProcessingTable = schema.ProcessingTable()
+    """How samples will be processed."""
+    calibration: schema.CalibrationTable = schema.CalibrationTable()
+    """How the sensor will be fitted."""
+    load_case: tuple[LoadCaseTable, ...] = ()
+    """What the sensors are to be used for."""
+    plan: PlanTable | None = None
+    """What can be recorded."""
+
+
+def load_planned(path: Path | str) -> Experiment:
+    """Read an experiment file that may lack what was recorded.
+
+    Args:
+        path: TOML file.
+
+    Returns:
+        The experiment; without streams and intervals where the file has neither `[recording]` nor `[[interval]]`.
+
+    Raises:
+        MissingFileError: If a file is not there.
+        FormatError: If a file does not have its form.
+        ExperimentError: If the file contradicts itself or the robot.
+    """
+    file = Path(path)
+    if _is_recorded(file):
+        return load_experiment(file)
+    parsed = read_toml(file, PlannedFile, what="an experiment file")
+    inputs = Inputs(file.parent)
+    inputs.file(Path(file.name))
+    model = declare_sensors(parsed.sensor, file, read_urdf(inputs.file(parsed.robot.urdf)))
+    for index, entry in enumerate(parsed.support):
+        if entry.imu is not None:
+            raise ExperimentError(
+                f"{file}: support[{index}]: expected gravity_direction, a support at rest, got imu; nothing can be "
+                "planned on a support that moves"
+            )
+    nothing = Recording(streams={})
+    supports = read_supports(parsed.support, file, nothing, model)
+    sensors = tuple(_sensor(f"{file}: sensor[{k}]", entry, model, inputs) for k, entry in enumerate(parsed.sensor))
+    return Experiment(
+        name=parsed.name,
+        file=file,
+        model=model,
+        recording=nothing,
+        sensors=sensors,
+        contacts=(),
+        length_scale=None,
+        processing=processing_of(parsed.processing, gravity=parsed.robot.gravity),
+        regularisation=parsed.calibration.lambda_counts2,
+        fit_options=fit_options(parsed.calibration),
+        sphere_intervals=None,
+        roles={},
+        payload=None,
+        inputs_sha256=inputs.sha256(),
+        load_cases=read_load_cases(parsed.load_case, file, model),
+        supports=tuple(support for support in supports.values() if isinstance(support, Support)),
+        plan=read_plan(parsed.plan, file, model, supports.values()),
+    )
+
+
+def _is_recorded(file: Path) -> bool:
+    """Whether the file states a recording; one that cannot be read is left to the reader that says why."""
+    try:
+        content = tomllib.loads(file.read_text(encoding="utf-8"))
+    except (OSError, ValueError, RecursionError):
+        return True
+    return bool({"recording", "interval", "load"} & set(content))
+
+
+def _sensor(where: str, entry: PlannedSensor, model: RobotModel, inputs: Inputs) -> ExperimentSensor:
+    variables = [
+        SensorVariable(
+            linear=LinearVariable(
+                name=variable.name,
+                unit="degC" if variable.quantity == "temperature" else "",
+                reference_value=variable.reference_value,
+                prior=variable.prior_coefficients,
+                prior_deviation=None if variable.prior_deviation is None else np.array(variable.prior_deviation),
+            ),
+            source=ScalarSource(
+                stream=variable.stream or entry.stream,
+                quantity=variable.quantity,
+                column=variable.column or variable.name,
+            ),
+        )
+        for variable in entry.variable
+    ]
+    return ExperimentSensor(
+        name=model.sensor(entry.name).name,
+        serial=entry.serial,
+        stream=entry.stream,
+        quantity="raw",
+        prior=read_prior(where, entry, inputs),
+        prior_source=None if entry.prior is None else Path(entry.prior).as_posix(),
+        limit_counts=entry.limit_counts,
+        full_scale=None if entry.full_scale is None else np.array(entry.full_scale),
+        variables=tuple(variables),
+    )

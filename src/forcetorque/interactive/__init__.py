@@ -1,0 +1,8 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What scripts and notebooks hold: an experiment, from a file or from arrays, and its sensors with every question."""
+
+from forcetorque.interactive.arrays import experiment_of_arrays
+from forcetorque.interactive.experiment import Experiment, load_experiment
+from forcetorque.interactive.run import Run
+
+__all__ = ["Experiment", "Run", "experiment_of_arrays", "load_experiment"]

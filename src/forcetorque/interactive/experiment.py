@@ -1,0 +1,79 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Experiments as scripts and notebooks hold them: `experiment["r_leg_ft_sensor"]` is one sensor with its questions."""
+
+from __future__ import annotations
+
+from dataclasses import fields
+from pathlib import Path
+from typing import Self
+
+from forcetorque import experiment as experiments
+from forcetorque.interactive.run import Run
+from forcetorque.result import Table, html_table
+
+
+class Experiment(experiments.Experiment):
+    """Everything that an experiment file points to, sensors by name."""
+
+    __slots__ = ()
+
+    @classmethod
+    def of(cls, content: experiments.Experiment) -> Self:
+        """Hold an experiment.
+
+        Args:
+            content: Its content.
+
+        Returns:
+            The same, with its sensors by name.
+        """
+        return cls(**{field.name: getattr(content, field.name) for field in fields(content)})
+
+    def __getitem__(self, sensor: str) -> Run:
+        """Choose a sensor.
+
+        Args:
+            sensor: Its name, or another one that the robot model has for it.
+
+        Returns:
+            The sensor, with every question as a method.
+
+        Raises:
+            ExperimentError: If the experiment has none of that name.
+        """
+        return Run(self, self.sensor(sensor))
+
+    def _repr_html_(self) -> str:
+        start = self.recording.start_ns
+        table = Table(
+            caption=f"{self.name}: {self.model.name}, {', '.join(sensor.name for sensor in self.sensors)}",
+            headings=("interval", "use", "from, s", "to, s", "support"),
+            rows=tuple(
+                (
+                    one.label,
+                    one.use.value,
+                    f"{(one.start_ns - start) * 1e-9:.1f}",
+                    f"{(one.end_ns - start) * 1e-9:.1f}",
+                    "" if one.support is None else one.support.frame,
+                )
+                for one in self.recording.intervals
+            ),
+        )
+        return html_table(table)
+
+
+def load_experiment(path: Path | str) -> Experiment:
+    """Read an experiment file and everything that it points to.
+
+    Args:
+        path: TOML file; the paths in it are relative to its folder.
+
+    Returns:
+        The experiment, its sensors by name.
+
+    Raises:
+        MissingFileError: If a file is not there.
+        FormatError: If a file does not have its form.
+        ExperimentError: If the file contradicts itself, the robot or the recording.
+    """
+    return Experiment.of(experiments.load_experiment(path))

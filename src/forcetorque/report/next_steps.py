@@ -1,0 +1,185 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What to do next about a sensor, in the order in which it is done: from its verdicts and their reasons."""
+
+from __future__ import annotations
+
+import shlex
+from collections.abc import Iterator, Mapping, Sequence
+
+from forcetorque.analysis import (
+    LITTLE_LEARNT,
+    SensorRun,
+    UseVerdict,
+    learnt_directions,
+    loads_of_use,
+    plan_sentence,
+    to_learn,
+)
+from forcetorque.calibration import Calibration
+from forcetorque.errors import ForceTorqueError
+from forcetorque.evaluation.use import CONFIDENCE
+from forcetorque.report.repeated import gathered, said_once
+from forcetorque.report.uses import SensorKey, Undecided
+from forcetorque.result import Row, short_names
+
+
+class NextSteps(Row):
+    """What to do next about a sensor."""
+
+    sensor: str
+    """Sensor."""
+    serial: str
+    """Its serial number."""
+    steps: tuple[str, ...]
+    """Sentences, the first is done first."""
+
+
+def next_steps(
+    key: SensorKey,
+    uses: Sequence[UseVerdict],
+    undecided: Sequence[Undecided],
+    calibrations: Mapping[str, Calibration],
+    runs: Mapping[str, SensorRun],
+) -> NextSteps:
+    """Say what to do next about a sensor.
+
+    Args:
+        key: Name of the sensor, and serial number.
+        uses: Verdicts on its calibrations.
+        undecided: Its calibrations on which there is none.
+        calibrations: All of its calibrations by name of their file.
+        runs: The sensor in every experiment that has it, by name of the file.
+
+    Returns:
+        The steps: what to do with the calibration today, what to mend, what to record, what to state.
+    """
+    names = short_names(list(calibrations))
+    steps = [
+        *_today(uses, names),
+        *said_once(
+            ((names[verdict.candidate], step) for verdict in uses for step in _remedies(verdict)), names.values()
+        ),
+        *said_once(_to_record(uses, calibrations, names), names.values()),
+        *said_once(_first_recording(uses, calibrations, [*runs.values()], names), names.values()),
+        *_plan(uses, [*runs]),
+        *_begin(undecided, key[0], [*runs], names),
+        *_state_use(uses),
+    ]
+    return NextSteps(sensor=key[0], serial=key[1], steps=tuple(dict.fromkeys(steps)))
+
+
+def _today(uses: Sequence[UseVerdict], names: Mapping[str, str]) -> Iterator[str]:
+    """What to do with the calibrations as they are, those and those uses together of which it is the same."""
+    by_calibration = gathered(
+        (f"“{verdict.load_case}”", (names[verdict.candidate], _as_it_is(verdict))) for verdict in uses
+    )
+    for calibrations, (cases, words) in gathered((name, (cases, words)) for cases, (name, words) in by_calibration):
+        yield words.format(calibration=" and ".join(calibrations), use=" and ".join(cases))
+
+
+def _as_it_is(verdict: UseVerdict) -> str:
+    """What to do with a calibration, with places for its name and for that of the use."""
+    if verdict.decision == "use":
+        offset = (
+            "Tare the sensor under a known load each time before it is used."
+            if verdict.offset == "tared"
+            else "Its offset holds until the sensor is switched off or mounted anew."
+        )
+        return "Put {calibration} on the robot for {use}: `forcetorque export` writes what robots read. " + offset
+    return "Do not rely on {calibration} for {use} yet." + (_instead(verdict) if _predicts_too_much(verdict) else "")
+
+
+def _instead(verdict: UseVerdict) -> str:
+    """Whether the prior is any better."""
+    pairs = [(row, row.before_at_most) for row in verdict.errors if row.before_at_most is not None]
+    if not pairs:
+        return " Nothing is known of another matrix that could take its place."
+    if all(row.allowed is None or most <= row.allowed for row, most in pairs):
+        return " The matrix that it came from (the prior) may be used there: its predicted errors are small enough."
+    judged = [(row, most) for row, most in pairs if row.allowed is not None] or pairs
+    worse = all(most >= row.after_at_most for row, most in judged)
+    more = "is predicted to err even more" if worse else "is predicted to err too much as well"
+    return f" The matrix that it came from (the prior) {more}, so do not go back to it either."
+
+
+def _remedies(verdict: UseVerdict) -> Iterator[str]:
+    for reason in verdict.reasons:
+        if reason.against is not None:
+            yield reason.remedy or _sentence(reason.text)
+
+
+def _sentence(text: str) -> str:
+    return f"{text[:1].upper()}{text[1:]}."
+
+
+def _to_record(
+    uses: Sequence[UseVerdict], calibrations: Mapping[str, Calibration], names: Mapping[str, str]
+) -> Iterator[tuple[str, str]]:
+    """By name of a calibration what its recordings hardly taught, where its predicted error is too large."""
+    for verdict in uses:
+        rows = learnt_directions(calibrations[verdict.candidate]) if _predicts_too_much(verdict) else None
+        advice = None if rows is None else to_learn(rows)
+        if advice is not None:
+            little = ", ".join(row.direction for row in rows or () if row.learnt < LITTLE_LEARNT)
+            yield names[verdict.candidate], f"The recordings taught little of loads along {little}: {advice}."
+
+
+def _predicts_too_much(verdict: UseVerdict) -> bool:
+    return verdict.within is not None and verdict.within < CONFIDENCE
+
+
+def _first_recording(
+    uses: Sequence[UseVerdict],
+    calibrations: Mapping[str, Calibration],
+    runs: Sequence[SensorRun],
+    names: Mapping[str, str],
+) -> Iterator[tuple[str, str]]:
+    """By name of a calibration what to record first for the use that it is farthest from, where limits are stated."""
+    if not any(run.experiment.plan is not None and run.experiment.plan.clearance_deg is not None for run in runs):
+        return
+    for file, calibration in calibrations.items():
+        wanted = [verdict for verdict in uses if verdict.candidate == file and _predicts_too_much(verdict)]
+        cases = {case.name for case in loads_of_use(runs, matrix=calibration.matrix, refuse=lambda _: None)}
+        known = [verdict for verdict in wanted if verdict.load_case in cases]
+        if not known:  # a use of an acceptance file, which no plan reads
+            continue
+        worst = min(known, key=_chance)
+        try:
+            words = plan_sentence(runs, calibration, load_case=worst.load_case)
+        except ForceTorqueError as error:
+            words = f"no recording could be planned: {error}"
+        yield names[file], f"For “{worst.load_case}”, {words}."
+
+
+def _chance(verdict: UseVerdict) -> float:
+    """Predicted probability of an error within what is allowed."""
+    return 1.0 if verdict.within is None else verdict.within
+
+
+def _plan(uses: Sequence[UseVerdict], files: Sequence[str]) -> Iterator[str]:
+    """The command that says what to record, for every calibration whose predicted error is too large."""
+    wanted = dict.fromkeys(verdict.candidate for verdict in uses if _predicts_too_much(verdict))
+    for candidate in wanted:
+        command = shlex.join(["forcetorque", "plan", *files, "-c", candidate])
+        yield f"`{command}` lists what to record next, and the error to expect after each recording."
+
+
+def _begin(
+    undecided: Sequence[Undecided], sensor: str, files: Sequence[str], names: Mapping[str, str]
+) -> Iterator[str]:
+    """What comes before there can be a verdict."""
+    unjudged = [names[row.candidate] for row in undecided if row.candidate is not None]
+    if unjudged:
+        yield f"Mend what keeps {' and '.join(unjudged)} from a verdict, as said above, and write this report again."
+    if len(unjudged) < len(undecided):
+        command = shlex.join(["forcetorque", "calibrate", *files, "--sensor", sensor, "-o", f"{sensor}.json"])
+        yield f"Calibrate it, `{command}`, and write this report again with the calibration."
+
+
+def _state_use(uses: Sequence[UseVerdict]) -> Iterator[str]:
+    """Nobody can decide on loads that nobody stated."""
+    for loads in dict.fromkeys(verdict.loads for verdict in uses if not verdict.stated):
+        yield (
+            f"Check that this is your use. Nobody stated one, so {loads}, was taken for granted; state your loads, and "
+            "the error that you allow, as [[load_case]] in the experiment file, and write this report again."
+        )

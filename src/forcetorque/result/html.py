@@ -1,0 +1,31 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Tables as HTML, for notebooks."""
+
+from __future__ import annotations
+
+import html
+from collections.abc import Sequence
+
+from forcetorque.result.table import Table
+
+
+def html_table(table: Table) -> str:
+    """Write a table for a page.
+
+    Args:
+        table: The table.
+
+    Returns:
+        HTML.
+    """
+
+    def line(cells: Sequence[str], tag: str) -> str:
+        aligned = ("right" if numeric else "left" for numeric in table.numeric)
+        return "".join(
+            f'<{tag} style="text-align:{side}">{html.escape(cell)}</{tag}>'
+            for cell, side in zip(cells, aligned, strict=True)
+        )
+
+    rows = "".join(f"<tr>{line(row, 'td')}</tr>" for row in table.rows)
+    caption = f"<caption>{html.escape(table.caption)}</caption>" if table.caption else ""
+    return f"<table>{caption}<thead><tr>{line(table.headings, 'th')}</tr></thead><tbody>{rows}</tbody></table>"

@@ -1,0 +1,175 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Experiments in the hand of a script: from a file and from arrays, with the same answers as the command line."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import forcetorque
+from forcetorque import Experiment, experiment_of_arrays, load_experiment, read_calibration
+from forcetorque.analysis import SensorRun, evaluate
+from forcetorque.errors import ExperimentError, FitError, ShapeError
+from forcetorque.interactive import Run
+from forcetorque.recording import Use
+from tests.experiment_folders import arm, intact
+from tests.experiments import PARQUET
+
+__all__ = ["arm", "intact"]
+
+NOTEBOOK = Path(__file__).resolve().parents[2] / "examples" / "14_from_arrays.ipynb"
+
+
+@pytest.fixture
+def experiment(arm: Path) -> Experiment:
+    """The experiment of the small arm, from its file."""
+    return load_experiment(arm / PARQUET)
+
+
+def _arrays(experiment: Experiment, **changes: Any) -> dict[str, Any]:
+    """The same as arrays."""
+    recording, sensor = experiment.recording, experiment.sensors[0]
+    readings = recording.stream(sensor.stream)
+    (joints,) = (stream for stream in recording.streams.values() if "position" in stream.signals)
+    position, start = joints.signal("position"), recording.start_ns
+    spans = {
+        interval.use: ((interval.start_ns - start) * 1e-9, (interval.end_ns - start) * 1e-9)
+        for interval in recording.intervals
+    }
+    arguments = {
+        "robot": experiment.model,
+        "sensor": sensor.name,
+        "time_s": (readings.stamp_ns - start) * 1e-9,
+        "reading": readings.signal("raw").values,
+        "joints": dict(zip(position.columns, position.values.T, strict=True)),
+        "joint_time_s": (joints.stamp_ns - start) * 1e-9,
+        "support": "base",
+        "gravity_direction": [0.0, 0.0, -1.0],
+        "calibrate": spans[Use.CALIBRATION],
+        "judge": spans[Use.VALIDATION],
+        "serial": sensor.serial,
+        "prior": sensor.prior,
+    }
+    return arguments | changes
+
+
+def test_a_sensor_is_chosen_by_name_and_asked_by_method(experiment: Experiment, tmp_path: Path) -> None:
+    """Calibrate, evaluate, verdict and report in a line each; the calibration is saved and read."""
+    run = experiment["arm_ft"]
+    calibration = run.calibrate()
+    assert calibration.provenance.code_version
+    evaluation = run.evaluate(calibration)
+    asked = evaluate(SensorRun(experiment, "arm_ft"), {"calibration": calibration})
+    assert evaluation.json_text() == asked.json_text()
+    assert run.verdicts(calibration) == evaluation.uses
+    calibration.save(tmp_path / "arm.json")
+    np.testing.assert_array_equal(read_calibration(tmp_path / "arm.json").matrix, calibration.matrix)
+    run.report({"mine": calibration}).save(tmp_path / "a.html")
+    assert "mine" in (tmp_path / "a.html").read_text(encoding="utf-8")
+    assert run.validate(calibration).contact_forces
+
+
+def test_arrays_give_what_the_file_gives(experiment: Experiment) -> None:
+    """The same matrix, errors and expected wrenches, but for instants that are rounded to a nanosecond."""
+    arrays = experiment_of_arrays(**_arrays(experiment))
+    one, other = experiment["arm_ft"], arrays["arm_ft"]
+    fitted, same = one.calibrate(), other.calibrate()
+    np.testing.assert_allclose(same.matrix, fitted.matrix, rtol=1e-6, atol=1e-9)  # instants are rounded to 1 ns
+    np.testing.assert_allclose(same.offset, fitted.offset, rtol=1e-6)
+    _, expected = other.expected_wrenches("judge")
+    label = next(i.label for i in experiment.recording.intervals if i.use is Use.VALIDATION)
+    np.testing.assert_allclose(expected, one.expected_wrenches(label)[1], atol=1e-5)
+    rows = zip(one.evaluate(fitted).verdicts, other.evaluate(same).verdicts, strict=True)
+    for row, twin in rows:
+        assert twin.force_error_mean_N == pytest.approx(row.force_error_mean_N, rel=1e-5)
+
+
+def test_a_calibrated_wrench_needs_the_matrix_that_made_it(experiment: Experiment) -> None:
+    """Or the identity with full scales; the calibration is then of the wrench."""
+    prior = experiment.sensors[0].prior
+    assert prior is not None
+    arguments = _arrays(experiment)
+    wrench = arguments["reading"] @ prior.T
+    with pytest.raises(ExperimentError, match="needs the prior that made it"):
+        experiment_of_arrays(**arguments | {"reading": wrench, "quantity": "wrench", "prior": None})
+    by_prior = experiment_of_arrays(**arguments | {"reading": wrench, "quantity": "wrench"})["arm_ft"].calibrate()
+    np.testing.assert_allclose(by_prior.matrix, experiment["arm_ft"].calibrate().matrix, rtol=1e-6)
+    unknown = {"reading": wrench, "quantity": "wrench", "prior": np.eye(6), "full_scale": [900.0] * 3 + [30.0] * 3}
+    assert experiment_of_arrays(**arguments | unknown)["arm_ft"].calibrate().matrix.shape == (6, 6)
+
+
+@pytest.mark.parametrize(
+    ("changes", "error", "message"),
+    [
+        ({"support": "bse"}, ExperimentError, "support: the robot 'arm' has no link 'bse'"),
+        ({"joints": {"knee": np.zeros(3)}}, ExperimentError, "joints: expected names of joints .*got knee"),
+        ({"joints": {}}, ExperimentError, "joints: expected names of joints .*got none"),
+        ({"time_s": np.zeros(5)}, ExperimentError, "time_s: expected finite instants that rise"),
+        ({"reading": np.zeros((7, 6))}, ShapeError, "reading"),
+        ({"sensor": "leg"}, forcetorque.ForceTorqueError, "leg"),
+        ({"gravity_direction": [0, 0, 0]}, forcetorque.ForceTorqueError, "gravity_direction"),
+        ({"calibrate": (9.0, 2.0)}, forcetorque.ForceTorqueError, "expected an end after its start"),
+    ],
+)
+def test_arrays_that_do_not_fit_are_refused(
+    experiment: Experiment, changes: dict[str, Any], error: type[Exception], message: str
+) -> None:
+    """In words that name the argument."""
+    with pytest.raises(error, match=message):
+        experiment_of_arrays(**_arrays(experiment, **changes))
+
+
+def test_without_a_span_to_judge_nothing_is_judged(experiment: Experiment) -> None:
+    """A fit is had all the same, and may not be used yet."""
+    run = experiment_of_arrays(**_arrays(experiment, judge=None))["arm_ft"]
+    calibration = run.calibrate()
+    assert [verdict.decision for verdict in run.verdicts(calibration)] == ["not enough data"]
+    with pytest.raises(ExperimentError, match="expected an interval"):
+        run.evaluate(calibration)
+    with pytest.raises(ExperimentError, match="no interval is labelled 'judge'"):
+        run.expected_wrenches("judge")
+    with pytest.raises(FitError):
+        run.calibrate(nonlinear=True, kind="generative")
+
+
+def test_what_a_notebook_shows_is_short(experiment: Experiment) -> None:
+    """One line for an experiment, a run and a calibration; tables of HTML for experiment and calibration."""
+    run = experiment["arm_ft"]
+    calibration = run.calibrate()
+    assert isinstance(run, Run)
+    for thing in (experiment, run, calibration):
+        assert len(repr(thing)) < 300
+        assert "arm_ft" in repr(thing)
+    assert str(calibration) == repr(calibration)
+    assert "<td" in experiment._repr_html_()
+    assert f"{calibration.matrix[0, 0]:.4g}" in calibration._repr_html_()
+
+
+def test_the_notebook_runs(arm: Path, monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    """Cell by cell, after the demonstration: a saved, judged and drawn calibration from arrays."""
+    import subprocess
+    import sys
+
+    root = NOTEBOOK.parents[1]
+    subprocess.run(
+        [sys.executable, str(root / "examples" / "01_known_truth.py"), "build/demo"],
+        cwd=tmp_path,
+        check=True,
+        capture_output=True,
+    )
+    monkeypatch.chdir(tmp_path)
+    shown: dict[str, Any] = {}
+    for cell in json.loads(NOTEBOOK.read_text(encoding="utf-8"))["cells"]:
+        if cell["cell_type"] == "code":
+            assert cell["outputs"] == []
+            exec(compile("".join(cell["source"]), str(NOTEBOOK), "exec"), shown)
+    assert read_calibration("build/demo/from_arrays.json").sensor.serial == "SIM001"
+    assert Path("build/demo/from_arrays.html").stat().st_size > 10_000
+    assert shown["expected"].shape == (len(shown["seconds"]), 6)
+    figure = shown["run"].figure(shown["calibration"])
+    assert len(figure.axes) == 6
+    assert figure._repr_png_().startswith(b"\x89PNG")

@@ -1,0 +1,68 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The maintainers' page is of this house: its picture has the packages in their order, its recipes real files."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+from tests.test_import_order import ORDER
+from tests.test_import_order import ROOT as LIBRARY
+
+ROOT = Path(__file__).resolve().parents[1]
+PAGE = (ROOT / "docs" / "architecture.md").read_text(encoding="utf-8")
+SUFFIXES = (".py", ".md", ".toml", ".html", ".ts")
+
+
+def _floors(page: str) -> list[list[str]]:
+    """Packages of the picture, floor by floor, from the lowest up."""
+    return [line.split() for line in reversed(re.findall(r"^\|([ \w]+)\|   \S", page, re.MULTILINE))]
+
+
+def test_the_picture_has_every_package_in_the_order_of_imports() -> None:
+    """From the lowest floor up, and from left to right: a package imports only what came before it."""
+    packages = [name for floor in _floors(PAGE) for name in floor]
+    present = {path.parent.name for path in LIBRARY.glob("*/__init__.py")}
+    assert packages == [name for name in ORDER if name in present]
+    assert len(_floors(PAGE)) > 5
+
+
+def test_a_floor_in_the_wrong_place_is_noticed() -> None:
+    """Negative control: floors are read from below."""
+    assert _floors("| cli |   hold\n+---+\n| robot    sensor |   URDF\n") == [["robot", "sensor"], ["cli"]]
+
+
+def _absent(page: str) -> list[str]:
+    """Files and folders that a page names in code, and that are neither in the library nor in the repository."""
+    names = [name for name in re.findall(r"`([\w./<>*-]+)`", page) if "/" in name or name.endswith(SUFFIXES)]
+    # of a file that is still to be written only the folder can be there
+    paths = [name.rpartition("/")[0] if "<" in name else name for name in names]
+    schemas = ("forcetorque/",)
+    return [
+        path
+        for path in paths
+        if not path.startswith(schemas) and not any((base / path).exists() for base in (LIBRARY, ROOT))
+    ]
+
+
+def test_files_of_the_page_are_there() -> None:
+    """Those of the recipes, of their tests, and of what is told beside them; names of schemas are no files."""
+    assert len(re.findall(r"`[\w./<>-]+\.py`", PAGE)) > 30
+    assert [name for name in _absent(PAGE) if name != "experiment.toml"] == []
+
+
+def test_a_file_that_moved_is_noticed() -> None:
+    """Negative control: a wrong name, and the folder of a file to be written."""
+    assert _absent("`cli/main.py` `cli/mane.py` `exchange/<format>.py` `exchanges/<format>.py`") == [
+        "cli/mane.py",
+        "exchanges",
+    ]
+
+
+def test_every_recipe_names_the_test_that_follows_it() -> None:
+    """The test is there, and says that it follows this page."""
+    _, *recipes = re.split(r"^### To add ", PAGE, flags=re.MULTILINE)
+    assert len(recipes) == 6
+    for recipe in recipes:
+        (test,) = set(re.findall(r"`(tests/[\w/]*test_add_\w+\.py)`", recipe))
+        assert "recipe of docs/architecture.md" in (ROOT / test).read_text(encoding="utf-8")

@@ -1,0 +1,116 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Pages lead where they say: every link has its file and its heading, every page is reached from the index."""
+
+from __future__ import annotations
+
+import ast
+import re
+from collections import Counter
+from importlib import import_module
+from pathlib import Path
+
+import pytest
+
+from forcetorque.cli.main import app
+
+ROOT = Path(__file__).resolve().parents[1]
+INDEX = ROOT / "docs" / "README.md"
+PAGES = sorted([*ROOT.glob("*.md"), *(ROOT / "docs").rglob("*.md")])
+every_page = pytest.mark.parametrize("page", PAGES, ids=lambda page: page.relative_to(ROOT).as_posix())
+
+
+def _prose(text: str) -> str:
+    """A page without code, in which brackets and hashes mean other things."""
+    text = re.sub(r"^```.*?^```$", "", text, flags=re.DOTALL | re.MULTILINE)
+    return re.sub(r"`[^`\n]*`", "", re.sub(r"^    .*$", "", text, flags=re.MULTILINE))
+
+
+def _links(page: Path) -> list[str]:
+    """Targets of links and pictures that are no addresses of the web."""
+    targets = re.findall(r"\]\(([^)\s]+)\)", _prose(page.read_text(encoding="utf-8")))
+    return [target for target in targets if not re.match(r"[a-z]+:", target)]
+
+
+def _anchors(page: Path) -> set[str]:
+    """Names that GitHub gives to headings: lower case, no punctuation, hyphens for spaces, and numbers for repeats."""
+    text = re.sub(r"^```.*?^```$", "", page.read_text(encoding="utf-8"), flags=re.DOTALL | re.MULTILINE)
+    count: Counter[str] = Counter()
+    names = set()
+    for heading in re.findall(r"^#+ +(.+)$", text, re.MULTILINE):
+        name = re.sub(r"[^\w\- ]", "", heading.strip().lower()).replace(" ", "-")
+        names.add(f"{name}-{count[name]}" if count[name] else name)
+        count[name] += 1
+    return names
+
+
+def _broken(page: Path) -> list[str]:
+    """Links of a page whose file or heading is not there."""
+    broken = []
+    for link in _links(page):
+        path, _, anchor = link.partition("#")
+        target = (page.parent / path).resolve() if path else page
+        if not target.exists() or (anchor and anchor not in _anchors(target)):
+            broken.append(link)
+    return broken
+
+
+@every_page
+def test_every_link_leads_somewhere(page: Path) -> None:
+    """The file is there, and in it the heading."""
+    assert _broken(page) == []
+
+
+def test_pages_are_looked_at() -> None:
+    """The tests here see pages, links and anchors."""
+    assert {"README.md", "CONTRIBUTING.md", "CHANGELOG.md"} <= {page.name for page in PAGES}
+    links = [link for page in PAGES for link in _links(page)]
+    assert len(links) > 60
+    assert sum("#" in link for link in links) > 3
+
+
+def test_a_broken_link_is_noticed(tmp_path: Path) -> None:
+    """Negative control: a missing file, a missing heading here and there; code is no link."""
+    (tmp_path / "other.md").write_text("# Its `one` heading, twice\n## Its one heading, twice\n", encoding="utf-8")
+    page = tmp_path / "page.md"
+    page.write_text(
+        "# Here\n[a](other.md) [b](#here) [c](other.md#its-one-heading-twice) [d](other.md#its-one-heading-twice-1)\n"
+        "[e](none.md) [f](#there) [g](other.md#its-one) [h](https://example.org/none)\n\n    x[i](none.md)\n",
+        encoding="utf-8",
+    )
+    assert _broken(page) == ["none.md", "#there", "other.md#its-one"]
+
+
+def test_every_page_is_in_the_index() -> None:
+    """Nobody has to know the name of a page to find it, and the README leads to the index."""
+    linked = {(INDEX.parent / link.partition("#")[0]).resolve() for link in _links(INDEX)}
+    assert set(PAGES) - linked == {INDEX}
+    assert "docs/README.md" in _links(ROOT / "README.md")
+
+
+def test_the_index_says_when_to_take_every_command() -> None:
+    """Each stands in its table."""
+    _, _, table = INDEX.read_text(encoding="utf-8").partition("## Which command when")
+    named = set(re.findall(r"`(\w+)`", table.partition("\n## ")[0]))
+    assert named == {command.name for command in app.registered_commands}
+
+
+def _unknown_names(code: str) -> list[str]:
+    """What a script imports of the library that is not there."""
+    unknown = []
+    for node in ast.walk(ast.parse(code)):
+        if isinstance(node, ast.ImportFrom) and (node.module or "").split(".")[0] == "forcetorque":
+            module = import_module(node.module or "")
+            unknown += [alias.name for alias in node.names if not hasattr(module, alias.name)]
+    return unknown
+
+
+@every_page
+def test_scripts_of_pages_import_what_is_there(page: Path) -> None:
+    """Every Python block is Python, and knows the library by its present names."""
+    for code in re.findall(r"^```python\n(.*?)^```$", page.read_text(encoding="utf-8"), re.DOTALL | re.MULTILINE):
+        assert _unknown_names(code) == []
+
+
+def test_an_unknown_name_is_noticed() -> None:
+    """Negative control."""
+    assert _unknown_names("from forcetorque import evaluate, evaluated") == ["evaluated"]

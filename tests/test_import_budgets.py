@@ -1,0 +1,94 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What a command costs before it does anything: CPU seconds of a child process, and the modules it loads.
+
+Measured with bytecode at hand on a shared 2-core machine: 0.16 s for a help, 1.4 s for the load of 24 poses, 1.6 s for
+a judgement of the yoga log; it was 0.4, 3.1 and 3.1 s when SciPy came with every module. The budgets are up to twice
+what was measured, as neighbours on a processor slow it down; the clock on the wall is not looked at.
+"""
+
+from __future__ import annotations
+
+import os
+import resource
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[1]
+RUNS = 3
+_START = "from forcetorque.cli import main; main()"
+_LIST = """import atexit, sys
+atexit.register(lambda: sys.stderr.write("MODULES " + " ".join(sys.modules) + "\\n"))
+"""
+UNUSED = ("matplotlib", "pandas", "scipy.signal", "scipy.spatial", "scipy.stats", "scipy.optimize", "numba")
+"""What neither of the commands below has a use for."""
+
+
+@pytest.fixture(scope="module")
+def bytecode(tmp_path_factory: pytest.TempPathFactory) -> dict[str, str]:
+    """Environment whose bytecode is written to a folder of its own: the first run fills it."""
+    kept = {name: value for name, value in os.environ.items() if name != "PYTHONDONTWRITEBYTECODE"}
+    folder = str(tmp_path_factory.mktemp("bytecode"))
+    return kept | {"PYTHONPYCACHEPREFIX": folder, "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
+
+
+def _run(code: str, environment: dict[str, str], *words: object) -> tuple[float, str]:
+    """CPU seconds of a child process, user and system together, and what it wrote to standard error."""
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    run = subprocess.run(
+        [sys.executable, "-c", code, *map(str, words)], env=environment, capture_output=True, text=True, check=True
+    )
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime, run.stderr
+
+
+def _least(environment: dict[str, str], *words: object) -> float:
+    """The least CPU seconds of some runs."""
+    return min(_run(_START, environment, *words)[0] for _ in range(RUNS))
+
+
+def _modules(environment: dict[str, str], *words: object) -> set[str]:
+    return set(_run(_LIST + _START, environment, *words)[1].rpartition("MODULES ")[2].split())
+
+
+def _example(number: str, data_dir: Path, folder: Path) -> Path:
+    (path,) = (ROOT / "examples").glob(f"{number}_*.toml")
+    copy = folder / path.name
+    copy.write_text(path.read_text(encoding="utf-8").replace("../../shared/data", data_dir.as_posix()))
+    return copy
+
+
+def test_a_help_is_there_at_once(bytecode: dict[str, str]) -> None:
+    """Neither Pydantic nor anything that computes is loaded, and it takes less than 0.3 s."""
+    assert not {"pydantic", "numpy", "scipy", "pyarrow"} & _modules(bytecode, "calibrate", "--help")
+    assert _least(bytecode, "calibrate", "--help") < 0.3
+
+
+@pytest.mark.real_data
+def test_a_load_is_weighed_without_what_it_does_not_use(
+    bytecode: dict[str, str], data_dir: Path, tmp_path: Path
+) -> None:
+    """`payload` on 24 rows takes less than 2.4 s."""
+    file = _example("07", data_dir, tmp_path)
+    assert not set(UNUSED) & _modules(bytecode, "payload", file)
+    assert _least(bytecode, "payload", file) < 2.4
+
+
+@pytest.mark.real_data
+def test_a_log_is_judged_without_what_it_does_not_use(bytecode: dict[str, str], data_dir: Path, tmp_path: Path) -> None:
+    """`evaluate` on the yoga log takes less than 2.8 s."""
+    file, leg = _example("02", data_dir, tmp_path), tmp_path / "leg.json"
+    _run(_START, bytecode, "calibrate", file, "-o", leg)
+    assert not set(UNUSED) & _modules(bytecode, "evaluate", file, "-c", leg)
+    assert _least(bytecode, "evaluate", file, "-c", leg) < 2.8
+
+
+def test_a_module_and_its_time_are_noticed(bytecode: dict[str, str]) -> None:
+    """Negative control: a child that loads scipy.signal lists it, and one that is busy for 0.3 s spends them."""
+    seconds, written = _run(_LIST + "import scipy.signal", bytecode)
+    assert "scipy.signal" in written.rpartition("MODULES ")[2].split()
+    busy = "import time\nwhile time.process_time() < 0.4: pass"
+    assert seconds > 0.0
+    assert _run(busy, bytecode)[0] > 0.3
