@@ -47,11 +47,11 @@ class Report(Result):
     """When it was made, ISO 8601 with time zone."""
     code_version: str
     """Version of forcetorque."""
-    uses: tuple[UseVerdict, ...]
+    uses: tuple[UseVerdict, ...] = ()
     """Whether every calibration may be used, by load case; pooled over the recordings that it has not seen."""
-    undecided: tuple[Undecided, ...]
+    undecided: tuple[Undecided, ...] = ()
     """Calibrations on which there is no such verdict, and sensors without a calibration."""
-    next_steps: tuple[NextSteps, ...]
+    next_steps: tuple[NextSteps, ...] = ()
     """What to do next about every sensor."""
     experiments: tuple[ExperimentAssessment, ...]
     """One per experiment file."""
