@@ -10,7 +10,6 @@ from typing import cast
 
 import numpy as np
 
-from forcetorque.analysis.judged_excitation import JudgedExcitation
 from forcetorque.analysis.use_judge import HOPELESS, UseJudge
 from forcetorque.analysis.use_verdict import Decision
 from forcetorque.arrays import FloatArray
@@ -105,10 +104,13 @@ def outcome_of(case: Case, fit: GenerativeFit, use: LoadCase, judged: list[DataS
         SimpleNamespace(
             posterior=fit.posterior,
             prior=SimpleNamespace(matrix=case.prior, offset=np.zeros(6)),
+            validity=SimpleNamespace(
+                reference_deviation=np.concatenate([data.reference for data in case.data]).std(axis=0)
+            ),
             doubts=(),
         ),
     )
-    judge = UseJudge(use, calibration, measured, still=JudgedExcitation.of(measured.reference, []).words)
+    judge = UseJudge(use, calibration, measured)
     within = judge.within
     assert within is not None
     return Outcome(

@@ -8,7 +8,6 @@ from typing import Final
 
 from forcetorque.analysis.campaign import Campaign, Runs
 from forcetorque.analysis.judged_evidence import judged_evidence
-from forcetorque.analysis.judged_excitation import JudgedExcitation
 from forcetorque.analysis.loads_of_use import Refuse, loads_of_use, raise_refused
 from forcetorque.analysis.prior_comparison import compare_with_prior
 from forcetorque.analysis.unseen import require_unseen
@@ -18,7 +17,6 @@ from forcetorque.calibration import Calibration
 from forcetorque.errors import FitError
 from forcetorque.evaluation import Offset
 from forcetorque.evaluation.use import UseOffset
-from forcetorque.evaluation.use.evidence import Evidence
 from forcetorque.experiment.load_case_schema import LoadCaseTable
 from forcetorque.recording import Use
 
@@ -62,13 +60,11 @@ def use_verdicts(
     verdicts = []
     for name, calibration in calibrations.items():
         for case in loads_of_use(campaign.runs, more, matrix=calibration.matrix, refuse=refuse):
-            seen = measured.get(name)
             try:
                 judge = UseJudge(
                     case,
                     calibration,
-                    seen,
-                    still=None if seen is None else _still(seen, calibration),
+                    measured.get(name),
                     worse=[row for row in worse if (row.candidate, row.offset) == (name, _COMPARED[case.offset])],
                 )
             except FitError as error:
@@ -80,11 +76,6 @@ def use_verdicts(
 
 _COMPARED: Final = {UseOffset.FITTED: Offset.FITTED, UseOffset.TARED: Offset.JUDGED_MEAN}
 """With which offset judged data compare a calibration and its prior for a use."""
-
-
-def _still(seen: Evidence, calibration: Calibration) -> str | None:
-    """That the judged loads hardly moved, in words; recordings at rest in several postures do not move either."""
-    return JudgedExcitation.of(seen.reference, [calibration], moved=seen.moved).words
 
 
 def _verdict(campaign: Campaign, name: str, judge: UseJudge) -> UseVerdict:

@@ -8,6 +8,7 @@ from typing import Final, Literal
 
 import numpy as np
 
+from forcetorque.analysis.judged_excitation import JudgedExcitation
 from forcetorque.analysis.prior_comparison import PriorComparison
 from forcetorque.analysis.remedies import (
     FIT_GENERATIVE,
@@ -55,7 +56,6 @@ class UseJudge:
         calibration: Calibration,
         measured: Evidence | None,
         *,
-        still: str | None = None,
         worse: Sequence[PriorComparison] = (),
     ) -> None:
         """Take what a verdict rests on.
@@ -64,14 +64,13 @@ class UseJudge:
             case: The use.
             calibration: The calibration.
             measured: What it measured on data that were not fitted; None where there are none.
-            still: That the loads hardly moved in these data, in words; None where they did.
             worse: Comparisons in which these data find it worse than its prior.
 
         Raises:
             FitError: If the use changes a variable that the calibration does not know.
         """
         self.case, self.calibration, self.measured = case, calibration, measured
-        self.still, self.worse = still, worse
+        self.worse = worse
         self.posterior: Posterior | None = calibration.posterior
         self.after: PredictedError | None = None
         self.before: PredictedError | None = None
@@ -195,8 +194,10 @@ class UseJudge:
                     f"{rest}, at most {amount(expected[quantity], unit)} were predicted: something is not in the model"
                 )
                 yield Reason(against="data", text=text, remedy=LOOK_FOR_CAUSE)
-        if self.still is not None:
-            yield Reason(against="data", text=f"{self.still}; judge data that move", remedy=JUDGE_WHAT_MOVES)
+        # of recordings at rest in several postures none moves
+        seen = JudgedExcitation.of(self.measured.reference, [self.calibration], moved=self.measured.moved)
+        if seen.words is not None:
+            yield Reason(against="data", text=f"{seen.words}; judge data that move", remedy=JUDGE_WHAT_MOVES)
 
     def _constant(
         self, error: MeasuredError, quantity: str, unit: str, allowed: float, load: float
