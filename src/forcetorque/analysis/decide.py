@@ -10,7 +10,7 @@ from forcetorque.analysis.campaign import Campaign, Runs
 from forcetorque.analysis.judged_evidence import judged_evidence
 from forcetorque.analysis.loads_of_use import Refuse, loads_of_use, raise_refused
 from forcetorque.analysis.prior_comparison import compare_with_prior
-from forcetorque.analysis.unseen import require_unseen
+from forcetorque.analysis.unseen import require_unseen_if_judged
 from forcetorque.analysis.use_judge import UseJudge
 from forcetorque.analysis.use_verdict import UseVerdict
 from forcetorque.calibration import Calibration
@@ -51,9 +51,7 @@ def use_verdicts(
     judged = [run for run in campaign.runs if run.has(Use.VALIDATION)]
     for name, calibration in calibrations.items():
         for run in campaign.runs:
-            run.require_fit(name, calibration)
-        for run in judged:
-            require_unseen(name, calibration, run)
+            require_unseen_if_judged(name, calibration, run)
     measured = judged_evidence(judged, calibrations)
     compared = compare_with_prior(campaign, calibrations) if judged and calibrations else ()
     worse = [row for row in compared if row.judgement == "worse"]

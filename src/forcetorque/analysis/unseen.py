@@ -32,6 +32,20 @@ def require_unseen(name: str, calibration: Calibration, run: SensorRun) -> None:
         )
 
 
+def require_unseen_if_judged(name: str, calibration: Calibration, run: SensorRun) -> None:
+    """Refuse the same as `require_unseen`, where the recording may have nothing that is judged.
+
+    Args:
+        name: Name of the calibration, for messages.
+        calibration: The calibration.
+        run: The sensor.
+    """
+    if run.has(Use.VALIDATION):
+        require_unseen(name, calibration, run)
+    else:
+        run.require_fit(name, calibration)
+
+
 def doubts_about_choice(run: SensorRun, name: str, calibration: Calibration) -> Iterator[str]:
     """Say where a calibration is judged on what it was chosen on.
 

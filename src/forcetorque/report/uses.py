@@ -7,10 +7,9 @@ from collections.abc import Iterator, Mapping, Sequence
 from functools import partial
 
 from forcetorque.analysis import Campaign, Demands, SensorRun, UseVerdict, use_verdicts
-from forcetorque.analysis.unseen import require_unseen
+from forcetorque.analysis.unseen import require_unseen_if_judged
 from forcetorque.calibration import Calibration
 from forcetorque.errors import ForceTorqueError
-from forcetorque.recording import Use
 from forcetorque.result import Row
 
 SensorKey = tuple[str, str]
@@ -109,21 +108,14 @@ def _unseen(runs: Sequence[SensorRun], file: str, calibration: Calibration) -> l
     """The runs on which a calibration may be judged; the first reason where it is none of them."""
     left = list(_accepted(runs, file, calibration))
     if not left:
-        _require(runs[0], file, calibration)
+        require_unseen_if_judged(file, calibration, runs[0])
     return left
 
 
 def _accepted(runs: Sequence[SensorRun], file: str, calibration: Calibration) -> Iterator[SensorRun]:
     for run in runs:
         try:
-            _require(run, file, calibration)
+            require_unseen_if_judged(file, calibration, run)
         except ForceTorqueError:  # what it has seen there flatters it; other recordings may judge it
             continue
         yield run
-
-
-def _require(run: SensorRun, file: str, calibration: Calibration) -> None:
-    if run.has(Use.VALIDATION):
-        require_unseen(file, calibration, run)
-    else:
-        run.require_fit(file, calibration)
