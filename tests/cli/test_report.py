@@ -17,7 +17,7 @@ import pytest
 
 from tests.cli.json_schema import faults
 from tests.cli.outcome import Run
-from tests.experiments import PARQUET, TWO, edit, snapshot
+from tests.experiments import PARQUET, TWO, add, edit, snapshot
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 YOGA = EXAMPLES / "02_icub_yoga_forward.toml"
@@ -277,6 +277,19 @@ def test_load_cases_of_the_acceptance_file_are_judged(arm: Path, run: Run) -> No
     (undecided,) = result["undecided"]
     assert "load case 'giant': reaches" in undecided["reason"]
     assert _sensor(result)["evaluation"]
+
+
+def test_a_load_case_that_cannot_be_had_costs_no_errors(arm: Path, run: Run) -> None:
+    """Also where the experiment file states it: what is measured does not hang on what the sensor is for."""
+    add(arm / PARQUET, '\n[[load_case]]\nname = "giant"\nforce_N = 1e6\nradius_m = 0.1\n')
+    result = run("report", PARQUET, "fitted.json", "-o", "report.html", "--format", "json").result()
+    assert result["uses"] == []
+    assert ["load case 'giant': reaches" in row["reason"] for row in result["undecided"]] == [True]
+    sensor = _sensor(result)
+    assert sensor["evaluation"]
+    assert sensor["comparisons"]
+    assert sensor["not_judged"] == {}
+    assert "load case 'giant': reaches" in run("evaluate", PARQUET, "-c", "fitted.json").error()
 
 
 USE = """

@@ -16,7 +16,7 @@ from forcetorque.analysis.best_candidate import BestCandidate
 from forcetorque.analysis.candidate import PRIOR
 from forcetorque.analysis.contact_forces import ContactForceErrors, contact_forces
 from forcetorque.analysis.criterion import Criterion
-from forcetorque.analysis.evaluate import CandidateErrors, Evaluation, at_rest, evaluate
+from forcetorque.analysis.evaluate import CandidateErrors, Evaluation, at_rest, judge_errors
 from forcetorque.analysis.joint_torques import JointTorqueErrors, joint_torques
 from forcetorque.analysis.judged import JudgedWrenches
 from forcetorque.analysis.learnt import LearntDirection, learnt_directions
@@ -139,7 +139,7 @@ def assess(
     evaluation = contacts = torques = counts = judged = None
     # where every calibration has seen the judged data there is nothing to judge it on; without any, the prior is judged
     if unseen or not calibrations:
-        evaluation = tried.attempt("evaluation", partial(evaluate, run, unseen))
+        evaluation = tried.attempt("evaluation", partial(judge_errors, run, unseen))
         contacts = tried.attempt("contact forces", partial(contact_forces, run, unseen))
         torques = tried.attempt("joint torques", partial(joint_torques, run, unseen))
     clouds = tried.attempt("spheres", partial(spheres, run, calibrations))

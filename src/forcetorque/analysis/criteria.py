@@ -15,7 +15,7 @@ from forcetorque.analysis.candidate import PRIOR
 from forcetorque.analysis.contact_forces import ContactForceErrors, contact_forces
 from forcetorque.analysis.criterion import Bound, Criterion, Judge
 from forcetorque.analysis.decide import use_verdicts
-from forcetorque.analysis.evaluate import CandidateErrors, evaluate
+from forcetorque.analysis.evaluate import CandidateErrors, judge_errors
 from forcetorque.analysis.interval_quality import IntervalQuality
 from forcetorque.analysis.learnt import learnt_directions
 from forcetorque.analysis.sensor_run import SensorRun
@@ -130,7 +130,7 @@ def _worst(
 
 def _evaluated(subject: Subject, offset: str) -> tuple[CandidateErrors, CandidateErrors]:
     """Errors of the prior, or again of the calibration where there is none, and of the calibration."""
-    verdicts = evaluate(subject.campaign, dict([subject.fitted()])).verdicts
+    verdicts = judge_errors(subject.campaign, dict([subject.fitted()])).verdicts
     rows = [row for row in verdicts if row.offset == offset]
     return rows[0], rows[-1]
 

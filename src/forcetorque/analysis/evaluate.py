@@ -179,7 +179,29 @@ def evaluate(runs: Runs, calibrations: Mapping[str, Calibration]) -> Evaluation:
         For every candidate the errors with the offset of the fitted data and with the mean of the judged samples of
         each recording removed; a prior that several calibrations share comes once. Judged one by one, calibrations
         that need the same variables have the same errors as together. Errors of several recordings are pooled before
-        anything is averaged.
+        anything is averaged. And whether each may be used for the loads to come.
+
+    Raises:
+        SerialNumberError: If a calibration is of another sensor.
+        ExperimentError: If a judged interval was fitted, the robot now reads the sensor in another frame or sign, or a
+            load case cannot be had at the sensor.
+        FitError: If a load case changes a variable that a calibration does not know.
+        ShapeError: If a matrix does not have one column per channel of the sensor.
+    """
+    campaign = Campaign.of(runs)
+    errors = judge_errors(campaign, calibrations)
+    return errors.model_copy(update={"uses": use_verdicts(campaign, calibrations)})
+
+
+def judge_errors(runs: Runs, calibrations: Mapping[str, Calibration]) -> Evaluation:
+    """Judge calibrations by their errors alone, whatever they are to be used for.
+
+    Args:
+        runs: The sensor in one recording, or in several.
+        calibrations: Its calibrations by name; without any the prior of the experiment is judged.
+
+    Returns:
+        What `evaluate` gives, without verdicts on uses.
 
     Raises:
         SerialNumberError: If a calibration is of another sensor.
@@ -214,7 +236,6 @@ def evaluate(runs: Runs, calibrations: Mapping[str, Calibration]) -> Evaluation:
         comparisons=prior_comparisons(campaign.sensor.name, list(wrenches.values())),
         smoothing=tuple(dict.fromkeys(map(smoothing_words, campaign.runs_with(Use.VALIDATION)))),
         validity=validity,
-        uses=use_verdicts(campaign, calibrations),
         warnings=(*at_rest(verdicts), *sentences(validity), *warnings),
     )
 
