@@ -78,7 +78,7 @@ from forcetorque.analysis.study_data import StudyData, read_study_data
 from forcetorque.analysis.study_result import StudiedSensor, Studies, studied_sensor, study_warnings
 from forcetorque.analysis.trial_group import TrialGroup, group_trials
 from forcetorque.analysis.trials import TrialSphere, read_trials
-from forcetorque.analysis.use_verdict import Reason, UseError, UseVerdict, use_sentences, use_table
+from forcetorque.analysis.use_verdict import Reason, UseError, UseVerdict, use_sentences
 from forcetorque.analysis.validate import Validation, validate
 from forcetorque.analysis.verdict import VerdictLine
 
@@ -96,7 +96,6 @@ __all__ = [
     "UseVerdict",
     "loads_of_use",
     "use_sentences",
-    "use_table",
     "use_verdicts",
     "LearntDirection",
     "learnt_directions",

@@ -22,6 +22,7 @@ from forcetorque.analysis.remedies import (
 from forcetorque.analysis.use_verdict import Decision, Reason, UseError
 from forcetorque.calibration import Calibration
 from forcetorque.calibration.posterior import Posterior
+from forcetorque.evaluation.paired import ALIKE
 from forcetorque.evaluation.use import (
     CONFIDENCE,
     ErrorSize,
@@ -35,8 +36,6 @@ from forcetorque.evaluation.use.evidence import Evidence, MeasuredError
 
 HOPELESS: Final = 0.1
 """Predicted probability of an error within what is allowed up to which the verdict is `do not use`."""
-ALIKE: Final = 1.25
-"""Error over that of the prior up to which a calibration is not called worse for a use."""
 FEWEST_S: Final = 5
 """Seconds of judged data below which they test nothing."""
 CONSTANT_SHARE: Final = 0.01
@@ -103,7 +102,7 @@ class UseJudge:
         """Where the judged data find a quantity that is judged worse than with the prior, by more than a trifle."""
         limits = {quantity: limit for (quantity, _, _), limit in zip(_QUANTITIES, self.case.requirement, strict=True)}
         for row in self.worse:
-            if row.mean <= ALIKE * row.prior_mean or np.isinf(limits[row.quantity]):
+            if row.mean <= ALIKE[1] * row.prior_mean or np.isinf(limits[row.quantity]):
                 continue
             text = (
                 f"on data that were not fitted its {row.quantity} error is larger than that of its prior, "

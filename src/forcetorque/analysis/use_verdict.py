@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from forcetorque.result import Row, Shown, Table, short_names, table_of
+from forcetorque.result import Row, Shown, short_names
 
 Decision = Literal["use", "do not use", "not enough data"]
 Tone = Literal["good", "caution", "bad", "unknown", "note"]
@@ -105,19 +105,3 @@ def use_sentences(verdicts: tuple[UseVerdict, ...]) -> list[str]:
     """
     names = short_names([verdict.candidate for verdict in verdicts])
     return [f"{verdict.sensor}, {names[verdict.candidate]}: {verdict.sentence}" for verdict in verdicts]
-
-
-def use_table(verdict: UseVerdict) -> Table:
-    """Put the predicted errors of a verdict into a table.
-
-    Args:
-        verdict: A verdict that has any.
-
-    Returns:
-        A line for force and one for moment.
-    """
-    caption = (
-        f"Predicted error, root mean square over {verdict.loads}, offset {verdict.offset}: half of such sensors are "
-        "below `prior` and `calibration`, 97.5 % below `at most`; then what matrix, offset, variables and noise add"
-    )
-    return table_of(verdict.errors, caption)

@@ -4,12 +4,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING, Annotated, Literal
+from typing import TYPE_CHECKING, Annotated
 
 from forcetorque.analysis.error_comparison import OFFSET_WORDS
 from forcetorque.analysis.evaluate import CandidateErrors
 from forcetorque.analysis.learnt import LITTLE_LEARNT, learnt_words
 from forcetorque.analysis.prior_comparison import PriorComparison, comparison_sentence
+from forcetorque.analysis.use_verdict import Tone
 from forcetorque.evaluation import Offset
 from forcetorque.result import Row, Shown, short_names, with_error
 
@@ -18,8 +19,6 @@ if TYPE_CHECKING:
 
 _FEW_INDEPENDENT = 20.0
 """Independent samples below which a standard error from ten blocks is itself a guess."""
-
-Tone = Literal["good", "caution", "bad", "unknown", "note"]
 
 
 class VerdictLine(Row):

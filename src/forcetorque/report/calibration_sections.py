@@ -16,6 +16,24 @@ from forcetorque.report.document import Block, Figure, Picture, Text
 from forcetorque.result import short_names
 
 
+def origin_words(name: str, calibration: Calibration) -> str:
+    """Say where a calibration comes from.
+
+    Args:
+        name: Its name.
+        calibration: The calibration.
+
+    Returns:
+        When and by what it was made, from which data and which prior.
+    """
+    origin, prior = calibration.provenance, calibration.prior
+    return (
+        f"{name}: made {origin.created} by forcetorque {origin.code_version} from {origin.experiment}, "
+        f"{origin.samples} samples of {', '.join(repr(interval.label) for interval in origin.intervals)}; "
+        f"prior: {prior.source if prior else 'none'}"
+    )
+
+
 def learnt_blocks(sensor: Assessment) -> Iterator[Block]:
     """Show what generative fits learnt, under which assumptions, and what they found of noise and offsets.
 

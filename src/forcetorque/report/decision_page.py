@@ -9,6 +9,7 @@ from forcetorque.analysis import UseVerdict
 from forcetorque.calibration import Calibration
 from forcetorque.evaluation.use import CONFIDENCE
 from forcetorque.report import figures
+from forcetorque.report.calibration_sections import origin_words
 from forcetorque.report.document import Block, Figure, List, Picture, Place, Section, Tone, Verdict
 from forcetorque.report.next_steps import NextSteps
 from forcetorque.report.repeated import said_once
@@ -126,12 +127,7 @@ def _beside(uses: Sequence[UseVerdict]) -> str:
 
 def _basis(calibrations: Mapping[str, Calibration], names: Mapping[str, str]) -> list[Block]:
     """Where the calibrations come from."""
-    points = [
-        f"{names[file]}: made {one.provenance.created} from {one.provenance.experiment}, {one.provenance.samples} "
-        f"samples of {', '.join(repr(interval.label) for interval in one.provenance.intervals)}; prior: "
-        f"{one.prior.source if one.prior else 'none'}"
-        for file, one in calibrations.items()
-    ]
+    points = [origin_words(names[file], one) for file, one in calibrations.items()]
     return [List(points=tuple(points))] if points else []
 
 

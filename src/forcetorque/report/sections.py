@@ -10,6 +10,7 @@ from typing import Any
 from forcetorque.analysis import Assessment, ExperimentAssessment, finding_table
 from forcetorque.errors import ForceTorqueError
 from forcetorque.report import tables
+from forcetorque.report.calibration_sections import origin_words
 from forcetorque.report.document import Block, Document, List, Section, Text
 from forcetorque.report.judgements import judgement_section
 from forcetorque.report.questions import ERRORS, QUESTIONS
@@ -110,10 +111,7 @@ def _drawn(blocks: Iterator[Block]) -> Iterator[Block]:
 
 def _provenance(experiments: Sequence[ExperimentAssessment]) -> Section:
     made = [
-        f"{file}: made {one.provenance.created} by forcetorque {one.provenance.code_version} from "
-        f"{one.provenance.experiment}, {one.provenance.samples} samples of "
-        + ", ".join(repr(interval.label) for interval in one.provenance.intervals)
-        + f"; prior: {one.prior.source if one.prior else 'none'}"
+        origin_words(file, one)
         for experiment in experiments
         for sensor in experiment.sensors
         for file, one in sensor.calibrations.items()

@@ -27,11 +27,6 @@ class MeasuredError:
     rest_at_least: float
     """Lower end of its 95 % interval; 0 where the data are too few to tell."""
 
-    @property
-    def total(self) -> float:
-        """Root mean square error."""
-        return float(np.hypot(self.constant, self.rest))
-
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Evidence:
@@ -45,8 +40,6 @@ class Evidence:
     """The reference, in means of a second; shape (n, 6); N, N m."""
     moved: FloatArray
     """The reference about its mean in each recording; shape (n, 6); N, N m."""
-    samples: int
-    """Number of judged samples."""
 
 
 def evidence(recordings: Sequence[tuple[FloatArray, FloatArray, FloatArray]]) -> Evidence:
@@ -86,7 +79,6 @@ def evidence(recordings: Sequence[tuple[FloatArray, FloatArray, FloatArray]]) ->
         moment=moment,
         reference=np.concatenate(references),
         moved=moved,
-        samples=sum(len(time_s) for time_s, _, _ in recordings),
     )
 
 

@@ -62,17 +62,6 @@ class ErrorSize:
     draws: FloatArray
     """Draws of it, from which any quantile follows; shape (m,)."""
 
-    def within(self, allowed: float) -> float:
-        """Give the probability that it is no more than what is allowed.
-
-        Args:
-            allowed: Allowed root mean square error.
-
-        Returns:
-            The probability.
-        """
-        return float((self.draws <= allowed).mean())
-
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class PredictedError:

@@ -125,6 +125,18 @@ def shown_name(name: str) -> str:
     return (" " if line.startswith("_") else "") + line.replace("$", r"\$")
 
 
+def two_digits(value: float) -> str:
+    """Write a size beside what is drawn: two digits that count, without a power of ten.
+
+    Args:
+        value: The size.
+
+    Returns:
+        Such as `0.043`, `1.6` or `324`.
+    """
+    return f"{value:.0f}" if value >= 100.0 else f"{value:#.2g}".rstrip(".")
+
+
 def legend_below(
     figure: Figure,
     keys: Sequence[tuple[str, Mapping[str, Any]]],

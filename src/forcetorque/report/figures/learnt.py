@@ -19,6 +19,7 @@ from forcetorque.report.figures.canvas import (
     look,
     new_figure,
     shown_name,
+    two_digits,
 )
 from forcetorque.spatial import WRENCH_COMPONENTS
 
@@ -135,12 +136,8 @@ def _draw_errors(panel: Axes, errors: FloatArray, little: Sequence[bool]) -> Non
         panel.plot(after, row, linestyle="none", zorder=3, **style)
         panel.plot(before, row, linestyle="none", zorder=4, **_BEFORE)
         side = 1 if after > before else -1
-        _write(panel, _two_digits(values[1]), (after, row), side)
-        _write(panel, _two_digits(values[0]), (before, row), -side)
-
-
-def _two_digits(value: float) -> str:
-    return f"{value:.0f}" if value >= 100.0 else f"{value:#.2g}".rstrip(".")
+        _write(panel, two_digits(values[1]), (after, row), side)
+        _write(panel, two_digits(values[0]), (before, row), -side)
 
 
 def _write(panel: Axes, text: str, point: tuple[float, float], side: int) -> None:

@@ -17,6 +17,7 @@ from forcetorque.report.figures.canvas import (
     look,
     new_figure,
     shown_name,
+    two_digits,
 )
 
 if TYPE_CHECKING:
@@ -105,7 +106,7 @@ def _draw_row(panel: Axes, place: int, row: UseError) -> None:
         panel.fill_between([left, end], top, bottom, color="0.92", linewidth=0.0, zorder=0)
     panel.plot([row.allowed] * 2, [top, bottom], zorder=1, **_LIMIT)
     panel.annotate(
-        f"{_two_digits(row.allowed)} {row.unit} allowed",
+        f"{two_digits(row.allowed)} {row.unit} allowed",
         (row.allowed, place + _LIMIT_AT),
         (-6.0, 0.0),
         textcoords="offset points",
@@ -136,11 +137,7 @@ def _draw_interval(panel: Axes, height: float, quantiles: tuple[float, float, fl
 
 def _words(quantiles: tuple[float, float, float], unit: str) -> str:
     _, middle, high = quantiles
-    return f"{_two_digits(middle)} {unit}, at most {_two_digits(high)}"
-
-
-def _two_digits(value: float) -> str:
-    return f"{value:.0f}" if value >= 100.0 else f"{value:#.2g}".rstrip(".")
+    return f"{two_digits(middle)} {unit}, at most {two_digits(high)}"
 
 
 def _centre(low: float, high: float) -> float:
