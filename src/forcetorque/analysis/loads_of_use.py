@@ -14,7 +14,7 @@ from forcetorque.errors import ExperimentError, ForceTorqueError, RobotError
 from forcetorque.evaluation.use import LoadCase, pushes_at, pushes_within, shares_of, weights
 from forcetorque.experiment.load_case_schema import LoadCaseTable
 from forcetorque.robot import BodyTree, JointMotion, RobotModel, build_tree
-from forcetorque.robot.kinematics import joints_between, link_pose
+from forcetorque.robot.kinematics import body_pose, joints_between, link_pose
 from forcetorque.robot.sub_model import outboard_bodies
 from forcetorque.simulation.motions.joint_range import joint_range
 from forcetorque.spatial import WRENCH_COMPONENTS, invert_pose
@@ -201,9 +201,8 @@ class _Place:
         rest = np.clip(0.0, ranges[:, 0], ranges[:, 1])[None]
         drawn = np.random.default_rng(_SEED).uniform(ranges[:, 0], ranges[:, 1], (_POSTURES, len(names)))
         postures = JointMotion.at_rest(names, rest if still else np.concatenate([rest, drawn]))
-        base = link_pose(self.tree, postures, self.tree.bodies[self.cut.body].links[0])
-        body = base @ invert_pose(self.tree.frames[self.tree.bodies[self.cut.body].links[0]][1])
-        poses: FloatArray = invert_pose(body @ self.cut.body_H_sensor) @ link_pose(self.tree, postures, link)
+        sensor = body_pose(self.tree, postures, self.cut.body) @ self.cut.body_H_sensor
+        poses: FloatArray = invert_pose(sensor) @ link_pose(self.tree, postures, link)
         return poses
 
     def _sole(self) -> str | None:

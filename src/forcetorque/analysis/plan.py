@@ -20,10 +20,9 @@ from forcetorque.analysis.sensor_run import SensorRun
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration import Calibration
 from forcetorque.calibration.generative import ACCURACY_SHARE, Assumptions
-from forcetorque.calibration.posterior import Posterior
 from forcetorque.errors import ExperimentError, FitError, known_names
 from forcetorque.evaluation.planning import Criterion, Knowledge, Nuisance, unfitted_posterior
-from forcetorque.evaluation.use import LoadCase, PredictedError, predict, predict_by, predict_unfitted
+from forcetorque.evaluation.use import LoadCase, PredictedError, predict_by
 from forcetorque.experiment.plan_schema import PlanTable
 from forcetorque.result import Result, Table
 
@@ -188,18 +187,11 @@ def _start(runs: Runs, calibration: Calibration | None, load_case: str | None) -
         posterior = calibration.posterior
         seconds = sum(span.end_ns - span.start_ns for span in calibration.provenance.intervals) * 1e-9
     cases = loads_of_use(own, matrix=None if calibration is None else calibration.matrix)
-    errors = [_before(calibration, posterior, case) for case in cases]
+    errors = [predict_by(posterior, case) for case in cases]
     place = _chosen(cases, errors, load_case)
     nuisance = Nuisance.of(matrix, assumptions, with_prior=posterior.space == "wrench")
     known = Knowledge.of(posterior, seconds=seconds, nuisance=nuisance)
     return _Start(runs=own, known=known, case=cases[place], error=errors[place])
-
-
-def _before(calibration: Calibration | None, posterior: Posterior, case: LoadCase) -> PredictedError:
-    error = predict_unfitted(posterior, case) if calibration is None else predict(calibration, case)
-    if error is None:
-        raise FitError("a plan needs a calibration or a prior matrix to begin with, there is neither")
-    return error
 
 
 def _chosen(cases: Sequence[LoadCase], errors: Sequence[PredictedError], wanted: str | None) -> int:

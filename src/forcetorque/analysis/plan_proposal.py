@@ -15,7 +15,7 @@ from forcetorque.errors import ExperimentError
 from forcetorque.evaluation.planning import Choices, Criterion, Knowledge, Lesson, pick
 from forcetorque.noise import means_over
 from forcetorque.robot import JointMotion
-from forcetorque.simulation.motions import Waypoints
+from forcetorque.simulation.motions import Waypoints, shortest_moves
 
 TEMPERATURE = "temperature"
 """The variable whose values a plan may choose."""
@@ -25,8 +25,6 @@ _SEED = 31
 _SAMPLED_HZ = 4.0
 """Rate at which loads on the way are averaged over a second: moves take seconds."""
 _HASTES = (1.0, 0.5, 0.0)
-_PEAK = 1.875
-"""Largest speed of a minimum-jerk move over its mean speed."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -215,9 +213,7 @@ def _changed(postures: FloatArray, drawn: FloatArray, rng: np.random.Generator) 
 def _travel(place: Workplace, start: FloatArray, postures: FloatArray) -> FloatArray:
     """Time from a posture to others; shape (n,); s."""
     columns = place.stand.columns(place.moved)
-    way = np.abs(postures[:, columns] - start[columns])
-    slowest: FloatArray = (_PEAK * way / place.stand.speeds[columns]).max(axis=1)
-    return slowest
+    return shortest_moves(postures[:, columns] - start[columns], place.stand.speeds[columns])
 
 
 def _variables(posterior: Posterior, temperature: tuple[float, float] | None, share: FloatArray) -> FloatArray:

@@ -10,7 +10,7 @@ import numpy as np
 from forcetorque.analysis.plan_rows import PlannedPosture, PlannedRecording
 from forcetorque.analysis.plan_workplace import NOTHING, Workplace
 from forcetorque.calibration.posterior import Posterior
-from forcetorque.evaluation.planning import ASSUMED_DRIFT, ASSUMED_NOISE, Criterion
+from forcetorque.evaluation.planning import ASSUMED_NOISE, Criterion
 from forcetorque.result import Table, number, table_of
 from forcetorque.robot import JointMotion
 from forcetorque.spatial import WRENCH_COMPONENTS
@@ -144,7 +144,7 @@ def limits_of(*, calibrated: bool, posterior: Posterior) -> tuple[str, ...]:
     )
     if calibrated:
         return unchecked, model
-    drift = max(ASSUMED_DRIFT, max(row.white * row.ratio**0.5 / row.white for row in posterior.noise) * ASSUMED_NOISE)
+    drift = ASSUMED_NOISE * max(row.ratio for row in posterior.noise) ** 0.5
     assumed = (
         f"nothing was recorded: the prior matrix is taken to be off by some 6 % of each row, noise of a mean over a "
         f"second to be {ASSUMED_NOISE:g} of full scale and slow noise {drift:.2g}"

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -166,15 +166,7 @@ def _stand(
     limb = limb_of(free, sensor)
     movable = dict.fromkeys((*(limb.own or limb.between), *limb.outboard, *table.ranges))
     ranges = {joint: _range(free, table, clearance_deg, joint) for joint in movable}
-    return Stand(
-        model=model,
-        support=support.frame,
-        gravity_direction=support.gravity_direction,
-        speed=table.speed,
-        margin=0.0,
-        ranges=ranges,
-        gravity=run.experiment.processing.gravity,
-    )
+    return replace(free, ranges=ranges)
 
 
 def _range(stand: Stand, table: PlanTable, clearance_deg: float, joint: str) -> tuple[float, float]:
@@ -208,15 +200,8 @@ def _range(stand: Stand, table: PlanTable, clearance_deg: float, joint: str) -> 
 
 
 def _carrying(stand: Stand, tool: PlanTool) -> Stand:
-    return Stand(
-        model=with_load(stand.model, tool.frame, mass_kg=tool.mass_kg, centre_of_mass_m=tool.centre_of_mass_m),
-        support=stand.support,
-        gravity_direction=stand.gravity_direction,
-        speed=stand.speed,
-        margin=0.0,
-        ranges=stand.ranges,
-        gravity=stand.gravity,
-    )
+    model = with_load(stand.model, tool.frame, mass_kg=tool.mass_kg, centre_of_mass_m=tool.centre_of_mass_m)
+    return replace(stand, model=model)
 
 
 def _moving(stand: Stand, sensor: str) -> tuple[str, ...]:

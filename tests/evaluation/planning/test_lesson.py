@@ -12,6 +12,7 @@ from forcetorque.arrays import FloatArray
 from forcetorque.calibration import LinearVariable
 from forcetorque.calibration.generative import Assumptions
 from forcetorque.calibration.posterior import Posterior
+from forcetorque.errors import FitError
 from forcetorque.evaluation.planning import (
     Choices,
     Criterion,
@@ -21,7 +22,7 @@ from forcetorque.evaluation.planning import (
     pick,
     unfitted_posterior,
 )
-from forcetorque.evaluation.use import LoadCase, UseOffset, moment_of_use, predict_by, predict_unfitted, pushes_within
+from forcetorque.evaluation.use import LoadCase, UseOffset, moment_of_use, predict_by, pushes_within
 
 RNG = np.random.default_rng(5)
 MATRIX = np.diag([0.02, 0.02, 0.04, 6e-4, 6e-4, 4e-4]) @ (np.eye(6) + 0.2 * RNG.normal(size=(6, 6)))
@@ -94,8 +95,7 @@ def test_postures_all_alike_teach_nothing_of_the_matrix(before: Posterior) -> No
     alike = Knowledge.of(before).taught(_lesson(np.tile(LOADS[0], (40, 1)), warmer=0.0)).posterior
     np.testing.assert_allclose(alike.learnt_covariance, before.learnt_covariance, rtol=1e-9)
     error, told = predict_by(alike, CASE), predict_by(Knowledge.of(before).taught(_lesson(LOADS)).posterior, CASE)
-    known = predict_unfitted(before, CASE)
-    assert known is not None
+    known = predict_by(before, CASE)
     assert error.force.typical == pytest.approx(known.force.typical, rel=0.05)
     assert told.force.typical < 0.2 * known.force.typical
 
@@ -156,3 +156,23 @@ def test_the_offset_of_a_use_is_that_of_the_last_recording(before: Posterior) ->
     after = Knowledge.of(before).taught(_lesson(LOADS)).posterior
     assert moment_of_use(after, fitted)[-1, -1] == 1.0
     assert moment_of_use(after, CASE)[-1, -1] == 0.0
+
+
+def test_warmth_in_use_is_expected_before_any_recording_too(before: Posterior) -> None:
+    """What a temperature may do counts before as it does after, and a recording that warms up takes it away."""
+    warm = LoadCase(name="push", words="", wrench=CASE.wrench, offset=UseOffset.TARED, changes={"temperature": 10.0})
+    first, second = predict_by(before, warm), predict_by(Knowledge.of(before).taught(_lesson(LOADS)).posterior, warm)
+    assert first.force.sources.variables > 2.0 * second.force.sources.variables
+    assert first.force.typical > predict_by(before, CASE).force.typical
+    assert predict_by(before, CASE).force.sources.variables == 0.0
+
+
+def test_a_variable_of_which_nothing_is_known_is_refused() -> None:
+    """Only of temperatures there is an expectation; of another what is stated counts."""
+    assumptions = Assumptions.of_counts(6, 32767.0)
+    bare = LinearVariable(name="supply", unit="V")
+    with pytest.raises(FitError, match="variable 'supply': expected prior_deviation, what one V of it may do"):
+        unfitted_posterior(MATRIX, assumptions, [bare])
+    stated = LinearVariable(name="supply", unit="V", prior_deviation=np.full(6, 0.5))
+    known = unfitted_posterior(MATRIX, assumptions, [stated])
+    assert (known.covariance[:, 6, 6] > 0.0).all()

@@ -9,6 +9,7 @@ from typing import Any, Final
 import numpy as np
 
 from forcetorque.arrays import FloatArray, read_only, require_shape
+from forcetorque.calibration.linear_variable import LinearVariable
 from forcetorque.errors import FitError
 
 ACCURACY_SHARE: Final = 1e-3
@@ -44,10 +45,27 @@ The error of a window grows with the square of its length where the motion is sm
 FLATTENING: Final = Scale(expected=0.03, weight=np.inf)
 """By how much that may be otherwise, as where a motion has corners."""
 
+_DEGREES: Final = ("degC", "K", "degF")
 DRIFT_SHARE_PER_DEGREE: Final = 0.005
 """What a temperature coefficient may be: a share of full scale per degree."""
 VARIABLE_SHARE: Final = 1.0
 """What any other variable may do over the range in which it was seen: a share of full scale."""
+
+
+def variable_size(variable: LinearVariable, from_load: FloatArray) -> float | None:
+    """Say what a unit of a variable may add to a row of the model before it was seen.
+
+    Args:
+        variable: The variable.
+        from_load: What a load does to the row; shape (6,).
+
+    Returns:
+        Standard deviation by what is stated, or of a temperature; None for another variable, of which only the range
+        that was seen tells.
+    """
+    if variable.prior_deviation is not None:
+        return float(np.linalg.norm(from_load * variable.prior_deviation))
+    return DRIFT_SHARE_PER_DEGREE if variable.unit in _DEGREES else None
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

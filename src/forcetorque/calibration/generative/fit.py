@@ -22,8 +22,6 @@ from forcetorque.calibration.quadratic_correction import PAIRS
 from forcetorque.calibration.wrench_model import WrenchModel
 from forcetorque.errors import FitError
 
-_DEGREES = ("degC", "K", "degF")
-
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class GenerativeFit:
@@ -141,19 +139,15 @@ def _variable_sizes(variables: Sequence[LinearVariable], values: FloatArray, row
     """Standard deviation of what a unit of every variable may add to a row; shape (v,)."""
     sizes = np.zeros(len(variables))
     for k, variable in enumerate(variables):
-        if variable.prior_deviation is not None:
-            sizes[k] = np.linalg.norm(rows.from_load[row] * variable.prior_deviation)
-        elif variable.unit in _DEGREES:
-            sizes[k] = expected.DRIFT_SHARE_PER_DEGREE
-        else:
-            extent = float(np.ptp(values[:, k]))
-            if extent == 0.0:
-                raise FitError(
-                    f"variable {variable.name!r}: its value is {values[0, k]:g} {variable.unit} throughout the fitted "
-                    "data, which says nothing of its coefficients; fit data at several values, state prior_deviation, "
-                    "or leave it out"
-                )
-            sizes[k] = expected.VARIABLE_SHARE / extent
+        known = expected.variable_size(variable, rows.from_load[row])
+        extent = float(np.ptp(values[:, k]))
+        if known is None and extent == 0.0:
+            raise FitError(
+                f"variable {variable.name!r}: its value is {values[0, k]:g} {variable.unit} throughout the fitted "
+                "data, which says nothing of its coefficients; fit data at several values, state prior_deviation, "
+                "or leave it out"
+            )
+        sizes[k] = expected.VARIABLE_SHARE / extent if known is None else known
     return sizes
 
 

@@ -14,6 +14,7 @@ from forcetorque.calibration.generative import assumptions as expected
 from forcetorque.calibration.generative.assumptions import Assumptions
 from forcetorque.calibration.generative.rows import LOADS, rows_of
 from forcetorque.calibration.posterior import Posterior, RowNoise
+from forcetorque.errors import FitError
 
 ASSUMED_NOISE: Final = 1e-4
 """White noise of a mean over a second that is assumed where none was measured, as a share of full scale."""
@@ -35,6 +36,9 @@ def unfitted_posterior(
 
     Returns:
         Prior covariance and assumed noise; its only session has an offset that is known.
+
+    Raises:
+        FitError: If nothing tells what a variable may do.
     """
     rows = rows_of(matrix, assumptions, with_prior=True)
     unit = rows.unit
@@ -46,13 +50,13 @@ def unfitted_posterior(
     covariance = np.zeros((len(unit), size, size))
     covariance[:, :LOADS, :LOADS] = prior + assumptions.repeatability**2 * _spread(rows.sensor_root, unit)
     for k, variable in enumerate(variables):
-        deviation = variable.prior_deviation
-        own = (
-            np.full(len(unit), expected.DRIFT_SHARE_PER_DEGREE)
-            if deviation is None
-            else np.linalg.norm(rows.from_load * deviation, axis=1)
-        )
-        covariance[:, LOADS + k, LOADS + k] = (unit * own) ** 2
+        own = [expected.variable_size(variable, row) for row in rows.from_load]
+        if None in own:
+            raise FitError(
+                f"variable {variable.name!r}: expected prior_deviation, what one {variable.unit or 'unit'} of it may "
+                "do; before any recording nothing tells, and it is no temperature"
+            )
+        covariance[:, LOADS + k, LOADS + k] = (unit * np.array(own)) ** 2
     drift = np.maximum(ASSUMED_DRIFT, rows.accuracy)
     in_wrench = rows.space == "wrench"
     return Posterior(

@@ -12,7 +12,6 @@ from forcetorque.evaluation.use.prediction import (
     predict,
     predict_by,
     predict_prior,
-    predict_unfitted,
 )
 
 __all__ = [
@@ -27,7 +26,6 @@ __all__ = [
     "predict",
     "predict_by",
     "predict_prior",
-    "predict_unfitted",
     "pushes_at",
     "pushes_within",
     "shares_of",

@@ -146,25 +146,6 @@ def predict_prior(calibration: Calibration, case: LoadCase) -> PredictedError | 
     return _error(unknowns, posterior, to_wrench, moment_of_use(posterior, case))
 
 
-def predict_unfitted(posterior: Posterior, case: LoadCase) -> PredictedError | None:
-    """Predict the error of the prior matrix at the loads of a use before any recording.
-
-    Args:
-        posterior: Posterior whose prior it is.
-        case: The use; its offset is taken to be known.
-
-    Returns:
-        The error of changes of load; None without a prior.
-    """
-    if posterior.prior_covariance is None:
-        return None
-    spread = np.zeros_like(posterior.covariance)
-    spread[:, :6, :6] = posterior.prior_covariance
-    tared = LoadCase(name=case.name, words=case.words, wrench=case.wrench, offset=UseOffset.TARED)
-    to_wrench = posterior.to_wrench
-    return _error(to_wrench @ _draws(posterior, spread), posterior, to_wrench, moment_of_use(posterior, tared))
-
-
 def _posterior(calibration: Calibration) -> Posterior:
     if calibration.posterior is None:
         raise FitError(
@@ -174,10 +155,9 @@ def _posterior(calibration: Calibration) -> Posterior:
     return calibration.posterior
 
 
-def _draws(posterior: Posterior, covariance: FloatArray | None = None) -> FloatArray:
+def _draws(posterior: Posterior) -> FloatArray:
     """Deviations of all unknowns from their mean, the same ones on every call; shape (m, rows, p)."""
-    spread = posterior.covariance if covariance is None else covariance
-    values, vectors = np.linalg.eigh(spread)
+    values, vectors = np.linalg.eigh(posterior.covariance)
     roots = vectors * np.sqrt(np.maximum(values, 0.0))[:, None, :]
     normal = np.random.default_rng(_SEED).normal(size=(_DRAWS, *posterior.mean.shape))
     draws: FloatArray = np.einsum("ijk,mik->mij", roots, normal)

@@ -8,7 +8,7 @@ from forcetorque.simulation.motions.limb import Limb, limb_of
 from forcetorque.simulation.motions.movement import Movement, MovementKind, Touch
 from forcetorque.simulation.motions.random_smooth import random_movement, random_smooth_motion
 from forcetorque.simulation.motions.stand import Stand
-from forcetorque.simulation.motions.waypoints import Waypoints
+from forcetorque.simulation.motions.waypoints import Waypoints, shortest_moves
 from forcetorque.simulation.motions.z_torque import z_torque_movement
 
 __all__ = [
@@ -18,6 +18,7 @@ __all__ = [
     "Stand",
     "Touch",
     "Waypoints",
+    "shortest_moves",
     "balancing_movement",
     "contact_switching_movements",
     "grid_movement",

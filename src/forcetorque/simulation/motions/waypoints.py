@@ -71,7 +71,7 @@ class Waypoints:
             raise ShapeError(f"speeds: expected positive ones in rad/s or m/s, got {', '.join(slow)}")
         if not 0.0 <= hold_s < np.inf:
             raise ShapeError(f"hold_s: expected a time of at least 0 s, got {hold_s}")
-        durations = (_PEAK * np.abs(np.diff(postures, axis=0)) / speeds).max(axis=1, initial=0.0)
+        durations = shortest_moves(np.diff(postures, axis=0), speeds)
         ends = np.cumsum(durations + hold_s)
         return cls(
             names=names,
@@ -103,3 +103,17 @@ class Waypoints:
             velocity=way * (30.0 * x**2 * (1.0 - x) ** 2) / duration,
             acceleration=way * (60.0 * x * (1.0 - x) * (1.0 - 2.0 * x)) / duration**2,
         )
+
+
+def shortest_moves(ways: FloatArray, speeds: FloatArray) -> FloatArray:
+    """Give the time that minimum-jerk moves take at least, all joints of a move together.
+
+    Args:
+        ways: How far every joint goes in each move; shape (n, j); rad or m.
+        speeds: Largest speed of every joint; shape (j,); rad/s or m/s.
+
+    Returns:
+        Durations; shape (n,); s.
+    """
+    durations: FloatArray = (_PEAK * np.abs(ways) / speeds).max(axis=1, initial=0.0)
+    return durations
