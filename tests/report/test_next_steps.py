@@ -19,10 +19,11 @@ KEY = ("leg_ft", "SN1")
 MOVE = Reason(against="data", text="the load hardly moved; judge data that move")
 
 
-def _steps(*uses: UseVerdict, undecided: tuple[Undecided, ...] = ()) -> tuple[str, ...]:
+def _steps(*uses: UseVerdict, undecided: tuple[Undecided, ...] = (), stands: bool = True) -> tuple[str, ...]:
     names = dict.fromkeys(row.candidate for row in (*uses, *undecided) if row.candidate is not None)
     calibrations = {name: make_calibration() for name in names}
-    run = cast("SensorRun", SimpleNamespace(experiment=SimpleNamespace(plan=None)))
+    experiment = SimpleNamespace(plan=None, stands=stands, load_cases=[SimpleNamespace(name="push")])
+    run = cast("SensorRun", SimpleNamespace(experiment=experiment))
     return next_steps(KEY, uses, undecided, calibrations, {"walk.toml": run}).steps
 
 
@@ -46,6 +47,19 @@ def test_one_that_may_not_be_used_leads_to_a_plan() -> None:
     assert "(the prior) may be used there" in better[0]
     assert worse[1] == "Record more."
     assert "`forcetorque plan walk.toml -c leg.json` lists what to record next" in worse[2]
+
+
+def test_no_plan_where_none_can_be_had() -> None:
+    """Of a wrist that nobody moves by a robot model, and of a use that only the acceptance file states."""
+    assert any("forcetorque plan" in step for step in _steps(use_of(force=40.0)))
+    assert not any("forcetorque plan" in step for step in _steps(use_of(force=40.0), stands=False))
+    assert not any("forcetorque plan" in step for step in _steps(use_of(force=40.0, load_case="of the file")))
+
+
+def test_a_prior_of_small_predicted_errors_is_to_be_judged_first() -> None:
+    """A prediction alone does not make it fit for use."""
+    (today, *_) = _steps(use_of(force=40.0, before=2.0))
+    assert "if the errors that it shows on judged intervals bear it out" in today
 
 
 def test_no_plan_where_the_prediction_is_not_what_speaks_against_it() -> None:

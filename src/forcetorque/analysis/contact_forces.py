@@ -203,11 +203,11 @@ def contact_force_rows(sensor: ExperimentSensor, contacts: ContactWrenches) -> I
         A row per candidate and offset that has samples without gaps.
     """
     expected = contacts.expected[np.isfinite(contacts.expected).all(axis=1)]
-    moved = JudgedExcitation.of(expected, ()) if len(expected) else None
+    if not len(expected):
+        return
+    moved = JudgedExcitation.of(expected, ())
     for index, offset in _judgeable(contacts):
         wrenches = contacts.wrenches[index, offset]
-        if moved is None:
-            continue
         candidate, errors = contacts.candidates[index], errors_from_zero(wrenches, contacts.time_s[index, offset])
         yield ContactForceErrors(
             sensor=sensor.name,

@@ -246,7 +246,7 @@ def _runs(runs: Runs) -> Sequence[SensorRun]:
 
 
 def _table(runs: Sequence[SensorRun]) -> PlanTable:
-    if any(run.experiment.payload is not None or not run.experiment.supports for run in runs):
+    if not all(run.experiment.stands for run in runs):
         raise ExperimentError("plan: expected [robot] with a [[support]] at rest, whose joints can be moved")
     tables = [run.experiment.plan for run in runs if run.experiment.plan is not None]
     if any(table != tables[0] for table in tables[1:]):

@@ -187,6 +187,11 @@ class Experiment:
         what = f"{self.model.name}; sensors {sensors}; {intervals or 'no intervals'}"
         return f"<Experiment {self.name!r}: {what}>"
 
+    @property
+    def stands(self) -> bool:
+        """Whether a robot stands on a support at rest, so that its joints can be moved as planned."""
+        return self.payload is None and bool(self.supports)
+
     def sensor(self, name: str) -> ExperimentSensor:
         """Find a sensor of the experiment.
 

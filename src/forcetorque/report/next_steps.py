@@ -11,7 +11,6 @@ from forcetorque.analysis import (
     SensorRun,
     UseVerdict,
     learnt_directions,
-    loads_of_use,
     plan_sentence,
     to_learn,
 )
@@ -60,8 +59,7 @@ def next_steps(
             ((names[verdict.candidate], step) for verdict in uses for step in _remedies(verdict)), names.values()
         ),
         *said_once(_to_record(uses, calibrations, names), names.values()),
-        *said_once(_first_recording(uses, calibrations, [*runs.values()], names), names.values()),
-        *_plan(uses, [*runs]),
+        *_plan(_to_plan(uses, [*runs.values()]), calibrations, runs, names),
         *_begin(undecided, key[0], [*runs], names),
         *_state_use(uses),
     ]
@@ -95,7 +93,10 @@ def _instead(verdict: UseVerdict) -> str:
     if not pairs:
         return " Nothing is known of another matrix that could take its place."
     if all(row.allowed is None or most <= row.allowed for row, most in pairs):
-        return " The matrix that it came from (the prior) may be used there: its predicted errors are small enough."
+        return (
+            " The matrix that it came from (the prior) may be used there if the errors that it shows on judged "
+            "intervals bear it out: its predicted errors are small enough."
+        )
     judged = [(row, most) for row, most in pairs if row.allowed is not None] or pairs
     worse = all(most >= row.after_at_most for row, most in judged)
     more = "is predicted to err even more" if worse else "is predicted to err too much as well"
@@ -128,40 +129,52 @@ def _predicts_too_much(verdict: UseVerdict) -> bool:
     return verdict.within is not None and verdict.within < CONFIDENCE
 
 
-def _first_recording(
-    uses: Sequence[UseVerdict],
+def _to_plan(uses: Sequence[UseVerdict], runs: Sequence[SensorRun]) -> dict[str, list[UseVerdict]]:
+    """By file of a calibration the verdicts for which a plan can say what to record."""
+    if not all(run.experiment.stands for run in runs):
+        return {}
+    known = {table.name for run in runs for table in run.experiment.load_cases}
+    wanted: dict[str, list[UseVerdict]] = {}
+    for verdict in uses:
+        # no plan reads the uses of an acceptance file
+        if _predicts_too_much(verdict) and (not verdict.stated or verdict.load_case in known):
+            wanted.setdefault(verdict.candidate, []).append(verdict)
+    return wanted
+
+
+def _plan(
+    wanted: Mapping[str, Sequence[UseVerdict]],
     calibrations: Mapping[str, Calibration],
-    runs: Sequence[SensorRun],
+    runs: Mapping[str, SensorRun],
     names: Mapping[str, str],
-) -> Iterator[tuple[str, str]]:
-    """By name of a calibration what to record first for the use that it is farthest from, where limits are stated."""
-    if not any(run.experiment.plan is not None and run.experiment.plan.clearance_deg is not None for run in runs):
-        return
-    for file, calibration in calibrations.items():
-        wanted = [verdict for verdict in uses if verdict.candidate == file and _predicts_too_much(verdict)]
-        cases = {case.name for case in loads_of_use(runs, matrix=calibration.matrix, refuse=lambda _: None)}
-        known = [verdict for verdict in wanted if verdict.load_case in cases]
-        if not known:  # a use of an acceptance file, which no plan reads
-            continue
-        worst = min(known, key=_chance)
-        try:
-            words = plan_sentence(runs, calibration, load_case=worst.load_case)
-        except ForceTorqueError as error:
-            words = f"no recording could be planned: {error}"
-        yield names[file], f"For “{worst.load_case}”, {words}."
+) -> Iterator[str]:
+    """What to record first for the use that a calibration is farthest from, and the command that says what then."""
+    tables = [run.experiment.plan for run in runs.values()]
+    if any(table is not None and table.clearance_deg is not None for table in tables):
+        first = [
+            (names[file], _first_recording(calibrations[file], min(verdicts, key=_chance), [*runs.values()]))
+            for file, verdicts in wanted.items()
+        ]
+        yield from said_once(first, names.values())
+        needed = ""
+    else:
+        needed = "; it needs clearance_deg, what joints keep away from their limits, in [plan] of the experiment file"
+    for file in wanted:
+        command = shlex.join(["forcetorque", "plan", *runs, "-c", file])
+        yield f"`{command}` lists what to record next, and the error to expect after each recording{needed}."
+
+
+def _first_recording(calibration: Calibration, verdict: UseVerdict, runs: Sequence[SensorRun]) -> str:
+    try:
+        words = plan_sentence(runs, calibration, load_case=verdict.load_case)
+    except ForceTorqueError as error:
+        words = f"no recording could be planned: {error}"
+    return f"For “{verdict.load_case}”, {words}."
 
 
 def _chance(verdict: UseVerdict) -> float:
     """Predicted probability of an error within what is allowed."""
     return 1.0 if verdict.within is None else verdict.within
-
-
-def _plan(uses: Sequence[UseVerdict], files: Sequence[str]) -> Iterator[str]:
-    """The command that says what to record, for every calibration whose predicted error is too large."""
-    wanted = dict.fromkeys(verdict.candidate for verdict in uses if _predicts_too_much(verdict))
-    for candidate in wanted:
-        command = shlex.join(["forcetorque", "plan", *files, "-c", candidate])
-        yield f"`{command}` lists what to record next, and the error to expect after each recording."
 
 
 def _begin(
