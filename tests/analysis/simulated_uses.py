@@ -16,7 +16,7 @@ from forcetorque.arrays import FloatArray
 from forcetorque.calibration import Calibration, DataSet
 from forcetorque.calibration.generative import GenerativeFit
 from forcetorque.evaluation.use import LoadCase, UseOffset, pushes_at, pushes_within, shares_of
-from forcetorque.evaluation.use.evidence import Evidence, evidence
+from forcetorque.evaluation.use.evidence import Evidence, JudgedStretch, evidence
 from tests.calibration.push_error import LIMIT_COUNTS, Case, cases
 
 FITTED = {"grid": ["grid"], "tz": ["tz"], "bsl": ["bsl"], "all": ["grid", "tz", "bsl", "bnsl"]}
@@ -137,7 +137,12 @@ def _uses(case: Case) -> tuple[LoadCase, ...]:
 def _evidence(fit: GenerativeFit, judged: list[DataSet]) -> Evidence:
     return evidence(
         [
-            (data.time_s, fit.model.wrench(data.raw, np.reshape(data.variables, (len(data.raw), -1))), data.reference)
+            JudgedStretch(
+                session=data.session,
+                time_s=data.time_s,
+                measured=fit.model.wrench(data.raw, np.reshape(data.variables, (len(data.raw), -1))),
+                reference=data.reference,
+            )
             for data in judged
         ]
     )

@@ -16,7 +16,7 @@ from forcetorque.analysis.prior_comparison import compare_with_prior
 from forcetorque.analysis.use_judge import UseJudge
 from forcetorque.calibration import Calibration
 from forcetorque.errors import ExperimentError, ForceTorqueError, FormatError
-from forcetorque.evaluation.use.evidence import Evidence, evidence
+from forcetorque.evaluation.use.evidence import Evidence, JudgedStretch, evidence
 from forcetorque.experiment import load_experiment
 from tests.experiments import PARQUET, edit
 
@@ -208,17 +208,18 @@ def test_one_name_for_two_uses_is_refused(arm: Path) -> None:
         loads_of_use([run], [stated.model_copy(update={"force_error_N": 7.0})])
 
 
-def _evidence(*offsets: float, sway: float = 10.0) -> Evidence:
-    """Recordings of 30 s, each with its own constant error along x and a load that sways."""
+def _evidence(*offsets: float, sway: float = 10.0, sessions: str = "abc", turned: bool = False) -> Evidence:
+    """Recordings of 30 s, each with its own constant error along x and a load that sways, read as along y if turned."""
     rng = np.random.default_rng(4)
     time = 0.1 * np.arange(300)
-    recordings = []
-    for k, offset in enumerate(offsets):
+    stretches = []
+    for k, (offset, session) in enumerate(zip(offsets, sessions, strict=False)):
         reference = np.zeros((300, 6))
         reference[:, 0] = 40.0 * (k + 1) + sway * np.sin(time)
         error = 0.01 * rng.normal(size=(300, 6)) + [offset, 0.0, 0.0, 0.0, 0.0, 0.0]
-        recordings.append((time, reference + error, reference))
-    return evidence(recordings)
+        measured = (reference[:, [1, 0, 2, 3, 4, 5]] if turned else reference) + error
+        stretches.append(JudgedStretch(session=session, time_s=time, measured=measured, reference=reference))
+    return evidence(stretches)
 
 
 def test_constant_errors_of_two_recordings_do_not_cancel() -> None:
@@ -228,11 +229,23 @@ def test_constant_errors_of_two_recordings_do_not_cancel() -> None:
     assert _evidence(0.0, 0.0).force.constant_at_least < 0.05
 
 
-def test_recordings_at_rest_in_several_postures_do_not_move() -> None:
-    """The load differs by 40 N between them, and moves in neither."""
+def test_recordings_of_two_sessions_at_rest_in_several_postures_do_not_move() -> None:
+    """The load differs by 40 N between them, and moves in neither: each has its own offset, which takes that up."""
     still, swaying = (_evidence(0.0, 0.0, sway=sway) for sway in (0.0, 10.0))
     assert JudgedExcitation.of(still.reference, [], moved=still.moved).words is not None
     assert "forces" not in (JudgedExcitation.of(swaying.reference, [], moved=swaying.moved).words or "")
+    # and a sensor that is turned passes there
+    assert _evidence(0.0, 0.0, sway=0.0, turned=True).force.rest < 0.05
+
+
+def test_postures_of_one_session_move_and_show_a_sensor_that_is_turned() -> None:
+    """In one session the offset is the same, so 40 N from one recording to the next are 40 N more or an error."""
+    moved = _evidence(0.0, 0.0, sway=0.0, sessions="aa")
+    assert "forces" not in (JudgedExcitation.of(moved.reference, [], moved=moved.moved).words or "")
+    assert moved.force.rest < 0.05
+    assert _evidence(0.0, 0.0, sway=0.0, sessions="aa", turned=True).force.rest > 20.0
+    # nor do constant errors hide that cancel each other in the mean of a session
+    assert _evidence(8.0, -8.0, sessions="aa").force.rest > 7.5
 
 
 def test_a_trifle_worse_than_the_prior_is_no_reason(arm: Path) -> None:

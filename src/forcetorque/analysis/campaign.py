@@ -93,6 +93,18 @@ class Campaign:
         """
         return self.recordings[self.runs.index(run)]
 
+    def session(self, run: SensorRun, label: str) -> str:
+        """Name the session of an interval: a stretch of time in which the sensor keeps its offset.
+
+        Args:
+            run: The run that has it.
+            label: Label of the interval.
+
+        Returns:
+            The session that its file states, else the recording.
+        """
+        return self.names.session(self._recordings[self.runs.index(run)], label)
+
     def runs_with(self, use: Use) -> tuple[SensorRun, ...]:
         """Give the runs that have an interval of a use.
 

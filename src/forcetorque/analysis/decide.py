@@ -18,7 +18,6 @@ from forcetorque.errors import FitError
 from forcetorque.evaluation import Offset
 from forcetorque.evaluation.use import UseOffset
 from forcetorque.experiment.load_case_schema import LoadCaseTable
-from forcetorque.recording import Use
 
 
 def use_verdicts(
@@ -48,12 +47,11 @@ def use_verdicts(
         FitError: If a load case changes a variable that the calibration does not know.
     """
     campaign = Campaign.of(runs)
-    judged = [run for run in campaign.runs if run.has(Use.VALIDATION)]
     for name, calibration in calibrations.items():
         for run in campaign.runs:
             require_unseen_if_judged(name, calibration, run)
-    measured = judged_evidence(judged, calibrations)
-    compared = compare_with_prior(campaign, calibrations) if judged and calibrations else ()
+    measured = judged_evidence(campaign, calibrations)
+    compared = compare_with_prior(campaign, calibrations) if measured else ()
     worse = [row for row in compared if row.judgement == "worse"]
     verdicts = []
     for name, calibration in calibrations.items():

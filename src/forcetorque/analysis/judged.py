@@ -33,6 +33,8 @@ class JudgedWrenches:
 
     Pairs, because a calibration may be called `prior` too.
     """
+    intervals: tuple[tuple[str, slice], ...]
+    """Label of every interval, and which of the instants are its."""
     candidates: tuple[JudgedCandidate, ...]
     """The same candidates: how each reads the sensor, and which prior it is to be compared with."""
 
@@ -79,9 +81,13 @@ def judged_wrenches(run: SensorRun, calibrations: Mapping[str, Calibration]) -> 
         matrix = candidate.correction.model.matrix
         require_shape(matrix, name=f"{candidate.name}: matrix", shape=(6, run.channels))
     stamps = np.concatenate([part.samples.stamp_ns for part in parts])
+    ends = np.cumsum([len(part.samples.stamp_ns) for part in parts]).tolist()
     return JudgedWrenches(
         time_s=seconds_since(stamps, run.experiment.recording.start_ns),
         reference=np.concatenate([part.samples.reference for part in parts]),
         measured=tuple((candidate.name, run.read(spans, candidate.correction)) for candidate in candidates),
+        intervals=tuple(
+            (part.interval.label, slice(start, end)) for part, start, end in zip(parts, [0, *ends], ends, strict=False)
+        ),
         candidates=candidates,
     )

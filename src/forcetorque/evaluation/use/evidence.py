@@ -1,10 +1,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What data that were not fitted say of a use: errors in means of a second, their constant part and the rest."""
+"""What data that were not fitted say of a use: errors in means of a second, their constant part and the rest.
+
+The sensor has one offset in a session, so a mean is that of a session: between two recordings of one session the
+load moves, and what a wrong matrix makes of that shows; between two sessions the offset would take it up.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import groupby
 
 import numpy as np
 
@@ -19,11 +24,11 @@ class MeasuredError:
     """Error of one quantity, force or moment, on judged data."""
 
     constant: float
-    """Norm of the mean error; N or N m."""
+    """Norm of the mean error in the session in which it is largest; N or N m."""
     constant_at_least: float
-    """What is left of it when the half-width of its 95 % interval is taken off."""
+    """What is left of a mean error, at most, when the half-width of its 95 % interval is taken off."""
     rest: float
-    """Root mean square of what is left without the mean; N or N m."""
+    """Root mean square of what is left without the means; N or N m."""
     rest_at_least: float
     """Lower end of its 95 % interval; 0 where the data are too few to tell."""
 
@@ -39,24 +44,39 @@ class Evidence:
     reference: FloatArray
     """The reference, in means of a second; shape (n, 6); N, N m."""
     moved: FloatArray
-    """The reference about its mean in each recording; shape (n, 6); N, N m."""
+    """The reference about its mean in each session; shape (n, 6); N, N m."""
 
 
-def evidence(recordings: Sequence[tuple[FloatArray, FloatArray, FloatArray]]) -> Evidence:
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class JudgedStretch:
+    """What one candidate measured in a recording, or in as much of it as belongs to one session."""
+
+    session: str
+    """Name of the session."""
+    time_s: FloatArray
+    """Instants, not falling; shape (n,); s."""
+    measured: FloatArray
+    """What was measured; shape (n, 6); N, N m."""
+    reference: FloatArray
+    """What mechanics demands; shape (n, 6); N, N m."""
+
+
+def evidence(stretches: Sequence[JudgedStretch]) -> Evidence:
     """Sum up the errors of one candidate in any number of recordings.
 
     Args:
-        recordings: Of each the instants, not falling, shape (n,), s; the wrenches that it measured, shape (n, 6); and
-            those that mechanics demands, shape (n, 6); N, N m.
+        stretches: What it measured in each, at least one.
 
     Returns:
-        The errors. The constant part is that of the recording in which it is largest: of two that cancel each other
-        either would hurt. What is left is about the mean of each recording.
+        The errors. The constant part is that of the session in which it is largest: of two that cancel each other
+        either would hurt. What is left is about the mean of each session.
     """
     instants, errors, references = [], [], []
-    for time_s, measured, reference in recordings:
-        time, columns, _ = means_over(time_s, np.hstack([measured - reference, reference]))
-        instants.append(time)
+    in_session = sorted(stretches, key=lambda stretch: stretch.session)
+    for _, session in groupby(in_session, key=lambda stretch: stretch.session):
+        means = [means_over(one.time_s, np.hstack([one.measured - one.reference, one.reference])) for one in session]
+        instants.append(one_after_another([time for time, _, _ in means]))
+        columns = np.concatenate([columns for _, columns, _ in means])
         errors.append(columns[:, :6])
         references.append(columns[:, 6:])
     line = one_after_another(instants)
