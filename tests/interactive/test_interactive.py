@@ -8,11 +8,14 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pandas as pd
 import pytest
 
 import forcetorque
 from forcetorque import Experiment, experiment_of_arrays, load_experiment, read_calibration
 from forcetorque.analysis import SensorRun, evaluate
+from forcetorque.analysis import plan as analysis_plan
+from forcetorque.analysis.plan_proposal import Effort
 from forcetorque.errors import ExperimentError, FitError, ShapeError
 from forcetorque.interactive import Run
 from forcetorque.recording import Use
@@ -88,6 +91,16 @@ def test_arrays_give_what_the_file_gives(experiment: Experiment) -> None:
         assert twin.force_error_mean_N == pytest.approx(row.force_error_mean_N, rel=1e-5)
 
 
+def test_arrays_may_come_in_frames_of_pandas(experiment: Experiment) -> None:
+    """Readings, instants and joint positions: the columns of one frame, or of several."""
+    arguments = _arrays(experiment)
+    joints = pd.DataFrame(arguments["joints"])
+    readings = pd.DataFrame(arguments["reading"], columns=[f"ch{k}" for k in range(6)])
+    frames = {"joints": joints, "reading": readings, "time_s": pd.Series(arguments["time_s"])}
+    by_frames = experiment_of_arrays(**arguments | frames)["arm_ft"].calibrate()
+    np.testing.assert_array_equal(by_frames.matrix, experiment_of_arrays(**arguments)["arm_ft"].calibrate().matrix)
+
+
 def test_a_calibrated_wrench_needs_the_matrix_that_made_it(experiment: Experiment) -> None:
     """Or the identity with full scales; the calibration is then of the wrench."""
     prior = experiment.sensors[0].prior
@@ -112,6 +125,7 @@ def test_a_calibrated_wrench_needs_the_matrix_that_made_it(experiment: Experimen
         ({"reading": np.zeros((7, 6))}, ShapeError, "reading"),
         ({"sensor": "leg"}, forcetorque.ForceTorqueError, "leg"),
         ({"gravity_direction": [0, 0, 0]}, forcetorque.ForceTorqueError, "gravity_direction"),
+        ({"limit_counts": 0.0}, ExperimentError, "limit_counts: expected a positive number of counts, got 0.0"),
         ({"calibrate": (9.0, 2.0)}, forcetorque.ForceTorqueError, "expected an end after its start"),
     ],
 )
@@ -121,6 +135,25 @@ def test_arrays_that_do_not_fit_are_refused(
     """In words that name the argument."""
     with pytest.raises(error, match=message):
         experiment_of_arrays(**_arrays(experiment, **changes))
+
+
+def test_the_limit_of_the_converter_is_that_of_16_bits_or_stated(experiment: Experiment) -> None:
+    """As in a file; head-room is counted from it."""
+    one, other = (
+        experiment_of_arrays(**_arrays(experiment, **changes)).sensors[0] for changes in ({}, {"limit_counts": 2047.0})
+    )
+    assert one.limit_counts == experiment.sensors[0].limit_counts
+    assert other.limit_counts == 2047.0
+
+
+def test_what_to_record_next_is_planned_from_arrays(experiment: Experiment) -> None:
+    """As from the file, and as the function says it."""
+    run = experiment_of_arrays(**_arrays(experiment))["arm_ft"]
+    quick: dict[str, Any] = {"clearance_deg": 5.0, "recordings": 1, "effort": Effort(postures=30, swaps=5)}
+    plan = run.plan(**quick)
+    assert len(plan.recordings) == 1
+    assert plan.advice == analysis_plan(run, **quick).advice == experiment["arm_ft"].plan(**quick).advice
+    assert run.plan(run.calibrate(), **quick).advice != plan.advice
 
 
 def test_without_a_span_to_judge_nothing_is_judged(experiment: Experiment) -> None:

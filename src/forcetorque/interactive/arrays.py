@@ -38,6 +38,7 @@ def experiment_of_arrays(
     serial: str,
     prior: Any = None,
     full_scale: Any = None,
+    limit_counts: float = 32767.0,
     quantity: Literal["raw", "wrench"] = "raw",
     name: str = "arrays",
 ) -> Experiment:
@@ -58,6 +59,7 @@ def experiment_of_arrays(
         serial: Serial number of the sensor.
         prior: Matrix that it was calibrated with before; shape (6, c); N/count, N m/count; None where there is none.
         full_scale: Full scale of its components; shape (6,); N, N m.
+        limit_counts: Largest magnitude of a raw reading, at which it saturates; counts; that of 16 bits if left out.
         quantity: Whether the reading is `raw` or a calibrated `wrench`, which needs the prior that made it, or
             `numpy.eye(6)` with `full_scale` where that is not known.
         name: Name of the experiment.
@@ -82,6 +84,8 @@ def experiment_of_arrays(
         raise ExperimentError("reading: a calibrated wrench needs the prior that made it, or numpy.eye(6); got none")
     if support not in model.links:
         raise ExperimentError(f"support: the robot {model.name!r} has no link {support!r}")
+    if not limit_counts > 0.0:
+        raise ExperimentError(f"limit_counts: expected a positive number of counts, got {limit_counts!r}")
     ground = Support(frame=support, gravity_direction=gravity_direction)
     spans = [("calibrate", calibrate, Use.CALIBRATION), ("judge", judge, Use.VALIDATION)]
     intervals = [
@@ -104,7 +108,7 @@ def experiment_of_arrays(
                 quantity=quantity,
                 prior=matrix,
                 prior_source=None if matrix is None else "identity" if known else "given as an array",
-                limit_counts=32767.0,
+                limit_counts=limit_counts,
                 full_scale=None if full_scale is None else np.asarray(full_scale, dtype=np.float64),
             ),
         ),
@@ -116,6 +120,7 @@ def experiment_of_arrays(
         sphere_intervals=None,
         roles={interval.label: Role(kind=interval.label, session=None) for interval in intervals},
         payload=None,
+        supports=(ground,),
         inputs_sha256={},
     )
 

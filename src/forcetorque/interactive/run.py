@@ -97,6 +97,18 @@ class Run(SensorRun):
         """
         return analysis.use_verdicts(self, named(calibrations))
 
+    def plan(self, calibration: Calibration | None = None, **options: Any) -> analysis.Plan:
+        """Say what to record next: `run.plan(calibration, clearance_deg=10.0)`.
+
+        Args:
+            calibration: What is known of the sensor; its prior matrix if left out.
+            options: As of `analysis.plan`: load_case, clearance_deg, recordings, seconds, effort, progress.
+
+        Returns:
+            The recordings, and the error to expect after each.
+        """
+        return analysis.plan(self, calibration, **options)
+
     def report(self, calibrations: Calibrations | None = None, **options: Any) -> Report:
         """Say everything about the sensor in a document: `run.report(calibration).save("a.html")`.
 
