@@ -21,6 +21,7 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 
 from forcetorque.arrays import FloatArray, IntArray
+from forcetorque.arrow_numbers import arrow_numbers
 from forcetorque.errors import FormatError, MissingFileError, RecordingError, ShapeError
 from forcetorque.paths import real_path
 from forcetorque.recording.finding import Finding
@@ -254,7 +255,7 @@ def _samples(table: Any, name: str, *, width: int) -> FloatArray:
         raise FormatError(f"column {name!r}: expected lists of {width} float64 each, got {form}")
     if column.values.null_count:
         raise FormatError(f"column {name!r}: expected numbers, got empty values; NaN marks a gap")
-    values: FloatArray = column.values.to_numpy(zero_copy_only=False).reshape(len(table), width)
+    values: FloatArray = arrow_numbers(column.values).reshape(len(table), width)
     return values
 
 
@@ -262,5 +263,5 @@ def _integers(table: Any, name: str) -> IntArray:
     column = _column(table, name)
     if not pa.types.is_int64(column.type):
         raise FormatError(f"column {name!r}: expected int64, got {column.type}")
-    integers: IntArray = column.to_numpy(zero_copy_only=False)
+    integers: IntArray = arrow_numbers(column)
     return integers

@@ -12,6 +12,7 @@ import pyarrow.compute as pc
 import pyarrow.csv as pacsv
 
 from forcetorque.arrays import FloatArray, IntArray
+from forcetorque.arrow_numbers import arrow_numbers
 from forcetorque.errors import FormatError, MissingFileError, UnitError, known_names
 from forcetorque.exchange.arrow_text import arrow_text
 from forcetorque.exchange.tabular.layout import NANOSECOND_DIGITS, StampColumn, TableLayout, TableSignal
@@ -161,7 +162,7 @@ def _signal(file: Path, declared: TableSignal, table: Any, first_line: int) -> S
 
 
 def _floats(file: Path, name: str, table: Any, first_line: int) -> FloatArray:
-    values = np.asarray(table.column(name).to_numpy(), dtype=np.float64)
+    values = arrow_numbers(table.column(name))
     if np.isinf(values).any():
         line = first_line + int(np.flatnonzero(np.isinf(values))[0])
         raise FormatError(f"{file}:{line}: column {name!r}: expected a finite number or an empty field, got inf")

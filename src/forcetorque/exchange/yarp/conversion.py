@@ -6,13 +6,14 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import pyarrow as pa
-import pyarrow.compute as pc
 import pyarrow.csv as pacsv
 
 from forcetorque.arrays import BoolArray, FloatArray, IntArray
+from forcetorque.arrow_numbers import arrow_numbers
 from forcetorque.exchange.arrow_text import arrow_text
 from forcetorque.exchange.yarp.bottle import Bottle, leaves
 from forcetorque.exchange.yarp.message_line import is_number
@@ -25,7 +26,7 @@ _AS_SPACES = bytes.maketrans(_BRACKETS, b" " * len(_BRACKETS))
 _NUMBER = re.compile(rb"[0-9.+\-eE]+")
 _STAMP_TYPE = pa.decimal128(19, 9)
 """A float64 resolves 240 ns at today's epoch, so stamps are read as decimals, which are exact."""
-_NS_PER_S = pa.scalar(10**9, pa.decimal128(10, 0))
+_NS_TYPE = pa.decimal128(19, 0)
 _ARROW_BLOCK_SIZE = 1 << 20
 """Bytes that one thread of Arrow converts at a time."""
 
@@ -113,22 +114,27 @@ def convert(group: LineGroup, layout: NumberLayout) -> Numbers | None:
             parse_options=pacsv.ParseOptions(delimiter=" ", quote_char=False, ignore_empty_lines=False),
             convert_options=pacsv.ConvertOptions(column_types=names, include_columns=list(names), null_values=[]),
         )
-        stamps = [pc.multiply(table.column(str(cell)), _NS_PER_S).cast(pa.int64()).to_numpy() for cell in layout.stamps]
+        stamps = [_nanoseconds(table.column(str(cell))) for cell in layout.stamps]
     except pa.ArrowException:
         return None
     values = np.full((table.num_rows, len(layout.wanted)), np.nan)
     for column, cell in zip(values.T, layout.wanted, strict=True):
         if cell is not None:
-            column[:] = table.column(str(cell)).to_numpy()
+            column[:] = arrow_numbers(table.column(str(cell)))
             if not np.isfinite(column).all():
                 return None
     stamp_ns = np.where(stamps[0] > 0, stamps[0], stamps[-1])
     return Numbers(
-        sequence=table.column(str(layout.sequence)).to_numpy(),
+        sequence=arrow_numbers(table.column(str(layout.sequence))),
         stamp_ns=stamp_ns,
         by_dumper=stamp_ns != stamps[0],
         values=values,
     )
+
+
+def _nanoseconds(seconds: Any) -> IntArray:
+    """Read stamps, which are decimals with nine digits after the point, as the integers that they are stored as."""
+    return arrow_numbers(seconds.combine_chunks().view(_NS_TYPE).cast(pa.int64()))
 
 
 def _plain(text: bytes, *, spaced: bool) -> bytes:
