@@ -4,12 +4,16 @@ DATA ?= ../shared/data
 VENV := .venv
 BIN := $(VENV)/bin
 
-.PHONY: demo test test-long lint types bench web web-check web-types clean
+.PHONY: demo test test-long lint types compiled bench web web-check web-types clean
+
+# where the surroundings forbid bytecode, every process of the tests would compile the library anew
+export PYTHONDONTWRITEBYTECODE :=
 
 demo: $(VENV)/run.stamp
 	$(BIN)/python examples/01_known_truth.py build/demo
 
-test: lint types web-check
+test: $(VENV)/test.stamp
+	$(MAKE) --no-print-directory --jobs=2 --output-sync=target lint types web-check compiled
 	# a worker for every core: threads of their linear algebra would only wait for each other
 	OMP_NUM_THREADS=1 $(BIN)/pytest tests -n auto --dist loadfile --no-loadscope-reorder --data=$(DATA) -m "not long"
 
@@ -22,6 +26,10 @@ lint: $(VENV)/test.stamp
 
 types: $(VENV)/test.stamp
 	$(BIN)/mypy
+
+# what every worker of the tests would else compile for itself
+compiled: $(VENV)/test.stamp
+	$(BIN)/python -m tests.compile_ahead
 
 bench: $(VENV)/test.stamp
 	$(BIN)/python -m benchmarks.yarp_readers --json build/benchmarks/yarp_readers.json
