@@ -13,7 +13,7 @@ from forcetorque.errors import RobotError, ShapeError, known_names
 from forcetorque.robot.motion import JointMotion, RootMotion
 from forcetorque.robot.sub_model import path_to_root
 from forcetorque.robot.tree import Body, BodyTree, Connection
-from forcetorque.spatial import make_pose, rotation_about_z, split_pose
+from forcetorque.spatial import cross, make_pose, rotation_about_z, split_pose
 
 
 @dataclass(slots=True)
@@ -92,7 +92,7 @@ def motion_of_link(tree: BodyTree, joints: JointMotion, root: RootMotion, link: 
         state = move_to(tree.bodies[index], state, joints, slice(None))
     body_R_link, body_p_link = split_pose(tree.frames[link][1])
     omega, alpha = state.angular_velocity, state.angular_acceleration
-    at_link = state.proper_acceleration + np.cross(alpha, body_p_link) + np.cross(omega, np.cross(omega, body_p_link))
+    at_link = state.proper_acceleration + cross(alpha, body_p_link) + cross(omega, cross(omega, body_p_link))
     return RootMotion(
         proper_acceleration=_into(body_R_link, at_link),
         angular_velocity=_into(body_R_link, omega),
@@ -225,17 +225,15 @@ def move_to(body: Body, parent: BodyState, joints: JointMotion, block: slice) ->
     rotation, position = _across(body, q)
     omega_parent, alpha_parent = parent.angular_velocity, parent.angular_acceleration
     at_joint = (
-        parent.proper_acceleration
-        + np.cross(alpha_parent, position)
-        + np.cross(omega_parent, np.cross(omega_parent, position))
+        parent.proper_acceleration + cross(alpha_parent, position) + cross(omega_parent, cross(omega_parent, position))
     )
     omega, alpha, acceleration = (_into(rotation, v) for v in (omega_parent, alpha_parent, at_joint))
     along, along_rate = dq[:, None] * z, ddq[:, None] * z
     if body.connection is Connection.ROTARY:
-        alpha = alpha + np.cross(omega, along) + along_rate
+        alpha = alpha + cross(omega, along) + along_rate
         omega = omega + along
     else:
-        acceleration = acceleration + 2.0 * np.cross(omega, along) + along_rate
+        acceleration = acceleration + 2.0 * cross(omega, along) + along_rate
     return BodyState(rotation, position, omega, alpha, acceleration)
 
 

@@ -20,7 +20,7 @@ from forcetorque.robot.kinematics import BodyState, move_to, root_state, stacked
 from forcetorque.robot.motion import JointMotion, RootMotion
 from forcetorque.robot.requirements import needed_bodies, required_joints
 from forcetorque.robot.tree import BodyTree
-from forcetorque.spatial import Inertia, invert_pose, transform_wrench
+from forcetorque.spatial import Inertia, cross, invert_pose, transform_wrench
 
 _BLOCK = 4096
 """Samples per pass: the working arrays of a block stay in the processor's cache."""
@@ -99,10 +99,8 @@ def net_wrench(inertia: Inertia, state: BodyState) -> FloatArray:
     """
     omega, alpha = state.angular_velocity, state.angular_acceleration
     moment, tensor = inertia.first_moment, inertia.second_moment
-    force = (
-        inertia.mass * state.proper_acceleration + np.cross(alpha, moment) + np.cross(omega, np.cross(omega, moment))
-    )
-    couple = alpha @ tensor + np.cross(omega, omega @ tensor) + np.cross(moment, state.proper_acceleration)
+    force = inertia.mass * state.proper_acceleration + cross(alpha, moment) + cross(omega, cross(omega, moment))
+    couple = alpha @ tensor + cross(omega, omega @ tensor) + cross(moment, state.proper_acceleration)
     return np.concatenate([force, couple], axis=1)
 
 
@@ -118,7 +116,7 @@ def in_parent(state: BodyState, wrench: FloatArray) -> FloatArray:
     """
     force: FloatArray = np.einsum("...ij,...j->...i", state.parent_R_body, wrench[:, :3])
     couple = np.einsum("...ij,...j->...i", state.parent_R_body, wrench[:, 3:])
-    return np.concatenate([force, couple + np.cross(state.parent_p_body, force)], axis=1)
+    return np.concatenate([force, couple + cross(state.parent_p_body, force)], axis=1)
 
 
 def in_body(state: BodyState, wrench: FloatArray) -> FloatArray:
@@ -131,6 +129,6 @@ def in_body(state: BodyState, wrench: FloatArray) -> FloatArray:
     Returns:
         The same along the body's axes, about its origin; shape (n, 6); N, N m.
     """
-    about_body = wrench[:, 3:] - np.cross(state.parent_p_body, wrench[:, :3])
+    about_body = wrench[:, 3:] - cross(state.parent_p_body, wrench[:, :3])
     force = np.einsum("...ji,...j->...i", state.parent_R_body, wrench[:, :3])
     return np.concatenate([force, np.einsum("...ji,...j->...i", state.parent_R_body, about_body)], axis=1)

@@ -3,7 +3,7 @@
 
 from forcetorque.spatial.inertia import Inertia
 from forcetorque.spatial.pose import invert_pose, make_pose, split_pose
-from forcetorque.spatial.rotation import rotation_about_z, rotation_from_rpy, rotation_with_z_along, skew
+from forcetorque.spatial.rotation import cross, rotation_about_z, rotation_from_rpy, rotation_with_z_along, skew
 from forcetorque.spatial.sign import MeasureDirection, reading_sign
 from forcetorque.spatial.twist import transform_twist, twist_matrix
 from forcetorque.spatial.units import SI_FACTORS, si_factor
@@ -15,6 +15,7 @@ __all__ = [
     "WRENCH_UNITS",
     "Inertia",
     "MeasureDirection",
+    "cross",
     "invert_pose",
     "make_pose",
     "reading_sign",

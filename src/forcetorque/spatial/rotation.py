@@ -74,6 +74,25 @@ def rotation_with_z_along(axis: Any) -> FloatArray:
     return np.column_stack([x, np.cross(z, x), z])
 
 
+def cross(first: FloatArray, second: FloatArray) -> FloatArray:
+    """Give the cross product of vectors, as `numpy.cross` does, which takes three times as long for a few.
+
+    Args:
+        first: Vectors; shape (..., 3).
+        second: Vectors; shape (..., 3), of a shape that broadcasts with that of the first.
+
+    Returns:
+        Their products; shape (..., 3).
+    """
+    x, y, z = first[..., 0], first[..., 1], first[..., 2]
+    u, v, w = second[..., 0], second[..., 1], second[..., 2]
+    product = np.empty(np.broadcast(first, second).shape)
+    product[..., 0] = y * w - z * v
+    product[..., 1] = z * u - x * w
+    product[..., 2] = x * v - y * u
+    return product
+
+
 def skew(vector: Any) -> FloatArray:
     """Build the matrices of the cross product: `skew(a) @ b == cross(a, b)`.
 
