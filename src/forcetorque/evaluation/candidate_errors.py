@@ -159,7 +159,8 @@ def _run_readable(inputs: CandidateInputs, sums: FloatArray, progress: Callable[
                 some = slice(start, start + group)
                 error = inputs.matrices[some] @ columns + inputs.constants[some, :, None] - reference  # (group, 6, n)
                 sums[some, b, :6] += np.abs(error).sum(axis=2)
-                sums[some, b, 6] += np.linalg.norm(error[:, :3], axis=1).sum(axis=1)
-                sums[some, b, 7] += np.linalg.norm(error[:, 3:], axis=1).sum(axis=1)
+                square = np.square(error, out=error)
+                for k, part in enumerate((square[:, :3], square[:, 3:]), start=6):
+                    sums[some, b, k] += np.sqrt(part[:, 0] + part[:, 1] + part[:, 2]).sum(axis=1)
             if progress is not None:
                 progress(last)

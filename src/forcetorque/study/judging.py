@@ -127,5 +127,6 @@ def _with_offset(model: WrenchModel, one: ValidationSet, first: BoolArray, sourc
     same = model.counted_from_zero(one.variables.shape[1])
     if source is Offset.FITTED:
         return same
-    error = one.reference[first] - same.wrench(one.raw[first], one.variables[first])
-    return replace(same, offset=same.offset + error.mean(axis=0))
+    # the mean error is that of the mean reading: a model is linear
+    raw, variables, reference = (values[first].mean(axis=0) for values in (one.raw, one.variables, one.reference))
+    return replace(same, offset=same.offset + reference - same.wrench(raw[None], variables[None])[0])
