@@ -106,6 +106,7 @@ DOUBTED: dict[str, tuple[Damage, str]] = {
 }
 
 
+@pytest.mark.usefixtures("blank_pictures")
 @pytest.mark.parametrize("name", DOUBTED)
 def test_a_doubtful_model_is_said_and_never_called_good(arm: Path, run: Run, name: str) -> None:
     """A warning of `calibrate`, the doubt in the file, and no verdict "good" of `report` on the same recording."""

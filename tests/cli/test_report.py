@@ -126,6 +126,7 @@ def test_evaluate_and_validate_say_what_the_report_says(result: Any, run: Run) -
     assert all(line in shown for line in lines)
 
 
+@pytest.mark.usefixtures("blank_pictures")
 def test_the_decision_comes_first_and_says_what_the_numbers_say(result: Any, run: Run) -> None:
     """The word on the use, the figure and the steps, then all else, folded; the JSON has the same verdict and steps."""
     (use,) = result["uses"]
@@ -205,6 +206,7 @@ def test_results_of_other_commands_are_shown_as_they_are(result: Any) -> None:
     assert b"<b>bold" not in Path("report.html").read_bytes()
 
 
+@pytest.mark.usefixtures("blank_pictures")
 def test_without_a_calibration_the_priors_are_shown(arm: Path, run: Run) -> None:
     """Of all sensors; the verdict says that there is nothing to compare them with."""
     result = run("report", TWO, "-o", "report.html", "--format", "json").result()
@@ -219,6 +221,7 @@ def test_without_a_calibration_the_priors_are_shown(arm: Path, run: Run) -> None
     assert "forcetorque calibrate two.toml --sensor arm_ft" in result["next_steps"][0]["steps"][0]
 
 
+@pytest.mark.usefixtures("blank_pictures")
 def test_what_cannot_be_judged_is_said_and_the_rest_is_shown(arm: Path, run: Run) -> None:
     """No interval to judge on: no errors, but spheres, static checks and uncertainty."""
     edit(arm / PARQUET, 'use = "validation"', 'use = "ignore"')
@@ -233,6 +236,7 @@ def test_what_cannot_be_judged_is_said_and_the_rest_is_shown(arm: Path, run: Run
     assert "Uncertainty" in _words("report.html")
 
 
+@pytest.mark.usefixtures("blank_pictures")
 def test_nothing_is_shown_of_a_calibration_on_data_that_it_was_fitted_on(arm: Path, run: Run) -> None:
     """Fitted and judged intervals change places: another calibration is judged, the fitted one is not."""
     edit(arm / PARQUET, 'label = "fit"\nstart_s = 0.5\nend_s = 14.0', 'label = "fit"\nstart_s = 0.5\nend_s = 7.0')
@@ -253,6 +257,7 @@ def test_nothing_is_shown_of_a_calibration_on_data_that_it_was_fitted_on(arm: Pa
     assert all(line["tone"] == "caution" for line in flattered)
 
 
+@pytest.mark.usefixtures("blank_pictures")
 def test_the_order_of_intervals_in_the_file_does_not_matter(arm: Path, run: Run) -> None:
     """Two judged intervals, the later one first: figures and numbers come in the order of time."""
     later = 'label = "judge"\nstart_s = 19.0\nend_s = 23.5\nuse = "validation"\nsupport = "base"\n'
@@ -263,6 +268,7 @@ def test_the_order_of_intervals_in_the_file_does_not_matter(arm: Path, run: Run)
     assert sensor["comparisons"]
 
 
+@pytest.mark.usefixtures("blank_pictures")
 def test_load_cases_of_the_acceptance_file_are_judged(arm: Path, run: Run) -> None:
     """Each has a verdict; one that the sensor cannot read is said in a line, and the rest of the report is there."""
     case = '\n[[load_case]]\nname = "{}"\nforce_N = {}\nradius_m = 0.1\n'
@@ -279,6 +285,7 @@ def test_load_cases_of_the_acceptance_file_are_judged(arm: Path, run: Run) -> No
     assert _sensor(result)["evaluation"]
 
 
+@pytest.mark.usefixtures("blank_pictures")
 def test_a_load_case_that_cannot_be_had_costs_no_errors(arm: Path, run: Run) -> None:
     """Also where the experiment file states it: what is measured does not hang on what the sensor is for."""
     add(arm / PARQUET, '\n[[load_case]]\nname = "giant"\nforce_N = 1e6\nradius_m = 0.1\n')
@@ -305,6 +312,7 @@ clearance_deg = {clearance}
 """
 
 
+@pytest.mark.usefixtures("blank_pictures")
 def test_what_to_record_first_is_said_where_limits_are_stated(arm: Path, run: Run) -> None:
     """Of a use whose predicted error is too large: postures, and the error to expect; else why it is not known."""
     text = (arm / PARQUET).read_text(encoding="utf-8")

@@ -59,7 +59,7 @@ def test_every_command_is_here() -> None:
     assert {str(command.name) for command in app.registered_commands} == COMMANDS.keys() | WITHOUT_TABLE
 
 
-@pytest.mark.usefixtures("shown_widths")
+@pytest.mark.usefixtures("shown_widths", "blank_pictures")
 @pytest.mark.parametrize("name", COMMANDS)
 def test_the_layout_is_that_which_was_looked_at(arm: Path, run: Run, name: str, request: pytest.FixtureRequest) -> None:
     """Line by line; no line of a table is wider than the terminal."""
