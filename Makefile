@@ -4,7 +4,7 @@ DATA ?= ../shared/data
 VENV := .venv
 BIN := $(VENV)/bin
 
-.PHONY: demo test test-long lint types bench web web-check web-types clean
+.PHONY: demo test test-long lint types bench docs web web-check web-types clean
 
 demo: $(VENV)/run.stamp
 	$(BIN)/python examples/01_known_truth.py build/demo
@@ -13,7 +13,7 @@ test: lint types web-check
 	# a worker for every core: threads of their linear algebra would only wait for each other
 	OMP_NUM_THREADS=1 $(BIN)/pytest tests -n auto --dist loadfile --no-loadscope-reorder --data=$(DATA) -m "not long"
 
-test-long: $(VENV)/test.stamp
+test-long: $(VENV)/test.stamp $(VENV)/docs.stamp
 	$(BIN)/pytest tests --data=$(DATA) -m long
 
 lint: $(VENV)/test.stamp
@@ -30,6 +30,11 @@ bench: $(VENV)/test.stamp
 	$(BIN)/python -m benchmarks.simulation --json build/benchmarks/simulation.json
 	$(BIN)/python -m benchmarks.sphere --json build/benchmarks/sphere.json
 	$(BIN)/python -m benchmarks.viewer --json build/benchmarks/viewer.json
+
+# the pages and the API reference as build/docs/index.html; a warning is an error
+docs: $(VENV)/docs.stamp
+	$(BIN)/python -m docs.site.layout build/pages
+	$(BIN)/sphinx-build --quiet --fail-on-warning --keep-going -c docs/site build/pages build/docs
 
 # the viewer's page, built from web/ and committed: who installs the library needs no npm
 web:
@@ -55,6 +60,10 @@ $(VENV)/run.stamp: $(BIN)/uv pyproject.toml uv.lock
 
 $(VENV)/test.stamp: $(BIN)/uv pyproject.toml uv.lock
 	$(BIN)/uv sync --quiet --locked --inexact --compile-bytecode --extra test
+	touch $@ $(VENV)/run.stamp
+
+$(VENV)/docs.stamp: $(BIN)/uv pyproject.toml uv.lock
+	$(BIN)/uv sync --quiet --locked --inexact --compile-bytecode --extra docs
 	touch $@ $(VENV)/run.stamp
 
 clean:
