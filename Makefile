@@ -4,7 +4,7 @@ DATA ?= ../shared/data
 VENV := .venv
 BIN := $(VENV)/bin
 
-.PHONY: demo test test-long lint types compiled bench web web-check web-types clean
+.PHONY: demo test test-long lint types compiled bench docs web web-check web-types clean
 
 # where the surroundings forbid bytecode, every process of the tests would compile the library anew
 export PYTHONDONTWRITEBYTECODE :=
@@ -17,7 +17,7 @@ test: $(VENV)/test.stamp
 	# a worker for every core: threads of their linear algebra would only wait for each other
 	OMP_NUM_THREADS=1 $(BIN)/pytest tests -n auto --dist loadfile --no-loadscope-reorder --data=$(DATA) -m "not long"
 
-test-long: $(VENV)/test.stamp
+test-long: $(VENV)/test.stamp $(VENV)/docs.stamp
 	$(BIN)/pytest tests --data=$(DATA) -m long
 
 lint: $(VENV)/test.stamp
@@ -38,6 +38,11 @@ bench: $(VENV)/test.stamp
 	$(BIN)/python -m benchmarks.simulation --json build/benchmarks/simulation.json
 	$(BIN)/python -m benchmarks.sphere --json build/benchmarks/sphere.json
 	$(BIN)/python -m benchmarks.viewer --json build/benchmarks/viewer.json
+
+# the pages and the API reference as build/docs/index.html; a warning is an error
+docs: $(VENV)/docs.stamp
+	$(BIN)/python -m docs.site.layout build/pages
+	$(BIN)/sphinx-build --quiet --fail-on-warning --keep-going -c docs/site build/pages build/docs
 
 # the viewer's page, built from web/ and committed: who installs the library needs no npm
 web:
@@ -63,6 +68,10 @@ $(VENV)/run.stamp: $(BIN)/uv pyproject.toml uv.lock
 
 $(VENV)/test.stamp: $(BIN)/uv pyproject.toml uv.lock
 	$(BIN)/uv sync --quiet --locked --inexact --compile-bytecode --extra test
+	touch $@ $(VENV)/run.stamp
+
+$(VENV)/docs.stamp: $(BIN)/uv pyproject.toml uv.lock
+	$(BIN)/uv sync --quiet --locked --inexact --compile-bytecode --extra docs
 	touch $@ $(VENV)/run.stamp
 
 clean:

@@ -15,7 +15,7 @@ from forcetorque.cli.main import app
 
 ROOT = Path(__file__).resolve().parents[1]
 INDEX = ROOT / "docs" / "README.md"
-PAGES = sorted([*ROOT.glob("*.md"), *(ROOT / "docs").rglob("*.md")])
+PAGES = sorted([*ROOT.glob("*.md"), *(ROOT / "docs").rglob("*.md"), *(ROOT / "examples").glob("*.md")])
 every_page = pytest.mark.parametrize("page", PAGES, ids=lambda page: page.relative_to(ROOT).as_posix())
 
 
@@ -85,6 +85,13 @@ def test_every_page_is_in_the_index() -> None:
     linked = {(INDEX.parent / link.partition("#")[0]).resolve() for link in _links(INDEX)}
     assert set(PAGES) - linked == {INDEX}
     assert "docs/README.md" in _links(ROOT / "README.md")
+
+
+def test_every_example_is_on_their_page() -> None:
+    """Each with a line on what it shows."""
+    page = ROOT / "examples" / "README.md"
+    linked = {(page.parent / link).resolve() for link in _links(page)}
+    assert {path for path in page.parent.iterdir() if path.is_file()} == linked | {page}
 
 
 def test_the_index_says_when_to_take_every_command() -> None:

@@ -14,9 +14,11 @@ import pytest
 from forcetorque.calibration import read_calibration
 from forcetorque.exchange.icub import read_matrix_file
 from forcetorque.experiment import load_experiment, parse_experiment
+from tests.page_scripts import marked
 
 ROOT = Path(__file__).resolve().parents[2]
 README = (ROOT / "README.md").read_text(encoding="utf-8")
+PAGES = sorted((ROOT / "docs").glob("*.md"))
 YOGA = sorted((ROOT / "examples").glob("0[2-5]_icub_yoga_*.toml"))
 
 
@@ -97,6 +99,15 @@ def test_the_script_of_the_page_on_uses_runs(demo: tuple[Path, str]) -> None:
     sentence, numbers = done.stdout.splitlines()
     assert sentence in " ".join(output.split())
     assert numbers.startswith("use 0.9") or numbers.startswith("use 1.0")
+
+
+@pytest.mark.parametrize("page", [page for page in PAGES if marked(page.read_text())], ids=lambda page: page.name)
+def test_marked_scripts_of_pages_run(page: Path, demo: tuple[Path, str], monkeypatch: pytest.MonkeyPatch) -> None:
+    """As they stand: what they name is there after the demonstration."""
+    folder, _ = demo
+    monkeypatch.chdir(folder.parents[1])
+    for code in marked(page.read_text(encoding="utf-8")):
+        exec(compile(code, page.name, "exec"), {"__name__": page.stem})
 
 
 def test_the_readme_is_short() -> None:

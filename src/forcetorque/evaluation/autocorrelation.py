@@ -61,7 +61,7 @@ class Autocorrelation:
 
     @property
     def white_band(self) -> FloatArray:
-        """Bound below which 95 % of the |rho| of white noise lie, `1.96 / sqrt(pairs)`; shape (l,)."""
+        """Bound below which 95 % of the magnitudes of rho of white noise lie, `1.96 / sqrt(pairs)`; shape (l,)."""
         band: FloatArray = WHITE_DEVIATIONS / np.sqrt(self.pairs)
         return band
 

@@ -47,6 +47,7 @@ _WIDEST = 300.0
 """Half an interval of logarithms, beyond which its end is no number."""
 
 Judgement = Literal["better", "worse", "no difference", "not told apart"]
+"""What a comparison comes to: `no difference` is known to be small, `not told apart` may be large."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

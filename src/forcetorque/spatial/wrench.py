@@ -12,7 +12,9 @@ from forcetorque.spatial.pose import split_pose
 from forcetorque.spatial.rotation import skew
 
 WRENCH_COMPONENTS = ("fx", "fy", "fz", "tx", "ty", "tz")
+"""Names of the components of a wrench in their order: force, then moment."""
 WRENCH_UNITS = ("N", "N", "N", "N m", "N m", "N m")
+"""Their units."""
 
 
 def wrench_matrix(a_H_b: Any) -> FloatArray:

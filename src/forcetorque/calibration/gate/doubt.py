@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 DoubtKind = Literal["span", "scale", "delay"]
+"""What is doubtful: whether the reading follows the reference at all, by how much, or when."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -1,0 +1,80 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Pages of the API reference: one per public door, which is a package with `__all__`, made anew by every build."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from os.path import commonprefix
+from textwrap import indent
+
+from docs.site.definitions import Definition, definition, definitions, offered, package_names
+
+BESIDE = ("forcetorque.errors",)
+"""Modules that users import and that are no packages."""
+MEMBERS = """\
+   :members:
+   :undoc-members:
+   :exclude-members: model_config"""
+"""How a class is shown: with fields whose names say all, but without what pydantic keeps in it."""
+
+
+def doors() -> dict[str, tuple[str, ...]]:
+    """Find what users import.
+
+    Returns:
+        Public names by package or module; a module that a package offers as one of its names is a door too.
+    """
+    found: dict[str, tuple[str, ...]] = {}
+    modules = list(BESIDE)
+    for package in package_names():
+        names = [definition(package, name) for name in offered(package)]
+        if names:
+            modules += [f"{package}.{one.name}" for one in names if one.kind == "module"]
+            found[package] = tuple(one.name for one in names if one.kind != "module")
+    for module in modules:
+        found[module] = tuple(one.name for one in definitions(module) if not one.name.startswith("_"))
+    return dict(sorted(found.items()))
+
+
+def pages() -> Iterator[tuple[str, str]]:
+    """Write the pages.
+
+    Yields:
+        Name of a door, and its page as reStructuredText.
+    """
+    public = doors()
+    homes = _homes(public)
+    for door, names in public.items():
+        found = [definition(door, name) for name in sorted(names, key=str.casefold)]
+        own = [one for one in found if homes[one] == door]
+        # classes before functions before constants: what is computed, by what, with which numbers
+        entries = [_entry(door, one) for kind in ("class", "function", "data") for one in own if one.kind == kind]
+        guests = [_pointer(homes[one], one) for one in found if homes[one] != door]
+        shared = ["Also here\n---------\n\n" + "\n".join(guests)] if guests else []
+        head = f"{door}\n{'=' * len(door)}\n\n.. automodule:: {door}"
+        yield door, "\n\n".join([head, *entries, *shared]) + "\n"
+
+
+def _homes(public: dict[str, tuple[str, ...]]) -> dict[Definition, str]:
+    """Of the doors that offer a name, the one nearest to its definition tells of it; others point there."""
+    homes: dict[Definition, str] = {}
+    for door, names in public.items():
+        for name in names:
+            one = definition(door, name)
+            homes[one] = max(homes.get(one, door), door, key=lambda near: len(commonprefix([near, one.module])))
+    return homes
+
+
+def _pointer(home: str, one: Definition) -> str:
+    first, *_ = (one.docstring or "").splitlines()
+    return f"- :py:obj:`{one.name} <{home}.{one.name}>`: {first}"
+
+
+def _entry(door: str, one: Definition) -> str:
+    if one.kind == "class":
+        return f".. autoclass:: {door}.{one.name}\n{MEMBERS}" + ("\n   :show-inheritance:" if one.value else "")
+    if one.kind == "function":
+        return f".. autofunction:: {door}.{one.name}"
+    # by hand: autodoc has no docstring of a constant that is imported
+    value = f"   :value: {one.value}\n" if one.value else ""
+    return f".. py:data:: {one.name}\n   :module: {door}\n{value}\n{indent(one.docstring or '', '   ')}"

@@ -1,0 +1,47 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Every block of Python on a page runs: marked ones in `test_examples.py`, others in a test that is named here."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from forcetorque.simulation.scenario import SimulatedRecording
+from tests.page_scripts import marked, unmarked
+
+ROOT = Path(__file__).resolve().parents[2]
+PAGES = sorted([ROOT / "README.md", *(ROOT / "docs").glob("*.md")])
+RUN_ELSEWHERE = {
+    "calibration.md": "tests/examples/test_calibration_page.py",
+    "estimation.md": "tests/estimation/test_documentation.py",
+    "recording.md": "tests/experiment/test_written_logs.py",
+    "simulation.md": "tests/examples/test_page_scripts.py",
+}
+"""Pages with one block that is not marked, and who runs it."""
+
+
+@pytest.mark.long
+def test_the_script_of_the_page_on_simulation_runs() -> None:
+    """One seed of the twenty: all recordings, with other sensors under the same loads."""
+    (code,) = unmarked((ROOT / "docs" / "simulation.md").read_text(encoding="utf-8"))
+    assert "range(1, 21)" in code
+    names: dict[str, object] = {}
+    exec(compile(code.replace("range(1, 21)", "range(1, 2)"), "simulation.md", "exec"), names)
+    made = names["made"]
+    assert isinstance(made, SimulatedRecording)
+    assert list(made.sensors) == ["l_leg_ft"]
+
+
+def test_every_script_runs_somewhere() -> None:
+    """What is not marked is the one script of its page, and the test that runs it reads that page."""
+    scripts = {page.name: len(found) for page in PAGES if (found := unmarked(page.read_text(encoding="utf-8")))}
+    assert scripts == dict.fromkeys(RUN_ELSEWHERE, 1)
+    for page, test in RUN_ELSEWHERE.items():
+        assert page in (ROOT / test).read_text(encoding="utf-8")
+
+
+def test_scripts_are_told_apart() -> None:
+    """Negative control: a block without marks is no marked one."""
+    page = "<!-- example -->\n```python\na\n```\n<!-- /example -->\n\n```python\nb\n```\n"
+    assert (marked(page), unmarked(page)) == (["a\n"], ["b\n"])

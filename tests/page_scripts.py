@@ -1,0 +1,17 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Blocks of Python on pages: those between marks run after the demonstration, as they stand."""
+
+from __future__ import annotations
+
+import re
+
+
+def marked(page: str) -> list[str]:
+    """Blocks between `<!-- example -->` and `<!-- /example -->`."""
+    return re.findall(r"^<!-- example -->\n```python\n(.*?)^```\n<!-- /example -->$", page, re.DOTALL | re.MULTILINE)
+
+
+def unmarked(page: str) -> list[str]:
+    """All other blocks."""
+    codes = re.findall(r"^```python\n(.*?)^```$", page, re.DOTALL | re.MULTILINE)
+    return [code for code in codes if code not in marked(page)]
