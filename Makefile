@@ -3,18 +3,23 @@ PYTHON ?= python3
 DATA ?= ../shared/data
 VENV := .venv
 BIN := $(VENV)/bin
+SUITE := tests -n auto --dist loadfile --no-loadscope-reorder --data=$(DATA) -m "not long"
 
-.PHONY: demo test test-long lint types bench web web-check web-types clean
+.PHONY: demo test test-long test-matrix lint types bench web web-check web-types clean
 
 demo: $(VENV)/run.stamp
 	$(BIN)/python examples/01_known_truth.py build/demo
 
 test: lint types web-check
 	# a worker for every core: threads of their linear algebra would only wait for each other
-	OMP_NUM_THREADS=1 $(BIN)/pytest tests -n auto --dist loadfile --no-loadscope-reorder --data=$(DATA) -m "not long"
+	OMP_NUM_THREADS=1 $(BIN)/pytest $(SUITE)
 
 test-long: $(VENV)/test.stamp
 	$(BIN)/pytest tests --data=$(DATA) -m long
+
+# every Python of pyproject.toml, the oldest with the oldest dependencies; ONLY=3.12 runs one of them
+test-matrix: $(BIN)/uv
+	OMP_NUM_THREADS=1 $(BIN)/python -m tests.matrix $(if $(ONLY),--only $(ONLY)) $(SUITE)
 
 lint: $(VENV)/test.stamp
 	$(BIN)/ruff check .
