@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Run the tests on every Python of pyproject.toml, on the oldest of them with the oldest dependencies that it allows.
 
-Every Python has its own environment under build/matrix, the newer ones with what uv.lock says. uv finds a Python by
-its name on the PATH. What is no option of this command is given to pytest:
+Every Python has its own environment under build/matrix, the newer ones with what uv.lock says. uv finds a Python on the
+PATH, or downloads it. What is no option of this command is given to pytest:
 
     python -m tests.matrix [--only 3.12] tests -m "not long"
 """
