@@ -3,8 +3,9 @@ PYTHON ?= python3
 DATA ?= ../shared/data
 VENV := .venv
 BIN := $(VENV)/bin
+SUITE := tests -n auto --dist loadfile --no-loadscope-reorder --data=$(DATA) -m "not long"
 
-.PHONY: demo test test-long lint types compiled bench docs web web-check web-types clean
+.PHONY: demo test test-long test-matrix lint types compiled bench docs web web-check web-types clean
 
 # where the surroundings forbid bytecode, every process of the tests would compile the library anew
 export PYTHONDONTWRITEBYTECODE :=
@@ -15,10 +16,14 @@ demo: $(VENV)/run.stamp
 test: $(VENV)/test.stamp
 	$(MAKE) --no-print-directory --jobs=2 --output-sync=target lint types web-check compiled
 	# a worker for every core: threads of their linear algebra would only wait for each other
-	OMP_NUM_THREADS=1 $(BIN)/pytest tests -n auto --dist loadfile --no-loadscope-reorder --data=$(DATA) -m "not long"
+	OMP_NUM_THREADS=1 $(BIN)/pytest $(SUITE)
 
 test-long: $(VENV)/test.stamp $(VENV)/docs.stamp
 	$(BIN)/pytest tests --data=$(DATA) -m long
+
+# every Python of pyproject.toml, the oldest with the oldest dependencies; ONLY=3.12 runs one of them
+test-matrix: $(BIN)/uv
+	OMP_NUM_THREADS=1 $(BIN)/python -m tests.matrix $(if $(ONLY),--only $(ONLY)) $(SUITE)
 
 lint: $(VENV)/test.stamp
 	$(BIN)/ruff check .

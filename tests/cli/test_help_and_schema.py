@@ -84,7 +84,7 @@ def test_the_example_of_a_command_can_be_typed(
         assert re.search(r": expected an? [\w ]+, there is none", ended.error())
     with_a_typo = run(*words, "--no-such-option")
     assert with_a_typo.code == 2
-    assert "No such option: --no-such-option" in with_a_typo.err
+    assert re.search(r"No such option:? '?--no-such-option\b", with_a_typo.err)  # quoted or not, by version of typer
 
 
 @pytest.mark.parametrize("command", COMMANDS)

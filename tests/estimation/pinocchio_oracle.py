@@ -61,10 +61,11 @@ class Pinocchio:
         free = self.pin.rnea(self.robot, self.data, *self.motion)
         total = self.pin.Force(free[:6].copy())  # on the base, in whose frame the world is
         frame = self.robot.frames[self.robot.getFrameId(link)]
-        on_joint = self.data.oMi[frame.parentJoint].actInv(total)
+        holder = frame.parentJoint if hasattr(frame, "parentJoint") else frame.parent  # its name before pin 3
+        on_joint = self.data.oMi[holder].actInv(total)
         outside = self.pin.StdVec_Force()
         for index in range(self.robot.njoints):
-            outside.append(on_joint if index == frame.parentJoint else self.pin.Force.Zero())
+            outside.append(on_joint if index == holder else self.pin.Force.Zero())
         forces = self.pin.rnea(self.robot, self.data, *self.motion, outside).copy()
         np.testing.assert_allclose(forces[:6], 0.0, atol=1e-9)  # nothing else holds it
         readings = {}

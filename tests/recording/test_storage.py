@@ -138,7 +138,7 @@ def _sample() -> Recording:
 
 def _with_bit_flipped(whole: Recording) -> Recording:
     values = whole.stream("ft").signal("wrench").values.copy()
-    values.view(np.uint64)[1, 5] ^= 1  # another NaN
+    values.view(np.uint64)[1, 5] ^= np.uint64(1)  # another NaN
     flipped = replace(whole.stream("ft").signal("wrench"), values=values)
     held = replace(whole.stream("ft"), signals={**whole.stream("ft").signals, "wrench": flipped})
     return replace(whole, streams={**whole.streams, "ft": held})

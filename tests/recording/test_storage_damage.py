@@ -199,7 +199,11 @@ WITH_HOLE = [[1.0] * 6] * 299 + [[1.0] * 5 + [None]]
         (_column("wrench", _lists(3, pa.float64())), "expected lists of 6 float64 each"),
         (_column("wrench", _lists(6, pa.int32())), "expected lists of 6 float64 each"),
         (_column("wrench", pa.array(WITH_HOLE, pa.list_(pa.float64(), 6))), "got empty values; NaN marks a gap"),
-        (_column("wrench", pa.array([None] * 300, pa.list_(pa.float64(), 6))), "got 300 empty values; NaN marks a gap"),
+        # not every pyarrow reads empty lists of one length; which do not refuse them in their own words
+        (
+            _column("wrench", pa.array([None] * 300, pa.list_(pa.float64(), 6))),
+            r"got (300 empty values; NaN marks a gap|ArrowInvalid\('Expected all lists to be of size=6)",
+        ),
     ],
 )
 def test_what_other_programs_made_of_a_stream_is_not_guessed(

@@ -107,9 +107,8 @@ def autocorrelation(values: Any, time_s: Any) -> Autocorrelation:
     pairs = np.rint(_pooled_products(np.split(present, starts))).astype(np.int64)
     few = pairs < max(1.0, LEAST_PAIRS * count)
     lags = int(few.argmax()) if few.any() else len(pairs)
-    variance = products[0] / count
-    with np.errstate(invalid="ignore"):  # 0 / 0 where nothing changes
-        rho = products[:lags] / pairs[:lags] / variance
+    variance = products[0] / count or math.nan  # where nothing changes there is no correlation
+    rho = products[:lags] / pairs[:lags] / variance
     integrated, window = _integrated(rho * pairs[:lags] / count, count)
     return Autocorrelation(
         count=count,

@@ -32,7 +32,12 @@ class Row(BaseModel):
     """One line of an answer. Names of fields are its keys in JSON, with the unit where it is not plain."""
 
     model_config = ConfigDict(
-        defer_build=True, extra="forbid", frozen=True, arbitrary_types_allowed=True, populate_by_name=True
+        defer_build=True,
+        extra="forbid",
+        frozen=True,
+        arbitrary_types_allowed=True,
+        populate_by_name=True,
+        protected_namespaces=(),  # before pydantic 2.10 every `model_` is protected, and rows have `model_mass_kg`
     )
 
     def __repr_args__(self) -> Iterator[tuple[str, Any]]:
