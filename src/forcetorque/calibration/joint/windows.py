@@ -56,7 +56,7 @@ class PartWindows:
     right: FloatArray
     """Right side; shape (w, 6)."""
     spread: FloatArray
-    """Mean of X X^T over its number of samples, of every sensor and row: what white noise adds; shape (w, k, 6, 6, 6)."""
+    """What white noise adds, by sensor and row: mean of X X^T over the samples; shape (w, k, 6, 6, 6)."""
 
     def __len__(self) -> int:
         return len(self.time_s)
