@@ -163,7 +163,7 @@ def test_readings_are_expected_wrenches_where_nothing_touches() -> None:
     """Two ways through the library agree."""
     movement = random_movement(arm(), rng=np.random.default_rng(7), duration_s=5.0)
     at = times(movement, 20)
-    other = expected_wrenches(movement.tree, movement.joints(at), movement.root())["arm_ft"]
+    other = expected_wrenches(movement.tree, movement.joints(at), movement.root(at))["arm_ft"]
     np.testing.assert_allclose(movement.readings(at).of_name("arm_ft"), other, rtol=0, atol=1e-11)
     assert np.ptp(other) > 10.0
 
