@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 
@@ -13,7 +13,7 @@ from forcetorque.arrays import FloatArray
 from forcetorque.estimation import Contact, ContactType
 from forcetorque.robot import link_pose
 from forcetorque.simulation.motions.movement import Movement, Touch
-from forcetorque.spatial import wrench_matrix
+from forcetorque.spatial import invert_pose, transform_wrench, wrench_matrix
 
 _COST = np.array([1.0, 1.0, 0.05, 150.0, 150.0, 150.0])
 """Cost of a squared component of a foot's wrench: the vertical force is cheap, and 1 N m costs as much as 12 N along
@@ -24,8 +24,9 @@ the ground, so that weight is borne near the middle of the sole."""
 class FootLoads:
     """Wrenches of the ground that together make a robot move as it does.
 
-    Of all of them those of least cost beside the pushes; what the pushes do in sum is taken back, so that
-    the feet push against each other only. A foot without a share bears nothing.
+    While both feet bear, of all such wrenches those of least cost beside the pushes; what the pushes do in
+    sum is taken back, so that the feet push against each other only. While a foot takes or hands over its
+    load, a mean of that and of the other foot bearing all.
     """
 
     unloaded: Movement
@@ -33,7 +34,7 @@ class FootLoads:
     feet: tuple[str, str]
     """Links of the feet, in whose frames the wrenches are."""
     shares: Callable[[FloatArray], FloatArray]
-    """From instants (n,) in s to how far each foot bears, 0 to 1; shape (n, 2)."""
+    """From instants (n,) in s to how far each foot has taken its load, 0 to 1, one of both at 1; shape (n, 2)."""
     pushes: Callable[[FloatArray], FloatArray]
     """From instants (n,) in s to what the feet would rather do, foot after foot; shape (n, 12); N, N m."""
 
@@ -48,12 +49,20 @@ class FootLoads:
         """
         joints, tree = self.unloaded.joints(seconds), self.unloaded.tree
         demanded = self.unloaded.support_wrench(seconds)
-        sum_of = np.concatenate([wrench_matrix(link_pose(tree, joints, foot)) for foot in self.feet], axis=2)
-        shares = np.repeat(self.shares(seconds), 6, axis=1)
-        pushes = shares * self.pushes(seconds)
-        cheap = (shares / np.tile(_COST, 2))[..., None] * sum_of.transpose(0, 2, 1)  # (n, 12, 6)
-        missing = demanded[..., None] - sum_of @ pushes[..., None]
-        loads: FloatArray = pushes + (cheap @ np.linalg.solve(sum_of @ cheap, missing))[..., 0]
+        trunk_H_feet = [link_pose(tree, joints, foot) for foot in self.feet]
+        first, second = self.shares(seconds).T[..., None]
+        loads = (first + second - 1.0)[..., None] * self._on_both(seconds, trunk_H_feet, demanded)
+        for foot, other_share in enumerate((second, first)):
+            alone = transform_wrench(invert_pose(trunk_H_feet[foot]), demanded)
+            loads[:, foot] += (1.0 - other_share) * alone
+        return loads
+
+    def _on_both(self, seconds: FloatArray, trunk_H_feet: Sequence[FloatArray], demanded: FloatArray) -> FloatArray:
+        """Wrenches in the frames of two feet that both bear; shape (n, 2, 6); N, N m."""
+        total = np.concatenate([wrench_matrix(pose) for pose in trunk_H_feet], axis=2)  # of both feet; (n, 6, 12)
+        cheap = total.transpose(0, 2, 1) / np.tile(_COST, 2)[:, None]
+        pushes = self.pushes(seconds)[..., None]
+        loads: FloatArray = pushes + cheap @ np.linalg.solve(total @ cheap, demanded[..., None] - total @ pushes)
         return loads.reshape(-1, 2, 6)
 
     def on(self, foot: int, seconds: FloatArray) -> FloatArray:

@@ -50,13 +50,13 @@ class Steps:
         return cls(cycle_s=cycle_s, swing=(first, second))
 
     def shares(self, seconds: FloatArray) -> FloatArray:
-        """Tell how far each foot bears.
+        """Tell how far each foot has taken its load.
 
         Args:
             seconds: Instants; shape (n,); s.
 
         Returns:
-            From 0, also in the air, to 1; shape (n, 2).
+            From 0, which it is in the air, to 1, which one of both always is; shape (n, 2).
         """
         phase = self._phase(seconds)
         return 1.0 - minimum_jerk(_part(phase, _UNLOADED)) + minimum_jerk(_part(phase, _LOADED))
