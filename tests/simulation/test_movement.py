@@ -24,6 +24,7 @@ from forcetorque.simulation import (
     z_torque_movement,
 )
 from forcetorque.spatial import invert_pose, transform_wrench
+from tests.simulation.stances import MOVEMENTS
 from tests.simulation.stands import (
     DOWN,
     POLES,
@@ -63,8 +64,8 @@ CASES = [(name, kind) for name in ROBOTS for kind in MAKE]
 
 
 def test_every_kind_is_tried() -> None:
-    """The list of cases below has all kinds that there are."""
-    assert set(MAKE) == set(MovementKind)
+    """The list of cases below, and that of movements on both feet, have all kinds that there are."""
+    assert {*MAKE, *MOVEMENTS} == set(MovementKind)
 
 
 @pytest.mark.parametrize(("name", "kind"), CASES)

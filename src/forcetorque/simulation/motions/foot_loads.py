@@ -51,7 +51,7 @@ class FootLoads:
         demanded = self.unloaded.support_wrench(seconds)
         trunk_H_feet = [link_pose(tree, joints, foot) for foot in self.feet]
         first, second = self.shares(seconds).T[..., None]
-        loads = (first + second - 1.0)[..., None] * self._on_both(seconds, trunk_H_feet, demanded)
+        loads: FloatArray = (first + second - 1.0)[..., None] * self._on_both(seconds, trunk_H_feet, demanded)
         for foot, other_share in enumerate((second, first)):
             alone = transform_wrench(invert_pose(trunk_H_feet[foot]), demanded)
             loads[:, foot] += (1.0 - other_share) * alone

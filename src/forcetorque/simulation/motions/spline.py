@@ -59,7 +59,7 @@ class Spline:
         rng: np.random.Generator,
         speeds: Any = np.inf,
     ) -> Spline:
-        """Go to a new random target every so often, without ever going farther than the reach.
+        """Go to a new random target every so often, no farther than the reach but for a thousandth.
 
         Args:
             names: What the columns are.
