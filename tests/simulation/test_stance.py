@@ -31,8 +31,8 @@ def test_legs_reach_where_legs_have_been(name: str) -> None:
     middle, half = ranges.mean(axis=1), 0.5 * np.ptp(ranges, axis=1)
     position = middle + np.random.default_rng(1).uniform(-0.25, 0.25, (50, 6)) * half
     wanted = link_pose(standing.tree, JointMotion.at_rest(joints, position), "r_sole")
-    found = joints_reaching(standing.tree, joints, "r_sole", wanted, start=middle)
-    np.testing.assert_allclose(found, position, rtol=0, atol=1e-6)  # 1e-9 m over the smallest singular value
+    again = joints_reaching(standing.tree, joints, "r_sole", wanted, start=middle)
+    np.testing.assert_allclose(again, position, rtol=0, atol=1e-6)  # 1e-9 m over the smallest singular value
 
 
 def test_knees_bend_the_way_they_can() -> None:

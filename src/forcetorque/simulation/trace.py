@@ -172,8 +172,8 @@ def trace_movement(
     imu = None
     if imu_link is not None:  # last, so that its stamps change no others
         imu_ns = _stamps(movement.duration_s, rate_hz, rng) + start_ns
-        motion_there = movement.link_motion(seconds_since(imu_ns, start_ns), imu_link)
-        imu = LinkTrace(link=imu_link, stamp_ns=imu_ns, motion=motion_there)
+        imu_motion = movement.link_motion(seconds_since(imu_ns, start_ns), imu_link)
+        imu = LinkTrace(link=imu_link, stamp_ns=imu_ns, motion=imu_motion)
     return Trace(
         movement=movement,
         rate_hz=rate_hz,

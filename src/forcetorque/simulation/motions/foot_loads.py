@@ -4,12 +4,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import partial
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray
+from forcetorque.arrays import FloatArray, read_only
 from forcetorque.estimation import Contact, ContactType
 from forcetorque.robot import link_pose
 from forcetorque.simulation.motions.movement import Movement, Touch
@@ -37,6 +37,8 @@ class FootLoads:
     """From instants (n,) in s to how far each foot has taken its load, 0 to 1, one of both at 1; shape (n, 2)."""
     pushes: Callable[[FloatArray], FloatArray]
     """From instants (n,) in s to what the feet would rather do, foot after foot; shape (n, 12); N, N m."""
+    _latest: dict[bytes, FloatArray] = field(init=False, repr=False, default_factory=dict)
+    """Loads at the instants of the last call: the touches of both feet ask for them in turn."""
 
     def __call__(self, seconds: FloatArray) -> FloatArray:
         """Give the wrenches that the ground applies to the feet.
@@ -47,6 +49,14 @@ class FootLoads:
         Returns:
             Wrenches in the frames of the feet; shape (n, 2, 6); N, N m.
         """
+        instants = seconds.tobytes()
+        if instants not in self._latest:
+            self._latest.clear()
+            self._latest[instants] = read_only(self._shared(seconds), name="loads", shape=(len(seconds), 2, 6))
+        return self._latest[instants]
+
+    def _shared(self, seconds: FloatArray) -> FloatArray:
+        """Wrenches in the frames of both feet, as their shares are; shape (n, 2, 6); N, N m."""
         joints, tree = self.unloaded.joints(seconds), self.unloaded.tree
         demanded = self.unloaded.support_wrench(seconds)
         trunk_H_feet = [link_pose(tree, joints, foot) for foot in self.feet]

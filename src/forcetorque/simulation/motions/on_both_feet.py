@@ -12,15 +12,16 @@ from forcetorque.simulation.motions.spline import Spline
 from forcetorque.simulation.motions.stance import Stance
 from forcetorque.simulation.motions.steps import Steps
 
-REACH_M = 0.03
-TURN_RAD = 0.09
+_REACH_M = 0.03
+_TURN_RAD = 0.09
 """How far the trunk goes along, and turns about, each axis at most, either way, as a rule; 5 degrees."""
 _VERTICAL = 0.5
 """Way up and down as a part of the ways along the ground: legs are nearly straight, and ankles near their limits."""
 _DEPTH = 2.0 / 3.0
 """Way of a squat up and down from the middle, as a part of the reach; the other ways are a third of it."""
 INTERNAL_FORCE_N = 15.0
-PERIOD_S = 2.0
+"""How much the feet push against each other along each axis at most, as a rule."""
+_PERIOD_S = 2.0
 """Time from target to target of trunk and arms."""
 _OTHERS_SHARE = 0.4
 """Share of their range that joints of trunk and arms use at most."""
@@ -48,7 +49,7 @@ def standing_movement(
     Returns:
         The movement; what touches the feet is in `external`.
     """
-    still = stance.others_moving(share=0.0, duration_s=duration_s, period_s=PERIOD_S, rng=rng)
+    still = stance.others_moving(share=0.0, duration_s=duration_s, period_s=_PERIOD_S, rng=rng)
 
     def trunk(seconds: FloatArray) -> FloatArray:
         return np.zeros((len(seconds), len(CARRIAGE_JOINTS)))
@@ -69,8 +70,8 @@ def sway_movement(
     *,
     rng: np.random.Generator,
     duration_s: float,
-    reach_m: float = REACH_M,
-    turn_rad: float = TURN_RAD,
+    reach_m: float = _REACH_M,
+    turn_rad: float = _TURN_RAD,
     internal_force_N: float = INTERNAL_FORCE_N,
     name: str = "sway",
 ) -> Movement:
@@ -93,7 +94,7 @@ def sway_movement(
         MovementKind.SWAY,
         duration_s,
         trunk=_trunk(reach_m, turn_rad, duration_s, rng),
-        others=stance.others_moving(share=_OTHERS_SHARE, duration_s=duration_s, period_s=PERIOD_S, rng=rng),
+        others=stance.others_moving(share=_OTHERS_SHARE, duration_s=duration_s, period_s=_PERIOD_S, rng=rng),
         internal_force_N=internal_force_N,
         rng=rng,
     )
@@ -104,10 +105,10 @@ def squat_movement(
     *,
     rng: np.random.Generator,
     duration_s: float,
-    reach_m: float = REACH_M,
-    turn_rad: float = TURN_RAD,
+    reach_m: float = _REACH_M,
+    turn_rad: float = _TURN_RAD,
     internal_force_N: float = INTERNAL_FORCE_N,
-    period_s: float = 2.0 * PERIOD_S,
+    period_s: float = 2.0 * _PERIOD_S,
     name: str = "squat",
 ) -> Movement:
     """Move the trunk down and up, a third of the turns and of the way in the other directions aside.
@@ -137,7 +138,7 @@ def squat_movement(
         MovementKind.SQUAT,
         duration_s,
         trunk=trunk,
-        others=stance.others_moving(share=_OTHERS_SHARE, duration_s=duration_s, period_s=PERIOD_S, rng=rng),
+        others=stance.others_moving(share=_OTHERS_SHARE, duration_s=duration_s, period_s=_PERIOD_S, rng=rng),
         internal_force_N=internal_force_N,
         rng=rng,
     )
@@ -148,8 +149,8 @@ def stepping_movement(
     *,
     rng: np.random.Generator,
     duration_s: float,
-    reach_m: float = REACH_M / 2.0,
-    turn_rad: float = TURN_RAD,
+    reach_m: float = _REACH_M / 2.0,
+    turn_rad: float = _TURN_RAD,
     internal_force_N: float = INTERNAL_FORCE_N,
     cycle_s: float = 4.0,
     name: str = "stepping",
@@ -186,7 +187,7 @@ def stepping_movement(
         MovementKind.STEPPING,
         duration_s,
         trunk=trunk,
-        others=stance.others_moving(share=_OTHERS_SHARE, duration_s=duration_s, period_s=PERIOD_S, rng=rng),
+        others=stance.others_moving(share=_OTHERS_SHARE, duration_s=duration_s, period_s=_PERIOD_S, rng=rng),
         internal_force_N=internal_force_N,
         rng=rng,
         steps=steps,
@@ -195,4 +196,4 @@ def stepping_movement(
 
 def _trunk(reach_m: float, turn_rad: float, duration_s: float, rng: np.random.Generator) -> Spline:
     reach = [reach_m, reach_m, _VERTICAL * reach_m, turn_rad, turn_rad, turn_rad]
-    return Spline.towards_targets(CARRIAGE_JOINTS, reach, duration_s=duration_s, period_s=PERIOD_S, rng=rng)
+    return Spline.towards_targets(CARRIAGE_JOINTS, reach, duration_s=duration_s, period_s=_PERIOD_S, rng=rng)

@@ -81,11 +81,11 @@ class Spline:
         count = int(np.ceil(duration_s / period_s)) + 1 + 2 * _SPARE_TARGETS
         at: FloatArray = (np.arange(count, dtype=np.float64) - _SPARE_TARGETS) * period_s
         drawn = cls(names=names, seconds=at, values=rng.uniform(-1.0, 1.0, (count, len(names))))
-        seen = drawn.motion(np.arange(0.0, duration_s + period_s, period_s / _PEAK_STEPS))
+        motion = drawn.motion(np.arange(0.0, duration_s + period_s, period_s / _PEAK_STEPS))
         # a spline overshoots its targets
-        farthest = np.maximum(np.abs(seen.position).max(axis=0), 1.0)
+        farthest = np.maximum(np.abs(motion.position).max(axis=0), 1.0)
         reach = np.asarray(reach, dtype=np.float64) / farthest
-        fastest = reach * np.abs(seen.velocity).max(axis=0)
+        fastest = reach * np.abs(motion.velocity).max(axis=0)
         slower = np.minimum(1.0, np.asarray(speeds) / np.where(fastest > 0.0, fastest, 1.0))
         return cls(names=names, seconds=at, values=drawn.values * (reach * slower))
 

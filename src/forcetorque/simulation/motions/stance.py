@@ -20,12 +20,13 @@ from forcetorque.simulation.motions.movement import Movement, MovementKind
 from forcetorque.simulation.motions.spline import Spline
 from forcetorque.simulation.motions.stand import Stand, shortest_turn_down
 from forcetorque.simulation.motions.steps import Steps
-from forcetorque.spatial import invert_pose, make_pose, rotation_about_z
+from forcetorque.spatial import WRENCH_COMPONENTS, invert_pose, make_pose, rotation_about_z
 
-LEG_JOINTS: Final = 6
+_LEG_JOINTS: Final = 6
 """Joints of a leg: as many as a pose has coordinates, so that the trunk and the feet settle them."""
 _SAMPLES_HZ = 50.0
 """Rate at which the legs' positions are found; splines between them keep the feet in place within 1e-5 m."""
+_SPARE_SAMPLES = 10
 _BENT = 0.25
 """Where the search for a leg's positions starts, between straight and the middle of the joints' ranges: a knee bends
 the way in which it has more range."""
@@ -34,9 +35,10 @@ _ANKLE, _RELAXED = slice(-2, None), 0.5
 bend them beyond."""
 _OVERSHOOT = 1.1
 """Room that joints of trunk and arms keep beside the part of their range that they use."""
-_PUSH_LEVER_M = 0.1
-"""Internal moments over internal forces."""
-_FEET_APART_M_RAD = np.array([0.02, 0.015, 0.15])
+_PUSH_LEVER_M, _PUSH_PERIOD_S = 0.1, 2.0
+"""Internal moments over internal forces, and time from target to target of both."""
+_REPLACED = np.array([0.02, 0.015, 0.15])
+"""How far a foot is shifted forwards and sideways, and turned, at most, either way; m, m, rad."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -70,9 +72,9 @@ class Stance:
         object.__setattr__(self, "placement", read_only(self.placement, name="placement", shape=(2, 3)))
         legs = legs_of(self.stand, self.other, trunk=self.trunk)
         for foot, joints in zip((self.stand.support, self.other), (legs.support, legs.swing), strict=True):
-            if len(joints) != LEG_JOINTS:
+            if len(joints) != _LEG_JOINTS:
                 raise RobotError(
-                    f"leg from {legs.trunk!r} to {foot!r}: expected {LEG_JOINTS} joints, which settle the pose of a "
+                    f"leg from {legs.trunk!r} to {foot!r}: expected {_LEG_JOINTS} joints, which settle the pose of a "
                     f"foot, got {', '.join(joints)}"
                 )
         if not 0.0 < self.crouch_m < np.inf:
@@ -153,8 +155,8 @@ class Stance:
         """
         if not 0.0 <= internal_force_N < np.inf:
             raise ShapeError(f"internal_force_N: expected a force of at least 0 N, got {internal_force_N:g}")
-        spare = np.arange(-10, round(duration_s * _SAMPLES_HZ) + 11)
-        at = spare / _SAMPLES_HZ
+        # some samples more at either end, where splines are poor
+        at = np.arange(-_SPARE_SAMPLES, round(duration_s * _SAMPLES_HZ) + _SPARE_SAMPLES + 1) / _SAMPLES_HZ
         carried = Spline(names=CARRIAGE_JOINTS, seconds=at, values=trunk(at))
         joints = self._following(at, carried(at), others(at), steps)
         self._require_limits(name, joints)
@@ -170,8 +172,8 @@ class Stance:
             gravity=self.stand.gravity,
         )
         reach = np.tile(np.repeat([1.0, _PUSH_LEVER_M], 3), 2) * internal_force_N
-        names = tuple(f"{foot} {component}" for foot in self.feet for component in ("fx", "fy", "fz", "tx", "ty", "tz"))
-        pushes = Spline.towards_targets(names, reach, duration_s=duration_s, period_s=2.0, rng=rng)
+        names = tuple(f"{foot} {component}" for foot in self.feet for component in WRENCH_COMPONENTS)
+        pushes = Spline.towards_targets(names, reach, duration_s=duration_s, period_s=_PUSH_PERIOD_S, rng=rng)
         shares = _both if steps is None else steps.shares
         return FootLoads(unloaded=unloaded, feet=self.feet, shares=shares, pushes=pushes).borne()
 
@@ -185,13 +187,13 @@ class Stance:
     def _following(self, at: FloatArray, trunk: FloatArray, others: FloatArray, steps: Steps | None) -> Spline:
         """Positions of all free joints with which the feet are where the steps want them."""
         trunk_H_world = invert_pose(_carried(trunk, self.world_H_trunk))
-        away = np.zeros((2, len(at), 6)) if steps is None else steps.displacements(at)
+        shifts = np.zeros((2, len(at), 6)) if steps is None else steps.displacements(at)
         lifts = np.zeros((len(at), 2)) if steps is None else steps.lifts(at)
         posture = np.empty((len(at), len(self.stand.joints)))
         posture[:, self.stand.columns(self.legs.others)] = others
         straight = self._straight()
         for foot, joints, world_H_foot, shift, lift in zip(
-            self.feet, (self.legs.support, self.legs.swing), self.world_H_feet, away, lifts.T, strict=True
+            self.feet, (self.legs.support, self.legs.swing), self.world_H_feet, shifts, lifts.T, strict=True
         ):
             columns = self.stand.columns(joints)
             middle = np.array([self.stand.range_of(joint) for joint in joints]).mean(axis=1)
@@ -224,7 +226,7 @@ def random_placement(rng: np.random.Generator) -> FloatArray:
     Returns:
         A `Stance.placement` of up to 2 cm forwards or back, 1.5 cm sideways and 9 degrees; shape (2, 3).
     """
-    placement: FloatArray = rng.uniform(-1.0, 1.0, (2, 3)) * _FEET_APART_M_RAD
+    placement: FloatArray = rng.uniform(-1.0, 1.0, (2, 3)) * _REPLACED
     return placement
 
 

@@ -59,7 +59,7 @@ class Steps:
             From 0, which it is in the air, to 1, which one of both always is; shape (n, 2).
         """
         phase = self._phase(seconds)
-        return 1.0 - minimum_jerk(_part(phase, _UNLOADED)) + minimum_jerk(_part(phase, _LOADED))
+        return 1.0 - minimum_jerk(_progress(phase, _UNLOADED)) + minimum_jerk(_progress(phase, _LOADED))
 
     def lifts(self, seconds: FloatArray) -> FloatArray:
         """Tell how far each foot is up.
@@ -71,7 +71,7 @@ class Steps:
             From 0 on the ground to 1 half-way through the air, with two derivatives that vanish at either end of
             that; shape (n, 2).
         """
-        x = np.clip(_part(self._phase(seconds), _LIFTED), 0.0, 1.0)
+        x = np.clip(_progress(self._phase(seconds), _LIFTED), 0.0, 1.0)
         lifts: FloatArray = 64.0 * (x * (1.0 - x)) ** 3
         return lifts
 
@@ -106,6 +106,7 @@ class Steps:
         return phase
 
 
-def _part(phase: FloatArray, span: tuple[float, float]) -> FloatArray:
-    part: FloatArray = (phase - span[0]) / (span[1] - span[0])
-    return part
+def _progress(phase: FloatArray, span: tuple[float, float]) -> FloatArray:
+    """Part of a span of the cycle that is over; below 0 before it, above 1 after it."""
+    progress: FloatArray = (phase - span[0]) / (span[1] - span[0])
+    return progress
