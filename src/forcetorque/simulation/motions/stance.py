@@ -54,7 +54,7 @@ class Stance:
     """Link of the other foot."""
     trunk: str | None = None
     """Link that both legs hang on; the last link that both feet hang on in the URDF if None."""
-    crouch_m: float = 0.03
+    crouch_m: float = 0.025
     """How much lower than with straight legs the trunk is at rest; m."""
     placement: FloatArray = field(default_factory=lambda: np.zeros((2, 3)))
     """Where each foot stands away from where straight legs put it: forwards and sideways along the axes of the first
