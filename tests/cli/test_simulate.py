@@ -224,7 +224,7 @@ def test_an_existing_folder_and_an_unknown_name_are_refused(scenario: Path, run:
     """Nothing is written over, and the bundled scenarios are listed."""
     Path("out").mkdir()
     assert "it is there already" in run("simulate", scenario, "-o", "out").error()
-    assert "known: icub-insitu, wrist" in run("simulate", "wirst", "-o", "new").error()
+    assert "known: icub-insitu, stance, wrist" in run("simulate", "wirst", "-o", "new").error()
     assert "expected a scenario file, there is none" in run("simulate", "absent.toml", "-o", "new").error()
 
 

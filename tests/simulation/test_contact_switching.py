@@ -39,7 +39,7 @@ def test_nothing_jumps_at_the_switches(name: str) -> None:
     assert switches == 4
     # negative control: without its touch the second shift would begin with a jump
     shift = movements[2]
-    alone = expected_wrenches(shift.tree, shift.joints([0.0]), shift.root(), ["l_foot_ft"])["l_foot_ft"]
+    alone = expected_wrenches(shift.tree, shift.joints([0.0]), shift.root([0.0]), ["l_foot_ft"])["l_foot_ft"]
     assert np.abs(alone - movements[1].readings([movements[1].duration_s]).of_name("l_foot_ft")).max() > 200.0
 
 

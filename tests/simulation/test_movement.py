@@ -24,6 +24,7 @@ from forcetorque.simulation import (
     z_torque_movement,
 )
 from forcetorque.spatial import invert_pose, transform_wrench
+from tests.simulation.stances import MOVEMENTS
 from tests.simulation.stands import (
     DOWN,
     POLES,
@@ -63,8 +64,8 @@ CASES = [(name, kind) for name in ROBOTS for kind in MAKE]
 
 
 def test_every_kind_is_tried() -> None:
-    """The list of cases below has all kinds that there are."""
-    assert set(MAKE) == set(MovementKind)
+    """The list of cases below, and that of movements on both feet, have all kinds that there are."""
+    assert {*MAKE, *MOVEMENTS} == set(MovementKind)
 
 
 @pytest.mark.parametrize(("name", "kind"), CASES)
@@ -163,7 +164,7 @@ def test_readings_are_expected_wrenches_where_nothing_touches() -> None:
     """Two ways through the library agree."""
     movement = random_movement(arm(), rng=np.random.default_rng(7), duration_s=5.0)
     at = times(movement, 20)
-    other = expected_wrenches(movement.tree, movement.joints(at), movement.root())["arm_ft"]
+    other = expected_wrenches(movement.tree, movement.joints(at), movement.root(at))["arm_ft"]
     np.testing.assert_allclose(movement.readings(at).of_name("arm_ft"), other, rtol=0, atol=1e-11)
     assert np.ptp(other) > 10.0
 

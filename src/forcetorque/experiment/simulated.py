@@ -93,6 +93,7 @@ def write_scenario(
     rows = []
     with new_folder(output) as fresh:
         shutil.copyfile(scenario.urdf, fresh / "robot.urdf")
+        truth |= _robot_truth(scenario)
         truth["sensors"] = {name: _sensor_truth(scenario, name, fresh) for name in scenario.specimens}
         truth["recordings"] = {}
         for simulated in simulate(scenario):
@@ -110,6 +111,27 @@ def write_scenario(
         truth=str(output / TRUTH_FILE),
         recordings=tuple(rows),
     )
+
+
+def _robot_truth(scenario: Scenario) -> dict[str, Any]:
+    """How the robot differs from the URDF beside it, and its IMU from a perfect one; nothing where there is nothing."""
+    truth: dict[str, Any] = {}
+    errors, imu = scenario.robot_errors, scenario.imu
+    if errors is not None:
+        truth["robot_errors"] = {
+            "mass": dict(errors.mass),
+            "centre_m": {link: shift.tolist() for link, shift in errors.centre_m.items()},
+            "joint_zero_rad": dict(errors.joint_zero_rad),
+        }
+    if imu is not None:
+        truth["imu"] = {
+            "link": imu.link,
+            "accelerometer_bias": imu.accelerometer_bias.tolist(),
+            "accelerometer_noise": imu.accelerometer_noise,
+            "gyroscope_bias": imu.gyroscope_bias.tolist(),
+            "gyroscope_noise": imu.gyroscope_noise,
+        }
+    return truth
 
 
 def _sensor_truth(scenario: Scenario, name: str, folder: Path) -> dict[str, Any]:
@@ -135,10 +157,11 @@ def _recording_truth(simulated: SimulatedRecording) -> dict[str, Any]:
             "offset": sensor.offset.tolist(),
             "saturated_samples": [[first, last] for first, last in spans(held)],
         }
+    standing = simulated.movement.carriage is None
     return {
         "kind": simulated.movement.kind.value,
-        "support": simulated.movement.support,
-        "gravity_direction": simulated.movement.gravity_direction.tolist(),
+        "support": simulated.movement.support if standing else None,
+        "gravity_direction": simulated.movement.gravity_direction.tolist() if standing else None,
         "duration_s": simulated.movement.duration_s,
         "touches": [touch.contact.name for touch in simulated.movement.external],
         "sensors": sensors,

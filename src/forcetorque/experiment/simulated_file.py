@@ -5,7 +5,10 @@ from __future__ import annotations
 
 import json
 
+from forcetorque.arrays import FloatArray
+from forcetorque.simulation.motions import Movement
 from forcetorque.simulation.scenario import INTERVAL_MARGIN_S, Scenario, SimulatedRecording
+from forcetorque.simulation.trace import IMU_STREAM
 
 
 def experiment_text(scenario: Scenario, simulated: SimulatedRecording, log: str, *, temperature: bool) -> str:
@@ -20,7 +23,6 @@ def experiment_text(scenario: Scenario, simulated: SimulatedRecording, log: str,
     Returns:
         The file, TOML; the whole recording is one interval, but for a margin at either end.
     """
-    down = ", ".join(repr(float(value)) for value in simulated.movement.gravity_direction)
     text = [
         f'schema = "forcetorque/experiment/1"\nname = "{scenario.file.name}, {simulated.name}"\n',
         f'\n[robot]\nurdf = "robot.urdf"\ngravity = {scenario.file.robot.gravity!r}\n\n[recording]\n{log}',
@@ -32,12 +34,33 @@ def experiment_text(scenario: Scenario, simulated: SimulatedRecording, log: str,
         )
         if temperature:
             text.append('\n[[sensor.variable]]\nname = "temperature"\n')
-    # the model of a simulated robot is exact
-    text.append("\n[calibration]\naccuracy = { force_N = 0.0, moment_Nm = 0.0 }\n")
-    text.append(f'\n[[support]]\nframe = "{simulated.movement.support}"\ngravity_direction = [{down}]\n')
-    text.append(
+    if scenario.robot_errors is None:  # the model is exact
+        text.append("\n[calibration]\naccuracy = { force_N = 0.0, moment_Nm = 0.0 }\n")
+    text += [_contacts_text(simulated.movement, imu=scenario.imu is not None), _interval_text(simulated)]
+    return "".join(text)
+
+
+def _contacts_text(movement: Movement, *, imu: bool) -> str:
+    """The support and, of a robot on both feet, the other foot, whose contact is as unknown."""
+    support, *others = movement.touched
+    if movement.carriage is None:
+        return f'\n[[support]]\nframe = "{support}"\ngravity_direction = {_direction(movement.gravity_direction)}\n'
+    # without an IMU the first foot stands all the time
+    down = -movement.base_pose([0.0], support)[0, 2, :3]
+    motion = f'imu = ["{IMU_STREAM}"]' if imu else f"gravity_direction = {_direction(down)}"
+    contacts = [f'\n[[contact]]\nframe = "{link}"\n' for link in others]
+    return f'\n[[support]]\nframe = "{support}"\n{motion}\n' + "".join(contacts)
+
+
+def _interval_text(simulated: SimulatedRecording) -> str:
+    """The whole recording but for a margin at either end."""
+    end_s = simulated.movement.duration_s - INTERVAL_MARGIN_S
+    return (
         f'\n[[interval]]\nlabel = "{simulated.name}"\nstart_s = {INTERVAL_MARGIN_S}\nuse = "{simulated.use.value}"\n'
-        f'support = "{simulated.movement.support}"\nend_s = {simulated.movement.duration_s - INTERVAL_MARGIN_S:.3f}\n'
+        f'support = "{simulated.movement.touched[0]}"\nend_s = {end_s:.3f}\n'
         f"kind = {json.dumps(simulated.kind)}\nsession = {json.dumps(simulated.session)}\n"
     )
-    return "".join(text)
+
+
+def _direction(vector: FloatArray) -> str:
+    return f"[{', '.join(repr(float(value)) for value in vector)}]"

@@ -3,10 +3,12 @@
 
 from forcetorque.simulation.board import calibrated_by_board
 from forcetorque.simulation.family import FAMILIES, SensorFamily
+from forcetorque.simulation.imu import SimulatedImu
 from forcetorque.simulation.load import with_load
 from forcetorque.simulation.motions import (
     Movement,
     MovementKind,
+    Stance,
     Stand,
     Touch,
     Waypoints,
@@ -14,7 +16,12 @@ from forcetorque.simulation.motions import (
     contact_switching_movements,
     grid_movement,
     random_movement,
+    random_placement,
     random_smooth_motion,
+    squat_movement,
+    standing_movement,
+    stepping_movement,
+    sway_movement,
     z_torque_movement,
 )
 from forcetorque.simulation.network import (
@@ -26,6 +33,7 @@ from forcetorque.simulation.network import (
     step_back,
 )
 from forcetorque.simulation.recording import record, simulate_recording
+from forcetorque.simulation.robot_errors import RobotErrors
 from forcetorque.simulation.robots import ARM_URDF, BIPED_URDF
 from forcetorque.simulation.sensor import SimulatedSensor, distorted_by_mounting, y_shaped_matrix
 from forcetorque.simulation.trace import Trace, trace_movement
@@ -36,8 +44,11 @@ __all__ = [
     "FAMILIES",
     "Movement",
     "MovementKind",
+    "RobotErrors",
     "SensorFamily",
+    "SimulatedImu",
     "SimulatedSensor",
+    "Stance",
     "Stand",
     "Touch",
     "Trace",
@@ -52,11 +63,16 @@ __all__ = [
     "lose_messages",
     "offset_clocks",
     "random_movement",
+    "random_placement",
     "random_smooth_motion",
     "record",
     "repeat_stamps",
     "simulate_recording",
+    "squat_movement",
+    "standing_movement",
     "step_back",
+    "stepping_movement",
+    "sway_movement",
     "trace_movement",
     "with_load",
     "y_shaped_matrix",

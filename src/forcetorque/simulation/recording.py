@@ -11,6 +11,7 @@ import numpy as np
 from forcetorque.arrays import FloatArray
 from forcetorque.recording import Recording
 from forcetorque.robot import JointMotion, RobotModel
+from forcetorque.simulation.imu import SimulatedImu
 from forcetorque.simulation.motions import Movement, MovementKind, Stand, random_smooth_motion
 from forcetorque.simulation.sensor import SimulatedSensor
 from forcetorque.simulation.trace import EPOCH_NS, trace_movement
@@ -24,6 +25,7 @@ def record(
     rng: np.random.Generator,
     temperature_degC: tuple[float, float] | None = None,
     start_ns: int = EPOCH_NS,
+    imu: SimulatedImu | None = None,
 ) -> Recording:
     """Record the joints and sensors of a robot during a movement.
 
@@ -38,13 +40,15 @@ def record(
         temperature_degC: Temperature of the sensors at the start and at the end, linear in between; None where
             nobody measures it.
         start_ns: When it starts; ns.
+        imu: An IMU; none if None.
 
     Returns:
-        A stream `joints` with positions, and a stream per sensor, under its name, with raw counts, the board's
-        status and, if given, the temperature.
+        A stream `joints` with positions, a stream per sensor, under its name, with raw counts, the board's
+        status and, if given, the temperature, and a stream `imu`, if there is one.
     """
-    trace = trace_movement(movement, sensors, rate_hz=rate_hz, rng=rng, start_ns=start_ns)
-    return trace.recorded(sensors, rng=rng, temperature_degC=temperature_degC)
+    link = None if imu is None else imu.link
+    trace = trace_movement(movement, sensors, rate_hz=rate_hz, rng=rng, start_ns=start_ns, imu_link=link)
+    return trace.recorded(sensors, rng=rng, temperature_degC=temperature_degC, imu=imu)
 
 
 def simulate_recording(

@@ -13,6 +13,8 @@ from forcetorque.arrays import FloatArray, IntArray, read_only
 from forcetorque.errors import RobotError, known_names
 from forcetorque.recording import Recording, Signal, Stream
 from forcetorque.recording.alignment import seconds_since
+from forcetorque.robot import RootMotion
+from forcetorque.simulation.imu import SimulatedImu
 from forcetorque.simulation.motions import Movement
 from forcetorque.simulation.sensor import SimulatedSensor
 
@@ -20,6 +22,26 @@ EPOCH_NS = 1_700_000_000_000_000_000
 """When a simulated recording starts unless somebody says otherwise; ns."""
 
 _ENCODER_STEP = 2.0 * np.pi / 2**16
+
+IMU_STREAM = "imu"
+"""Name of the stream of an IMU."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class LinkTrace:
+    """The motion of a link at the instants at which an IMU on it is read."""
+
+    link: str
+    """The link."""
+    stamp_ns: IntArray
+    """Stamps; shape (n,); ns."""
+    motion: RootMotion
+    """Its true motion, in its own axes; n samples."""
+
+    def __post_init__(self) -> None:
+        stamps = np.array(self.stamp_ns, dtype=np.int64)
+        stamps.setflags(write=False)
+        object.__setattr__(self, "stamp_ns", stamps)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -38,6 +60,8 @@ class Trace:
     """Stamps of every sensor; shape (n,); ns."""
     loads: Mapping[str, FloatArray]
     """True wrenches at those stamps, each in the sensor's frame and direction; shape (n, 6); N, N m."""
+    imu: LinkTrace | None = None
+    """What an IMU goes through, if there is one."""
 
     def __post_init__(self) -> None:
         loads = {name: read_only(load, name=name, shape=(None, 6)) for name, load in self.loads.items()}
@@ -53,6 +77,7 @@ class Trace:
         *,
         rng: np.random.Generator,
         temperature_degC: tuple[float, float] | None = None,
+        imu: SimulatedImu | None = None,
     ) -> Recording:
         """Read sensors under these loads.
 
@@ -61,14 +86,25 @@ class Trace:
             rng: Source of noise.
             temperature_degC: Temperature of the sensors at the start and at the end, linear in between; None where
                 nobody measures it.
+            imu: An IMU on the link that was traced; none if None.
 
         Returns:
-            A stream `joints` with positions, and a stream per sensor, under its name, with raw counts, the board's
-            status and, if given, the temperature.
+            A stream `joints` with positions, a stream per sensor, under its name, with raw counts, the board's
+            status and, if given, the temperature, and a stream `imu`, if there is one.
+
+        Raises:
+            RobotError: If a sensor, or the link of the IMU, was not traced.
         """
         streams = {"joints": self.joints}
         for name, sensor in sensors.items():
             streams[name] = self._sensor_stream(name, sensor, rng, temperature_degC)
+        if imu is not None:
+            if self.imu is None or self.imu.link != imu.link:
+                traced = "no IMU" if self.imu is None else f"one at {self.imu.link!r}"
+                raise RobotError(
+                    f"movement {self.movement.name!r}: expected a trace with an IMU at {imu.link!r}, it has {traced}"
+                )
+            streams[IMU_STREAM] = _stream(IMU_STREAM, self.imu.stamp_ns, *imu.read(self.imu.motion, rng))
         return Recording(streams=streams, origin={"format": "simulation", "robot": self.movement.model.name})
 
     def _sensor_stream(
@@ -109,6 +145,7 @@ def trace_movement(
     rate_hz: float,
     rng: np.random.Generator,
     start_ns: int = EPOCH_NS,
+    imu_link: str | None = None,
 ) -> Trace:
     """Find what a movement does to the joints and sensors of a robot at the instants at which they are read.
 
@@ -121,9 +158,10 @@ def trace_movement(
         rate_hz: Rate of every stream; Hz.
         rng: Source of stamps.
         start_ns: When it starts; ns.
+        imu_link: Link that an IMU is on; none if None.
 
     Returns:
-        Positions of the joints, and the true loads of the sensors.
+        Positions of the joints, the true loads of the sensors, and the motion of the IMU's link.
     """
     joint_stamps = _stamps(movement.duration_s, rate_hz, rng) + start_ns
     motion = movement.joints(seconds_since(joint_stamps, start_ns))
@@ -131,6 +169,11 @@ def trace_movement(
     units = tuple(movement.model.joints[name].type.unit for name in motion.names)
     position = Signal(quantity="position", values=measured, columns=motion.names, units=units)
     stamps = {name: _stamps(movement.duration_s, rate_hz, rng) + start_ns for name in sensors}
+    imu = None
+    if imu_link is not None:  # last, so that its stamps change no others
+        imu_ns = _stamps(movement.duration_s, rate_hz, rng) + start_ns
+        imu_motion = movement.link_motion(seconds_since(imu_ns, start_ns), imu_link)
+        imu = LinkTrace(link=imu_link, stamp_ns=imu_ns, motion=imu_motion)
     return Trace(
         movement=movement,
         rate_hz=rate_hz,
@@ -140,6 +183,7 @@ def trace_movement(
         loads={
             name: movement.readings(seconds_since(own, start_ns), [name]).of_name(name) for name, own in stamps.items()
         },
+        imu=imu,
     )
 
 

@@ -14,6 +14,7 @@ from forcetorque.robot import JointMotion, link_pose
 from forcetorque.simulation.motions.balancing import balancing_postures
 from forcetorque.simulation.motions.movement import Movement, MovementKind, Touch
 from forcetorque.simulation.motions.stand import Stand
+from forcetorque.simulation.motions.waypoints import minimum_jerk
 from forcetorque.simulation.motions.weight import weight_at_support
 from forcetorque.spatial import invert_pose, transform_wrench
 
@@ -40,8 +41,7 @@ class ShiftedWeight:
         Returns:
             The wrench; shape (n, 6); N, N m.
         """
-        x = np.clip(seconds / self.duration_s, 0.0, 1.0)
-        share = self.start + (self.end - self.start) * x**3 * (10.0 - 15.0 * x + 6.0 * x**2)
+        share = self.start + (self.end - self.start) * minimum_jerk(seconds / self.duration_s)
         return share[:, None] * self.wrench
 
 

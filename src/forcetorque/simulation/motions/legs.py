@@ -14,6 +14,8 @@ from forcetorque.simulation.motions.stand import Stand
 class Legs:
     """Free joints of a robot that stands on one foot."""
 
+    trunk: str
+    """Link that both legs hang on."""
     support: tuple[str, ...]
     """Joints between the trunk and the foot that stands."""
     swing: tuple[str, ...]
@@ -50,7 +52,7 @@ def legs_of(stand: Stand, swing: str, *, trunk: str | None = None) -> Legs:
                 f"{', '.join(joints) or 'none'}; name the trunk between the legs"
             )
     legs = {*standing, *swinging}
-    return Legs(support=standing, swing=swinging, others=tuple(j for j in stand.joints if j not in legs))
+    return Legs(trunk=middle, support=standing, swing=swinging, others=tuple(j for j in stand.joints if j not in legs))
 
 
 def _common_ancestor(stand: Stand, swing: str) -> str:

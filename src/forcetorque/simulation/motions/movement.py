@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A movement: what every joint of a robot does while one link stands still in the world."""
+"""A movement: what every joint of a robot does while one link stands still in the world, or is carried through it."""
 
 from __future__ import annotations
 
@@ -14,11 +14,21 @@ from forcetorque.arrays import FloatArray, read_only, require_shape
 from forcetorque.constants import STANDARD_GRAVITY
 from forcetorque.errors import RobotError
 from forcetorque.estimation import Contact, ContactType, Question, estimate
-from forcetorque.robot import BodyTree, JointMotion, RobotModel, RootMotion, Wrenches, build_tree, link_pose
+from forcetorque.robot import (
+    BodyTree,
+    JointMotion,
+    RobotModel,
+    RootMotion,
+    Wrenches,
+    build_tree,
+    link_pose,
+    motion_of_link,
+)
+from forcetorque.simulation.motions.carriage import Carriage
 
 
 class MovementKind(StrEnum):
-    """Kinds of data sets (thesis 5.1.3), and two beside them."""
+    """Kinds of data sets (thesis 5.1.3), and others beside them."""
 
     GRID = "grid"
     """A stiff limb is carried over a grid of two joints."""
@@ -30,6 +40,14 @@ class MovementKind(StrEnum):
     """Every joint moves by itself, smoothly."""
     CONTACT_SWITCHING = "contact_switching"
     """The weight goes from one foot to the other."""
+    STANDING = "standing"
+    """Both feet stand, and nothing moves."""
+    SWAY = "sway"
+    """Both feet stand, trunk and arms move."""
+    SQUAT = "squat"
+    """Both feet stand, the trunk goes down and up."""
+    STEPPING = "stepping"
+    """The feet leave the ground in turn."""
 
 
 class Touch(NamedTuple):
@@ -43,7 +61,7 @@ class Touch(NamedTuple):
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Movement:
-    """What all free joints do over some seconds while the support stands still."""
+    """What all free joints do over some seconds while the support stands still, or is carried as known."""
 
     name: str
     """What it is called, such as the name of a data set."""
@@ -52,15 +70,17 @@ class Movement:
     model: RobotModel
     """The robot."""
     support: str
-    """Link that stands still in the world and bears what the touches do not."""
+    """Link that stands still in the world, or is carried, and bears what the touches do not."""
     world_H_support: FloatArray
-    """Pose of the support in the world, whose z points up; shape (4, 4); m."""
+    """Pose of the support in the world, whose z points up; at rest if it is carried; shape (4, 4); m."""
     duration_s: float
     """How long it takes; before and after, it is as its trajectory says; s."""
     trajectory: Callable[[FloatArray], JointMotion]
     """From instants (n,) in s to the motion of all joints that are free, with exact derivatives."""
     external: tuple[Touch, ...] = ()
     """Touches beside the support."""
+    carriage: Carriage | None = None
+    """How the support is carried; None if it stands still."""
     gravity: float = STANDARD_GRAVITY
     """Magnitude of gravity; m/s2."""
     tree: BodyTree = field(init=False)
@@ -82,9 +102,15 @@ class Movement:
 
     @property
     def gravity_direction(self) -> FloatArray:
-        """Unit vector along which things fall, in the axes of the support; shape (3,)."""
+        """Unit vector along which things fall, in the axes of the support at rest; shape (3,)."""
         down: FloatArray = -self.world_H_support[2, :3]
         return down
+
+    @property
+    def touched(self) -> tuple[str, ...]:
+        """Links that touch the world, some of them at times: the support unless it is carried, and the touches'."""
+        standing = () if self.carriage is not None else (self.support,)
+        return (*standing, *(touch.contact.link for touch in self.external))
 
     def joints(self, seconds: Any) -> JointMotion:
         """Give the motion of the joints.
@@ -97,13 +123,33 @@ class Movement:
         """
         return self.trajectory(_instants(seconds))
 
-    def root(self) -> RootMotion:
+    def root(self, seconds: Any) -> RootMotion:
         """Give the motion of the support.
 
+        Args:
+            seconds: Instants since the start; shape (n,); s.
+
         Returns:
-            That of a frame at rest, for any number of samples.
+            Its motion; n samples, or the one of a frame at rest.
         """
-        return RootMotion.fixed(self.gravity_direction, gravity=self.gravity)
+        if self.carriage is None:
+            return RootMotion.fixed(self.gravity_direction, gravity=self.gravity)
+        return self.carriage.motion(_instants(seconds), self.world_H_support, gravity=self.gravity)
+
+    def link_motion(self, seconds: Any, link: str) -> RootMotion:
+        """Give the motion of a link, as a perfect IMU in its frame would read it.
+
+        Args:
+            seconds: Instants since the start; shape (n,); s.
+            link: The link.
+
+        Returns:
+            Its motion, in its own axes; n samples.
+
+        Raises:
+            RobotError: If the robot has no such link.
+        """
+        return motion_of_link(self.tree, self.joints(seconds), self.root(seconds), link)
 
     def base_pose(self, seconds: Any, link: str) -> FloatArray:
         """Find where a link, such as the base of a floating-base model, is in the world.
@@ -118,7 +164,11 @@ class Movement:
         Raises:
             RobotError: If the robot has no such link.
         """
-        pose: FloatArray = self.world_H_support @ link_pose(self.tree, self.joints(seconds), link)
+        at = _instants(seconds)
+        world_H_support = self.world_H_support
+        if self.carriage is not None:
+            world_H_support = self.carriage.poses(at, self.world_H_support)
+        pose: FloatArray = world_H_support @ link_pose(self.tree, self.joints(at), link)
         return pose
 
     def external_wrenches(self, seconds: Any) -> Wrenches:
@@ -153,7 +203,7 @@ class Movement:
         question = Question(
             tree=self.tree, contacts=tuple(touch.contact for touch in self.external), expected=wanted, equations=()
         )
-        found = estimate(question, self.joints(seconds), self.root(), known=self.external_wrenches(seconds))
+        found = estimate(question, self.joints(seconds), self.root(seconds), known=self.external_wrenches(seconds))
         return Wrenches(names=wanted, values=found.expected)
 
     def support_wrench(self, seconds: Any) -> FloatArray:
@@ -169,7 +219,7 @@ class Movement:
         touches = tuple(touch.contact for touch in self.external)
         question = Question(tree=self.tree, contacts=(bearing, *touches))
         known = self.external_wrenches(seconds)
-        return estimate(question, self.joints(seconds), self.root(), known=known).contact_wrenches[:, 0]
+        return estimate(question, self.joints(seconds), self.root(seconds), known=known).contact_wrenches[:, 0]
 
 
 def _instants(seconds: Any) -> FloatArray:

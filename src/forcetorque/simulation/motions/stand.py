@@ -68,10 +68,8 @@ class Stand:
     def world_H_support(self) -> FloatArray:
         """Pose of the support in a world of its own: at its origin, turned until gravity points down; shape (4, 4)."""
         flip = np.diag([1.0, -1.0, -1.0]) if self.gravity_direction[2] > 0.0 else np.eye(3)
-        down = flip @ self.gravity_direction
-        # the shortest turn to straight down; the half turn before keeps it away from the singular one
-        hat = skew(np.cross(down, [0.0, 0.0, -1.0]))
-        return make_pose((np.eye(3) + hat + hat @ hat / (1.0 - down[2])) @ flip, np.zeros(3))
+        # the half turn keeps the shortest one away from where it is singular
+        return make_pose(shortest_turn_down(flip @ self.gravity_direction) @ flip, np.zeros(3))
 
     @property
     def speeds(self) -> FloatArray:
@@ -176,6 +174,20 @@ class Stand:
                 f"{self.margin:g}), got {wanted:g}"
             )
         return float(np.clip(0.0 if wanted is None else wanted, low, high))
+
+
+def shortest_turn_down(direction: FloatArray) -> FloatArray:
+    """Give the shortest turn after which a direction points straight down.
+
+    Args:
+        direction: Unit vector that does not point straight up; shape (3,).
+
+    Returns:
+        Rotation matrix; shape (3, 3).
+    """
+    hat = skew(np.cross(direction, [0.0, 0.0, -1.0]))
+    turn: FloatArray = np.eye(3) + hat + hat @ hat / (1.0 - direction[2])
+    return turn
 
 
 def _unit(direction: object) -> FloatArray:

@@ -99,10 +99,24 @@ class Waypoints:
         way = np.diff(self.postures, axis=0)[move]  # (n, j)
         return JointMotion(
             names=self.names,
-            position=self.postures[move] + way * (x**3 * (10.0 - 15.0 * x + 6.0 * x**2)),
+            position=self.postures[move] + way * minimum_jerk(x),
             velocity=way * (30.0 * x**2 * (1.0 - x) ** 2) / duration,
             acceleration=way * (60.0 * x * (1.0 - x) * (1.0 - 2.0 * x)) / duration**2,
         )
+
+
+def minimum_jerk(x: FloatArray) -> FloatArray:
+    """Give the way that is done of a move that starts and stops gently.
+
+    Args:
+        x: Time as a share of the move's duration; outside of 0 to 1 the move has not begun or is over; any shape.
+
+    Returns:
+        Share of the way, 0 to 1; its first two derivatives are continuous; the same shape.
+    """
+    inside = np.clip(x, 0.0, 1.0)
+    share: FloatArray = inside**3 * (10.0 - 15.0 * inside + 6.0 * inside**2)
+    return share
 
 
 def shortest_moves(ways: FloatArray, speeds: FloatArray) -> FloatArray:

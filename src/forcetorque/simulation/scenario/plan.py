@@ -14,19 +14,32 @@ from forcetorque.robot import RobotModel
 from forcetorque.simulation.motions import (
     Movement,
     MovementKind,
+    Stance,
     Stand,
     balancing_movement,
     contact_switching_movements,
     grid_movement,
     random_movement,
+    random_placement,
+    squat_movement,
+    standing_movement,
+    stepping_movement,
+    sway_movement,
     z_torque_movement,
 )
 from forcetorque.simulation.scenario.schema import Recorded, ScenarioFile
 from forcetorque.simulation.trace import EPOCH_NS, Trace, trace_movement
 from forcetorque.study import OFFSET_S
 
-_MOVEMENTS, _STAMPS = 3, 5
+_MOVEMENTS, _STAMPS, _PLACEMENTS = 3, 5, 7
 """What a stream of random numbers is for: each has its own, so that one more recording changes no other."""
+
+_ON_BOTH_FEET = {
+    MovementKind.STANDING: standing_movement,
+    MovementKind.SWAY: sway_movement,
+    MovementKind.SQUAT: squat_movement,
+    MovementKind.STEPPING: stepping_movement,
+}
 
 _DAY_NS = 86_400_000_000_000
 _HOUR_NS = 3_600_000_000_000
@@ -54,18 +67,26 @@ class Plan:
     movement: Movement
     """What the robot does."""
 
-    def trace(self, sensors: Sequence[str], *, seed: int) -> Trace:
+    def trace(self, sensors: Sequence[str], *, seed: int, imu_link: str | None = None) -> Trace:
         """Find the loads on sensors.
 
         Args:
             sensors: Their names.
             seed: Seed of the scenario.
+            imu_link: Link that an IMU is on; none if None.
 
         Returns:
-            Joints and loads at the instants at which they are read.
+            Joints, loads and the IMU's motion at the instants at which they are read.
         """
         rng = np.random.default_rng([seed, _STAMPS, *self.number])
-        return trace_movement(self.movement, sensors, rate_hz=self.entry.rate_hz, rng=rng, start_ns=self.start_ns)
+        return trace_movement(
+            self.movement,
+            sensors,
+            rate_hz=self.entry.rate_hz,
+            rng=rng,
+            start_ns=self.start_ns,
+            imu_link=imu_link,
+        )
 
 
 def plan_recordings(content: ScenarioFile, model: RobotModel) -> Iterator[Plan]:
@@ -80,7 +101,8 @@ def plan_recordings(content: ScenarioFile, model: RobotModel) -> Iterator[Plan]:
     """
     for index, entry in enumerate(content.recording):
         rng = np.random.default_rng([content.seed, _MOVEMENTS, index])
-        movements = _movements(entry, model, gravity=content.robot.gravity, rng=rng)
+        placement = _placement(content.seed, entry.motion.placement)
+        movements = _movements(entry, model, gravity=content.robot.gravity, rng=rng, placement=placement)
         start_ns = EPOCH_NS + entry.power_up * _DAY_NS + index * _HOUR_NS
         for phase, movement in enumerate(movements):
             name = entry.name if len(movements) == 1 else f"{entry.name}_{phase}"
@@ -108,7 +130,16 @@ def validation_loads(plans: Sequence[Plan], sensor: str) -> list[FloatArray]:
     return changes
 
 
-def _movements(entry: Recorded, model: RobotModel, *, gravity: float, rng: np.random.Generator) -> tuple[Movement, ...]:
+def _placement(seed: int, number: int) -> FloatArray:
+    """Where the feet stand; number 0 has them below the hips."""
+    if number == 0:
+        return np.zeros((2, 3))
+    return random_placement(np.random.default_rng([seed, _PLACEMENTS, number]))
+
+
+def _movements(
+    entry: Recorded, model: RobotModel, *, gravity: float, rng: np.random.Generator, placement: FloatArray
+) -> tuple[Movement, ...]:
     motion = entry.motion
     stand = Stand(
         model=model,
@@ -129,4 +160,8 @@ def _movements(entry: Recorded, model: RobotModel, *, gravity: float, rng: np.ra
     if motion.kind is MovementKind.CONTACT_SWITCHING:
         return contact_switching_movements(stand, swing, rng=rng)
     duration = motion.duration_s or 0.0
+    if motion.kind in _ON_BOTH_FEET:
+        stance = Stance(stand=stand, other=swing, placement=placement)
+        force, move = motion.internal_force_N, _ON_BOTH_FEET[motion.kind]
+        return (move(stance, rng=rng, duration_s=duration, internal_force_N=force, name=entry.name),)
     return (random_movement(stand, rng=rng, duration_s=duration, slowest_hz=motion.slowest_hz, name=entry.name),)

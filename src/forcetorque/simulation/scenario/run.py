@@ -13,17 +13,19 @@ import numpy as np
 from forcetorque.errors import FormatError, RobotError, known_names
 from forcetorque.recording import Recording, Use
 from forcetorque.robot import RobotModel, read_urdf
+from forcetorque.simulation.imu import SimulatedImu
 from forcetorque.simulation.load import with_load
 from forcetorque.simulation.motions import Movement
+from forcetorque.simulation.robot_errors import RobotErrors
 from forcetorque.simulation.robots import named_robot
 from forcetorque.simulation.scenario.plan import Plan, plan_recordings, validation_loads
-from forcetorque.simulation.scenario.schema import ScenarioFile
+from forcetorque.simulation.scenario.schema import RobotErrorSizes, ScenarioFile
 from forcetorque.simulation.scenario.specimen import Specimen, draw_specimen
 from forcetorque.simulation.sensor import SimulatedSensor
 from forcetorque.simulation.trace import Trace
 from forcetorque.toml_table import read_toml
 
-_SENSORS, _POWER_UPS, _NOISE = 1, 2, 6
+_SENSORS, _POWER_UPS, _NOISE, _IMU, _ROBOT = 1, 2, 6, 8, 9
 """What a stream of random numbers is for, beside those of plans: one more recording changes no other."""
 
 
@@ -36,7 +38,11 @@ class Scenario:
     urdf: Path
     """Model of the robot, without added loads."""
     model: RobotModel
-    """The robot with its added loads."""
+    """The robot as it is, with its added loads."""
+    robot_errors: RobotErrors | None
+    """How it differs from the URDF beside these."""
+    imu: SimulatedImu | None
+    """Its IMU, if it has one."""
     plans: tuple[Plan, ...]
     """Recordings that are to be made."""
     specimens: dict[str, Specimen]
@@ -52,7 +58,7 @@ class Scenario:
             The scenario with sensors drawn anew and the motions of this one, so that traces of this one fit it.
         """
         file = self.file.with_sensors(**changes)
-        return replace(self, file=file, specimens=_specimens(file, self.model, self.plans))
+        return replace(self, file=file, specimens=_specimens(file, self.model, self.plans), imu=_imu(file, self.model))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -111,11 +117,22 @@ def build_scenario(content: ScenarioFile, *, folder: Path | str = ".") -> Scenar
         raise RobotError(
             f"scenario {content.name!r}: robot {model.name!r} has no force-torque sensor; a scenario needs one"
         )
+    errors = None if content.robot_errors is None else _errors(content.robot_errors, model, content.seed)
+    if errors is not None:
+        model = errors.applied_to(model)
     for load in content.load:
         model = with_load(model, load.link, mass_kg=load.mass_kg, centre_of_mass_m=load.centre_of_mass_m)
     plans = tuple(plan_recordings(content, model))
     specimens = _specimens(content, model, plans)
-    return Scenario(file=content, urdf=urdf, model=model, plans=plans, specimens=specimens)
+    return Scenario(
+        file=content,
+        urdf=urdf,
+        model=model,
+        robot_errors=errors,
+        imu=_imu(content, model),
+        plans=plans,
+        specimens=specimens,
+    )
 
 
 def trace_recordings(scenario: Scenario) -> dict[str, Trace]:
@@ -127,8 +144,7 @@ def trace_recordings(scenario: Scenario) -> dict[str, Trace]:
     Returns:
         Traces by the names of the recordings; eight bytes per sample of every joint and component of a load.
     """
-    names = tuple(scenario.specimens)
-    return {plan.name: plan.trace(names, seed=scenario.file.seed) for plan in scenario.plans}
+    return {plan.name: _trace(scenario, plan) for plan in scenario.plans}
 
 
 def simulate(scenario: Scenario, traces: Mapping[str, Trace] | None = None) -> Iterator[SimulatedRecording]:
@@ -145,9 +161,8 @@ def simulate(scenario: Scenario, traces: Mapping[str, Trace] | None = None) -> I
     Raises:
         RobotError: If a trace is one of other motions, or lacks a sensor.
     """
-    names = tuple(scenario.specimens)
     for plan in scenario.plans:
-        trace = plan.trace(names, seed=scenario.file.seed) if traces is None else traces.get(plan.name)
+        trace = _trace(scenario, plan) if traces is None else traces.get(plan.name)
         if trace is None or trace.movement is not plan.movement:
             raise RobotError(f"trace of {plan.name!r}: expected one of this scenario's own motions; trace it anew")
         sensors = _powered_up(scenario, plan.entry.power_up)
@@ -155,6 +170,7 @@ def simulate(scenario: Scenario, traces: Mapping[str, Trace] | None = None) -> I
             sensors,
             rng=np.random.default_rng([scenario.file.sensor_seed, _NOISE, *plan.number]),
             temperature_degC=plan.entry.temperature_degC,
+            imu=scenario.imu,
         )
         yield SimulatedRecording(
             name=plan.name,
@@ -165,6 +181,41 @@ def simulate(scenario: Scenario, traces: Mapping[str, Trace] | None = None) -> I
             kind=plan.entry.kind or plan.movement.kind.value,
             session=plan.entry.session or f"power-up {plan.entry.power_up}",
         )
+
+
+def _trace(scenario: Scenario, plan: Plan) -> Trace:
+    link = None if scenario.imu is None else scenario.imu.link
+    return plan.trace(tuple(scenario.specimens), seed=scenario.file.seed, imu_link=link)
+
+
+def _errors(sizes: RobotErrorSizes, model: RobotModel, seed: int) -> RobotErrors:
+    return RobotErrors.draw(
+        model,
+        mass=sizes.mass,
+        centre_m=sizes.centre_m,
+        joint_zero_rad=float(np.deg2rad(sizes.joint_zero_deg)),
+        rng=np.random.default_rng([seed if sizes.seed is None else sizes.seed, _ROBOT]),
+    )
+
+
+def _imu(content: ScenarioFile, model: RobotModel) -> SimulatedImu | None:
+    described = content.imu
+    if described is None:
+        return None
+    rng = np.random.default_rng([content.sensor_seed, _IMU])
+    for link in described.link:
+        if link in model.links:
+            return SimulatedImu(
+                link=link,
+                accelerometer_bias=described.accelerometer_bias * rng.standard_normal(3),
+                gyroscope_bias=described.gyroscope_bias * rng.standard_normal(3),
+                accelerometer_noise=described.accelerometer_noise,
+                gyroscope_noise=described.gyroscope_noise,
+            )
+    raise RobotError(
+        f"scenario {content.name!r}: imu: robot {model.name!r} has none of the links {', '.join(described.link)}; "
+        f"{known_names(described.link[0], model.links)}"
+    )
 
 
 def _powered_up(scenario: Scenario, power_up: int) -> dict[str, SimulatedSensor]:

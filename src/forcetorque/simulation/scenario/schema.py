@@ -16,7 +16,7 @@ from forcetorque.array_field import ArrayField
 from forcetorque.arrays import FloatArray
 from forcetorque.constants import STANDARD_GRAVITY
 from forcetorque.recording import Use
-from forcetorque.simulation.motions import MovementKind
+from forcetorque.simulation.motions import INTERNAL_FORCE_N, MovementKind
 from forcetorque.toml_table import Finite, Positive, Table, Text
 
 _Count = Annotated[int, Field(ge=0, strict=True)]
@@ -53,6 +53,34 @@ class Load(Table):
     """Mass."""
     centre_of_mass_m: Annotated[FloatArray, ArrayField((3,))]
     """Centre of mass in the link's frame."""
+
+
+class RobotErrorSizes(Table):
+    """How much the robot differs from its URDF, to which the experiment files point; standard deviations."""
+
+    mass: _AtLeastZero = 0.02
+    """Relative difference of the mass of a link."""
+    centre_m: _AtLeastZero = 0.002
+    """Every coordinate of the centre of mass of a link."""
+    joint_zero_deg: _AtLeastZero = 0.5
+    """Zero of a rotary joint."""
+    seed: _Count | None = None
+    """Seed of the errors; that of the scenario, which also moves the robot, if left out."""
+
+
+class Imu(Table):
+    """An IMU, recorded as the stream `imu`; its biases are drawn once and hold in all recordings."""
+
+    link: Annotated[tuple[Text, ...], Field(min_length=1)]
+    """Link in whose frame it reads; the first of these that the robot has."""
+    accelerometer_bias: _AtLeastZero = 0.0
+    """Spread of the bias of each axis; m/s2."""
+    accelerometer_noise: _AtLeastZero = 0.0
+    """White noise; m/s2."""
+    gyroscope_bias: _AtLeastZero = 0.0
+    """Spread of the bias of each axis; rad/s."""
+    gyroscope_noise: _AtLeastZero = 0.0
+    """White noise; rad/s."""
 
 
 class WorkbenchError(Table):
@@ -140,9 +168,10 @@ class Motion(Table):
     sensor: Text | None = None
     """grid, z_torque: sensor whose limb moves."""
     swing: Text | None = None
-    """balancing: link at the end of the leg that moves; contact_switching: the other foot."""
+    """balancing: link at the end of the leg that moves; contact_switching, standing, sway, squat, stepping: the other
+    foot."""
     duration_s: Positive | None = None
-    """random: how long it takes."""
+    """random, standing, sway, squat, stepping: how long it takes."""
     speed: Positive = 0.5
     """Largest speed of any joint; rad/s or m/s."""
     postures: Annotated[int, Field(gt=1, strict=True)] | None = None
@@ -151,18 +180,24 @@ class Motion(Table):
     """grid, z_torque, balancing: rest at every posture."""
     slowest_hz: Positive = 0.1
     """random: about the frequency of the slowest sine."""
+    placement: _Count = 0
+    """standing, sway, squat, stepping: recordings of one number have their feet in the same places; 0 has them below
+    the hips."""
+    internal_force_N: _AtLeastZero = INTERNAL_FORCE_N
+    """standing, sway, squat, stepping: how much the feet push against each other along each axis at most."""
 
     @model_validator(mode="after")
     def _has_what_it_needs(self) -> Motion:
         needed = {
-            MovementKind.GRID: "sensor",
-            MovementKind.Z_TORQUE: "sensor",
-            MovementKind.BALANCING: "swing",
-            MovementKind.CONTACT_SWITCHING: "swing",
-            MovementKind.RANDOM: "duration_s",
-        }[self.kind]
-        if getattr(self, needed) is None:
-            raise PydanticCustomError("motion_key", "{message}", {"message": f"a {self.kind} motion needs {needed}"})
+            MovementKind.GRID: ("sensor",),
+            MovementKind.Z_TORQUE: ("sensor",),
+            MovementKind.BALANCING: ("swing",),
+            MovementKind.CONTACT_SWITCHING: ("swing",),
+            MovementKind.RANDOM: ("duration_s",),
+        }.get(self.kind, ("swing", "duration_s"))
+        for key in needed:
+            if getattr(self, key) is None:
+                raise PydanticCustomError("motion_key", "{message}", {"message": f"a {self.kind} motion needs {key}"})
         return self
 
 
@@ -219,6 +254,10 @@ class ScenarioFile(Table):
     """What its sensors are made of."""
     load: tuple[Load, ...] = ()
     """Masses that are added."""
+    robot_errors: RobotErrorSizes | None = None
+    """How much the robot differs from its URDF; not at all if left out."""
+    imu: Imu | None = None
+    """An IMU; none if left out."""
     recording: Annotated[tuple[Recorded, ...], Field(min_length=1)]
     """Recordings."""
     network: Network | None = None
@@ -247,6 +286,17 @@ class ScenarioFile(Table):
         if self.sensors.workbench_error is not None and all(r.use is not Use.VALIDATION for r in self.recording):
             message = 'sensors.workbench_error is taken over recordings with use = "validation", there is none'
             raise PydanticCustomError("workbench_error", "{message}", {"message": message})
+        return self
+
+    @model_validator(mode="after")
+    def _has_the_imu_that_it_needs(self) -> ScenarioFile:
+        for entry in self.recording:
+            if entry.motion.kind is MovementKind.STEPPING and self.imu is None:
+                message = f"recording {entry.name!r}: no foot stands all the time in a stepping motion; it needs [imu]"
+                raise PydanticCustomError("imu", "{message}", {"message": message})
+        if self.imu is not None and self.network is not None:
+            message = "no port of a [network] carries an [imu] yet; leave out one of them"
+            raise PydanticCustomError("imu", "{message}", {"message": message})
         return self
 
     @model_validator(mode="after")

@@ -1,0 +1,246 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A robot on both feet: where they are, and how the legs follow the trunk."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Final
+
+import numpy as np
+
+from forcetorque.arrays import FloatArray, read_only
+from forcetorque.errors import RobotError, ShapeError
+from forcetorque.robot import BodyTree, JointMotion, build_tree, link_pose
+from forcetorque.simulation.motions.carriage import CARRIAGE_JOINTS, Carriage, carried_poses
+from forcetorque.simulation.motions.foot_loads import FootLoads
+from forcetorque.simulation.motions.inverse_kinematics import joints_reaching
+from forcetorque.simulation.motions.legs import Legs, legs_of
+from forcetorque.simulation.motions.movement import Movement, MovementKind
+from forcetorque.simulation.motions.spline import Spline
+from forcetorque.simulation.motions.stand import Stand, shortest_turn_down
+from forcetorque.simulation.motions.steps import Steps
+from forcetorque.spatial import WRENCH_COMPONENTS, invert_pose, make_pose, rotation_about_z
+
+_LEG_JOINTS: Final = 6
+"""Joints of a leg: as many as a pose has coordinates, so that the trunk and the feet settle them."""
+_SAMPLES_HZ = 50.0
+"""Rate at which the legs' positions are found; splines between them keep the feet in place within 1e-5 m."""
+_SPARE_SAMPLES = 10
+_BENT = 0.25
+"""Where the search for a leg's positions starts, between straight and the middle of the joints' ranges: a knee bends
+the way in which it has more range."""
+_ANKLE, _RELAXED = slice(-2, None), 0.5
+"""In the air the two joints next to the foot go this part of the way to the middle of their ranges: a lifted knee would
+bend them beyond."""
+_OVERSHOOT = 1.1
+"""Room that joints of trunk and arms keep beside the part of their range that they use."""
+_PUSH_LEVER_M, _PUSH_PERIOD_S = 0.1, 2.0
+"""Internal moments over internal forces, and time from target to target of both."""
+_REPLACED = np.array([0.02, 0.015, 0.15])
+"""How far a foot is shifted forwards and sideways, and turned, at most, either way; m, m, rad."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Stance:
+    """A robot on both feet; the functions of this package make its movements.
+
+    Its trunk is carried, and legs of six joints follow it to feet whose poses are known.
+    """
+
+    stand: Stand
+    """The robot on its first foot; its gravity direction holds for the other one too."""
+    other: str
+    """Link of the other foot."""
+    trunk: str | None = None
+    """Link that both legs hang on; the last link that both feet hang on in the URDF if None."""
+    crouch_m: float = 0.025
+    """How much lower than with straight legs the trunk is at rest; m."""
+    placement: FloatArray = field(default_factory=lambda: np.zeros((2, 3)))
+    """Where each foot stands away from where straight legs put it: forwards and sideways along the axes of the first
+    foot, in m, and turned about the vertical, in rad; shape (2, 3)."""
+    legs: Legs = field(init=False)
+    """Joints of both legs, that of the first foot as `support`, and the others."""
+    tree: BodyTree = field(init=False)
+    """The robot rooted at its trunk."""
+    world_H_trunk: FloatArray = field(init=False)
+    """Pose of the trunk at rest; z of the world points up from the ground; shape (4, 4); m."""
+    world_H_feet: FloatArray = field(init=False)
+    """Poses of both feet on the ground; shape (2, 4, 4); m."""
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "placement", read_only(self.placement, name="placement", shape=(2, 3)))
+        legs = legs_of(self.stand, self.other, trunk=self.trunk)
+        for foot, joints in zip((self.stand.support, self.other), (legs.support, legs.swing), strict=True):
+            if len(joints) != _LEG_JOINTS:
+                raise RobotError(
+                    f"leg from {legs.trunk!r} to {foot!r}: expected {_LEG_JOINTS} joints, which settle the pose of a "
+                    f"foot, got {', '.join(joints)}"
+                )
+        if not 0.0 < self.crouch_m < np.inf:
+            raise ShapeError(f"crouch_m: expected a positive way in m, straight legs are rigid; got {self.crouch_m:g}")
+        object.__setattr__(self, "legs", legs)
+        object.__setattr__(self, "tree", build_tree(self.stand.model, legs.trunk))
+        straight = JointMotion.at_rest(self.stand.joints, self._straight()[None])
+        world_H_first = self.stand.world_H_support
+        first_H_trunk = link_pose(self.stand.tree, straight, legs.trunk)[0]
+        first_H_other = link_pose(self.stand.tree, straight, self.other)[0]
+        feet = [
+            _placed(pose, self.stand.gravity_direction, shift)
+            for pose, shift in zip((world_H_first, world_H_first @ first_H_other), self.placement, strict=True)
+        ]
+        world_H_trunk = world_H_first @ first_H_trunk
+        world_H_trunk[2, 3] -= self.crouch_m
+        object.__setattr__(self, "world_H_trunk", read_only(world_H_trunk, name="world_H_trunk", shape=(4, 4)))
+        object.__setattr__(self, "world_H_feet", read_only(feet, name="world_H_feet", shape=(2, 4, 4)))
+
+    @property
+    def feet(self) -> tuple[str, str]:
+        """Links of both feet."""
+        return self.stand.support, self.other
+
+    def others_moving(self, *, share: float, duration_s: float, period_s: float, rng: np.random.Generator) -> Spline:
+        """Move all joints but those of the legs at random, around their rest or as near to it as their range allows.
+
+        Args:
+            share: Share of its range that a joint uses at most.
+            duration_s: How long it goes on; s.
+            period_s: Time from target to target; s.
+            rng: Source of the targets.
+
+        Returns:
+            Positions of the joints that `legs.others` names; no faster than the stand allows.
+        """
+        names = self.legs.others
+        columns = self.stand.columns(names)
+        low, high = np.array([self.stand.range_of(name) for name in names]).reshape(-1, 2).T
+        reach = 0.5 * share * (high - low)
+        centre = np.clip(self.stand.rest[columns], low + _OVERSHOOT * reach, high - _OVERSHOOT * reach)
+        ways = Spline.towards_targets(
+            names, reach, duration_s=duration_s, period_s=period_s, rng=rng, speeds=self.stand.speeds[columns]
+        )
+        return Spline(names=names, seconds=ways.seconds, values=centre + ways.values)
+
+    def movement(
+        self,
+        name: str,
+        kind: MovementKind,
+        duration_s: float,
+        *,
+        trunk: Callable[[FloatArray], FloatArray],
+        others: Callable[[FloatArray], FloatArray],
+        internal_force_N: float,
+        rng: np.random.Generator,
+        steps: Steps | None = None,
+    ) -> Movement:
+        """Let the legs follow the trunk, and the ground bear the robot.
+
+        Args:
+            name: What it is called.
+            kind: What it is good for.
+            duration_s: How long it takes; s.
+            trunk: From instants (n,) in s to the trunk's way from its rest in `CARRIAGE_JOINTS`; (n, 6); m, rad.
+            others: From instants (n,) in s to positions of all joints but those of the legs; (n, j); rad or m.
+            internal_force_N: Force along each axis with which the feet push against each other, at most; N; moments
+                go with it by a lever of 0.1 m.
+            rng: Source of these pushes.
+            steps: What the feet do; both stay where they stand if None.
+
+        Returns:
+            The movement; both feet are its touches, and the trunk, which is carried, bears nothing.
+
+        Raises:
+            RobotError: If a foot is out of reach, or a joint beyond its limits.
+            ShapeError: If the force is negative.
+        """
+        if not 0.0 <= internal_force_N < np.inf:
+            raise ShapeError(f"internal_force_N: expected a force of at least 0 N, got {internal_force_N:g}")
+        # some samples more at either end, where splines are poor
+        at = np.arange(-_SPARE_SAMPLES, round(duration_s * _SAMPLES_HZ) + _SPARE_SAMPLES + 1) / _SAMPLES_HZ
+        carried = Spline(names=CARRIAGE_JOINTS, seconds=at, values=trunk(at))
+        joints = self._following(at, carried(at), others(at), steps)
+        self._require_limits(name, joints)
+        unloaded = Movement(
+            name=name,
+            kind=kind,
+            model=self.stand.model,
+            support=self.legs.trunk,
+            world_H_support=self.world_H_trunk,
+            duration_s=duration_s,
+            trajectory=joints.motion,
+            carriage=Carriage(displacement=carried.motion),
+            gravity=self.stand.gravity,
+        )
+        reach = np.tile(np.repeat([1.0, _PUSH_LEVER_M], 3), 2) * internal_force_N
+        names = tuple(f"{foot} {component}" for foot in self.feet for component in WRENCH_COMPONENTS)
+        pushes = Spline.towards_targets(names, reach, duration_s=duration_s, period_s=_PUSH_PERIOD_S, rng=rng)
+        shares = _both if steps is None else steps.shares
+        return FootLoads(unloaded=unloaded, feet=self.feet, shares=shares, pushes=pushes).borne()
+
+    def _straight(self) -> FloatArray:
+        """Posture with straight legs, or what the stand's posture says of them; shape (j,)."""
+        posture = self.stand.rest.copy()
+        legs = (*self.legs.support, *self.legs.swing)
+        posture[self.stand.columns(legs)] = [self.stand.posture.get(joint, 0.0) for joint in legs]
+        return posture
+
+    def _following(self, at: FloatArray, trunk: FloatArray, others: FloatArray, steps: Steps | None) -> Spline:
+        """Positions of all free joints with which the feet are where the steps want them."""
+        trunk_H_world = invert_pose(_carried(trunk, self.world_H_trunk))
+        shifts = np.zeros((2, len(at), 6)) if steps is None else steps.displacements(at)
+        lifts = np.zeros((len(at), 2)) if steps is None else steps.lifts(at)
+        posture = np.empty((len(at), len(self.stand.joints)))
+        posture[:, self.stand.columns(self.legs.others)] = others
+        straight = self._straight()
+        for foot, joints, world_H_foot, shift, lift in zip(
+            self.feet, (self.legs.support, self.legs.swing), self.world_H_feet, shifts, lifts.T, strict=True
+        ):
+            columns = self.stand.columns(joints)
+            middle = np.array([self.stand.range_of(joint) for joint in joints]).mean(axis=1)
+            start = straight[columns] + _BENT * (middle - straight[columns])
+            wanted = trunk_H_world @ _carried(shift, world_H_foot)
+            leg = joints_reaching(self.tree, joints, foot, wanted, start=start)
+            leg[:, _ANKLE] += _RELAXED * lift[:, None] * (middle - leg)[:, _ANKLE]
+            posture[:, columns] = leg
+        return Spline(names=self.stand.joints, seconds=at, values=posture)
+
+    def _require_limits(self, name: str, joints: Spline) -> None:
+        for joint, position in zip(joints.names, joints.values.T, strict=True):
+            limit = self.stand.model.joints[joint].limit
+            low = -np.inf if limit is None or limit.lower is None else limit.lower
+            high = np.inf if limit is None or limit.upper is None else limit.upper
+            if position.min() < low or position.max() > high:
+                raise RobotError(
+                    f"movement {name!r}: joint {joint!r}: expected positions in its limits {low:.3f} to {high:.3f}, "
+                    f"legs that follow the trunk go from {position.min():.3f} to {position.max():.3f}; move less far, "
+                    "or change crouch_m"
+                )
+
+
+def random_placement(rng: np.random.Generator) -> FloatArray:
+    """Draw places for both feet, as when they are put down anew.
+
+    Args:
+        rng: Source of the places.
+
+    Returns:
+        A `Stance.placement` of up to 2 cm forwards or back, 1.5 cm sideways and 9 degrees; shape (2, 3).
+    """
+    placement: FloatArray = rng.uniform(-1.0, 1.0, (2, 3)) * _REPLACED
+    return placement
+
+
+def _placed(world_H_foot: FloatArray, gravity_direction: FloatArray, shift: FloatArray) -> FloatArray:
+    """Put a foot level on the ground, and shift it there."""
+    level = shortest_turn_down(world_H_foot[:3, :3] @ gravity_direction) @ world_H_foot[:3, :3]
+    place = np.array([world_H_foot[0, 3] + shift[0], world_H_foot[1, 3] + shift[1], 0.0])
+    return make_pose(rotation_about_z(shift[2]) @ level, place)
+
+
+def _carried(displacement: FloatArray, world_H_rest: FloatArray) -> FloatArray:
+    return carried_poses(JointMotion.at_rest(CARRIAGE_JOINTS, displacement), world_H_rest)
+
+
+def _both(seconds: FloatArray) -> FloatArray:
+    """Both feet bear all the time."""
+    return np.ones((len(seconds), 2))
