@@ -13,8 +13,8 @@ from forcetorque.calibration.joint import (
     JointResult,
     ModelTolerance,
     UntouchedStretch,
-    calibrate_jointly,
     fit_jointly,
+    fit_stretches,
     part_sums,
     part_windows,
 )
@@ -28,7 +28,7 @@ WRONG = {"mass": 0.02, "centre_m": 0.002, "joint_zero_rad": float(np.radians(0.3
 
 def _calibrated(*motions: Swaying, tolerance: ModelTolerance | None = None) -> JointResult:
     parts = untouched_parts(motions[0].stretch.tree, SENSORS, FEET)
-    return calibrate_jointly([UntouchedStretch(stretch=one.stretch, parts=parts) for one in motions], tolerance)
+    return fit_stretches([UntouchedStretch(stretch=one.stretch, parts=parts) for one in motions], tolerance)
 
 
 def _fit(*motions: Swaying, tolerance: ModelTolerance | None = None) -> JointFit:

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """All sensors of a robot at once: joint calibration from parts between sensors that nothing touches."""
 
-from forcetorque.calibration.joint.calibrate import JointResult, UntouchedStretch, calibrate_jointly
+from forcetorque.calibration.joint.calibrate import JointResult, UntouchedStretch, fit_stretches
 from forcetorque.calibration.joint.fit import JointFit, fit_jointly
 from forcetorque.calibration.joint.model_error import EXACT, ErrorTerm, ModelTolerance, error_terms
 from forcetorque.calibration.joint.stretch import Stretch
@@ -22,7 +22,7 @@ __all__ = [
     "Stretch",
     "Touch",
     "UntouchedStretch",
-    "calibrate_jointly",
+    "fit_stretches",
     "error_terms",
     "fit_jointly",
     "part_sums",

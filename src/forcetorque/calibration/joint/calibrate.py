@@ -28,6 +28,8 @@ class UntouchedStretch:
     """Readings and motion."""
     parts: tuple[SubModel, ...]
     """Parts that nothing should touch and whose joints were logged."""
+    left_out: tuple[str, ...] = ()
+    """Parts that nothing touches either, but whose joints were not logged, in words."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -40,9 +42,11 @@ class JointResult:
     """Windows of every part and stretch, those that disagree too."""
     touches: tuple[Touch, ...]
     """Spans that were left out because they disagree."""
+    left_out: tuple[str, ...]
+    """Parts that nothing touches, but whose joints were not logged, in words."""
 
 
-def calibrate_jointly(
+def fit_stretches(
     stretches: Sequence[UntouchedStretch],
     tolerance: ModelTolerance | None = None,
     *,
@@ -70,7 +74,12 @@ def calibrate_jointly(
         progress(f"the same about the fit, round {number} of {ROUNDS}")
         windows = _windows(stretches, terms, fit)
         fit = _fit(windows, _agreeing(windows, fit), terms)
-    return JointResult(fit=fit, windows=windows, touches=all_touches(windows, _agreeing(windows, fit)))
+    return JointResult(
+        fit=fit,
+        windows=windows,
+        touches=all_touches(windows, _agreeing(windows, fit)),
+        left_out=tuple(dict.fromkeys(words for one in stretches for words in one.left_out)),
+    )
 
 
 def _windows(

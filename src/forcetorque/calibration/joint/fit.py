@@ -15,7 +15,7 @@ from typing import Final
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray
+from forcetorque.arrays import FloatArray, IntArray
 from forcetorque.calibration.joint.model_error import ZERO, ErrorTerm
 from forcetorque.calibration.joint.sums import PartSums, Places
 from forcetorque.calibration.joint.windows import UNITS
@@ -66,7 +66,8 @@ class JointFit:
             1 + D; shape (6, 6); N, N m.
         """
         change = self.mean[self.places.changes(sensor)].reshape(6, 6)
-        return np.eye(6) + UNITS[:, None] * change / UNITS
+        factor: FloatArray = np.eye(6) + UNITS[:, None] * change / UNITS
+        return factor
 
     def offset(self, sensor: str, session: str) -> FloatArray:
         """Give what is to be added to the wrenches of a sensor.
@@ -154,11 +155,12 @@ def fit_jointly(sums: Sequence[PartSums], terms: Sequence[ErrorTerm] = ()) -> Jo
         one[places.changes(sensor)] = np.eye(6).ravel()
     size = np.full(len(places.sensors), CHANGE)
     variance = [np.maximum(0.01 * part.square / part.count, _LEAST_VARIANCE) for part in sums]
+    mean = np.zeros(len(places))
     for sweep in range(_ROUNDS):
         deviations = _deviations(places, size)
         products, shared = np.zeros((len(places), len(places))), np.zeros(len(places))
         for part, own, spread in zip(sums, columns, variance, strict=True):
-            _add(products, shared, part, own, spread, one[own])
+            _add(products, shared, part, own, spread, one[own], mean)
         values, vectors = np.linalg.eigh(deviations[:, None] * products * deviations)
         # where noise explains everything the prior stays
         scaled = vectors * deviations[:, None]
@@ -174,10 +176,16 @@ def fit_jointly(sums: Sequence[PartSums], terms: Sequence[ErrorTerm] = ()) -> Jo
 
 
 def _add(
-    products: FloatArray, shared: FloatArray, part: PartSums, own: FloatArray, variance: FloatArray, one: FloatArray
+    products: FloatArray,
+    shared: FloatArray,
+    part: PartSums,
+    own: IntArray,
+    variance: FloatArray,
+    one: FloatArray,
+    mean: FloatArray,
 ) -> None:
-    """Add the equations of a part, each row by the noise that is left over, less what noise of readings adds."""
-    changes = part.noise.shape[1]
+    """Add the equations of a part, each row by the noise that is left over, less what noise adds."""
+    changes, scale = part.noise.shape[1], float(part.common @ mean[own])
     for row in range(6):
         weight = 1.0 / (variance[row] * _REPEATS)
         noise = part.noise[row]
@@ -186,6 +194,8 @@ def _add(
         left, right = part.products[row].copy(), part.shared[row].copy()
         left[:changes, :changes] -= share * noise
         right[:changes] += share * noise @ one[:changes]  # the same noise stands in coefficients and right side
+        # what else is left over grows with all sensors and masses together: a fit would shrink them alike for nothing
+        right += max(variance[row] - share * claimed, 0.0) * part.count * (1.0 + scale) * part.common
         products[np.ix_(own, own)] += weight * left
         shared[own] += weight * right
 

@@ -70,7 +70,7 @@ def _terms(tree: BodyTree, parts: Sequence[SubModel], tolerance: ModelTolerance)
     for part in parts:
         for k in _heavy(tree, part):
             name = _name(tree, k)
-            yield ErrorTerm(name=f"mass of {name}", unit="", deviation=tolerance.mass)
+            yield ErrorTerm(name=_mass(tree, k), unit="", deviation=tolerance.mass)
             for axis in "xyz":
                 yield ErrorTerm(name=f"{axis} of centre of {name}", unit="m", deviation=tolerance.centre_m)
     for joint in _joints(tree, parts):
@@ -93,7 +93,7 @@ def body_columns(tree: BodyTree, equation: PartEquation) -> dict[str, FloatArray
     mass, moment = 0.0, np.zeros((len(equation.demand), 3))
     for k, state in equation.states.items():
         inertia, pose, name = tree.bodies[k].inertia, equation.poses[k], _name(tree, k)
-        columns[f"mass of {name}"] = -transform_wrench(pose, net_wrench(inertia, state))
+        columns[_mass(tree, k)] = -transform_wrench(pose, net_wrench(inertia, state))
         omega, alpha, proper = state.angular_velocity, state.angular_acceleration, state.proper_acceleration
         for axis, unit in zip("xyz", inertia.mass * np.eye(3), strict=True):
             force = cross(alpha, unit) + cross(omega, cross(omega, unit))
@@ -130,6 +130,26 @@ def demand_columns(
         for k, equation in zip(affected, again, strict=True):
             columns[k][f"{ZERO}{joint}"] = (before[k] - equation.demand) / _STEP
     return columns
+
+
+def mass_shares(tree: BodyTree, part: SubModel, terms: Sequence[ErrorTerm]) -> FloatArray:
+    """Say which share of the mass of a part every error scales.
+
+    Args:
+        tree: The robot.
+        part: The part.
+        terms: Errors of the model.
+
+    Returns:
+        Shares, of errors of masses of its bodies; zero for all others; shape (terms,).
+    """
+    masses = {_mass(tree, k): tree.bodies[k].inertia.mass for k in _heavy(tree, part)}
+    total = sum(masses.values())
+    return np.array([masses.get(term.name, 0.0) / total if total else 0.0 for term in terms])
+
+
+def _mass(tree: BodyTree, k: int) -> str:
+    return f"mass of {_name(tree, k)}"
 
 
 def _heavy(tree: BodyTree, part: SubModel) -> list[int]:

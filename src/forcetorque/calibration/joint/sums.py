@@ -35,6 +35,8 @@ class PartSums:
     """Square of the right side; shape (6,)."""
     noise: FloatArray
     """What noise of the readings adds to the products of the changes; shape (6, 36 k, 36 k)."""
+    common: FloatArray
+    """What makes the common scale of its sensors and masses, each by its share of what is added up; shape (p,)."""
     count: float
     """Number of windows."""
 
@@ -83,8 +85,16 @@ def _summed(windows: PartWindows) -> PartSums:
         shared=np.einsum("wij,wi->ij", columns, windows.right),
         square=(windows.right**2).sum(axis=0),
         noise=noise,
+        common=_common(windows),
         count=float(len(windows)),
     )
+
+
+def _common(windows: PartWindows) -> FloatArray:
+    """Share of every coefficient in the common scale: gains of sensors by their loads, masses by what they demand."""
+    gains = np.concatenate([share * np.eye(_LOADS).ravel() / _LOADS for share in windows.load_shares[:-1]])
+    masses = windows.load_shares[-1] * windows.mass_shares
+    return np.concatenate([gains, np.zeros(windows.offsets.shape[2]), masses])
 
 
 def noise_covariance(readings: FloatArray) -> FloatArray:

@@ -10,13 +10,13 @@ which stands in their own coefficients; what it adds to the products of these is
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Final
 
 import numpy as np
 
 from forcetorque.arrays import BoolArray, FloatArray, IntArray
-from forcetorque.calibration.joint.model_error import ZERO, ErrorTerm, body_columns, demand_columns
+from forcetorque.calibration.joint.model_error import ZERO, ErrorTerm, body_columns, demand_columns, mass_shares
 from forcetorque.calibration.joint.stretch import Stretch
 from forcetorque.estimation.part_equations import PartEquation, part_equations
 from forcetorque.robot import JointMotion, RootMotion
@@ -58,6 +58,11 @@ class PartWindows:
     spread: FloatArray
     """What white noise adds, by sensor and row: mean of X X^T over the samples; shape (w, k, 6, 6, 6)."""
 
+    mass_shares: FloatArray
+    """Of every error of the model the share of the mass of the part that it scales; shape (terms,)."""
+    load_shares: FloatArray
+    """Mean squares of what every sensor transmits and, last, of what the bodies demand, over their sum; (k + 1,)."""
+
     def __len__(self) -> int:
         return len(self.time_s)
 
@@ -71,7 +76,7 @@ class PartWindows:
             The others left out.
         """
         values = {name: getattr(self, name)[marks] for name in _BY_WINDOW}
-        return PartWindows(part=self.part, stretch=self.stretch, sensors=self.sensors, **values)
+        return replace(self, **values)
 
 
 _BY_WINDOW = ("time_s", "changes", "offsets", "errors", "right", "spread")
@@ -131,7 +136,8 @@ def part_windows(
                 joint = term.name.removeprefix(ZERO)
                 added = windows.means(equation.turned(tree, joint, through))
                 errors[:, :, k] = (added + demanded[term.name].reshape(-1, _NODES, _LOADS).mean(axis=1)) / UNITS
-        yield _averaged(stretch, equation, windows, logged, errors, known)
+        shares = mass_shares(tree, equation.part, terms)
+        yield replace(_averaged(stretch, equation, windows, logged, errors, known), mass_shares=shares)
 
 
 def _averaged(
@@ -160,12 +166,22 @@ def _averaged(
         errors=errors,
         # unknown is the whole error of a zero, some of which the equation has already
         right=windows.means(right) + errors @ known,
+        mass_shares=np.zeros(errors.shape[2]),
+        load_shares=_shares(
+            [*np.moveaxis(np.einsum("nkij,nkj->nki", transmission, readings), 1, 0), equation.demand / UNITS]
+        ),
         spread=(windows.means(spread) / windows.counts[:, None]).reshape(w, k, _LOADS, _LOADS, _LOADS),
     )
-    finite = np.isfinite(result.right).all(axis=1)
-    for values in (result.changes, result.offsets, result.errors):
-        finite &= np.isfinite(values).all(axis=(1, 2))
-    return result.kept(finite)
+    flat = [result.right, *(values.reshape(w, -1) for values in (result.changes, result.offsets, result.errors))]
+    return result.kept(np.asarray(np.isfinite(np.hstack(flat)).all(axis=1)))
+
+
+def _shares(loads: Sequence[FloatArray]) -> FloatArray:
+    """Shares of loads in the sum of their mean squares, over samples that have all of them."""
+    whole = np.isfinite(np.hstack(loads)).all(axis=1)
+    squares = np.array([(load[whole] ** 2).sum() for load in loads])
+    shares: FloatArray = squares / max(squares.sum(), np.finfo(float).tiny)
+    return shares
 
 
 class _Windows:
@@ -188,7 +204,8 @@ class _Windows:
     def nodes(self) -> IntArray:
         """Two samples of every window whose mean is that of a smooth signal over it (Gauss and Legendre)."""
         offset = np.rint((self.counts[:, None] - 1) * (0.5 + np.array([-0.5, 0.5]) / np.sqrt(3.0)))
-        return (self.starts[:, None] + offset.astype(np.int64)).ravel()
+        nodes: IntArray = (self.starts[:, None] + offset.astype(np.int64)).ravel()
+        return nodes
 
 
 def _samples(joints: JointMotion, rows: IntArray) -> JointMotion:
