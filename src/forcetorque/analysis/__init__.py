@@ -49,6 +49,7 @@ from forcetorque.analysis.inspect import (
     inspect_log,
 )
 from forcetorque.analysis.interval_quality import IntervalQuality
+from forcetorque.analysis.joint_calibration import calibrate_jointly, untouched_stretch
 from forcetorque.analysis.joint_torques import JointTorqueErrors, JointTorques, joint_torques
 from forcetorque.analysis.judged import JudgedWrenches
 from forcetorque.analysis.learnt import LITTLE_LEARNT, LearntDirection, learnt_directions, learnt_words, to_learn
@@ -161,6 +162,7 @@ __all__ = [
     "assess_experiment",
     "by_sensor",
     "calibrate_for_file",
+    "calibrate_jointly",
     "calibrate_sensor",
     "check",
     "compare",
@@ -201,4 +203,5 @@ __all__ = [
     "study_warnings",
     "summarise_estimates",
     "weigh_load",
+    "untouched_stretch",
 ]

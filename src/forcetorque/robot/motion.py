@@ -3,8 +3,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -67,6 +67,18 @@ class JointMotion:
         parts = (values[block] for values in (self.position, self.velocity, self.acceleration))
         position, velocity, acceleration = parts
         return JointMotion(names=self.names, position=position, velocity=velocity, acceleration=acceleration)
+
+    def shifted(self, zeros: Mapping[str, float]) -> JointMotion:
+        """Give the motion of joints whose zeros are elsewhere.
+
+        Args:
+            zeros: By the name of a joint, what is to be added to its position; rad or m. Others stay.
+
+        Returns:
+            The same velocities and accelerations at other positions.
+        """
+        shift = np.array([zeros.get(name, 0.0) for name in self.names])
+        return replace(self, position=self.position + shift)
 
     def __len__(self) -> int:
         return len(self.position)

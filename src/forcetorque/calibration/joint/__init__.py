@@ -1,0 +1,32 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""All sensors of a robot at once: joint calibration from parts between sensors that nothing touches."""
+
+from forcetorque.calibration.joint.calibrate import JointResult, UntouchedStretch, fit_stretches
+from forcetorque.calibration.joint.fit import JointFit, fit_jointly
+from forcetorque.calibration.joint.model_error import EXACT, ErrorTerm, ModelTolerance, error_terms
+from forcetorque.calibration.joint.stretch import Stretch
+from forcetorque.calibration.joint.sums import PartSums, Places, part_sums
+from forcetorque.calibration.joint.touch import Touch, residuals, untouched
+from forcetorque.calibration.joint.windows import UNITS, PartWindows, part_windows
+
+__all__ = [
+    "EXACT",
+    "UNITS",
+    "ErrorTerm",
+    "JointFit",
+    "JointResult",
+    "ModelTolerance",
+    "PartSums",
+    "PartWindows",
+    "Places",
+    "Stretch",
+    "Touch",
+    "UntouchedStretch",
+    "fit_stretches",
+    "error_terms",
+    "fit_jointly",
+    "part_sums",
+    "part_windows",
+    "residuals",
+    "untouched",
+]

@@ -1,0 +1,101 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""From stretches of recordings to all sensors: fit, leave out what was touched, make linear anew, fit again."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Final
+
+from forcetorque.arrays import BoolArray
+from forcetorque.calibration.joint.fit import JointFit, fit_jointly
+from forcetorque.calibration.joint.model_error import ErrorTerm, ModelTolerance, error_terms
+from forcetorque.calibration.joint.stretch import Stretch
+from forcetorque.calibration.joint.sums import part_sums
+from forcetorque.calibration.joint.touch import Touch, all_touches, untouched
+from forcetorque.calibration.joint.windows import PartWindows, part_windows
+from forcetorque.robot.sub_model import SubModel
+
+ROUNDS: Final = 3
+"""How often the equations are made linear: what the zero of a joint does depends on what goes through it."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class UntouchedStretch:
+    """A stretch and the parts whose equations hold in it."""
+
+    stretch: Stretch
+    """Readings and motion."""
+    parts: tuple[SubModel, ...]
+    """Parts that nothing should touch and whose joints were logged."""
+    left_out: tuple[str, ...] = ()
+    """Parts that nothing touches either, but whose joints were not logged, in words."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class JointResult:
+    """A joint fit and what was left out of it."""
+
+    fit: JointFit
+    """The fit."""
+    windows: tuple[PartWindows, ...]
+    """Windows of every part and stretch, those that disagree too."""
+    touches: tuple[Touch, ...]
+    """Spans that were left out because they disagree."""
+    left_out: tuple[str, ...]
+    """Parts that nothing touches, but whose joints were not logged, in words."""
+
+
+def fit_stretches(
+    stretches: Sequence[UntouchedStretch],
+    tolerance: ModelTolerance | None = None,
+    *,
+    progress: Callable[[str], None] = lambda _: None,
+) -> JointResult:
+    """Calibrate all sensors of a robot at once.
+
+    Args:
+        stretches: What is known, of any number of recordings of one robot.
+        tolerance: How far the robot model may be off; `ModelTolerance()` if None.
+        progress: Called with what is being done.
+
+    Returns:
+        The fit.
+
+    Raises:
+        FitError: If there are no equations.
+    """
+    terms = _all_terms(stretches, ModelTolerance() if tolerance is None else tolerance)
+    progress(f"equations of {len(stretches)} intervals")
+    windows = _windows(stretches, terms, None)
+    # what a touch bends in the first fit is straight in the second
+    fit = _fit(windows, _agreeing(windows, _fit(windows, _agreeing(windows, None), terms)), terms)
+    for number in range(2, ROUNDS + 1):
+        progress(f"the same about the fit, round {number} of {ROUNDS}")
+        windows = _windows(stretches, terms, fit)
+        fit = _fit(windows, _agreeing(windows, fit), terms)
+    return JointResult(
+        fit=fit,
+        windows=windows,
+        touches=all_touches(windows, _agreeing(windows, fit)),
+        left_out=tuple(dict.fromkeys(words for one in stretches for words in one.left_out)),
+    )
+
+
+def _windows(
+    stretches: Sequence[UntouchedStretch], terms: Sequence[ErrorTerm], about: JointFit | None
+) -> tuple[PartWindows, ...]:
+    return tuple(w for one in stretches for w in part_windows(one.stretch, one.parts, terms, about=about))
+
+
+def _agreeing(windows: Sequence[PartWindows], fit: JointFit | None) -> list[BoolArray]:
+    return [untouched(one, fit) for one in windows]
+
+
+def _fit(windows: Sequence[PartWindows], kept: Sequence[BoolArray], terms: Sequence[ErrorTerm]) -> JointFit:
+    return fit_jointly(part_sums(one.kept(marks) for one, marks in zip(windows, kept, strict=True)), terms)
+
+
+def _all_terms(stretches: Sequence[UntouchedStretch], tolerance: ModelTolerance) -> tuple[ErrorTerm, ...]:
+    terms = (term for one in stretches for term in error_terms(one.stretch.tree, one.parts, tolerance))
+    return tuple({term.name: term for term in terms}.values())

@@ -1,0 +1,193 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Second moments of the windows: they add up over any number of recordings and do not grow with their length."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from forcetorque.arrays import FloatArray, IntArray
+from forcetorque.calibration.joint.model_error import ErrorTerm
+from forcetorque.calibration.joint.windows import UNITS, PartWindows
+
+_LOADS, _CHANGES = 6, 36
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class PartSums:
+    """Moments of the windows of one part in one recording and session; p coefficients, one set per row."""
+
+    part: str
+    """Name of the part."""
+    recording: str
+    """The recording."""
+    session: str
+    """The session."""
+    sensors: tuple[str, ...]
+    """Its k sensors."""
+    products: FloatArray
+    """Products of the coefficients; shape (6, p, p)."""
+    shared: FloatArray
+    """Products of coefficients and right side; shape (6, p)."""
+    square: FloatArray
+    """Square of the right side; shape (6,)."""
+    noise: FloatArray
+    """What noise of the readings adds to the products of the changes; shape (6, 36 k, 36 k)."""
+    common: FloatArray
+    """What makes the common scale of its sensors and masses, each by its share of what is added up; shape (p,)."""
+    count: float
+    """Number of windows."""
+
+    def rest(self, unknowns: FloatArray) -> FloatArray:
+        """Give the mean square of what unknowns leave of the right side.
+
+        Args:
+            unknowns: Values of the coefficients; shape (p,).
+
+        Returns:
+            For every row; shape (6,).
+        """
+        left = self.square - 2.0 * self.shared @ unknowns + unknowns @ self.products @ unknowns
+        mean: FloatArray = np.maximum(left / self.count, 0.0)
+        return mean
+
+
+def part_sums(windows: Iterable[PartWindows]) -> list[PartSums]:
+    """Add windows up.
+
+    Args:
+        windows: Windows of parts; those of one part in one recording have the noise of that recording.
+
+    Returns:
+        Their moments; none of windows of which nothing is left.
+    """
+    return [_summed(one) for one in windows if len(one)]
+
+
+def _summed(windows: PartWindows) -> PartSums:
+    stretch = windows.stretch
+    columns = np.concatenate([windows.changes, windows.offsets, windows.errors], axis=2)
+    k = len(windows.sensors)
+    noise = np.zeros((_LOADS, _CHANGES * k, _CHANGES * k))
+    for number, name in enumerate(windows.sensors):
+        covariance = noise_covariance(stretch.readings[name] / UNITS)
+        own = slice(_CHANGES * number, _CHANGES * (number + 1))
+        spread = windows.spread[:, number].sum(axis=0)  # (6 rows, 6, 6)
+        noise[:, own, own] = np.einsum("iab,cd->iacbd", spread, covariance).reshape(_LOADS, _CHANGES, _CHANGES)
+    return PartSums(
+        part=windows.part,
+        recording=stretch.recording,
+        session=stretch.session,
+        sensors=windows.sensors,
+        products=np.einsum("wij,wik->ijk", columns, columns, optimize=True),
+        shared=np.einsum("wij,wi->ij", columns, windows.right),
+        square=(windows.right**2).sum(axis=0),
+        noise=noise,
+        common=_common(windows),
+        count=float(len(windows)),
+    )
+
+
+def _common(windows: PartWindows) -> FloatArray:
+    """Share of every coefficient in the common scale: gains of sensors by their loads, masses by what they demand."""
+    gains = np.concatenate([share * np.eye(_LOADS).ravel() / _LOADS for share in windows.load_shares[:-1]])
+    masses = windows.load_shares[-1] * windows.mass_shares
+    return np.concatenate([gains, np.zeros(windows.offsets.shape[2]), masses])
+
+
+def noise_covariance(readings: FloatArray) -> FloatArray:
+    """Estimate the white noise of readings by how they bend from sample to sample.
+
+    Args:
+        readings: Readings; shape (n, 6); NaN in gaps.
+
+    Returns:
+        Covariance of the noise of a sample; shape (6, 6); zero for less than ten bends.
+    """
+    bends = np.diff(readings, n=2, axis=0)
+    bends = bends[np.isfinite(bends).all(axis=1)]
+    if len(bends) < 10:
+        return np.zeros((_LOADS, _LOADS))
+    # samples that are held, or quantised, bend by nothing, and knocks by much
+    kept = (np.abs(bends) <= 3.0 * np.quantile(np.abs(bends), 0.7, axis=0) + 1e-12).all(axis=1)
+    bends = bends[kept]
+    covariance: FloatArray = bends.T @ bends / max(len(bends), 1) / 6.0  # a second difference has six variances
+    return covariance
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Places:
+    """Where the unknowns stand: changes of every sensor, offsets by session, errors of the model."""
+
+    sensors: tuple[str, ...]
+    """Sensors."""
+    offsets: Mapping[tuple[str, str], int]
+    """Number of the offset of a sensor in a session."""
+    terms: tuple[ErrorTerm, ...]
+    """Errors of the model."""
+
+    @classmethod
+    def of(cls, sums: Sequence[PartSums], terms: Sequence[ErrorTerm]) -> Places:
+        """Lay out the unknowns of equations.
+
+        Args:
+            sums: Moments of the equations.
+            terms: Errors of the model.
+
+        Returns:
+            The places.
+        """
+        pairs = dict.fromkeys((name, one.session) for one in sums for name in one.sensors)
+        return cls(
+            sensors=tuple(dict.fromkeys(name for name, _ in pairs)),
+            offsets={pair: number for number, pair in enumerate(pairs)},
+            terms=tuple(terms),
+        )
+
+    def __len__(self) -> int:
+        return _CHANGES * len(self.sensors) + _LOADS * len(self.offsets) + len(self.terms)
+
+    def changes(self, sensor: str) -> slice:
+        """Give the places of the changes of a sensor, row by row.
+
+        Args:
+            sensor: The sensor.
+
+        Returns:
+            36 places.
+        """
+        start = _CHANGES * self.sensors.index(sensor)
+        return slice(start, start + _CHANGES)
+
+    def offset(self, sensor: str, session: str) -> slice:
+        """Give the places of an offset.
+
+        Args:
+            sensor: The sensor.
+            session: The session.
+
+        Returns:
+            Six places.
+        """
+        start = _CHANGES * len(self.sensors) + _LOADS * self.offsets[sensor, session]
+        return slice(start, start + _LOADS)
+
+    @property
+    def errors(self) -> slice:
+        """The places of the errors of the model."""
+        return slice(len(self) - len(self.terms), len(self))
+
+    def of_part(self, sums: PartSums) -> IntArray:
+        """Give the places of the coefficients of a part.
+
+        Args:
+            sums: Its moments.
+
+        Returns:
+            Places in the order of the coefficients; shape (p,).
+        """
+        own = [self.changes(name) for name in sums.sensors]
+        own += [self.offset(name, sums.session) for name in sums.sensors]
+        return np.concatenate([np.arange(s.start, s.stop) for s in (*own, self.errors)])

@@ -1,0 +1,118 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Windows in which something touched a part that nothing should have touched: they disagree with all others."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+
+from forcetorque.arrays import BoolArray, FloatArray
+from forcetorque.calibration.joint.fit import JointFit
+from forcetorque.calibration.joint.windows import WINDOW_S, PartWindows
+
+FAR: Final = 4.0
+"""Robust standard deviations of the residual from which a window disagrees."""
+_NEIGHBOURS = 2
+"""Windows to either side that leave with it: a touch begins and ends gently."""
+_FEWEST = 20
+"""Windows below which nobody can tell which disagree."""
+_NORMAL = 1.4826
+"""Standard deviation over median absolute deviation of a normal distribution."""
+_LEAST = 1e-3
+"""Smallest scale of a residual, in `UNITS`: below that it is rounding."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Touch:
+    """A span of time in which a part was touched, or in which its equation does not hold for another reason."""
+
+    part: str
+    """Name of the part."""
+    label: str
+    """Label of the interval."""
+    start_s: float
+    """Start; s on the clock of the recording."""
+    end_s: float
+    """End; s."""
+
+
+def residuals(windows: PartWindows, fit: JointFit | None) -> FloatArray:
+    """Give what is left of the equations of a part.
+
+    Args:
+        windows: Its windows.
+        fit: The fit; None for the prior matrices, with the offsets that suit these windows best.
+
+    Returns:
+        Left side less right side; shape (w, 6); in `UNITS`.
+    """
+    if fit is None:
+        offsets = windows.offsets.reshape(-1, windows.offsets.shape[2])
+        best = np.linalg.lstsq(offsets, windows.right.ravel(), rcond=None)[0]
+        return np.asarray(windows.offsets @ best - windows.right)
+    places = fit.places
+    own = [fit.mean[places.changes(name)] for name in windows.sensors]
+    own += [fit.mean[places.offset(name, windows.stretch.session)] for name in windows.sensors]
+    columns = np.concatenate([windows.changes, windows.offsets, windows.errors], axis=2)
+    return np.asarray(columns @ np.concatenate([*own, fit.mean[places.errors]]) - windows.right)
+
+
+def untouched(windows: PartWindows, fit: JointFit | None) -> BoolArray:
+    """Tell which windows agree with the others.
+
+    Args:
+        windows: Windows of a part.
+        fit: As of `residuals`.
+
+    Returns:
+        Marks; shape (w,).
+    """
+    if len(windows) < _FEWEST:
+        return np.ones(len(windows), dtype=bool)
+    left = residuals(windows, fit)
+    left = left - np.median(left, axis=0)
+    scale = np.maximum(_NORMAL * np.median(np.abs(left), axis=0), _LEAST)
+    far = np.sqrt(((left / scale) ** 2).mean(axis=1)) > FAR
+    spread = np.convolve(far, np.ones(2 * _NEIGHBOURS + 1), mode="full")[_NEIGHBOURS : _NEIGHBOURS + len(far)]
+    agree = np.asarray(spread < 0.5)
+    # where most disagree nobody knows which are right
+    return agree if 2 * np.count_nonzero(agree) >= len(agree) else np.ones(len(windows), dtype=bool)
+
+
+def touches_of(windows: PartWindows, kept: BoolArray) -> list[Touch]:
+    """List the spans that were left out.
+
+    Args:
+        windows: Windows of a part.
+        kept: Which of them agree; shape (w,).
+
+    Returns:
+        Spans of windows that follow each other.
+    """
+    edges = np.flatnonzero(np.diff(np.r_[True, kept, True].astype(int)))
+    half = 0.5 * WINDOW_S
+    return [
+        Touch(
+            part=windows.part,
+            label=windows.stretch.label,
+            start_s=float(windows.time_s[start]) - half,
+            end_s=float(windows.time_s[end - 1]) + half,
+        )
+        for start, end in zip(edges[::2], edges[1::2], strict=True)
+    ]
+
+
+def all_touches(windows: Sequence[PartWindows], kept: Sequence[BoolArray]) -> tuple[Touch, ...]:
+    """List the spans that were left out of all parts.
+
+    Args:
+        windows: Windows of the parts.
+        kept: Which of them agree.
+
+    Returns:
+        The spans, part by part.
+    """
+    return tuple(touch for one, marks in zip(windows, kept, strict=True) for touch in touches_of(one, marks))

@@ -1,0 +1,157 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""All sensors at once, feet on the ground: against true wrenches of other motions, and against the prior matrices."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from forcetorque.calibration.joint import (
+    EXACT,
+    UNITS,
+    JointFit,
+    JointResult,
+    ModelTolerance,
+    UntouchedStretch,
+    fit_jointly,
+    fit_stretches,
+    part_sums,
+    part_windows,
+)
+from forcetorque.errors import FitError
+from forcetorque.estimation.part_equations import untouched_parts
+from tests.calibration.joint.swaying import FEET, SENSORS, Swaying, swaying
+
+WRONG = {"mass": 0.02, "centre_m": 0.002, "joint_zero_rad": float(np.radians(0.3)), "acceleration": 0.05}
+"""A robot that is not quite that of its file."""
+
+
+def _calibrated(*motions: Swaying, tolerance: ModelTolerance | None = None) -> JointResult:
+    parts = untouched_parts(motions[0].stretch.tree, SENSORS, FEET)
+    return fit_stretches([UntouchedStretch(stretch=one.stretch, parts=parts) for one in motions], tolerance)
+
+
+def _fit(*motions: Swaying, tolerance: ModelTolerance | None = None) -> JointFit:
+    return _calibrated(*motions, tolerance=tolerance).fit
+
+
+def _errors(fit: JointFit, motion: Swaying) -> np.ndarray:
+    """Error over that of the prior, by sensor, of force and moment; shape (6, 2)."""
+    return np.array(
+        [motion.error(name, fit.change(name), fit.offset(name, "day")) / motion.prior_error(name) for name in SENSORS]
+    )
+
+
+def test_without_noise_the_truth_is_found_in_any_motion() -> None:
+    """All six matrices and offsets, from one motion with unknown foot wrenches, judged in another."""
+    fit = _fit(swaying(1, noise=0.0), tolerance=EXACT)
+    assert _errors(fit, swaying(2, sensor_seed=1, noise=0.0)).max() < 0.02
+    true = swaying(1, noise=0.0)
+    for name in SENSORS[:4]:
+        np.testing.assert_allclose(
+            fit.change(name) / UNITS[:, None] * UNITS, true.change[name] / UNITS[:, None] * UNITS, atol=2e-3
+        )
+        np.testing.assert_allclose(fit.offset(name, "day") / UNITS, true.offset[name] / UNITS, atol=0.1)
+
+
+@pytest.mark.parametrize("seed", [11, pytest.param(12, marks=pytest.mark.long)])
+def test_with_a_wrong_model_other_motions_are_read_better_than_by_the_prior(seed: int) -> None:
+    """Noise, masses, centres, joint zeros and accelerometer off: no sensor is worse, legs and feet far better."""
+    fit = _fit(swaying(seed, **WRONG))
+    ratios = _errors(fit, swaying(seed + 100, sensor_seed=seed, **WRONG))
+    assert ratios.max() < 1.0
+    assert np.median(ratios[:4]) < 0.35
+
+
+@pytest.mark.long
+def test_more_motions_teach_more_where_the_mass_is_known() -> None:
+    """Moments of recordings add up. Where it is not, more data leave the share of gain and mass as it was."""
+    motions = [swaying(11 + 100 * k, sensor_seed=11, joint_zero_rad=WRONG["joint_zero_rad"]) for k in range(3)]
+    known = ModelTolerance(mass=0.0, centre_m=0.0)
+    other = swaying(911, sensor_seed=11, joint_zero_rad=WRONG["joint_zero_rad"])
+    three, one = (_errors(_fit(*motions[:count], tolerance=known), other) for count in (3, 1))
+    assert np.mean(three[:4]) < np.mean(one[:4])
+
+
+@pytest.mark.long
+def test_the_predicted_error_is_about_the_true_one() -> None:
+    """Over six specimens, of loads of 50 N and 5 N m along every axis; 1 would be exact."""
+    squares = []
+    for seed in range(21, 27):
+        motion = swaying(seed, **WRONG)
+        fit = _fit(motion)
+        loads = 50.0 * np.diag(UNITS)
+        for name in SENSORS:
+            error = ((fit.change(name) @ np.linalg.inv(motion.change[name]) - np.eye(6)) @ loads).T
+            spread = np.sqrt(np.einsum("kii->ki", fit.error_covariance(name, loads)))
+            squares.append((error / spread) ** 2)
+    assert 0.5 < float(np.sqrt(np.mean(squares))) < 1.5
+
+
+@pytest.mark.long
+def test_a_model_that_is_taken_for_exact_is_believed_too_much() -> None:
+    """Negative control of the tolerances: without them the predicted error is far too small."""
+    motion = swaying(21, **WRONG)
+    fit = _fit(motion, tolerance=EXACT)
+    loads = 50.0 * np.diag(UNITS)
+    error = ((fit.change("l_leg_ft") @ np.linalg.inv(motion.change["l_leg_ft"]) - np.eye(6)) @ loads).T
+    spread = np.sqrt(np.einsum("kii->ki", fit.error_covariance("l_leg_ft", loads)))
+    assert np.sqrt(np.mean((error / spread) ** 2)) > 2.0
+
+
+def test_a_touch_is_left_out_and_does_little_harm() -> None:
+    """A push of 40 N for a second on a hand, which should be free: its arm leaves, for that time, and nothing else."""
+    push = np.zeros((2000, 6))
+    push[900:1000, 0] = 40.0 * np.sin(np.linspace(0.0, np.pi, 100))
+    pushed, clean = swaying(51, touches={"l_hand": push}, **WRONG), swaying(51, **WRONG)
+    other = swaying(151, sensor_seed=51, **WRONG)
+    result = _calibrated(pushed)
+    touches = [touch for touch in result.touches if touch.part == "l_arm_ft"]
+    assert any(touch.start_s < 9.5 < touch.end_s for touch in touches)
+    assert sum(touch.end_s - touch.start_s for touch in result.touches) < 8.0
+    assert _errors(result.fit, other).mean() < 1.2 * _errors(_fit(clean), other).mean()
+    # negative control: a fit that believes all windows errs more at that arm
+    windows = part_windows(pushed.stretch, untouched_parts(pushed.stretch.tree, SENSORS, FEET), ())
+    believing = fit_jointly(part_sums(windows))
+    assert _errors(believing, other)[4].max() > 2.0 * _errors(result.fit, other)[4].max()
+
+
+def test_a_body_that_is_heavier_than_its_file_says_is_found() -> None:
+    """A mass is told where the sensors do not stand for it: the posterior is narrower than the prior."""
+    fit = _fit(swaying(31, **WRONG))
+    terms = fit.model_errors()
+    assert {"mass of root_link", "zero of l_knee"} <= {term.name for term, _, _ in terms}
+    assert all(deviation <= term.deviation * (1.0 + 1e-9) for term, _, deviation in terms)
+    assert min(deviation / term.deviation for term, _, deviation in terms) < 0.5
+
+
+def test_a_robot_that_hardly_moves_keeps_its_priors() -> None:
+    """Nothing is learnt of what no load tells, and nothing gets worse."""
+    still = swaying(41, **WRONG)
+    few = slice(0, 60)
+    stretch = still.stretch
+    short = Swaying(
+        stretch=type(stretch)(
+            label="still",
+            recording="still",
+            session="day",
+            time_s=stretch.time_s[few],
+            tree=stretch.tree,
+            joints=stretch.joints.samples(few),
+            root=type(stretch.root)(
+                proper_acceleration=stretch.root.proper_acceleration[few],
+                angular_velocity=stretch.root.angular_velocity[few],
+                angular_acceleration=stretch.root.angular_acceleration[few],
+            ),
+            readings={name: values[few] for name, values in stretch.readings.items()},
+            touched=FEET,
+        ),
+        true=still.true,
+        change=still.change,
+        offset=still.offset,
+    )
+    fit = _fit(short)
+    for name in SENSORS:
+        assert np.abs((fit.change(name) - np.eye(6)) / UNITS[:, None] * UNITS).max() < 0.1
+    with pytest.raises(FitError, match="no window of any part"):
+        fit_jointly([])

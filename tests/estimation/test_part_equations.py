@@ -1,0 +1,89 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Equations of parts close with true readings, whatever touches the other parts."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from forcetorque.errors import EstimationError, RobotError
+from forcetorque.estimation import Contact
+from forcetorque.estimation.part_equations import joints_of_part, part_equations, sensors_of, untouched_parts
+from forcetorque.robot import JointMotion, build_tree, read_urdf
+from forcetorque.spatial import invert_pose, transform_wrench
+from tests.estimation.simulated import Simulation, random_root
+from tests.robots import icub, random_motion
+
+SENSORS = ("l_leg_ft", "r_leg_ft", "l_foot_ft", "r_foot_ft", "l_arm_ft")
+FEET = ("l_sole", "r_sole")
+ROOT = "root_link_imu_frame"
+SAMPLES = 20
+
+
+@pytest.fixture(scope="module")
+def simulation() -> Simulation:
+    """A humanoid whose feet are pushed about, seen from the IMU in its waist."""
+    rng = np.random.default_rng(3)
+    model = read_urdf(icub("iCubGazeboV2_7"))
+    joints = random_motion(model, samples=SAMPLES, seed=3)
+    robot = Simulation(model=model, root_link=ROOT, joints=joints, root=random_root(samples=SAMPLES, seed=3))
+    on_left = 100.0 * rng.normal(size=(SAMPLES, 6))
+    robot.touch(Contact(link="l_sole"), on_left)
+    # the other foot bears what is left
+    left, right = (robot.links[foot].pose for foot in FEET)
+    rest = robot.total_needed() - transform_wrench(left, on_left)
+    robot.touch(Contact(link="r_sole"), transform_wrench(invert_pose(right), rest))
+    return robot
+
+
+def test_parts_that_nothing_touches_are_closed_by_true_readings(simulation: Simulation) -> None:
+    """Torso, shanks and an arm; not the feet, which something touches."""
+    tree = build_tree(simulation.model, ROOT)
+    parts = untouched_parts(tree, SENSORS, FEET)
+    assert {part.name for part in parts} == {ROOT, "l_leg_ft", "r_leg_ft", "l_arm_ft"}
+    for equation in part_equations(tree, parts, simulation.joints, simulation.root):
+        readings = np.stack([simulation.reading(name) for name in equation.sensors], axis=1)
+        total = np.einsum("nkij,nkj->ni", equation.transmission, readings)
+        np.testing.assert_allclose(total, equation.demand, atol=1e-9 * np.abs(equation.demand).max())
+
+
+def test_a_part_that_is_touched_does_not_close(simulation: Simulation) -> None:
+    """Negative control: the foot that is pushed."""
+    tree = build_tree(simulation.model, ROOT)
+    parts = [part for part in untouched_parts(tree, SENSORS, ()) if part.name == "l_foot_ft"]
+    (equation,) = part_equations(tree, parts, simulation.joints, simulation.root)
+    total = np.einsum("nij,nj->ni", equation.transmission[:, 0], simulation.reading("l_foot_ft"))
+    assert np.abs(total - equation.demand).max() > 50.0
+
+
+def test_only_the_joints_of_a_part_are_needed(simulation: Simulation) -> None:
+    """Those between the root and it, and its own; a missing one is named."""
+    tree = build_tree(simulation.model, ROOT)
+    (shank,) = (part for part in untouched_parts(tree, SENSORS, FEET) if part.name == "l_leg_ft")
+    needed = joints_of_part(tree, shank)
+    assert sensors_of(shank) == ("l_leg_ft", "l_foot_ft")
+    assert {"l_hip_pitch", "l_knee", "l_ankle_roll"} <= set(needed)
+    assert not any(joint.startswith(("r_", "l_shoulder", "neck")) for joint in needed)
+    columns = [simulation.joints.names.index(joint) for joint in needed]
+    motion = simulation.joints
+    few = JointMotion(
+        names=needed,
+        position=motion.position[:, columns],
+        velocity=motion.velocity[:, columns],
+        acceleration=motion.acceleration[:, columns],
+    )
+    (alone,) = part_equations(tree, [shank], few, simulation.root)
+    (whole,) = part_equations(tree, [shank], motion, simulation.root)
+    np.testing.assert_array_equal(alone.demand, whole.demand)
+    fewer = JointMotion.at_rest(needed[:-1], np.zeros((SAMPLES, len(needed) - 1)))
+    with pytest.raises(RobotError, match=f"needs joint '{needed[-1]}'"):
+        list(part_equations(tree, [shank], fewer, simulation.root))
+
+
+def test_touch_everywhere_is_refused() -> None:
+    """And links that are not there."""
+    tree = build_tree(read_urdf(icub("iCubGazeboV2_7")), ROOT)
+    with pytest.raises(EstimationError, match="free of touch"):
+        untouched_parts(tree, ["l_arm_ft"], ["l_hand", ROOT])
+    with pytest.raises(RobotError, match="touched: the robot has no link 'l_toe'"):
+        untouched_parts(tree, SENSORS, ["l_toe"])
