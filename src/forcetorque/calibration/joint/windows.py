@@ -137,7 +137,7 @@ def part_windows(
                 added = windows.means(equation.turned(tree, joint, through))
                 errors[:, :, k] = (added + demanded[term.name].reshape(-1, _NODES, _LOADS).mean(axis=1)) / UNITS
         shares = mass_shares(tree, equation.part, terms)
-        yield replace(_averaged(stretch, equation, windows, logged, errors, known), mass_shares=shares)
+        yield _averaged(stretch, equation, windows, logged, errors, known, shares)
 
 
 def _averaged(
@@ -147,6 +147,7 @@ def _averaged(
     logged: FloatArray,
     errors: FloatArray,
     known: FloatArray,
+    shares: FloatArray,
 ) -> PartWindows:
     w, k = len(windows), len(equation.sensors)
     transmission, readings = equation.transmission * (UNITS / UNITS[:, None]), logged / UNITS
@@ -166,7 +167,7 @@ def _averaged(
         errors=errors,
         # unknown is the whole error of a zero, some of which the equation has already
         right=windows.means(right) + errors @ known,
-        mass_shares=np.zeros(errors.shape[2]),
+        mass_shares=shares,
         load_shares=_shares(
             [*np.moveaxis(np.einsum("nkij,nkj->nki", transmission, readings), 1, 0), equation.demand / UNITS]
         ),
