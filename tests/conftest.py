@@ -3,15 +3,16 @@
 
 from __future__ import annotations
 
+import secrets
 from collections.abc import Sequence
 from pathlib import Path
 
 import pytest
 from hypothesis import settings
 
-# the same examples in every run: a failure can be repeated, and a slow machine is no failure
-settings.register_profile("reproducible", derandomize=True, deadline=None)
-settings.load_profile("reproducible")
+# a slow machine is no failure
+settings.register_profile("patient", deadline=None)
+settings.load_profile("patient")
 
 _HEAVY = ("study/test_icub_insitu.py", "evaluation/sphere/")
 """Files and folders that take longest, the longest first: begun last, one worker would end long after the other."""
@@ -23,6 +24,18 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     """Let the caller say where the measured data are, and renew pictures of what commands show."""
     parser.addoption("--data", type=Path, default=_DEFAULT_DATA, help="folder of measured data")
     parser.addoption("--write-snapshots", action="store_true", help="take what commands show now as the pictures")
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_configure(config: pytest.Config) -> None:
+    """Draw other examples in every run, all workers by the seed of the first process, so that a run can be repeated."""
+    if config.option.hypothesis_seed is None:
+        config.option.hypothesis_seed = str(secrets.randbelow(2**32))
+
+
+def pytest_report_header(config: pytest.Config) -> str:
+    """Say how to repeat this run."""
+    return f"examples of Hypothesis: --hypothesis-seed={config.option.hypothesis_seed}"
 
 
 def heavy_first(paths: Sequence[str]) -> list[int]:

@@ -104,7 +104,12 @@ def test_what_touches_any_robot_is_found() -> None:
     """On random robots: where an equation determines all its unknowns they are found; net wrenches always."""
     seen = dict.fromkeys(ContactType, 0)
 
-    @settings(max_examples=EXAMPLES, suppress_health_check=[HealthCheck.too_slow, HealthCheck.data_too_large])
+    # the same examples in every run, as kinds of them are counted
+    @settings(
+        max_examples=EXAMPLES,
+        derandomize=True,
+        suppress_health_check=[HealthCheck.too_slow, HealthCheck.data_too_large],
+    )
     @given(robots(), st.data())
     def check(model: RobotModel, data: st.DataObject) -> None:
         tree = build_tree(model, data.draw(st.sampled_from(tuple(model.links))))

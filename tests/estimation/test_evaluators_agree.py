@@ -93,7 +93,8 @@ def test_both_evaluators_agree_on_anything() -> None:
     """Within rounding times condition, with the same gaps and ranks, whatever robot, question and input."""
     seen: Counter[str] = Counter()
 
-    @settings(max_examples=EXAMPLES, suppress_health_check=SLOW)
+    # the same examples in every run, as kinds of them are counted
+    @settings(derandomize=True, max_examples=EXAMPLES, suppress_health_check=SLOW)
     @given(problems())
     def check(problem: Problem) -> None:
         readable, compiled = _both(problem)

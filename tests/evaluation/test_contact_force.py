@@ -134,7 +134,12 @@ def test_it_is_so_on_any_robot() -> None:
     """Sensors of either direction, in any frame, at either end of the sub-model, whatever carries the robot."""
     seen = {(direction, sign): 0 for direction in (1.0, -1.0) for sign in (1.0, -1.0)}
 
-    @settings(max_examples=EXAMPLES, suppress_health_check=[HealthCheck.too_slow, HealthCheck.filter_too_much])
+    # the same examples in every run, as kinds of them are counted
+    @settings(
+        derandomize=True,
+        max_examples=EXAMPLES,
+        suppress_health_check=[HealthCheck.too_slow, HealthCheck.filter_too_much],
+    )
     @given(robots(), st.data())
     def check(model: RobotModel, data: st.DataObject) -> None:
         assume(any(not model.joints[sensor.joint].type.moves for sensor in model.sensors.values()))

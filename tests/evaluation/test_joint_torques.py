@@ -192,7 +192,10 @@ def test_it_is_what_the_estimator_makes_of_the_error_on_any_robot() -> None:
     """Rotary and prismatic joints that may mimic, sensors of either direction in any frame, a contact anywhere."""
     seen = {"borne": 0, "prismatic": 0, "negative": 0, "spared": 0}
 
-    @settings(max_examples=100, suppress_health_check=[HealthCheck.too_slow, HealthCheck.filter_too_much])
+    # the same examples in every run, as kinds of them are counted
+    @settings(
+        derandomize=True, max_examples=100, suppress_health_check=[HealthCheck.too_slow, HealthCheck.filter_too_much]
+    )
     @given(robots(), st.data())
     def check(model: RobotModel, data: st.DataObject) -> None:
         assume(any(not model.joints[sensor.joint].type.moves for sensor in model.sensors.values()))
