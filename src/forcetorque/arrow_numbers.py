@@ -23,7 +23,7 @@ def arrow_numbers(column: Any) -> npt.NDArray[Any]:
         column: Array or chunked array of Arrow, of float64 or of int64 without empty values; n values.
 
     Returns:
-        They; shape (n,); read-only where the memory is that of the column; NaN for empty values.
+        The numbers; shape (n,); read-only where the memory is that of the column; NaN for empty values.
     """
     array = column.combine_chunks() if isinstance(column, pa.ChunkedArray) else column
     validity, data = array.buffers()

@@ -193,7 +193,7 @@ class UseJudge:
                     f"{rest}, at most {amount(expected[quantity], unit)} were predicted: something is not in the model"
                 )
                 yield Reason(against="data", text=text, remedy=LOOK_FOR_CAUSE)
-        # of recordings at rest in several postures none moves
+        # sessions at rest, each in a posture of its own, do not move: offsets take up what a wrong matrix makes of it
         seen = JudgedExcitation.of(self.measured.reference, [self.calibration], moved=self.measured.moved)
         if seen.words is not None:
             yield Reason(against="data", text=f"{seen.words}; judge data that move", remedy=JUDGE_WHAT_MOVES)

@@ -149,7 +149,7 @@ def fit_jointly(sums: Sequence[PartSums], terms: Sequence[ErrorTerm] = ()) -> Jo
     if not sums:
         raise FitError("joint calibration: no window of any part has readings and motion; look for gaps in the log")
     places = Places.of(sums, terms)
-    columns = [places.of_part(one) for one in sums]
+    columns = [places.of_part(part.sensors, part.session) for part in sums]
     one = np.zeros(len(places))
     for sensor in places.sensors:
         one[places.changes(sensor)] = np.eye(6).ravel()

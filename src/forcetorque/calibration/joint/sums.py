@@ -68,7 +68,7 @@ def part_sums(windows: Iterable[PartWindows]) -> list[PartSums]:
 
 def _summed(windows: PartWindows) -> PartSums:
     stretch = windows.stretch
-    columns = np.concatenate([windows.changes, windows.offsets, windows.errors], axis=2)
+    columns = windows.columns
     k = len(windows.sensors)
     noise = np.zeros((_LOADS, _CHANGES * k, _CHANGES * k))
     for number, name in enumerate(windows.sensors):
@@ -179,15 +179,16 @@ class Places:
         """The places of the errors of the model."""
         return slice(len(self) - len(self.terms), len(self))
 
-    def of_part(self, sums: PartSums) -> IntArray:
+    def of_part(self, sensors: Sequence[str], session: str) -> IntArray:
         """Give the places of the coefficients of a part.
 
         Args:
-            sums: Its moments.
+            sensors: Its sensors.
+            session: The session.
 
         Returns:
             Places in the order of the coefficients; shape (p,).
         """
-        own = [self.changes(name) for name in sums.sensors]
-        own += [self.offset(name, sums.session) for name in sums.sensors]
+        own = [self.changes(name) for name in sensors]
+        own += [self.offset(name, session) for name in sensors]
         return np.concatenate([np.arange(s.start, s.stop) for s in (*own, self.errors)])

@@ -53,11 +53,8 @@ def residuals(windows: PartWindows, fit: JointFit | None) -> FloatArray:
         offsets = windows.offsets.reshape(-1, windows.offsets.shape[2])
         best = np.linalg.lstsq(offsets, windows.right.ravel(), rcond=None)[0]
         return np.asarray(windows.offsets @ best - windows.right)
-    places = fit.places
-    own = [fit.mean[places.changes(name)] for name in windows.sensors]
-    own += [fit.mean[places.offset(name, windows.stretch.session)] for name in windows.sensors]
-    columns = np.concatenate([windows.changes, windows.offsets, windows.errors], axis=2)
-    return np.asarray(columns @ np.concatenate([*own, fit.mean[places.errors]]) - windows.right)
+    unknowns = fit.mean[fit.places.of_part(windows.sensors, windows.stretch.session)]
+    return np.asarray(windows.columns @ unknowns - windows.right)
 
 
 def untouched(windows: PartWindows, fit: JointFit | None) -> BoolArray:

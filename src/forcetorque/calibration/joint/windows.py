@@ -66,6 +66,11 @@ class PartWindows:
     def __len__(self) -> int:
         return len(self.time_s)
 
+    @property
+    def columns(self) -> FloatArray:
+        """Coefficients of all that is unknown: changes, offsets, errors of the model; shape (w, 6, p)."""
+        return np.concatenate([self.changes, self.offsets, self.errors], axis=2)
+
     def kept(self, marks: BoolArray) -> PartWindows:
         """Keep some of the windows.
 

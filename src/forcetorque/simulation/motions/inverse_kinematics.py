@@ -14,6 +14,7 @@ from forcetorque.robot import BodyTree, JointMotion
 from forcetorque.robot.kinematics import body_poses
 from forcetorque.robot.sub_model import path_to_root
 from forcetorque.robot.tree import Connection
+from forcetorque.spatial import cross
 
 _STEPS = 60
 _LARGEST_STEP = 0.3
@@ -87,6 +88,6 @@ def _pose_and_jacobian(
         if body.connection is Connection.PRISMATIC:
             jacobian[:, :3, column] += axis
             continue
-        jacobian[:, :3, column] += np.cross(axis, pose[:, :3, 3] - poses[k][:, :3, 3])
+        jacobian[:, :3, column] += cross(axis, pose[:, :3, 3] - poses[k][:, :3, 3])
         jacobian[:, 3:, column] += axis
     return pose, jacobian

@@ -49,7 +49,7 @@ def standing_movement(
     Returns:
         The movement; what touches the feet is in `external`.
     """
-    still = stance.others_moving(share=0.0, duration_s=duration_s, period_s=_PERIOD_S, rng=rng)
+    still = _others(stance, duration_s, rng, share=0.0)
 
     def trunk(seconds: FloatArray) -> FloatArray:
         return np.zeros((len(seconds), len(CARRIAGE_JOINTS)))
@@ -94,7 +94,7 @@ def sway_movement(
         MovementKind.SWAY,
         duration_s,
         trunk=_trunk(reach_m, turn_rad, duration_s, rng),
-        others=stance.others_moving(share=_OTHERS_SHARE, duration_s=duration_s, period_s=_PERIOD_S, rng=rng),
+        others=_others(stance, duration_s, rng),
         internal_force_N=internal_force_N,
         rng=rng,
     )
@@ -138,7 +138,7 @@ def squat_movement(
         MovementKind.SQUAT,
         duration_s,
         trunk=trunk,
-        others=stance.others_moving(share=_OTHERS_SHARE, duration_s=duration_s, period_s=_PERIOD_S, rng=rng),
+        others=_others(stance, duration_s, rng),
         internal_force_N=internal_force_N,
         rng=rng,
     )
@@ -187,7 +187,7 @@ def stepping_movement(
         MovementKind.STEPPING,
         duration_s,
         trunk=trunk,
-        others=stance.others_moving(share=_OTHERS_SHARE, duration_s=duration_s, period_s=_PERIOD_S, rng=rng),
+        others=_others(stance, duration_s, rng),
         internal_force_N=internal_force_N,
         rng=rng,
         steps=steps,
@@ -197,3 +197,7 @@ def stepping_movement(
 def _trunk(reach_m: float, turn_rad: float, duration_s: float, rng: np.random.Generator) -> Spline:
     reach = [reach_m, reach_m, _VERTICAL * reach_m, turn_rad, turn_rad, turn_rad]
     return Spline.towards_targets(CARRIAGE_JOINTS, reach, duration_s=duration_s, period_s=_PERIOD_S, rng=rng)
+
+
+def _others(stance: Stance, duration_s: float, rng: np.random.Generator, share: float = _OTHERS_SHARE) -> Spline:
+    return stance.others_moving(share=share, duration_s=duration_s, period_s=_PERIOD_S, rng=rng)
