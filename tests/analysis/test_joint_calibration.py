@@ -65,9 +65,8 @@ def _left(windows: PartWindows, fit: JointFit | None) -> FloatArray:
     """Root mean square residual of force and moment with the best offsets for these windows; shape (2,); N, N m."""
     right = windows.right
     if fit is not None:
-        known = [fit.mean[fit.places.changes(name)] for name in windows.sensors]
-        columns = np.concatenate([windows.changes, windows.errors], axis=2)
-        right = right - columns @ np.concatenate([*known, fit.mean[fit.places.errors]])
+        known = fit.mean[fit.places.of_part(windows.sensors, windows.stretch.session, windows.terms)]
+        right = right - windows.columns @ known
     offsets = windows.offsets.reshape(-1, windows.offsets.shape[2])
     best = np.linalg.lstsq(offsets, right.ravel(), rcond=None)[0]
     error = (right - windows.offsets @ best) * UNITS

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray, read_only
+from forcetorque.arrays import FloatArray, IntArray, read_only
 from forcetorque.constants import STANDARD_GRAVITY
 from forcetorque.errors import ShapeError
 
@@ -55,16 +55,16 @@ class JointMotion:
         zero = np.zeros_like(np.asarray(position, dtype=np.float64))
         return cls(names=tuple(names), position=position, velocity=zero, acceleration=zero)
 
-    def samples(self, block: slice) -> JointMotion:
+    def samples(self, rows: slice | IntArray) -> JointMotion:
         """Look at some of the samples.
 
         Args:
-            block: Range of samples, without a step.
+            rows: Range of samples, without a step, or their numbers.
 
         Returns:
-            The same memory.
+            The same memory for a range.
         """
-        parts = (values[block] for values in (self.position, self.velocity, self.acceleration))
+        parts = (values[rows] for values in (self.position, self.velocity, self.acceleration))
         position, velocity, acceleration = parts
         return JointMotion(names=self.names, position=position, velocity=velocity, acceleration=acceleration)
 
@@ -121,3 +121,16 @@ class RootMotion:
                 f"gravity_direction: expected a unit vector, got {down.tolist()}; gravity is m/s2 beside it"
             )
         return cls(proper_acceleration=-gravity * down, angular_velocity=np.zeros(3), angular_acceleration=np.zeros(3))
+
+    def samples(self, rows: slice | IntArray) -> RootMotion:
+        """Look at some of the samples.
+
+        Args:
+            rows: Range of samples, or their numbers.
+
+        Returns:
+            The motion there; what is one for all samples stays so.
+        """
+        vectors = (self.proper_acceleration, self.angular_velocity, self.angular_acceleration)
+        proper, velocity, rate = (values if values.size == 3 else values[rows] for values in vectors)
+        return RootMotion(proper_acceleration=proper, angular_velocity=velocity, angular_acceleration=rate)

@@ -4,10 +4,11 @@
 from forcetorque.calibration.joint.calibrate import JointResult, UntouchedStretch, fit_stretches
 from forcetorque.calibration.joint.fit import JointFit, fit_jointly
 from forcetorque.calibration.joint.model_error import EXACT, ErrorTerm, ModelTolerance, error_terms
+from forcetorque.calibration.joint.residual import PartResidual
 from forcetorque.calibration.joint.stretch import Stretch
 from forcetorque.calibration.joint.sums import PartSums, Places, part_sums
 from forcetorque.calibration.joint.touch import Touch, residuals, untouched
-from forcetorque.calibration.joint.windows import UNITS, PartWindows, part_windows
+from forcetorque.calibration.joint.windows import UNITS, PartWindows, part_windows, window_means
 
 __all__ = [
     "EXACT",
@@ -16,6 +17,7 @@ __all__ = [
     "JointFit",
     "JointResult",
     "ModelTolerance",
+    "PartResidual",
     "PartSums",
     "PartWindows",
     "Places",
@@ -29,4 +31,5 @@ __all__ = [
     "part_windows",
     "residuals",
     "untouched",
+    "window_means",
 ]

@@ -7,9 +7,12 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Final
 
+import numpy as np
+
 from forcetorque.arrays import BoolArray
 from forcetorque.calibration.joint.fit import JointFit, fit_jointly
 from forcetorque.calibration.joint.model_error import ErrorTerm, ModelTolerance, error_terms
+from forcetorque.calibration.joint.residual import PartResidual
 from forcetorque.calibration.joint.stretch import Stretch
 from forcetorque.calibration.joint.sums import part_sums
 from forcetorque.calibration.joint.touch import Touch, all_touches, untouched
@@ -18,6 +21,8 @@ from forcetorque.robot.sub_model import SubModel
 
 ROUNDS: Final = 3
 """How often the equations are made linear: what the zero of a joint does depends on what goes through it."""
+LINEAR_S: Final = 600.0
+"""Time that the rounds before the last take, evenly out of more: it tells enough to make equations linear about."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -38,8 +43,8 @@ class JointResult:
 
     fit: JointFit
     """The fit."""
-    windows: tuple[PartWindows, ...]
-    """Windows of every part and stretch, those that disagree too."""
+    residuals: tuple[PartResidual, ...]
+    """What is left of the equation of every part in every stretch, windows that disagree too."""
     touches: tuple[Touch, ...]
     """Spans that were left out because they disagree."""
     left_out: tuple[str, ...]
@@ -67,25 +72,28 @@ def fit_stretches(
     """
     terms = _all_terms(stretches, ModelTolerance() if tolerance is None else tolerance)
     progress(f"equations of {len(stretches)} intervals")
-    windows = _windows(stretches, terms, None)
+    duration = sum(float(np.ptp(one.stretch.time_s)) for one in stretches if len(one.stretch))
+    every = max(round(duration / LINEAR_S), 1)
+    windows = _windows(stretches, terms, None, every)
     # what a touch bends in the first fit is straight in the second
     fit = _fit(windows, _agreeing(windows, _fit(windows, _agreeing(windows, None), terms)), terms)
     for number in range(2, ROUNDS + 1):
         progress(f"the same about the fit, round {number} of {ROUNDS}")
-        windows = _windows(stretches, terms, fit)
+        windows = _windows(stretches, terms, fit, every if number < ROUNDS else 1)
         fit = _fit(windows, _agreeing(windows, fit), terms)
+    kept = _agreeing(windows, fit)
     return JointResult(
         fit=fit,
-        windows=windows,
-        touches=all_touches(windows, _agreeing(windows, fit)),
+        residuals=tuple(PartResidual.of(one, fit, marks) for one, marks in zip(windows, kept, strict=True)),
+        touches=all_touches(windows, kept),
         left_out=tuple(dict.fromkeys(words for one in stretches for words in one.left_out)),
     )
 
 
 def _windows(
-    stretches: Sequence[UntouchedStretch], terms: Sequence[ErrorTerm], about: JointFit | None
+    stretches: Sequence[UntouchedStretch], terms: Sequence[ErrorTerm], about: JointFit | None, every: int
 ) -> tuple[PartWindows, ...]:
-    return tuple(w for one in stretches for w in part_windows(one.stretch, one.parts, terms, about=about))
+    return tuple(w for one in stretches for w in part_windows(one.stretch, one.parts, terms, about=about, every=every))
 
 
 def _agreeing(windows: Sequence[PartWindows], fit: JointFit | None) -> list[BoolArray]:

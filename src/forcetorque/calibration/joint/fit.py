@@ -122,6 +122,21 @@ class JointFit:
         scaled: FloatArray = np.einsum("...b,abcd,...d->...ac", unit, covariance, unit) * np.outer(UNITS, UNITS)
         return scaled
 
+    def prior_error_covariance(self, sensor: str, load: FloatArray) -> FloatArray:
+        """Predict the covariance of the error of changes of load by the prior matrix.
+
+        Args:
+            sensor: The sensor.
+            load: Change of the load; shape (..., 6); N, N m.
+
+        Returns:
+            Covariance; shape (..., 6, 6).
+        """
+        variance = (self.deviations[self.places.changes(sensor)] ** 2).reshape(6, 6)
+        unit = np.asarray(load, dtype=np.float64) / UNITS
+        covariance: FloatArray = (unit**2 @ variance.T * UNITS**2)[..., None] * np.eye(6)
+        return covariance
+
     def model_errors(self) -> list[tuple[ErrorTerm, float, float]]:
         """Give what was found to be wrong with the model.
 
@@ -149,7 +164,7 @@ def fit_jointly(sums: Sequence[PartSums], terms: Sequence[ErrorTerm] = ()) -> Jo
     if not sums:
         raise FitError("joint calibration: no window of any part has readings and motion; look for gaps in the log")
     places = Places.of(sums, terms)
-    columns = [places.of_part(part.sensors, part.session) for part in sums]
+    columns = [places.of_part(part.sensors, part.session, part.terms) for part in sums]
     one = np.zeros(len(places))
     for sensor in places.sensors:
         one[places.changes(sensor)] = np.eye(6).ravel()

@@ -3,8 +3,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
 from types import MappingProxyType
 
 import numpy as np
@@ -51,3 +51,28 @@ class Stretch:
 
     def __len__(self) -> int:
         return len(self.time_s)
+
+    def pieces(self, length_s: float) -> Iterator[Stretch]:
+        """Cut the stretch.
+
+        Args:
+            length_s: Longest time that a piece takes; s.
+
+        Yields:
+            Pieces of one length that follow each other; none of a stretch without samples.
+        """
+        if not len(self):
+            return
+        start, duration = self.time_s[0], self.time_s[-1] - self.time_s[0]
+        count = max(int(np.ceil(duration / length_s)), 1)
+        edges = np.searchsorted(self.time_s, start + duration / count * np.arange(1, count))
+        for first, last in zip([0, *edges], [*edges, len(self)], strict=True):
+            block = slice(int(first), int(last))
+            if block.start < block.stop:
+                yield replace(
+                    self,
+                    time_s=self.time_s[block],
+                    joints=self.joints.samples(block),
+                    root=self.root.samples(block),
+                    readings={name: values[block] for name, values in self.readings.items()},
+                )

@@ -27,6 +27,8 @@ class PartSums:
     """The session."""
     sensors: tuple[str, ...]
     """Its k sensors."""
+    terms: tuple[str, ...]
+    """Names of the errors of the model that it depends on."""
     products: FloatArray
     """Products of the coefficients; shape (6, p, p)."""
     shared: FloatArray
@@ -68,21 +70,28 @@ def part_sums(windows: Iterable[PartWindows]) -> list[PartSums]:
 
 def _summed(windows: PartWindows) -> PartSums:
     stretch = windows.stretch
-    columns = windows.columns
-    k = len(windows.sensors)
+    k, p = len(windows.sensors), _LOADS * len(windows.sensors) + _CHANGES * len(windows.sensors) + len(windows.terms)
+    products, shared = np.zeros((_LOADS, p, p)), np.zeros((_LOADS, p))
+    spread = np.zeros((k, _LOADS, _LOADS, _LOADS))
+    for block in windows.blocks():
+        columns = block.columns.transpose(1, 2, 0)  # a row, a coefficient, a window
+        products += columns @ columns.transpose(0, 2, 1)
+        shared += (columns @ block.right.T[:, :, None])[..., 0]
+        spread += block.spread.sum(axis=0)
     noise = np.zeros((_LOADS, _CHANGES * k, _CHANGES * k))
     for number, name in enumerate(windows.sensors):
         covariance = noise_covariance(stretch.readings[name] / UNITS)
         own = slice(_CHANGES * number, _CHANGES * (number + 1))
-        spread = windows.spread[:, number].sum(axis=0)  # (6 rows, 6, 6)
-        noise[:, own, own] = np.einsum("iab,cd->iacbd", spread, covariance).reshape(_LOADS, _CHANGES, _CHANGES)
+        by_row = np.einsum("iab,cd->iacbd", spread[number], covariance)
+        noise[:, own, own] = by_row.reshape(_LOADS, _CHANGES, _CHANGES)
     return PartSums(
         part=windows.part,
         recording=stretch.recording,
         session=stretch.session,
         sensors=windows.sensors,
-        products=np.einsum("wij,wik->ijk", columns, columns, optimize=True),
-        shared=np.einsum("wij,wi->ij", columns, windows.right),
+        terms=windows.terms,
+        products=products,
+        shared=shared,
         square=(windows.right**2).sum(axis=0),
         noise=noise,
         common=_common(windows),
@@ -94,7 +103,7 @@ def _common(windows: PartWindows) -> FloatArray:
     """Share of every coefficient in the common scale: gains of sensors by their loads, masses by what they demand."""
     gains = np.concatenate([share * np.eye(_LOADS).ravel() / _LOADS for share in windows.load_shares[:-1]])
     masses = windows.load_shares[-1] * windows.mass_shares
-    return np.concatenate([gains, np.zeros(windows.offsets.shape[2]), masses])
+    return np.concatenate([gains, np.zeros(_LOADS * len(windows.sensors)), masses])
 
 
 def noise_covariance(readings: FloatArray) -> FloatArray:
@@ -179,16 +188,20 @@ class Places:
         """The places of the errors of the model."""
         return slice(len(self) - len(self.terms), len(self))
 
-    def of_part(self, sensors: Sequence[str], session: str) -> IntArray:
+    def of_part(self, sensors: Sequence[str], session: str, terms: Sequence[str]) -> IntArray:
         """Give the places of the coefficients of a part.
 
         Args:
             sensors: Its sensors.
             session: The session.
+            terms: Names of the errors of the model that it depends on.
 
         Returns:
             Places in the order of the coefficients; shape (p,).
         """
         own = [self.changes(name) for name in sensors]
         own += [self.offset(name, session) for name in sensors]
-        return np.concatenate([np.arange(s.start, s.stop) for s in (*own, self.errors)])
+        numbers = {term.name: number for number, term in enumerate(self.terms, start=self.errors.start)}
+        return np.concatenate(
+            [*(np.arange(s.start, s.stop) for s in own), np.array([numbers[name] for name in terms], dtype=np.int64)]
+        )

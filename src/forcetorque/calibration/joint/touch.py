@@ -53,8 +53,8 @@ def residuals(windows: PartWindows, fit: JointFit | None) -> FloatArray:
         offsets = windows.offsets.reshape(-1, windows.offsets.shape[2])
         best = np.linalg.lstsq(offsets, windows.right.ravel(), rcond=None)[0]
         return np.asarray(windows.offsets @ best - windows.right)
-    unknowns = fit.mean[fit.places.of_part(windows.sensors, windows.stretch.session)]
-    return np.asarray(windows.columns @ unknowns - windows.right)
+    unknowns = fit.mean[fit.places.of_part(windows.sensors, windows.stretch.session, windows.terms)]
+    return np.concatenate([block.columns @ unknowns - block.right for block in windows.blocks()])
 
 
 def untouched(windows: PartWindows, fit: JointFit | None) -> BoolArray:

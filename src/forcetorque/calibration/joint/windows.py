@@ -9,17 +9,18 @@ which stands in their own coefficients; what it adds to the products of these is
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Final
+from itertools import islice
+from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
 
 from forcetorque.arrays import BoolArray, FloatArray, IntArray
 from forcetorque.calibration.joint.model_error import ZERO, ErrorTerm, body_columns, demand_columns, mass_shares
+from forcetorque.calibration.joint.nodes import NODES, WEIGHTS, WindowNodes
 from forcetorque.calibration.joint.stretch import Stretch
 from forcetorque.estimation.part_equations import PartEquation, part_equations
-from forcetorque.robot import JointMotion, RootMotion
 from forcetorque.robot.sub_model import SubModel
 
 if TYPE_CHECKING:
@@ -31,8 +32,12 @@ UNITS: Final = np.array([1.0, 1.0, 1.0, LENGTH_M, LENGTH_M, LENGTH_M])
 """Unit of every component; N, N m."""
 WINDOW_S: Final = 0.25
 """Length of a window; s."""
-_LOADS, _NODES = 6, 2
+PIECE_S: Final = 500 * WINDOW_S
+"""Length of what is worked on at a time; s: samples take more room than what is kept of them."""
+_LOADS = 6
 _CHANGES = 36
+_BLOCK = 500
+"""Windows whose coefficients are written out at a time."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -45,37 +50,77 @@ class PartWindows:
     """Where they come from."""
     sensors: tuple[str, ...]
     """The k sensors of the part."""
+    terms: tuple[str, ...]
+    """Names of the errors of the model that the part depends on."""
     time_s: FloatArray
     """Mean instants; shape (w,); s."""
-    changes: FloatArray
-    """Coefficients of D, row by row, of every sensor; shape (w, 6, 36 k)."""
-    offsets: FloatArray
-    """Coefficients of the offsets; shape (w, 6, 6 k)."""
+    counts: IntArray
+    """Samples of every window; shape (w,)."""
+    transmission: FloatArray
+    """What carries a reading to the left side, at the nodes of every window; shape (w, 3, k, 6, 6)."""
+    readings: FloatArray
+    """Wrenches by the prior matrices at the nodes; shape (w, 3, k, 6)."""
     errors: FloatArray
     """Coefficients of the errors of the model; shape (w, 6, terms)."""
     right: FloatArray
     """Right side; shape (w, 6)."""
-    spread: FloatArray
-    """What white noise adds, by sensor and row: mean of X X^T over the samples; shape (w, k, 6, 6, 6)."""
-
+    mass_kg: float
+    """Mass of the bodies of the part."""
     mass_shares: FloatArray
     """Of every error of the model the share of the mass of the part that it scales; shape (terms,)."""
-    load_shares: FloatArray
-    """Mean squares of what every sensor transmits and, last, of what the bodies demand, over their sum; (k + 1,)."""
+    load_squares: FloatArray
+    """Sums over samples of squares of what every sensor transmits and, last, of what the bodies demand; (k + 1,)."""
 
     def __len__(self) -> int:
         return len(self.time_s)
+
+    @property
+    def load_shares(self) -> FloatArray:
+        """Shares of what every sensor transmits and, last, of what the bodies demand; shape (k + 1,)."""
+        shares: FloatArray = self.load_squares / max(self.load_squares.sum(), np.finfo(float).tiny)
+        return shares
+
+    @property
+    def changes(self) -> FloatArray:
+        """Coefficients of D, row by row, of every sensor; shape (w, 6, 36 k)."""
+        weighted = WEIGHTS[:, None, None] * self.readings
+        products = np.einsum("wnkia,wnkb->wikab", self.transmission, weighted, optimize=True)
+        changes: FloatArray = products.reshape(len(self), _LOADS, _CHANGES * len(self.sensors))
+        return changes
+
+    @property
+    def offsets(self) -> FloatArray:
+        """Coefficients of the offsets; shape (w, 6, 6 k)."""
+        means = np.einsum("n,wnkia->wika", WEIGHTS, self.transmission)
+        offsets: FloatArray = means.reshape(len(self), _LOADS, _LOADS * len(self.sensors))
+        return offsets
+
+    @property
+    def spread(self) -> FloatArray:
+        """What white noise adds, by sensor and row: mean of X X^T over the samples; shape (w, k, 6, 6, 6)."""
+        weighted = (WEIGHTS / self.counts[:, None])[:, :, None, None, None] * self.transmission
+        spread: FloatArray = np.einsum("wnkia,wnkib->wkiab", weighted, self.transmission)
+        return spread
 
     @property
     def columns(self) -> FloatArray:
         """Coefficients of all that is unknown: changes, offsets, errors of the model; shape (w, 6, p)."""
         return np.concatenate([self.changes, self.offsets, self.errors], axis=2)
 
-    def kept(self, marks: BoolArray) -> PartWindows:
+    def blocks(self) -> Iterator[PartWindows]:
+        """Cut the windows into blocks, whose coefficients take little room.
+
+        Yields:
+            Windows that follow each other.
+        """
+        for start in range(0, len(self), _BLOCK):
+            yield self.kept(slice(start, start + _BLOCK))
+
+    def kept(self, marks: BoolArray | slice) -> PartWindows:
         """Keep some of the windows.
 
         Args:
-            marks: Which; shape (w,).
+            marks: Which; shape (w,), or a range.
 
         Returns:
             The others left out.
@@ -84,7 +129,7 @@ class PartWindows:
         return replace(self, **values)
 
 
-_BY_WINDOW = ("time_s", "changes", "offsets", "errors", "right", "spread")
+_BY_WINDOW = ("time_s", "counts", "transmission", "readings", "errors", "right")
 
 
 def part_windows(
@@ -93,7 +138,7 @@ def part_windows(
     terms: Sequence[ErrorTerm],
     *,
     about: JointFit | None = None,
-    window_s: float = WINDOW_S,
+    every: int = 1,
 ) -> Iterator[PartWindows]:
     """Average the equations of parts over windows.
 
@@ -105,125 +150,100 @@ def part_windows(
         terms: Errors of the model to allow for.
         about: Fit that is known already, about which the equations are made linear: what the zero of a joint does
             depends on the wrenches that go through it, and on where it is. The prior matrices and zeros if None.
-        window_s: Length of a window; s.
+        every: Which pieces of `PIECE_S` are taken: 1 for all, 2 for every second.
 
     Yields:
         The windows of every part, as long as there are any.
     """
-    if not len(stretch):
-        return
+    chosen = islice(stretch.pieces(PIECE_S), 0, None, every)
+    pieces = [list(_piece_windows(piece, parts, terms, about)) for piece in chosen]
+    for of_part in zip(*pieces, strict=True):
+        yield _joined(of_part, stretch)
+
+
+def window_means(stretch: Stretch, values: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Average what else was logged over the windows of a stretch.
+
+    Args:
+        stretch: The stretch.
+        values: What was logged at its instants; shape (n, c); NaN in gaps.
+
+    Returns:
+        Mean instants, shape (w,), s; and means, shape (w, c), NaN where a window has a gap.
+    """
+    windows = WindowNodes(stretch.time_s, WINDOW_S)
+    return windows.time_s, windows.means(values)
+
+
+def _joined(pieces: Sequence[PartWindows], stretch: Stretch) -> PartWindows:
+    """Put the windows of one part that follow each other together."""
+    values: dict[str, Any] = {name: np.concatenate([getattr(piece, name) for piece in pieces]) for name in _BY_WINDOW}
+    values["load_squares"] = np.sum([piece.load_squares for piece in pieces], axis=0)
+    return replace(pieces[0], stretch=stretch, **values)
+
+
+def _piece_windows(
+    stretch: Stretch, parts: Sequence[SubModel], terms: Sequence[ErrorTerm], about: JointFit | None
+) -> Iterator[PartWindows]:
     tree, zeros = stretch.tree, {} if about is None else about.joint_zeros()
-    joints, root = stretch.joints.shifted(zeros), stretch.root
-    windows = _Windows(stretch.time_s, window_s)
-    turned = [term for term in terms if term.name.startswith(ZERO)]
-    nodes = windows.nodes
-    of_demand = (
-        demand_columns(tree, parts, _samples(joints, nodes), _root_samples(root, nodes, len(stretch)))
-        if turned
-        else [{} for _ in parts]
-    )
-    known = np.array([zeros.get(term.name.removeprefix(ZERO), 0.0) for term in terms])
-    for equation, demanded in zip(part_equations(tree, parts, joints, root), of_demand, strict=True):
-        logged = np.stack([stretch.readings[name] for name in equation.sensors], axis=1)
-        through = (
-            logged
-            if about is None
-            else np.stack(
-                [about.wrench(name, stretch.session, stretch.readings[name]) for name in equation.sensors], axis=1
-            )
-        )
-        columns = body_columns(tree, equation) if len(terms) > len(turned) else {}
-        errors = np.zeros((len(windows), _LOADS, len(terms)))
-        for k, term in enumerate(terms):
-            if term.name in columns:
-                errors[:, :, k] = windows.means(columns[term.name]) / UNITS
-            elif term.name in demanded:
-                joint = term.name.removeprefix(ZERO)
-                added = windows.means(equation.turned(tree, joint, through))
-                errors[:, :, k] = (added + demanded[term.name].reshape(-1, _NODES, _LOADS).mean(axis=1)) / UNITS
-        shares = mass_shares(tree, equation.part, terms)
-        yield _averaged(stretch, equation, windows, logged, errors, known, shares)
+    windows = WindowNodes(stretch.time_s, WINDOW_S)
+    nodes = windows.condensed(stretch)
+    joints, middle = nodes.joints.shifted(zeros), slice(NODES // 2, None, NODES)
+    of_zeros = demand_columns(tree, parts, joints.samples(middle), nodes.root.samples(middle))
+    for equation, demanded in zip(part_equations(tree, parts, joints, nodes.root), of_zeros, strict=True):
+        logged = np.stack([nodes.readings[name] for name in equation.sensors], axis=1)
+        through = logged
+        if about is not None:
+            corrected = (about.wrench(name, stretch.session, nodes.readings[name]) for name in equation.sensors)
+            through = np.stack(list(corrected), axis=1)
+        columns = {name: windows.node_means(values) for name, values in body_columns(tree, equation).items()}
+        for name, values in demanded.items():
+            turned = equation.turned(tree, name.removeprefix(ZERO), through)
+            columns[name] = windows.node_means(turned) + values
+        own = [term for term in terms if term.name in columns]
+        errors = np.empty((len(windows), _LOADS, len(own)))
+        for k, term in enumerate(own):
+            errors[:, :, k] = columns[term.name] / UNITS
+        yield _averaged(stretch, equation, windows, logged, errors, zeros, own)
 
 
 def _averaged(
     stretch: Stretch,
     equation: PartEquation,
-    windows: _Windows,
+    windows: WindowNodes,
     logged: FloatArray,
     errors: FloatArray,
-    known: FloatArray,
-    shares: FloatArray,
+    zeros: Mapping[str, float],
+    terms: Sequence[ErrorTerm],
 ) -> PartWindows:
     w, k = len(windows), len(equation.sensors)
+    known = np.array([zeros.get(term.name.removeprefix(ZERO), 0.0) for term in terms])
     transmission, readings = equation.transmission * (UNITS / UNITS[:, None]), logged / UNITS
-    right = equation.demand / UNITS - np.einsum("nkij,nkj->ni", transmission, readings)
-    changes = np.einsum("nkia,nkb->nikab", transmission, readings).reshape(len(stretch), -1)
-    spread = np.einsum("nkia,nkib->nkiab", transmission, transmission).reshape(len(stretch), -1)
+    transmitted = np.einsum("nkij,nkj->nki", transmission, readings)
+    right = equation.demand / UNITS - transmitted.sum(axis=1)
     result = PartWindows(
         part=equation.part.name,
         stretch=stretch,
         sensors=equation.sensors,
-        time_s=windows.means(stretch.time_s[:, None])[:, 0],
-        changes=windows.means(changes).reshape(w, _LOADS, _CHANGES * k),
-        offsets=windows.means(transmission.reshape(len(stretch), -1))
-        .reshape(w, k, _LOADS, _LOADS)
-        .transpose(0, 2, 1, 3)
-        .reshape(w, _LOADS, _LOADS * k),
+        terms=tuple(term.name for term in terms),
+        time_s=windows.time_s,
+        counts=windows.counts,
+        transmission=transmission.reshape(w, NODES, k, _LOADS, _LOADS),
+        readings=readings.reshape(w, NODES, k, _LOADS),
         errors=errors,
         # unknown is the whole error of a zero, some of which the equation has already
-        right=windows.means(right) + errors @ known,
-        mass_shares=shares,
-        load_shares=_shares(
-            [*np.moveaxis(np.einsum("nkij,nkj->nki", transmission, readings), 1, 0), equation.demand / UNITS]
-        ),
-        spread=(windows.means(spread) / windows.counts[:, None]).reshape(w, k, _LOADS, _LOADS, _LOADS),
+        right=windows.node_means(right) + errors @ known,
+        mass_kg=sum(stretch.tree.bodies[k].inertia.mass for k in equation.part.bodies),
+        mass_shares=mass_shares(stretch.tree, equation.part, terms),
+        load_squares=_squares([*np.moveaxis(transmitted, 1, 0), equation.demand / UNITS]),
     )
-    flat = [result.right, *(values.reshape(w, -1) for values in (result.changes, result.offsets, result.errors))]
-    return result.kept(np.asarray(np.isfinite(np.hstack(flat)).all(axis=1)))
+    whole = [
+        np.isfinite(values).reshape(w, -1).all(axis=1) for values in (result.right, transmission, readings, errors)
+    ]
+    return result.kept(np.logical_and.reduce(whole))
 
 
-def _shares(loads: Sequence[FloatArray]) -> FloatArray:
-    """Shares of loads in the sum of their mean squares, over samples that have all of them."""
+def _squares(loads: Sequence[FloatArray]) -> FloatArray:
+    """Sums of squares of loads, over samples that have all of them."""
     whole = np.isfinite(np.hstack(loads)).all(axis=1)
-    squares = np.array([(load[whole] ** 2).sum() for load in loads])
-    shares: FloatArray = squares / max(squares.sum(), np.finfo(float).tiny)
-    return shares
-
-
-class _Windows:
-    """Samples that follow each other, window by window."""
-
-    def __init__(self, time_s: FloatArray, window_s: float) -> None:
-        number = np.floor((time_s - time_s[0]) / window_s + 1e-9).astype(np.int64)
-        self.starts = np.flatnonzero(np.diff(number, prepend=-1))
-        self.counts = np.diff(self.starts, append=len(time_s))
-
-    def __len__(self) -> int:
-        return len(self.starts)
-
-    def means(self, values: FloatArray) -> FloatArray:
-        """Means of columns (n, k) over every window; shape (w, k)."""
-        means: FloatArray = np.add.reduceat(values, self.starts, axis=0) / self.counts[:, None]
-        return means
-
-    @property
-    def nodes(self) -> IntArray:
-        """Two samples of every window whose mean is that of a smooth signal over it (Gauss and Legendre)."""
-        offset = np.rint((self.counts[:, None] - 1) * (0.5 + np.array([-0.5, 0.5]) / np.sqrt(3.0)))
-        nodes: IntArray = (self.starts[:, None] + offset.astype(np.int64)).ravel()
-        return nodes
-
-
-def _samples(joints: JointMotion, rows: IntArray) -> JointMotion:
-    return JointMotion(
-        names=joints.names,
-        position=joints.position[rows],
-        velocity=joints.velocity[rows],
-        acceleration=joints.acceleration[rows],
-    )
-
-
-def _root_samples(root: RootMotion, rows: IntArray, n: int) -> RootMotion:
-    vectors = (root.proper_acceleration, root.angular_velocity, root.angular_acceleration)
-    proper, velocity, rate = (np.broadcast_to(values, (n, 3))[rows] for values in vectors)
-    return RootMotion(proper_acceleration=proper, angular_velocity=velocity, angular_acceleration=rate)
+    return np.array([(load[whole] ** 2).sum() for load in loads])

@@ -1,0 +1,123 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Windows of a stretch, each reduced to three instants.
+
+What is averaged over a window is a product of smooth signals, some with noise on top. A parabola takes most of the
+noise away and none of the motion of a quarter of a second; its values at the nodes of Gauss and Legendre give the mean
+of products of such parabolas to the fifth order. So a window costs three samples, however many it has.
+"""
+
+from __future__ import annotations
+
+from typing import Final
+
+import numpy as np
+
+from forcetorque.arrays import FloatArray
+from forcetorque.calibration.joint.stretch import Stretch
+from forcetorque.robot import JointMotion, RootMotion
+
+NODES: Final = 3
+"""Nodes of a window."""
+_PLACES = np.sqrt(0.6) * np.array([-1.0, 0.0, 1.0])
+"""Nodes, in halves of a window from its middle."""
+_MOMENT_S = 1e-4
+WEIGHTS: Final = np.array([5.0, 8.0, 5.0]) / 18.0
+"""Their weights in the mean over a window."""
+
+
+class WindowNodes:
+    """Windows of samples that follow each other."""
+
+    def __init__(self, time_s: FloatArray, window_s: float) -> None:
+        """Cut instants into windows.
+
+        Args:
+            time_s: Instants, rising; shape (n,), n > 0; s.
+            window_s: Length of a window; s.
+        """
+        number = np.floor((time_s - time_s[0]) / window_s + 1e-9).astype(np.int64)
+        self._starts = np.flatnonzero(np.diff(number, prepend=-1))
+        self.counts = np.diff(self._starts, append=len(time_s))
+        """Samples of every window; shape (w,)."""
+        self.time_s = self.means(time_s[:, None])[:, 0]
+        """Mean instants; shape (w,); s."""
+        extent = time_s[self._starts + self.counts - 1] - time_s[self._starts]
+        # samples stand for what lies between them; one alone, for a moment
+        self._half = np.where(self.counts > 1, 0.5 * extent * self.counts / np.maximum(self.counts - 1, 1), _MOMENT_S)
+        centred = time_s - np.repeat(self.time_s, self.counts)
+        self._basis = self._polynomials(centred / np.repeat(self._half, self.counts))
+        gram = np.add.reduceat(self._basis[:, :, None] * self._basis[:, None, :], self._starts, axis=0)
+        self._inverse = np.linalg.pinv(gram, rcond=1e-9, hermitian=True)
+
+    def __len__(self) -> int:
+        return len(self._starts)
+
+    def means(self, values: FloatArray) -> FloatArray:
+        """Average samples over every window.
+
+        Args:
+            values: Values of every sample; shape (n, k).
+
+        Returns:
+            Means; shape (w, k); NaN where a window has a gap.
+        """
+        means: FloatArray = np.add.reduceat(values, self._starts, axis=0) / self.counts[:, None]
+        return means
+
+    def node_means(self, values: FloatArray) -> FloatArray:
+        """Average values at nodes over every window.
+
+        Args:
+            values: Values at the nodes; shape (3 w, k).
+
+        Returns:
+            Means; shape (w, k).
+        """
+        means: FloatArray = np.einsum("n,wnk->wk", WEIGHTS, values.reshape(len(self), NODES, -1))
+        return means
+
+    def condensed(self, stretch: Stretch) -> Stretch:
+        """Reduce a stretch to its nodes.
+
+        Args:
+            stretch: The stretch, of the same n samples.
+
+        Returns:
+            Parabolas through its signals at the nodes; 3 w samples.
+        """
+        root = (stretch.root.proper_acceleration, stretch.root.angular_velocity, stretch.root.angular_acceleration)
+        proper, velocity, rate = (values if values.size == 3 else self._at_nodes(values) for values in root)
+        return Stretch(
+            label=stretch.label,
+            recording=stretch.recording,
+            session=stretch.session,
+            time_s=(self.time_s[:, None] + self._half[:, None] * _PLACES).ravel(),
+            tree=stretch.tree,
+            joints=JointMotion(
+                names=stretch.joints.names,
+                position=self._at_nodes(stretch.joints.position),
+                velocity=self._at_nodes(stretch.joints.velocity),
+                acceleration=self._at_nodes(stretch.joints.acceleration),
+            ),
+            root=RootMotion(proper_acceleration=proper, angular_velocity=velocity, angular_acceleration=rate),
+            readings={name: self._at_nodes(values) for name, values in stretch.readings.items()},
+            touched=stretch.touched,
+        )
+
+    def _at_nodes(self, values: FloatArray) -> FloatArray:
+        """Parabolas that fit samples best, at the nodes; shape (3 w, k)."""
+        products = np.stack(
+            [np.add.reduceat(column[:, None] * values, self._starts, axis=0) for column in self._basis.T], axis=1
+        )
+        parabolas = self._inverse @ products
+        nodes = np.stack([np.ones(NODES), _PLACES, 1.5 * _PLACES**2 - 0.5], axis=1)
+        at_nodes: FloatArray = (nodes @ parabolas).reshape(-1, values.shape[1])
+        return at_nodes
+
+    def _polynomials(self, place: FloatArray) -> FloatArray:
+        """Legendre's polynomials, of no higher degree than the samples of a window can tell; shape (n, 3)."""
+        count = np.repeat(self.counts, self.counts)
+        return np.stack(
+            [np.ones_like(place), place * (count > 1), (1.5 * place**2 - 0.5) * (count > 2)],
+            axis=1,
+        )
