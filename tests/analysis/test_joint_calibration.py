@@ -6,7 +6,7 @@ from __future__ import annotations
 import json
 import subprocess
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -14,10 +14,11 @@ from typing import Any
 import numpy as np
 import pytest
 
-from forcetorque.analysis import calibrate_jointly, untouched_stretch
+from forcetorque.analysis import calibrate_jointly, joint_interval
+from forcetorque.analysis.joint_outcome import JointOutcome
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration.joint import UNITS, JointFit, PartWindows, part_windows
-from forcetorque.errors import ExperimentError, SerialNumberError
+from forcetorque.errors import ExperimentError
 from forcetorque.experiment import Experiment, load_experiment
 from forcetorque.recording import Use
 from tests.page_scripts import unmarked
@@ -35,6 +36,12 @@ SPLITS = [
 ]
 """Fitted and judged seconds, and the largest share of the prior's moment residual."""
 PORTS = {"l_leg_ft_sensor": ("left_leg", "SN217"), "l_foot_ft_sensor": ("left_foot", "SN229")}
+
+
+def _calibrated(experiments: Sequence[Experiment], sensors: Sequence[str] | None = None) -> JointOutcome:
+    joint = calibrate_jointly(experiments, "out", sensors, code_version="1", created="2020-01-01").joint
+    assert joint is not None
+    return joint
 
 
 def _yoga(data_dir: Path, folder: Path, fitted: tuple[float, float], judged: tuple[float, float]) -> Experiment:
@@ -80,13 +87,13 @@ def test_the_shank_of_a_robot_that_stands_on_it(
 ) -> None:
     """Judged where it was not fitted: moments down to half in three of six splits, forces better in all."""
     experiment = _yoga(data_dir, tmp_path, fitted, judged)
-    result = calibrate_jointly([experiment])
-    fit = result.fit
+    joint = _calibrated([experiment])
+    fit = joint.fit
     # nothing is known of the torso, whose joints are not all in the log, nor of the foot on the ground
     assert fit.places.sensors == ("l_foot_ft_sensor", "l_leg_ft_sensor")
-    assert "part 'l_leg_ft_sensor' needs the joint(s)" in result.left_out[0]
+    assert "part 'l_leg_ft_sensor' needs the joint(s)" in joint.left_out[0]
     (interval,) = experiment.intervals(Use.VALIDATION)
-    one = untouched_stretch(experiment, interval, SHANK)
+    one = joint_interval(experiment, interval, SHANK, session="yoga").untouched
     (windows,) = part_windows(one.stretch, one.parts, fit.places.terms)
     before, after = _left(windows, None), _left(windows, fit)
     assert after[0] < before[0]
@@ -128,13 +135,37 @@ def test_a_robot_on_both_feet(stance: Path) -> None:
     Creep, slow noise, wrong masses and zeros are in the data. Without the correction for what shrinks with sensors and
     masses alike, gains came out 6 % small, by 3 N of 50 N.
     """
-    fit = calibrate_jointly([load_experiment(stance / "sway_day1.toml")]).fit
+    fit = _calibrated([load_experiment(stance / "sway_day1.toml")]).fit
     for name, before, after, ratio in _push_errors(stance, fit):
         if "arm" in name:  # a swaying robot hardly moves what its arms bear
             assert after < 1.5 * before
         else:
             assert after < 0.5 * before
         assert 0.2 < ratio < 1.6
+
+
+@pytest.mark.long
+def test_an_imu_on_another_link_is_named_by_what_is_left(stance: Path) -> None:
+    """Most parts disagree, and the sentence names the link; with the right one nothing is left that is worth a word."""
+    experiment = load_experiment(stance / "sway_day1.toml")
+    imu = experiment.recording.streams["imu"]
+    for link, doubtful in (("root_link", True), ("l_upper_arm", True), ("chest", False)):
+        moved = replace(imu, signals={name: replace(signal, frame=link) for name, signal in imu.signals.items()})
+        recording = replace(experiment.recording, streams={**experiment.recording.streams, "imu": moved})
+        doubts = list(_calibrated([replace(experiment, recording=recording)]).doubts())
+        assert any(f"come from {link}: is the IMU on that link" in doubt for doubt in doubts) == doubtful
+        assert bool(doubts) == doubtful
+
+
+@pytest.mark.long
+def test_a_robot_that_stands_still_says_that_its_gains_are_not_known(stance: Path) -> None:
+    """No load changes by a known weight: the priors decide, and the first warning says so."""
+    text = (stance / "standing_day2.toml").read_text(encoding="utf-8")
+    file = stance / "standing.toml"
+    file.write_text(text.replace('use = "validation"', 'use = "calibration"'), encoding="utf-8")
+    joint = _calibrated([load_experiment(file)])
+    assert not any(row.gain_known for row in joint.sensors)
+    assert next(joint.doubts()).startswith("stance gain not determined: l_leg_ft (±")
 
 
 @pytest.mark.long
@@ -152,7 +183,7 @@ def test_the_script_of_the_page_runs(stance: Path, monkeypatch: pytest.MonkeyPat
 def test_sway_and_steps_together(stance: Path) -> None:
     """Two recordings of a session share offsets; the predicted error stays about the true one."""
     files = ("sway_day1.toml", "stepping_day1.toml")
-    fit = calibrate_jointly([load_experiment(stance / file) for file in files]).fit
+    fit = _calibrated([load_experiment(stance / file) for file in files]).fit
     assert set(fit.places.offsets) == {(name, "day 1") for name in fit.places.sensors}
     for name, before, after, ratio in _push_errors(stance, fit):
         assert ratio < 1.6
@@ -163,13 +194,16 @@ def test_sway_and_steps_together(stance: Path) -> None:
 def test_what_cannot_be_calibrated_together_is_refused(arm: Path) -> None:
     """An arm with one sensor between its base and nothing: its one part is enough; other serial numbers are not."""
     experiment = load_experiment(arm / "parquet.toml")
-    fit = calibrate_jointly([experiment]).fit
+    fit = _calibrated([experiment]).fit
     assert fit.places.sensors == ("arm_ft",)
+    elsewhere = replace(experiment, file=experiment.file.with_name("other.toml"))
     sensor = replace(experiment.sensors[0], serial="other")
-    with pytest.raises(SerialNumberError, match="expected the sensor 'arm_ft' with the serial number"):
-        calibrate_jointly([experiment, replace(experiment, sensors=(sensor,))])
+    with pytest.raises(ExperimentError, match="expected the serial number of"):
+        _calibrated([experiment, replace(elsewhere, sensors=(sensor,))])
     sensor = replace(experiment.sensors[0], prior=2.0 * np.asarray(experiment.sensors[0].prior))
     with pytest.raises(ExperimentError, match="expected the prior matrix of"):
-        calibrate_jointly([experiment, replace(experiment, sensors=(sensor,))])
+        _calibrated([experiment, replace(elsewhere, sensors=(sensor,))])
+    with pytest.raises(ExperimentError, match="comes twice"):
+        _calibrated([experiment, experiment])
     with pytest.raises(ExperimentError, match="has no sensor 'leg'"):
-        calibrate_jointly([experiment], ["leg"])
+        _calibrated([experiment], ["leg"])

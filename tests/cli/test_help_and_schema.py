@@ -19,12 +19,13 @@ from tests.experiments import TEXTS
 
 COMMANDS = sorted(str(command.name) for command in app.registered_commands)
 ROOT = Path(__file__).parents[2]
-FILES = ("experiment", "acceptance", "scenario", "recording", "calibration", "moments")
+FILES = ("experiment", "acceptance", "scenario", "recording", "calibration", "joint", "moments")
 """What people write, and what is written to be read again."""
 JSON_SCHEMAS = (
     "experiment",
     "acceptance",
     "calibration",
+    "joint",
     "moments",
     "accept",
     "calibrate",

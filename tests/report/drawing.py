@@ -27,6 +27,7 @@ from forcetorque.analysis import (
     UseVerdict,
     group_trials,
 )
+from forcetorque.calibration.joint import PartResidual
 from forcetorque.evaluation.sphere import analyse_sphere
 from forcetorque.report.figures import (
     comparison_figure,
@@ -36,6 +37,7 @@ from forcetorque.report.figures import (
     force_space_figure,
     held_out_figure,
     index_figure,
+    joint_figure,
     lambda_difference_figure,
     lambda_force_figure,
     learnt_figure,
@@ -153,6 +155,30 @@ def learnt_of(rng: np.random.Generator) -> tuple[LearntDirection, ...]:
     )
 
 
+def _joint(rng: np.random.Generator) -> Figure:
+    time = np.arange(200) * 0.25
+    return joint_figure(
+        [
+            PartResidual(
+                part=part,
+                label=label,
+                recording="sway",
+                session="day 1",
+                root_link="chest",
+                sensors=(part, "l_foot_ft"),
+                time_s=time,
+                before=rng.normal(size=(200, 6)),
+                after=0.1 * rng.normal(size=(200, 6)),
+                at_sensors=rng.normal(size=(200, 2, 6)),
+                mass_kg=4.0,
+                kept=(time < 20.0) | (time > 21.0),
+            )
+            for part in ("chest", "l_leg_ft", "r_leg_ft")
+            for label in ("sway", "steps")
+        ]
+    )
+
+
 def _learnt(rng: np.random.Generator) -> Figure:
     return learnt_figure({"one recording": learnt_of(rng), "all": learnt_of(rng)})
 
@@ -260,6 +286,7 @@ FIGURES: dict[str, Callable[[np.random.Generator], Figure]] = {
     "residual": _residual,
     "excitation": _excitation,
     "held out": _held_out,
+    "joint": _joint,
     "learnt": _learnt,
     "index": _index,
     "use": _use,

@@ -49,7 +49,8 @@ from forcetorque.analysis.inspect import (
     inspect_log,
 )
 from forcetorque.analysis.interval_quality import IntervalQuality
-from forcetorque.analysis.joint_calibration import calibrate_jointly, untouched_stretch
+from forcetorque.analysis.joint_calibration import JOINT_FILE, calibrate_jointly, calibration_file
+from forcetorque.analysis.joint_interval import joint_interval
 from forcetorque.analysis.joint_torques import JointTorqueErrors, JointTorques, joint_torques
 from forcetorque.analysis.judged import JudgedWrenches
 from forcetorque.analysis.learnt import LITTLE_LEARNT, LearntDirection, learnt_directions, learnt_words, to_learn
@@ -162,7 +163,10 @@ __all__ = [
     "assess_experiment",
     "by_sensor",
     "calibrate_for_file",
+    "JOINT_FILE",
     "calibrate_jointly",
+    "calibration_file",
+    "joint_interval",
     "calibrate_sensor",
     "check",
     "compare",
@@ -203,5 +207,4 @@ __all__ = [
     "study_warnings",
     "summarise_estimates",
     "weigh_load",
-    "untouched_stretch",
 ]

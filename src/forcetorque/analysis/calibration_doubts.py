@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from forcetorque.calibration import GENERATIVE, CalibratedVariable, Calibration
+from forcetorque.calibration import CalibratedVariable, Calibration
 from forcetorque.spatial import WRENCH_COMPONENTS
 
 
@@ -51,7 +51,7 @@ def _unmoved(calibration: Calibration) -> Iterator[str]:
 def _left_prior(calibration: Calibration) -> Iterator[str]:
     """A type of the thesis shrinks the matrix where no load speaks; the generative model keeps the prior there."""
     excited = calibration.validity.excited
-    if calibration.estimation_type == GENERATIVE or not (unexcited := excited.count(False)):
+    if calibration.posterior is not None or not (unexcited := excited.count(False)):
         return
     yield (
         f"the loads leave {unexcited} of {len(excited)} raw directions unexcited; along them "

@@ -6,7 +6,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from forcetorque.calibration import GENERATIVE, Calibration, SessionOffset
+from forcetorque.calibration import JOINT, Calibration, SessionOffset
 from forcetorque.result import COMPONENTS, Table, number, with_error
 from forcetorque.spatial import WRENCH_COMPONENTS, WRENCH_UNITS
 
@@ -33,7 +33,7 @@ def calibration_blocks(calibration: Calibration) -> Iterator[Table | str]:
         yield from calibration.nonlinear.successes()
     if len(calibration.sessions) > 1:
         yield session_table(calibration)
-    if calibration.estimation_type != GENERATIVE:
+    if calibration.posterior is None:
         yield _excitation_table(calibration)
 
 
@@ -65,6 +65,8 @@ def _estimator_text(calibration: Calibration) -> str:
     posterior = calibration.posterior
     if posterior is None:
         return f"{calibration.estimation_type}, lambda {_lambda_text(calibration)}"
+    if calibration.estimation_type == JOINT:
+        return f"joint calibration, repeatability {posterior.repeatability:g}"
     accuracy = posterior.accuracy
     return (
         f"generative model, accuracy of the reference {accuracy[:3].max():.3g} N and {accuracy[3:].max():.3g} N m, "

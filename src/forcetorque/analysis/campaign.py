@@ -93,6 +93,18 @@ class Campaign:
         """
         return self.recordings[self.runs.index(run)]
 
+    def label(self, run: SensorRun, label: str) -> str:
+        """Name an interval of one of the runs.
+
+        Args:
+            run: The run that has it.
+            label: Label of the interval.
+
+        Returns:
+            Its name, unique in the campaign.
+        """
+        return self.names.label(self._recordings[self.runs.index(run)], label)
+
     def session(self, run: SensorRun, label: str) -> str:
         """Name the session of an interval: a stretch of time in which the sensor keeps its offset.
 

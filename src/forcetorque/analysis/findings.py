@@ -32,7 +32,7 @@ def inspect_recording(recording: Recording) -> tuple[Finding, ...]:
     return (*recording.findings, *(f for stream in recording.streams.values() for f in stream_findings(stream)))
 
 
-def inspect_experiment(experiment: Experiment) -> tuple[Finding, ...]:
+def inspect_experiment(experiment: Experiment, *, by_model: bool = True) -> tuple[Finding, ...]:
     """Look for what is wrong with the recording of an experiment, with its robot and sensors.
 
     The sensors are compared with the model over the whole log where all intervals have one support
@@ -40,6 +40,7 @@ def inspect_experiment(experiment: Experiment) -> tuple[Finding, ...]:
 
     Args:
         experiment: The experiment.
+        by_model: Whether sensors are compared with the model, as if nothing but the support touched the robot.
 
     Returns:
         Findings in the order of time, those without a time first.
@@ -51,7 +52,7 @@ def inspect_experiment(experiment: Experiment) -> tuple[Finding, ...]:
         except ForceTorqueError as error:
             text = f"no look for saturation: {error}"
             found.append(Finding(stream=sensor.stream, kind="not_compared", message=text, count=0))
-        for interval in _spans(experiment):
+        for interval in _spans(experiment) if by_model else ():
             try:
                 found += _against_model(SensorRun(experiment, sensor), interval)
             except ForceTorqueError as error:
@@ -60,17 +61,18 @@ def inspect_experiment(experiment: Experiment) -> tuple[Finding, ...]:
     return tuple(sorted(found, key=lambda finding: finding.start_ns or 0))
 
 
-def doubtful_spans(experiment: Experiment, use: Use) -> tuple[tuple[Interval, Finding], ...]:
+def doubtful_spans(experiment: Experiment, use: Use, *, by_model: bool = True) -> tuple[tuple[Interval, Finding], ...]:
     """Find what `inspect_experiment` sees inside the intervals of one use.
 
     Args:
         experiment: The experiment.
         use: Use of the intervals.
+        by_model: As of `inspect_experiment`.
 
     Returns:
         Interval and finding, for findings that make its samples doubtful.
     """
-    findings = [finding for finding in inspect_experiment(experiment) if finding.kind in _DOUBTFUL]
+    findings = [finding for finding in inspect_experiment(experiment, by_model=by_model) if finding.kind in _DOUBTFUL]
     return tuple(
         (interval, finding)
         for interval in experiment.recording.intervals

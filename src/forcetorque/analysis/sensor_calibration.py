@@ -15,11 +15,14 @@ from forcetorque.analysis.calibration_doubts import fit_doubts
 from forcetorque.analysis.calibration_tables import calibration_blocks, component_records
 from forcetorque.analysis.campaign import Campaign, Runs
 from forcetorque.analysis.findings import doubtful_spans
+from forcetorque.analysis.joint_outcome import JointOutcome
 from forcetorque.analysis.learnt import LearntDirection, learnt_directions, learnt_words
 from forcetorque.analysis.sensor_run import SensorRun
 from forcetorque.array_field import ArrayField
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration import Calibration, EstimationType, RecordingMoments, write_calibration
+from forcetorque.experiment import Experiment
+from forcetorque.experiment.contacts import contacts_in
 from forcetorque.recording import Use
 from forcetorque.result import Result, Row, Table, table_of
 
@@ -46,6 +49,8 @@ class SensorCalibrations(Result):
     """Name of the experiment."""
     calibrations: tuple[SensorCalibration, ...]
     """One per sensor that could be fitted."""
+    joint: JointOutcome | None = None
+    """What a joint calibration says beside that; None where every sensor was calibrated alone."""
     figure: str | None = None
     """File of the figure of what the recordings taught; none where none was drawn."""
 
@@ -55,6 +60,8 @@ class SensorCalibrations(Result):
             file = Path(entry.file)
             file.parent.mkdir(parents=True, exist_ok=True)
             write_calibration(file, entry.calibration)
+        if self.joint is not None and self.joint.file is not None:
+            self.joint.posterior.save(self.joint.file)
 
     def blocks(self) -> Iterator[Table | str]:
         """Give matrix, variables and excitation of every sensor.
@@ -68,6 +75,8 @@ class SensorCalibrations(Result):
                 yield table_of(entry.learnt, "what the recordings taught: error that a unit load makes, one s.d.")
                 yield learnt_words(entry.learnt)
             yield f"written to {entry.file}"
+        if self.joint is not None:
+            yield from self.joint.blocks()
         if self.figure is not None:
             yield f"drawn to {self.figure}"
 
@@ -130,14 +139,16 @@ def calibrate_for_file(
     )
 
 
-def data_doubts(run: SensorRun) -> Iterator[str]:
+def data_doubts(run: SensorRun, *, by_model: bool = True) -> Iterator[str]:
     """Say what makes any fit on the calibration intervals doubtful.
 
     Args:
         run: The sensor.
+        by_model: Whether it is compared with the model, as if nothing but the support touched the robot.
 
     Yields:
-        A sentence where the load was weighed with the sensor itself, and one per finding in a fitted interval.
+        A sentence where the load was weighed with the sensor itself, one per interval in which the file says that
+        something else may touch the robot, and one per finding in a fitted interval.
     """
     experiment = run.experiment
     if experiment.payload is not None:
@@ -145,10 +156,23 @@ def data_doubts(run: SensorRun) -> Iterator[str]:
             "the load's mass was estimated with this sensor's own reading, so a wrong gain cannot be seen; "
             "give mass_kg and centre_of_mass_m to judge it"
         )
-    start_ns = experiment.recording.start_ns
-    for interval, finding in doubtful_spans(replace(experiment, sensors=(run.sensor,)), Use.CALIBRATION):
+    if by_model:
+        yield from _touched(experiment)
+    start_ns, alone = experiment.recording.start_ns, replace(experiment, sensors=(run.sensor,))
+    for interval, finding in doubtful_spans(alone, Use.CALIBRATION, by_model=by_model):
         start, end = (((stamp_ns or 0) - start_ns) * 1e-9 for stamp_ns in (finding.start_ns, finding.end_ns))
         yield (
             f"interval {interval.label!r}: {finding.stream} {finding.kind} at {start:.2f}-{end:.2f} s: "
             f"{finding.message}"
         )
+
+
+def _touched(experiment: Experiment) -> Iterator[str]:
+    """Intervals in which one sensor alone is fitted as if nothing but the support touched the robot."""
+    for interval in experiment.intervals(Use.CALIBRATION):
+        if present := contacts_in(interval, experiment.contacts):
+            names = ", ".join(entry.contact.name for entry in present)
+            yield (
+                f"interval {interval.label!r}: {names} may touch the robot too, by [[contact]]; a sensor by itself is "
+                "fitted as if nothing but the support did. Calibrate --jointly, or name intervals in [[contact]]"
+            )

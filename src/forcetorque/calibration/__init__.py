@@ -3,6 +3,7 @@
 
 from forcetorque.calibration.artefact import (
     GENERATIVE,
+    JOINT,
     CalibratedVariable,
     Calibration,
     FittedInterval,
@@ -73,6 +74,7 @@ __all__ = [
     "Assumptions",
     "ESTIMATION_TYPES",
     "GENERATIVE",
+    "JOINT",
     "RULE",
     "CalibratedVariable",
     "Calibration",

@@ -44,6 +44,9 @@ _EARLIER: Final = ("forcetorque/calibration/1", "forcetorque/calibration/2")
 GENERATIVE: Final = "generative"
 """Name of the default estimator among the estimation types."""
 
+JOINT: Final = "joint"
+"""Name of the estimator of all sensors at once among the estimation types."""
+
 
 def _lambda_from_file(value: Any) -> Any:
     return math.inf if value == "infinite" else value
@@ -224,7 +227,9 @@ class Calibration(Part):
     nonlinear: NonlinearTrial | None = None
     """Whether such a correction won on recordings that were not fitted; None where it was not asked for."""
     estimation_type: str = "OnTdTO"
-    """`generative`, or a type of thesis 5.1.4; `by axis` where every row has its own, see `selection`."""
+    """`generative`, `joint`, or a type of thesis 5.1.4; `by axis` where every row has its own, see `selection`."""
+    joint: str | None = None
+    """File beside it with the covariance of all sensors that were calibrated together; None for one alone."""
     posterior: Posterior | None = None
     """What the generative model knows, from which the error of any reading follows; None for the thesis' types."""
     raw_offset_counts: Annotated[FloatArray, ArrayField((None,))] | None = None

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Annotated, Any, Final, Literal
 
 import numpy as np
-from pydantic import ConfigDict, Field, ValidationError
+from pydantic import ConfigDict, Field
 
 from forcetorque.array_field import ArrayField
 from forcetorque.arrays import FloatArray, IntArray
@@ -20,8 +20,8 @@ from forcetorque.calibration.generative.assumptions import Assumptions
 from forcetorque.calibration.generative.means import WindowMeans
 from forcetorque.calibration.linear_variable import LinearVariable
 from forcetorque.calibration.moments import Moments
-from forcetorque.calibration.part import Part
-from forcetorque.errors import FitError, FormatError, MissingFileError, ShapeError
+from forcetorque.calibration.part import Part, read_part
+from forcetorque.errors import FitError
 
 SCHEMA: Final = "forcetorque/moments/1"
 """Name and version of the file's form."""
@@ -261,24 +261,10 @@ def read_moments(path: Path | str) -> RecordingMoments:
 
     Returns:
         The moments.
-
-    Raises:
-        MissingFileError: If there is no such file.
-        FormatError: If it is not JSON, or not of this form.
     """
-    file = Path(path)
-    if not file.is_file():
-        raise MissingFileError(f"{file}: expected a file of moments, there is none; `calibrate --moments` makes one")
-    try:
-        return RecordingMoments.model_validate(json.loads(file.read_text(encoding="utf-8")))
-    except (json.JSONDecodeError, UnicodeDecodeError, RecursionError) as error:
-        raise FormatError(f"{file}: expected JSON, got {error}") from error
-    except ValidationError as error:
-        first = error.errors()[0]
-        where = ".".join(str(place) for place in first["loc"])
-        raise FormatError(f"{file}: {where}: {first['msg']}; the file was changed by hand or cut") from error
-    except ShapeError as error:
-        raise FormatError(f"{file}: {error}") from error
+    return read_part(
+        path, RecordingMoments, expected="a file of moments, there is none; `calibrate --moments` makes one"
+    )
 
 
 def require_same_sensor(recordings: Sequence[RecordingMoments]) -> None:

@@ -52,13 +52,25 @@ def calibrate(
             "what the experiment says, else not.",
         ),
     ] = None,
+    jointly: Annotated[
+        bool,
+        typer.Option(
+            "--jointly",
+            help="All sensors at once, from parts of the robot between them that nothing touches, whatever the feet "
+            "do; see docs/joint.md.",
+        ),
+    ] = False,
     moments: Annotated[
         Path | None,
         typer.Option("--moments", help="Folder to keep what the fit needs of each recording, to be added to others."),
     ] = None,
     figure: Annotated[
         Path | None,
-        typer.Option("--figure", help="PNG of what the recordings taught: errors of every load, before and after."),
+        typer.Option(
+            "--figure",
+            help="PNG of what the recordings taught: errors of every load, before and after; with --jointly what is "
+            "left of the equation of every part.",
+        ),
     ] = None,
     output_format: FormatOption = Format.TABLE,
 ) -> None:
@@ -70,6 +82,7 @@ def calibrate(
     from importlib.metadata import version
 
     from forcetorque import analysis
+    from forcetorque.cli.calibrate_jointly import calibrate_together, refuse_beside_jointly
     from forcetorque.cli.figure_file import refuse_figure
     from forcetorque.cli.reading import campaign_of, read_experiments, refuse_inputs, stored_moments
     from forcetorque.experiment.inputs import stated_in
@@ -77,6 +90,11 @@ def calibrate(
     log = start_logging()
     refuse_standard_output("--output", output)
     refuse_figure(figure)
+    if jointly:
+        alone = {"--lambda": regularisation, "--type": kind, "--nonlinear": nonlinear, "--moments": moments}
+        refuse_beside_jointly(alone)
+        calibrate_together(experiments, output, sensor, figure, log, output_format)
+        return
     stored = stored_moments(experiments)
     contents = read_experiments([path for path in experiments if path.suffix != ".json"], log)
     names = _sensors(contents, stored, sensor)
@@ -176,7 +194,7 @@ def _sensors(
 
 
 def _files(output: Path, sensors: Sequence[tuple[str, str]]) -> list[Path]:
-    from urllib.parse import quote
+    from forcetorque.analysis import calibration_file
 
     if output.suffix == ".json":
         if len(sensors) != 1:
@@ -186,8 +204,7 @@ def _files(output: Path, sensors: Sequence[tuple[str, str]]) -> list[Path]:
         return [output]
     if output.exists() and not output.is_dir():
         raise ExperimentError(f"--output {output}: expected a folder or a .json file, got another file")
-    # quoted, because a name or a serial number may hold a slash
-    return [output / f"{quote(f'{name}_{serial}', safe=' ')}.json" for name, serial in sensors]
+    return [output / calibration_file(name, serial) for name, serial in sensors]
 
 
 def _kind(text: str | None) -> EstimationType | Literal["generative"] | None:

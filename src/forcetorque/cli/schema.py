@@ -17,8 +17,8 @@ def schema(
     name: Annotated[
         str,
         typer.Argument(
-            help="experiment, acceptance, scenario, recording, calibration or moments for a file; a command for its "
-            "result."
+            help="experiment, acceptance, scenario, recording, calibration, joint or moments for a file; a command for "
+            "its result."
         ),
     ],
 ) -> None:
@@ -39,6 +39,7 @@ def _require(name: str, known: dict[str, Callable[[], dict[str, Any]]]) -> None:
 def _files() -> dict[str, Callable[[], dict[str, Any]]]:
     from forcetorque.analysis import AcceptanceFile
     from forcetorque.calibration import Calibration, RecordingMoments
+    from forcetorque.calibration.joint import JointPosterior
     from forcetorque.experiment import ExperimentFile
     from forcetorque.recording import recording_schema
     from forcetorque.simulation.scenario import ScenarioFile
@@ -49,6 +50,7 @@ def _files() -> dict[str, Callable[[], dict[str, Any]]]:
         "scenario": ScenarioFile.model_json_schema,
         "recording": recording_schema,
         "calibration": Calibration.model_json_schema,
+        "joint": JointPosterior.model_json_schema,
         "moments": RecordingMoments.model_json_schema,
     }
 

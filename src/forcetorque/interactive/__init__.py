@@ -2,7 +2,7 @@
 """What scripts and notebooks hold: an experiment, from a file or from arrays, and its sensors with every question."""
 
 from forcetorque.interactive.arrays import experiment_of_arrays
-from forcetorque.interactive.experiment import Experiment, load_experiment
+from forcetorque.interactive.experiment import Experiment, calibrate_jointly, load_experiment
 from forcetorque.interactive.run import Run
 
-__all__ = ["Experiment", "Run", "experiment_of_arrays", "load_experiment"]
+__all__ = ["Experiment", "Run", "calibrate_jointly", "experiment_of_arrays", "load_experiment"]

@@ -3,11 +3,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import fields
+from datetime import UTC, datetime
+from importlib.metadata import version
 from pathlib import Path
 from typing import Self
 
+from forcetorque import analysis
 from forcetorque import experiment as experiments
+from forcetorque.analysis import SensorCalibrations
+from forcetorque.calibration.joint import ModelTolerance
 from forcetorque.interactive.run import Run
 from forcetorque.result import Table, html_table
 
@@ -77,3 +83,28 @@ def load_experiment(path: Path | str) -> Experiment:
         ExperimentError: If the file contradicts itself, the robot or the recording.
     """
     return Experiment.of(experiments.load_experiment(path))
+
+
+def calibrate_jointly(
+    recordings: Sequence[experiments.Experiment],
+    sensors: Sequence[str] | None = None,
+    *,
+    folder: Path | str = ".",
+    tolerance: ModelTolerance | None = None,
+) -> SensorCalibrations:
+    """Calibrate all sensors of a robot at once, from parts between them that nothing touches.
+
+    Args:
+        recordings: Experiments with one robot.
+        sensors: Sensors to calibrate; all of the first file if None.
+        folder: Where `save` of the result writes a file per sensor, and what they share.
+        tolerance: How far the robot model may be off; `ModelTolerance()` if None.
+
+    Returns:
+        A calibration per sensor in `calibrations`, and in `joint` what they share: errors of the model, what is left of
+        the equations, spans that were touched.
+    """
+    created = datetime.now(UTC).isoformat(timespec="seconds")
+    return analysis.calibrate_jointly(
+        recordings, folder, sensors, code_version=version("forcetorque"), created=created, tolerance=tolerance
+    )

@@ -3,8 +3,10 @@
 
 from forcetorque.calibration.joint.calibrate import JointResult, UntouchedStretch, fit_stretches
 from forcetorque.calibration.joint.fit import JointFit, fit_jointly
+from forcetorque.calibration.joint.joint_posterior import JointPosterior, read_joint_posterior
 from forcetorque.calibration.joint.model_error import EXACT, ErrorTerm, ModelTolerance, error_terms
 from forcetorque.calibration.joint.residual import PartResidual
+from forcetorque.calibration.joint.sensor_posterior import sensor_posterior
 from forcetorque.calibration.joint.stretch import Stretch
 from forcetorque.calibration.joint.sums import PartSums, Places, part_sums
 from forcetorque.calibration.joint.touch import Touch, residuals, untouched
@@ -15,6 +17,7 @@ __all__ = [
     "UNITS",
     "ErrorTerm",
     "JointFit",
+    "JointPosterior",
     "JointResult",
     "ModelTolerance",
     "PartResidual",
@@ -29,7 +32,9 @@ __all__ = [
     "fit_jointly",
     "part_sums",
     "part_windows",
+    "read_joint_posterior",
     "residuals",
+    "sensor_posterior",
     "untouched",
     "window_means",
 ]

@@ -27,6 +27,8 @@ class PartResidual:
     """Recording that it is of."""
     session: str
     """Session that it is of."""
+    root_link: str
+    """Link whose motion is known."""
     sensors: tuple[str, ...]
     """The k sensors of the part."""
     time_s: FloatArray
@@ -65,6 +67,7 @@ class PartResidual:
             label=stretch.label,
             recording=stretch.recording,
             session=stretch.session,
+            root_link=stretch.tree.root_link,
             sensors=windows.sensors,
             time_s=windows.time_s,
             before=residuals(windows, None) * UNITS,

@@ -9,6 +9,7 @@ from forcetorque.report.figures.excitation import excitation_figure
 from forcetorque.report.figures.force_space import force_space_figure
 from forcetorque.report.figures.gains import gain_figure
 from forcetorque.report.figures.held_out import held_out_figure
+from forcetorque.report.figures.joint import joint_figure
 from forcetorque.report.figures.lambda_difference import lambda_difference_figure
 from forcetorque.report.figures.lambda_force import lambda_force_figure
 from forcetorque.report.figures.learnt import learnt_figure
@@ -26,6 +27,7 @@ __all__ = [
     "gain_figure",
     "held_out_figure",
     "index_figure",
+    "joint_figure",
     "lambda_difference_figure",
     "lambda_force_figure",
     "learnt_figure",

@@ -1,0 +1,201 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Rows of a joint calibration: errors of its sensors, what is left of its equations, what is wrong with the model."""
+
+from __future__ import annotations
+
+from typing import Annotated, Self
+
+import numpy as np
+
+from forcetorque.arrays import FloatArray
+from forcetorque.calibration.joint import ErrorTerm, JointFit, PartResidual, Touch
+from forcetorque.constants import STANDARD_GRAVITY
+from forcetorque.result import Row, Shown
+
+_GAIN_PERCENT = 3.0
+"""Error of a gain from which it counts as not determined: as large as that of the masses that tell it."""
+_KNOWN = 0.5
+"""Share of the uncertainty before below which an error of the model counts as told by the recordings."""
+_FAR = 3.0
+"""Standard deviations from which an error of the model is a finding: by chance one in 400 is as far."""
+_TOLD = 0.2
+"""Share of the variance that recordings must have told of an error before it can be a finding."""
+
+
+class SensorErrorRow(Row):
+    """How far one sensor is to be trusted at the load that it bore."""
+
+    sensor: Annotated[str, Shown("sensor")]
+    """Name of the sensor."""
+    load_N: Annotated[float, Shown("mean load", "N", digits=1)]
+    """Magnitude of its mean force in the fitted windows."""
+    error_before_N: Annotated[float, Shown("force error before", "N", digits=2)]
+    """Predicted standard deviation of the force error of that load by the prior matrix, offset known."""
+    error_after_N: Annotated[float, Shown("after", "N", digits=2)]
+    """The same by the calibration."""
+    gain_error_before_percent: Annotated[float, Shown("gain error before", "%", digits=2)]
+    """Predicted standard deviation of the error along the load, of its magnitude, by the prior matrix."""
+    gain_error_after_percent: Annotated[float, Shown("after", "%", digits=2)]
+    """The same by the calibration."""
+
+    @property
+    def gain_known(self) -> bool:
+        """Whether it is known what the sensor makes of the weight that it bears."""
+        return self.gain_error_after_percent < _GAIN_PERCENT
+
+    @classmethod
+    def of(cls, fit: JointFit, sensor: str, load: FloatArray) -> Self:
+        """Predict the errors of a sensor.
+
+        Args:
+            fit: The fit.
+            sensor: The sensor.
+            load: Its mean load; shape (6,); N, N m.
+
+        Returns:
+            The row.
+        """
+        size = max(float(np.linalg.norm(load[:3])), np.finfo(float).tiny)
+        along = load[:3] / size
+        before, after = fit.prior_error_covariance(sensor, load)[:3, :3], fit.error_covariance(sensor, load)[:3, :3]
+        gains = [100.0 * float(np.sqrt(along @ one @ along)) / size for one in (before, after)]
+        return cls(
+            sensor=sensor,
+            load_N=size,
+            error_before_N=float(np.sqrt(np.trace(before))),
+            error_after_N=float(np.sqrt(np.trace(after))),
+            gain_error_before_percent=gains[0],
+            gain_error_after_percent=gains[1],
+        )
+
+
+class PartRow(Row):
+    """What is left of the equation of one part in one interval: root mean square over the windows that were fitted."""
+
+    part: Annotated[str, Shown("part")]
+    """Name of the part: the sensor at its base, or the link whose motion is known."""
+    sensors: tuple[str, ...]
+    """Its sensors."""
+    root_link: str
+    """Link whose motion is known, and about whose origin moments are."""
+    interval: Annotated[str, Shown("interval")]
+    """Label of the interval."""
+    windows: Annotated[int, Shown("windows")]
+    """Windows that were fitted."""
+    left_out: Annotated[int, Shown("left out")]
+    """Windows that disagree with the others."""
+    mass_kg: Annotated[float, Shown("mass", "kg", digits=2)]
+    """Mass of its bodies."""
+    force_before_N: Annotated[float, Shown("force before", "N", digits=2)]
+    """Sensors less what moves the bodies, by the prior matrices and the best offsets."""
+    force_after_N: Annotated[float, Shown("after", "N", digits=2)]
+    """The same by the calibrations."""
+    moment_before_Nm: Annotated[float, Shown("moment before", "N m", digits=3)]
+    """Moments about the root link, by the prior matrices and the best offsets."""
+    moment_after_Nm: Annotated[float, Shown("after", "N m", digits=3)]
+    """The same by the calibrations."""
+
+    @property
+    def share_of_weight(self) -> float:
+        """Force that is left, over the weight of the bodies."""
+        return self.force_after_N / max(self.weight_N, np.finfo(float).tiny)
+
+    @property
+    def weight_N(self) -> float:
+        """Weight of the bodies."""
+        return STANDARD_GRAVITY * self.mass_kg
+
+    @classmethod
+    def of(cls, residual: PartResidual) -> Self:
+        """Sum up what is left of an equation.
+
+        Args:
+            residual: What is left, window by window.
+
+        Returns:
+            The row.
+        """
+        kept = residual.kept
+        sizes = [
+            float(np.sqrt((values[kept][:, part] ** 2).sum(axis=1).mean()))
+            for part in (slice(3), slice(3, 6))
+            for values in (residual.before, residual.after)
+        ]
+        return cls(
+            part=residual.part,
+            sensors=residual.sensors,
+            root_link=residual.root_link,
+            interval=residual.label,
+            windows=int(np.count_nonzero(kept)),
+            left_out=int(np.count_nonzero(~kept)),
+            mass_kg=residual.mass_kg,
+            force_before_N=sizes[0],
+            force_after_N=sizes[1],
+            moment_before_Nm=sizes[2],
+            moment_after_Nm=sizes[3],
+        )
+
+
+class ModelErrorRow(Row):
+    """One number that the robot model or the IMU may have wrong."""
+
+    name: Annotated[str, Shown("error of the model")]
+    """What it is, such as `mass of l_upper_leg`."""
+    unit: Annotated[str, Shown("unit")]
+    """Its unit; empty for a share."""
+    value: Annotated[float, Shown("found", digits=4, error="deviation")]
+    """What is to be added to what the model says."""
+    deviation: float
+    """Its standard deviation."""
+    prior_deviation: Annotated[float, Shown("tolerance", digits=4)]
+    """Standard deviation before any data."""
+
+    @property
+    def learnt(self) -> bool:
+        """Whether the recordings tell most of it."""
+        return self.deviation < _KNOWN * self.prior_deviation
+
+    @property
+    def is_far(self) -> bool:
+        """Whether it is farther from what the model says than it would be by chance, and the recordings tell it."""
+        told = self.prior_deviation**2 - self.deviation**2  # variance of what is found, if the tolerance is right
+        return told > _TOLD * self.prior_deviation**2 and self.value**2 > _FAR**2 * told
+
+    @classmethod
+    def of(cls, term: ErrorTerm, value: float, deviation: float) -> Self:
+        """Hold an error of the model.
+
+        Args:
+            term: What it is.
+            value: What was found.
+            deviation: Its standard deviation.
+
+        Returns:
+            The row.
+        """
+        return cls(name=term.name, unit=term.unit, value=value, deviation=deviation, prior_deviation=term.deviation)
+
+
+class TouchRow(Row):
+    """A span of time that was left out because a part's equation does not hold."""
+
+    part: Annotated[str, Shown("part")]
+    """Name of the part."""
+    interval: Annotated[str, Shown("interval")]
+    """Label of the interval."""
+    start_s: Annotated[float, Shown("from", "s", digits=2)]
+    """Start; s on the clock of the recording."""
+    end_s: Annotated[float, Shown("to", "s", digits=2)]
+    """End; s."""
+
+    @classmethod
+    def of(cls, touch: Touch) -> Self:
+        """Hold a span.
+
+        Args:
+            touch: The span.
+
+        Returns:
+            The row.
+        """
+        return cls(part=touch.part, interval=touch.label, start_s=touch.start_s, end_s=touch.end_s)

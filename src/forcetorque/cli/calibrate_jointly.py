@@ -1,0 +1,82 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""`forcetorque calibrate --jointly`: all sensors of a robot at once."""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Mapping, Sequence
+from datetime import UTC, datetime
+from importlib.metadata import version
+from pathlib import Path
+
+from forcetorque.analysis import JOINT_FILE, SensorCalibrations, calibrate_jointly, calibration_file
+from forcetorque.atomic import write_bytes_atomically
+from forcetorque.cli.output import Format, show
+from forcetorque.cli.reading import read_experiments, refuse_inputs, sensors_named
+from forcetorque.errors import ExperimentError
+
+
+def refuse_beside_jointly(options: Mapping[str, object]) -> None:
+    """Refuse options that only a sensor by itself has.
+
+    Args:
+        options: Values by option; None where it was not given.
+
+    Raises:
+        ExperimentError: If one was given.
+    """
+    for option, value in options.items():
+        if value is not None:
+            raise ExperimentError(f"{option}: a joint calibration has no such choice; leave out {option} or --jointly")
+
+
+def calibrate_together(
+    experiments: Sequence[Path],
+    output: Path,
+    sensors: Sequence[str] | None,
+    figure: Path | None,
+    log: logging.Logger,
+    output_format: Format,
+) -> None:
+    """Calibrate all sensors at once, write and show what comes out.
+
+    Args:
+        experiments: Experiment files.
+        output: Folder for the calibrations.
+        sensors: Names of the sensors; None for all of the first file.
+        figure: File for the figure of what is left of the equations; None for none.
+        log: Where messages go.
+        output_format: Form of the result.
+
+    Raises:
+        ExperimentError: If the output is not a folder.
+    """
+    if output.suffix == ".json" or (output.exists() and not output.is_dir()):
+        raise ExperimentError(
+            f"--output {output}: expected a folder, for one file per sensor and {JOINT_FILE} with what they share"
+        )
+    contents = read_experiments(experiments, log)
+    names = [sensor.name for sensor in sensors_named(next(iter(contents.values())), sensors)]
+    first = next(iter(contents.values()))
+    files = [output / calibration_file(name, first.sensor(name).serial) for name in names]
+    refuse_inputs([*files, output / JOINT_FILE], experiments)
+    result = calibrate_jointly(
+        list(contents.values()),
+        output,
+        names,
+        code_version=version("forcetorque"),
+        created=datetime.now(UTC).isoformat(timespec="seconds"),
+        progress=log.info,
+    )
+    result.save()
+    show(_drawn(result, figure) if figure is not None else result, output_format)
+
+
+def _drawn(result: SensorCalibrations, figure: Path) -> SensorCalibrations:
+    from forcetorque.report.figures import joint_figure
+    from forcetorque.report.figures.canvas import png_bytes
+
+    if result.joint is None:
+        return result
+    write_bytes_atomically(figure, png_bytes(joint_figure(result.joint.residuals)))
+    return result.model_copy(update={"figure": str(figure)})

@@ -1,0 +1,87 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Windows as three nodes: exact for parabolas and their products, quiet for noise, honest about gaps."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from forcetorque.calibration.joint import Stretch
+from forcetorque.calibration.joint.nodes import WindowNodes
+from tests.calibration.joint.swaying import swaying
+
+
+def _with_readings(stretch: Stretch, values: np.ndarray) -> Stretch:
+    return Stretch(
+        label="",
+        recording="",
+        session="",
+        time_s=stretch.time_s,
+        tree=stretch.tree,
+        joints=stretch.joints,
+        root=stretch.root,
+        readings={"one": values},
+        touched=(),
+    )
+
+
+def test_products_of_parabolas_have_their_exact_means() -> None:
+    """The product is of fourth degree; its mean over a window is that of the integral."""
+    stretch = swaying(1, noise=0.0).stretch
+    time = stretch.time_s
+    windows = WindowNodes(time, 0.25)
+    values = np.stack([1.0 + 3.0 * time - 2.0 * time**2] * 6, axis=1)
+    (at_nodes,) = windows.condensed(_with_readings(stretch, values)).readings.values()
+    squares = windows.node_means(at_nodes**2)[:, 0]
+    polynomial = np.polynomial.Polynomial([1.0, 3.0, -2.0])
+    integral = (polynomial**2).integ()
+    half = 0.125
+    whole = windows.counts == 25
+    exact = (integral(windows.time_s + half) - integral(windows.time_s - half)) / (2.0 * half)
+    np.testing.assert_allclose(squares[whole], exact[whole], rtol=1e-9)
+
+
+def test_noise_is_averaged_as_far_as_a_parabola_can() -> None:
+    """The mean over the nodes is nearly that over the samples: noise of 25 samples is down to a fifth."""
+    stretch = swaying(1, noise=0.0).stretch
+    noise = np.random.default_rng(1).normal(size=(len(stretch), 6))
+    windows = WindowNodes(stretch.time_s, 0.25)
+    (at_nodes,) = windows.condensed(_with_readings(stretch, noise)).readings.values()
+    np.testing.assert_allclose(windows.node_means(at_nodes), windows.means(noise), atol=0.02)
+    assert windows.node_means(at_nodes)[windows.counts == 25].std() < 0.22
+    # negative control: samples at the nodes themselves would keep more of it
+    assert noise[::8].reshape(-1, 6).std() > 0.9
+
+
+def test_windows_of_few_samples_are_no_parabolas() -> None:
+    """One sample stays as it is, two make a line; a gap stays in its window."""
+    stretch = swaying(1, noise=0.0).stretch
+    rows = np.r_[np.arange(0, 25), 25, 50, 60, np.arange(75, 100)]
+    piece = Stretch(
+        label="",
+        recording="",
+        session="",
+        time_s=stretch.time_s[rows],
+        tree=stretch.tree,
+        joints=stretch.joints.samples(rows),
+        root=stretch.root.samples(rows),
+        readings={"one": np.stack([stretch.time_s[rows]] * 6, axis=1)},
+        touched=(),
+    )
+    windows = WindowNodes(piece.time_s, 0.25)
+    assert windows.counts.tolist() == [25, 1, 2, 25]
+    nodes = windows.condensed(piece)
+    np.testing.assert_allclose(nodes.readings["one"][:, 0], nodes.time_s, atol=2e-4)
+    values = np.ones((len(rows), 6))
+    values[3] = np.nan
+    (gap,) = windows.condensed(_with_readings(piece, values)).readings.values()
+    assert np.isnan(gap[:3]).all()
+    np.testing.assert_allclose(gap[3:], 1.0)
+
+
+def test_pieces_are_the_stretch() -> None:
+    """Equal pieces that follow each other; one of a short stretch."""
+    stretch = swaying(1, noise=0.0).stretch
+    pieces = list(stretch.pieces(6.0))
+    assert len(pieces) == 4
+    np.testing.assert_array_equal(np.concatenate([piece.time_s for piece in pieces]), stretch.time_s)
+    assert len(list(stretch.pieces(1e3))) == 1

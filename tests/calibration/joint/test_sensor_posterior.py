@@ -1,0 +1,80 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A sensor of a joint fit in the form of every calibration: the same wrenches, and the same errors."""
+
+from __future__ import annotations
+
+from functools import cache
+
+import numpy as np
+import pytest
+
+from forcetorque.calibration import Posterior
+from forcetorque.calibration.joint import JointFit, UntouchedStretch, fit_stretches, sensor_posterior
+from forcetorque.estimation.part_equations import untouched_parts
+from tests.calibration.joint.swaying import FEET, SENSORS, swaying
+
+SENSOR = "l_foot_ft"
+LOADS = np.array([[0.0, 0.0, 200.0, 0.0, 0.0, 0.0], [20.0, -10.0, 100.0, 3.0, 2.0, 1.0]])
+
+
+@cache
+def _fit() -> JointFit:
+    motion = swaying(61, mass=0.02, joint_zero_rad=0.005)
+    parts = untouched_parts(motion.stretch.tree, SENSORS, FEET)
+    return fit_stretches([UntouchedStretch(stretch=motion.stretch, parts=parts)]).fit
+
+
+def _posterior(repeatability: float = 0.0) -> Posterior:
+    loads = LOADS[:1]
+    return sensor_posterior(
+        _fit(), SENSOR, ["day"], noise=np.full(6, 0.1), repeatability=repeatability, mean_loads=loads
+    )
+
+
+def test_the_mean_reads_what_the_fit_reads() -> None:
+    """1 + E undoes 1 + D, and the offset is carried along."""
+    fit, posterior = _fit(), _posterior()
+    factor, offset = np.eye(6) + posterior.mean[:, :6], posterior.mean[:, 6]
+    reading = factor @ LOADS[1] + offset  # by the prior matrix
+    np.testing.assert_allclose(fit.wrench(SENSOR, "day", reading[None])[0], LOADS[1], atol=1e-9)
+    np.testing.assert_allclose(posterior.to_wrench, fit.change(SENSOR))
+
+
+@pytest.mark.parametrize("session", ["day", None])
+def test_the_predicted_error_is_that_of_draws_of_the_fit(session: str | None) -> None:
+    """Changes and offsets are drawn from the joint covariance; their readings of a load scatter as predicted."""
+    fit, posterior = _fit(), _posterior()
+    rng = np.random.default_rng(1)
+    values, vectors = np.linalg.eigh(fit.covariance)
+    draws = fit.mean + rng.normal(size=(4000, len(values))) * np.sqrt(np.maximum(values, 0.0)) @ vectors.T
+    factor, offset = np.eye(6) + posterior.mean[:, :6], posterior.mean[:, 6]
+    load = LOADS[1]
+    reading = factor @ load + offset if session is not None else factor @ load
+    errors = []
+    for mean in draws:
+        drawn = JointFit(
+            places=fit.places, mean=mean, covariance=fit.covariance, deviations=fit.deviations, residual=fit.residual
+        )
+        added = drawn.offset(SENSOR, "day") if session is not None else np.zeros(6)
+        errors.append(drawn.change(SENSOR) @ reading + added - load)
+    spread = np.sqrt((np.array(errors) ** 2).mean(axis=0))
+    predicted = np.sqrt(np.diag(posterior.error_covariance(load, session=session)))
+    # rows of a calibration are independent, those of the fit are not: fx is predicted 17 % too wide
+    np.testing.assert_allclose(predicted, spread, rtol=0.2)
+
+
+def test_repeatability_widens_but_teaches_nothing() -> None:
+    """What a sensor does not repeat stands in its error, not in what was learnt."""
+    exact, creeping = _posterior(), _posterior(0.003)
+    np.testing.assert_array_equal(exact.learnt_covariance, creeping.learnt_covariance)
+    added = creeping.error_covariance(LOADS[0]) - exact.error_covariance(LOADS[0])
+    assert np.sqrt(added[2, 2]) == pytest.approx(0.003 * 200.0, rel=0.1)
+
+
+def test_the_prior_is_as_wide_as_it_was() -> None:
+    """By the size that the data gave the changes."""
+    fit, posterior = _fit(), _posterior()
+    before = posterior.prior_error_covariance(LOADS[0])
+    assert before is not None
+    expected = fit.prior_error_covariance(SENSOR, LOADS[0])
+    np.testing.assert_allclose(np.diag(before), np.diag(expected), rtol=0.3)  # turned by 1 + D
