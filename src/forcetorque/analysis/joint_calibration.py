@@ -9,13 +9,15 @@ from urllib.parse import quote
 
 from forcetorque.analysis.calibration_doubts import fit_doubts
 from forcetorque.analysis.campaign import Campaign
+from forcetorque.analysis.campaign_recording import CampaignRecording
 from forcetorque.analysis.joint_artefact import sensor_artefact
-from forcetorque.analysis.joint_interval import JointInterval, joint_interval
+from forcetorque.analysis.joint_interval import JointInterval, joint_interval, required_prior
 from forcetorque.analysis.joint_outcome import JointOutcome
 from forcetorque.analysis.learnt import learnt_directions
+from forcetorque.analysis.recording_moments import channel_full_scale
 from forcetorque.analysis.sensor_calibration import SensorCalibration, SensorCalibrations, data_doubts
 from forcetorque.analysis.sensor_run import SensorRun
-from forcetorque.calibration.joint import ModelTolerance, fit_stretches
+from forcetorque.calibration.joint import ChangeSpread, ModelTolerance, fit_stretches
 from forcetorque.experiment import Experiment
 from forcetorque.recording import Use
 
@@ -60,7 +62,8 @@ def calibrate_jointly(
     campaigns = {name: Campaign([SensorRun(experiment, name) for experiment in experiments]) for name in names}
     first = campaigns[names[0]]
     intervals = list(_intervals(first, names, progress))
-    result = fit_stretches([one.untouched for one in intervals], tolerance, progress=progress)
+    spreads = {name: _spread(campaign) for name, campaign in campaigns.items()}
+    result = fit_stretches([one.untouched for one in intervals], tolerance, spreads=spreads, progress=progress)
     place = Path(folder)
     calibrations = {
         name: sensor_artefact(
@@ -90,6 +93,11 @@ def calibrate_jointly(
         joint=joint,
         warnings=tuple(dict.fromkeys(doubts)),
     )
+
+
+def _spread(campaign: Campaign) -> ChangeSpread:
+    full_scale = channel_full_scale(CampaignRecording.of(campaign.runs[0]))
+    return ChangeSpread.of(required_prior(campaign.sensor), full_scale)
 
 
 def _without_equation(sensor: str) -> str:

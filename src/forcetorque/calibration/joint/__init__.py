@@ -7,12 +7,15 @@ from forcetorque.calibration.joint.joint_posterior import JointPosterior, read_j
 from forcetorque.calibration.joint.model_error import EXACT, ErrorTerm, ModelTolerance, error_terms
 from forcetorque.calibration.joint.residual import PartResidual
 from forcetorque.calibration.joint.sensor_posterior import sensor_posterior
+from forcetorque.calibration.joint.spread import EVEN, ChangeSpread
 from forcetorque.calibration.joint.stretch import Stretch
 from forcetorque.calibration.joint.sums import PartSums, Places, part_sums
 from forcetorque.calibration.joint.touch import Touch, residuals, untouched
 from forcetorque.calibration.joint.windows import UNITS, PartWindows, part_windows, window_means
 
 __all__ = [
+    "EVEN",
+    "ChangeSpread",
     "EXACT",
     "UNITS",
     "ErrorTerm",

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Final
 
@@ -13,6 +13,7 @@ from forcetorque.arrays import BoolArray
 from forcetorque.calibration.joint.fit import JointFit, fit_jointly
 from forcetorque.calibration.joint.model_error import ErrorTerm, ModelTolerance, error_terms
 from forcetorque.calibration.joint.residual import PartResidual
+from forcetorque.calibration.joint.spread import ChangeSpread
 from forcetorque.calibration.joint.stretch import Stretch
 from forcetorque.calibration.joint.sums import part_sums
 from forcetorque.calibration.joint.touch import Touch, all_touches, untouched
@@ -55,6 +56,7 @@ def fit_stretches(
     stretches: Sequence[UntouchedStretch],
     tolerance: ModelTolerance | None = None,
     *,
+    spreads: Mapping[str, ChangeSpread] | None = None,
     progress: Callable[[str], None] = lambda _: None,
 ) -> JointResult:
     """Calibrate all sensors of a robot at once.
@@ -62,6 +64,7 @@ def fit_stretches(
     Args:
         stretches: What is known, of any number of recordings of one robot.
         tolerance: How far the robot model may be off; `ModelTolerance()` if None.
+        spreads: How the changes of a sensor scatter, by its name; `EVEN` for sensors that are not there.
         progress: Called with what is being done.
 
     Returns:
@@ -76,11 +79,11 @@ def fit_stretches(
     every = max(round(duration / LINEAR_S), 1)
     windows = _windows(stretches, terms, None, every)
     # what a touch bends in the first fit is straight in the second
-    fit = _fit(windows, _agreeing(windows, _fit(windows, _agreeing(windows, None), terms)), terms)
+    fit = _fit(windows, _agreeing(windows, _fit(windows, _agreeing(windows, None), terms, spreads)), terms, spreads)
     for number in range(2, ROUNDS + 1):
         progress(f"the same about the fit, round {number} of {ROUNDS}")
         windows = _windows(stretches, terms, fit, every if number < ROUNDS else 1)
-        fit = _fit(windows, _agreeing(windows, fit), terms)
+        fit = _fit(windows, _agreeing(windows, fit), terms, spreads)
     kept = _agreeing(windows, fit)
     return JointResult(
         fit=fit,
@@ -100,8 +103,13 @@ def _agreeing(windows: Sequence[PartWindows], fit: JointFit | None) -> list[Bool
     return [untouched(one, fit) for one in windows]
 
 
-def _fit(windows: Sequence[PartWindows], kept: Sequence[BoolArray], terms: Sequence[ErrorTerm]) -> JointFit:
-    return fit_jointly(part_sums(one.kept(marks) for one, marks in zip(windows, kept, strict=True)), terms)
+def _fit(
+    windows: Sequence[PartWindows],
+    kept: Sequence[BoolArray],
+    terms: Sequence[ErrorTerm],
+    spreads: Mapping[str, ChangeSpread] | None,
+) -> JointFit:
+    return fit_jointly(part_sums(one.kept(marks) for one, marks in zip(windows, kept, strict=True)), terms, spreads)
 
 
 def _all_terms(stretches: Sequence[UntouchedStretch], tolerance: ModelTolerance) -> tuple[ErrorTerm, ...]:

@@ -9,24 +9,20 @@ normal equations is taken off, no more of it than what is left over can hold (er
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Final
 
 import numpy as np
 
 from forcetorque.arrays import FloatArray, IntArray
 from forcetorque.calibration.joint.model_error import ZERO, ErrorTerm
+from forcetorque.calibration.joint.spread import EVEN, KINDS, ChangeSpread
 from forcetorque.calibration.joint.sums import PartSums, Places
 from forcetorque.calibration.joint.windows import UNITS
 from forcetorque.errors import FitError
 
-CHANGE: Final = 0.05
-"""Expected size of an entry of a change, in `UNITS`, before data tell it."""
-_CHANGE_WEIGHT = 4.0
-"""Coefficients' worth of data that the expectation counts for."""
-_EXPECTED = 0.04
-_SMALLEST, _LARGEST = 0.003, 0.15
+_SMALLEST, _LARGEST = 0.1, 5.0
+"""How far the size of changes may be from the expected one."""
 _OFFSET_DEVIATION = 1e3
 """Standard deviation of an offset before any data, in `UNITS`: hardly anything is known of it.
 
@@ -51,8 +47,8 @@ class JointFit:
     """Most probable values; shape (p,)."""
     covariance: FloatArray
     """Their covariance; shape (p, p)."""
-    deviations: FloatArray
-    """Standard deviation of each before any data; shape (p,)."""
+    prior_root: FloatArray
+    """R, with R R^T their covariance before any data; shape (p, p)."""
     residual: tuple[tuple[str, str, FloatArray], ...]
     """Part, recording and root mean square of what is left of its equation, shape (6,); N, N m."""
 
@@ -117,10 +113,7 @@ class JointFit:
             Covariance; shape (..., 6, 6).
         """
         own = self.places.changes(sensor)
-        covariance = self.covariance[own, own].reshape(6, 6, 6, 6)
-        unit = np.asarray(load, dtype=np.float64) / UNITS
-        scaled: FloatArray = np.einsum("...b,abcd,...d->...ac", unit, covariance, unit) * np.outer(UNITS, UNITS)
-        return scaled
+        return self._error_covariance(self.covariance[own, own], load)
 
     def prior_error_covariance(self, sensor: str, load: FloatArray) -> FloatArray:
         """Predict the covariance of the error of changes of load by the prior matrix.
@@ -132,10 +125,27 @@ class JointFit:
         Returns:
             Covariance; shape (..., 6, 6).
         """
-        variance = (self.deviations[self.places.changes(sensor)] ** 2).reshape(6, 6)
-        unit = np.asarray(load, dtype=np.float64) / UNITS
-        covariance: FloatArray = (unit**2 @ variance.T * UNITS**2)[..., None] * np.eye(6)
+        return self._error_covariance(self.prior_covariance(sensor), load)
+
+    def prior_covariance(self, sensor: str) -> FloatArray:
+        """Give the covariance of the changes of a sensor before any data.
+
+        Args:
+            sensor: The sensor.
+
+        Returns:
+            Covariance, row by row; shape (36, 36); in `UNITS`.
+        """
+        own = self.places.changes(sensor)
+        root = self.prior_root[own, own]
+        covariance: FloatArray = root @ root.T
         return covariance
+
+    @staticmethod
+    def _error_covariance(covariance: FloatArray, load: FloatArray) -> FloatArray:
+        unit, by_row = np.asarray(load, dtype=np.float64) / UNITS, covariance.reshape(6, 6, 6, 6)
+        scaled: FloatArray = np.einsum("...b,abcd,...d->...ac", unit, by_row, unit) * np.outer(UNITS, UNITS)
+        return scaled
 
     def model_errors(self) -> list[tuple[ErrorTerm, float, float]]:
         """Give what was found to be wrong with the model.
@@ -148,12 +158,15 @@ class JointFit:
         return list(zip(self.places.terms, self.mean[own].tolist(), deviations.tolist(), strict=True))
 
 
-def fit_jointly(sums: Sequence[PartSums], terms: Sequence[ErrorTerm] = ()) -> JointFit:
+def fit_jointly(
+    sums: Sequence[PartSums], terms: Sequence[ErrorTerm] = (), spreads: Mapping[str, ChangeSpread] | None = None
+) -> JointFit:
     """Find what is most probable.
 
     Args:
         sums: Moments of the equations.
         terms: Errors of the model that their coefficients allow for.
+        spreads: How the changes of a sensor scatter, by its name; `EVEN` for sensors that are not there.
 
     Returns:
         The fit.
@@ -168,26 +181,28 @@ def fit_jointly(sums: Sequence[PartSums], terms: Sequence[ErrorTerm] = ()) -> Jo
     one = np.zeros(len(places))
     for sensor in places.sensors:
         one[places.changes(sensor)] = np.eye(6).ravel()
-    size = np.full(len(places.sensors), CHANGE)
+    expected = np.array([kind.expected for kind in KINDS])
+    size = np.tile(expected, (len(places.sensors), 1))
     variance = [np.maximum(0.01 * part.square / part.count, _LEAST_VARIANCE) for part in sums]
     mean = np.zeros(len(places))
+    own_spreads = [EVEN if spreads is None else spreads.get(sensor, EVEN) for sensor in places.sensors]
     for sweep in range(_ROUNDS):
-        deviations = _deviations(places, size)
+        root = _prior_root(places, own_spreads, size)
         products, shared = np.zeros((len(places), len(places))), np.zeros(len(places))
         for part, own, spread in zip(sums, columns, variance, strict=True):
             _add(products, shared, part, own, spread, one[own], mean)
-        values, vectors = np.linalg.eigh(deviations[:, None] * products * deviations)
+        values, vectors = np.linalg.eigh(root.T @ products @ root)
         # where noise explains everything the prior stays
-        scaled = vectors * deviations[:, None]
+        scaled = root @ vectors
         covariance = (scaled / (np.maximum(values, 0.0) + 1.0)) @ scaled.T
         mean = covariance @ shared
         variance = [np.maximum(part.rest(mean[own]), _LEAST_VARIANCE) for part, own in zip(sums, columns, strict=True)]
         if 1 < sweep < _ROUNDS - 1:
-            size = _sizes(places, mean, covariance, size)
+            size = _sizes(places, own_spreads, mean, covariance, size)
     residual = tuple(
         (part.part, part.recording, np.sqrt(spread) * UNITS) for part, spread in zip(sums, variance, strict=True)
     )
-    return JointFit(places=places, mean=mean, covariance=covariance, deviations=deviations, residual=residual)
+    return JointFit(places=places, mean=mean, covariance=covariance, prior_root=root, residual=residual)
 
 
 def _add(
@@ -215,20 +230,33 @@ def _add(
         shared[own] += weight * right
 
 
-def _deviations(places: Places, size: FloatArray) -> FloatArray:
+def _prior_root(places: Places, spreads: Sequence[ChangeSpread], size: FloatArray) -> FloatArray:
     deviations = np.full(len(places), _OFFSET_DEVIATION)
-    for sensor, own in zip(places.sensors, size, strict=True):
-        deviations[places.changes(sensor)] = own
     deviations[places.errors] = [term.deviation for term in places.terms]
-    return deviations
+    root = np.diag(deviations)
+    for sensor, spread, own in zip(places.sensors, spreads, size, strict=True):
+        start = places.changes(sensor).start
+        for row, factor in enumerate(np.linalg.cholesky(spread.covariance(own))):
+            place = slice(start + 6 * row, start + 6 * (row + 1))
+            root[place, place] = factor
+    return root
 
 
-def _sizes(places: Places, mean: FloatArray, covariance: FloatArray, size: FloatArray) -> FloatArray:
-    """Size of the changes of every sensor, by what the data tell of them."""
-    sizes = np.empty_like(size)
-    for k, sensor in enumerate(places.sensors):
-        own = places.changes(sensor)
-        told = 36.0 - float(np.diag(covariance)[own].sum()) / size[k] ** 2
-        square = float(mean[own] @ mean[own]) + _CHANGE_WEIGHT * _EXPECTED**2
-        sizes[k] = np.clip(np.sqrt(square / (max(told, 0.0) + _CHANGE_WEIGHT)), _SMALLEST, _LARGEST)
-    return sizes
+def _sizes(
+    places: Places, spreads: Sequence[ChangeSpread], mean: FloatArray, covariance: FloatArray, size: FloatArray
+) -> FloatArray:
+    """Sizes of both kinds of changes of every sensor, by what the data tell of them; shape (sensors, 2)."""
+    told, square, rows = np.empty_like(size), np.empty_like(size), np.arange(6)
+    for number, (sensor, spread) in enumerate(zip(places.sensors, spreads, strict=True)):
+        own, before = places.changes(sensor), spread.covariance(size[number])
+        narrowed = before - covariance[own, own].reshape(6, 6, 6, 6)[rows, :, rows, :]
+        # what of a change is of each kind, in its own size
+        shares = size[number, :, None, None, None] * np.linalg.solve(before, spread.roots).transpose(0, 1, 3, 2)
+        told[number] = np.einsum("crij,rjk,crik->c", shares, narrowed, shares)
+        square[number] = size[number] ** 2 * ((shares @ mean[own].reshape(6, 6, 1)) ** 2).sum(axis=(1, 2, 3))
+    # every sensor has its own size of the first kind; frames of one robot are off alike
+    told[:, 1], square[:, 1] = told[:, 1].sum(), square[:, 1].sum()
+    expected, weight = (np.array([getattr(kind, name) for kind in KINDS]) for name in ("expected", "weight"))
+    sizes = np.sqrt((square + weight * expected**2) / (np.maximum(told, 0.0) + weight))
+    limited: FloatArray = np.clip(sizes, _SMALLEST * expected, _LARGEST * expected)
+    return limited

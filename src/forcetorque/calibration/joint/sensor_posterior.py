@@ -48,12 +48,13 @@ def sensor_posterior(
     places = fit.places
     spans = (places.changes(sensor), *(places.offset(sensor, session) for session in sessions))
     own = np.concatenate([np.arange(span.start, span.stop) for span in spans])
-    units = np.concatenate([np.outer(UNITS, 1.0 / UNITS).ravel(), np.tile(UNITS, len(sessions))])
+    size = np.outer(UNITS, 1.0 / UNITS).ravel()
+    units = np.concatenate([size, np.tile(UNITS, len(sessions))])
     joint = jacobian @ (fit.covariance[np.ix_(own, own)] * np.outer(units, units)) @ jacobian.T
     rows = [_places_of_row(row, len(sessions)) for row in range(_LOADS)]
     covariance = np.stack([joint[np.ix_(row, row)] for row in rows])
     learnt = covariance[:, :_LOADS, :_LOADS].copy()
-    before = (fit.deviations[places.changes(sensor)] * units[: _LOADS * _LOADS]).reshape(_LOADS, _LOADS)
+    before = fit.prior_covariance(sensor) * np.outer(size, size)
     return Posterior(
         space="wrench",
         variables=(),
@@ -62,7 +63,7 @@ def sensor_posterior(
         mean=np.c_[factor - np.eye(_LOADS), -factor @ offsets.T],
         covariance=covariance + _repeatability(repeatability, mean_loads),
         learnt_covariance=learnt,
-        prior_covariance=np.stack([np.diag(row**2) for row in before]),
+        prior_covariance=np.stack([before[np.ix_(row[:_LOADS], row[:_LOADS])] for row in rows]),
         to_wrench=fit.change(sensor),
         noise=tuple(RowNoise(white=float(one), time_constant_s=0.0, ratio=0.0) for one in noise),
         accuracy=np.zeros(_LOADS),

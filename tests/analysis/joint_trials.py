@@ -1,0 +1,171 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Robots on both feet, each with its own sensors and errors, calibrated in one motion and judged in others."""
+
+from __future__ import annotations
+
+import tempfile
+import tomllib
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from forcetorque.analysis import calibrate_jointly
+from forcetorque.arrays import FloatArray
+from forcetorque.calibration import Calibration
+from forcetorque.experiment import load_experiment
+from forcetorque.experiment.simulated import write_scenario
+from forcetorque.simulation.scenario import ScenarioFile, build_scenario, bundled_scenario, simulate, trace_recordings
+
+ARMS = ("l_arm_ft", "r_arm_ft")
+PUSH_N = 50.0
+
+
+@dataclass(frozen=True, kw_only=True)
+class SensorTrial:
+    """One sensor of one robot after one calibration."""
+
+    sensor: str
+    """Its name."""
+    motions: Mapping[str, FloatArray]
+    """Mean norm of its error in motions that were not fitted, with the fitted offset: force, moment; N, N m."""
+    prior_motions: Mapping[str, FloatArray]
+    """The same by the prior matrix with the offset that is best for each motion, which flatters it."""
+    push: float
+    """Root mean square error of pushes of 50 N along the axes; N."""
+    prior_push: float
+    """The same by the prior."""
+    ratio: float
+    """Error of these pushes over what is predicted, root mean square."""
+    predicted_150: float
+    """Predicted standard deviation of 150 N along z; N."""
+
+
+def trials(
+    seed: int,
+    fitted: Mapping[str, Sequence[str]],
+    judged: Sequence[str],
+    *,
+    noise_counts: float = 3.0,
+    mass: float = 0.02,
+    centre_m: float = 0.002,
+    joint_zero_deg: float = 0.5,
+    sensors: Mapping[str, float] | None = None,
+    duration_s: float = 20.0,
+) -> dict[str, list[SensorTrial]]:
+    """Simulate a robot, calibrate it in several ways and judge every way.
+
+    Args:
+        seed: Seed of everything.
+        fitted: Kinds of motion that are fitted together, by the name of the way.
+        judged: Kinds of motion that are judged, with the feet elsewhere.
+        noise_counts: White noise of the sensors; counts.
+        mass: Standard deviation of masses, relative.
+        centre_m: Of centres of mass; m.
+        joint_zero_deg: Of joint zeros; degrees.
+        sensors: Other values of the scenario's sensors.
+        duration_s: Length of every motion; s.
+
+    Returns:
+        Every sensor by way.
+    """
+    scenario = build_scenario(
+        _content(seed, fitted, judged, noise_counts, (mass, centre_m, joint_zero_deg), sensors or {}, duration_s)
+    )
+    traces = trace_recordings(scenario)
+    simulated = {one.name: one for one in simulate(scenario, traces)}
+    with tempfile.TemporaryDirectory() as folder:
+        place = Path(folder) / "out"
+        write_scenario(scenario, place)
+        results = {}
+        for way, kinds in fitted.items():
+            experiments = [load_experiment(place / f"{kind}_fitted.toml") for kind in kinds]
+            result = calibrate_jointly(experiments, place, code_version="1", created="2020-01-01")
+            results[way] = {one.calibration.sensor.name: one.calibration for one in result.calibrations}
+    true = {name: sensor.matrix for name, sensor in next(iter(simulated.values())).sensors.items()}
+    return {
+        way: [
+            _judged(
+                calibration,
+                true[name],
+                {
+                    kind: (
+                        simulated[f"{kind}_judged"].recording.stream(name).signal("raw").values,
+                        traces[f"{kind}_judged"].loads[name],
+                    )
+                    for kind in judged
+                },
+            )
+            for name, calibration in calibrations.items()
+        ]
+        for way, calibrations in results.items()
+    }
+
+
+def _content(
+    seed: int,
+    fitted: Mapping[str, Sequence[str]],
+    judged: Sequence[str],
+    noise_counts: float,
+    errors: tuple[float, float, float],
+    sensors: Mapping[str, float],
+    duration_s: float,
+) -> ScenarioFile:
+    table = tomllib.loads(bundled_scenario("stance").read_text(encoding="utf-8"))
+    mass, centre_m, joint_zero_deg = errors
+    table |= {"seed": seed}
+    table["robot_errors"] |= {"mass": mass, "centre_m": centre_m, "joint_zero_deg": joint_zero_deg}
+    if mass == centre_m == joint_zero_deg == 0.0:
+        del table["robot_errors"]
+        table["imu"] |= dict.fromkeys(("accelerometer_bias", "gyroscope_bias"), 0.0)
+    table["sensors"] |= {"noise_counts": noise_counts, **sensors}
+    kinds = dict.fromkeys(kind for together in fitted.values() for kind in together)
+    table["recording"] = [
+        {
+            "name": f"{kind}_{role}",
+            "motion": {"kind": kind, "swing": "r_sole", "duration_s": duration_s, "placement": placement},
+            "support": "l_sole",
+            "power_up": 1,
+            "session": "day",
+            "use": use,
+        }
+        for role, use, placement, names in (("fitted", "calibration", 1, kinds), ("judged", "validation", 2, judged))
+        for kind in names
+    ]
+    return ScenarioFile.model_validate(table)
+
+
+def _judged(
+    calibration: Calibration, true: FloatArray, motions: Mapping[str, tuple[FloatArray, FloatArray]]
+) -> SensorTrial:
+    assert calibration.prior is not None
+    assert calibration.posterior is not None
+    prior = calibration.prior.matrix
+    errors, before = {}, {}
+    for kind, (raw, load) in motions.items():
+        errors[kind] = _mean_norms(raw @ calibration.matrix.T + calibration.offset - load)
+        error = raw @ prior.T - load
+        before[kind] = _mean_norms(error - error.mean(axis=0))
+    pushes = PUSH_N * np.eye(6)[:3]
+    left, prior_left = (
+        pushes @ (matrix @ np.linalg.pinv(true) - np.eye(6)).T for matrix in (calibration.matrix, prior)
+    )
+    spread = np.sqrt(np.einsum("kii->ki", calibration.posterior.error_covariance(pushes)))
+    return SensorTrial(
+        sensor=calibration.sensor.name,
+        motions=errors,
+        prior_motions=before,
+        push=_size(left),
+        prior_push=_size(prior_left),
+        ratio=float(np.sqrt(((left / spread) ** 2).mean())),
+        predicted_150=float(np.sqrt(calibration.posterior.error_covariance([0, 0, 150.0, 0, 0, 0])[2, 2])),
+    )
+
+
+def _mean_norms(error: FloatArray) -> FloatArray:
+    return np.array([np.linalg.norm(error[:, part], axis=1).mean() for part in (slice(3), slice(3, 6))])
+
+
+def _size(error: FloatArray) -> float:
+    return float(np.sqrt((error[:, :3] ** 2).sum(axis=1).mean()))
