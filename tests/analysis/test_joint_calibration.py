@@ -17,7 +17,7 @@ import pytest
 from forcetorque.analysis import calibrate_jointly, joint_interval
 from forcetorque.analysis.joint_outcome import JointOutcome
 from forcetorque.arrays import FloatArray
-from forcetorque.calibration.joint import UNITS, JointFit, PartWindows, part_windows
+from forcetorque.calibration.joint import UNITS, JointFit, PartWindows, part_windows, residuals
 from forcetorque.errors import ExperimentError
 from forcetorque.experiment import Experiment, load_experiment
 from forcetorque.recording import Use
@@ -26,7 +26,7 @@ from tests.page_scripts import unmarked
 SHANK = ("l_leg_ft_sensor", "l_foot_ft_sensor")
 """Sensors of the leg that bears the robot in the yoga log: nothing touches what is between them."""
 SPLITS = [
-    ((25.0, 41.5), (41.5, 58.0), 0.5),
+    ((25.0, 41.5), (41.5, 58.0), 0.6),
     ((41.5, 58.0), (25.0, 41.5), 0.5),
     ((39.4, 65.6), (13.1, 39.4), 0.5),
     # a part in which the robot comes down on both feet, or hardly moves, teaches less
@@ -85,23 +85,29 @@ def _left(windows: PartWindows, fit: JointFit | None) -> FloatArray:
 def test_the_shank_of_a_robot_that_stands_on_it(
     data_dir: Path, tmp_path: Path, fitted: tuple[float, float], judged: tuple[float, float], share: float
 ) -> None:
-    """Judged where it was not fitted: moments down to half in three of six splits, forces better in all."""
+    """Judged where it was not fitted: moments down by a third to a half, forces in all; and the weight is found again.
+
+    Of the torso, whose joints are not all in the log, the weight counts. Without it the offsets of leg and foot were
+    free to trade, and the robot weighed 30 to 230 N more or less than it does.
+    """
     experiment = _yoga(data_dir, tmp_path, fitted, judged)
     joint = _calibrated([experiment])
     fit = joint.fit
-    # nothing is known of the torso, whose joints are not all in the log, nor of the foot on the ground
+    # nothing is known of the foot on the ground
     assert fit.places.sensors == ("l_foot_ft_sensor", "l_leg_ft_sensor")
-    assert "part 'l_leg_ft_sensor' needs the joint(s)" in joint.left_out[0]
+    assert {row.part for row in joint.parts} == {"l_foot_ft_sensor", "weight on l_leg_ft_sensor"}
     (interval,) = experiment.intervals(Use.VALIDATION)
     one = joint_interval(experiment, interval, SHANK, session="yoga").untouched
     (windows,) = part_windows(one.stretch, one.parts, fit.places.terms)
     before, after = _left(windows, None), _left(windows, fit)
-    assert after[0] < before[0]
+    assert after[0] < 0.75 * before[0]
     assert after[1] < share * before[1]
-    # what both bear together stays what the priors say: some 7 % of it, and that is stated
-    weight = np.array([0.0, 0.0, 324.0, 0.0, 0.0, 0.0])
-    for name in SHANK:
-        assert np.sqrt(fit.error_covariance(name, weight)[2, 2]) > 10.0
+    (weight,) = part_windows(one.stretch, (), fit.places.terms, weighed=one.weighed)
+    error = UNITS * residuals(weight, fit)
+    assert np.linalg.norm(error.mean(axis=0)[:3]) < 10.0
+    # nothing changes that weight: gain and offset stay apart by what the priors say, and that is stated
+    assert next(joint.doubts()).startswith("stance gain not determined")
+    assert all(row.error_with_offset_N > 5.0 for row in joint.sensors)
 
 
 @pytest.fixture(scope="module")
@@ -158,14 +164,16 @@ def test_an_imu_on_another_link_is_named_by_what_is_left(stance: Path) -> None:
 
 
 @pytest.mark.long
-def test_a_robot_that_stands_still_says_that_its_gains_are_not_known(stance: Path) -> None:
-    """No load changes by a known weight: the priors decide, and the first warning says so."""
+def test_a_robot_that_stands_still_says_what_it_does_not_know(stance: Path) -> None:
+    """No load changes by a known weight: the priors decide, offsets trade, and the first warnings say so."""
     text = (stance / "standing_day2.toml").read_text(encoding="utf-8")
     file = stance / "standing.toml"
     file.write_text(text.replace('use = "validation"', 'use = "calibration"'), encoding="utf-8")
     joint = _calibrated([load_experiment(file)])
-    assert not any(row.gain_known for row in joint.sensors)
-    assert next(joint.doubts()).startswith("stance gain not determined: l_leg_ft (±")
+    assert not any(row.offset_known for row in joint.sensors if "arm" not in row.sensor)
+    gain, offset, *_ = joint.doubts()
+    assert gain.startswith("stance gain not determined: l_foot_ft (±")
+    assert offset.startswith("offset not determined: l_leg_ft (±")
 
 
 @pytest.mark.long

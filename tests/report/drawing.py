@@ -170,6 +170,7 @@ def _joint(rng: np.random.Generator) -> Figure:
                 before=rng.normal(size=(200, 6)),
                 after=0.1 * rng.normal(size=(200, 6)),
                 at_sensors=rng.normal(size=(200, 2, 6)),
+                rows=np.ones(6),
                 mass_kg=4.0,
                 kept=(time < 20.0) | (time > 21.0),
             )

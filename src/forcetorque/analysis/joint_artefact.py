@@ -161,7 +161,7 @@ def _rest(sensor: str, time_s: FloatArray, residuals: Sequence[PartResidual]) ->
     """What a sensor reads beyond its parts, their mean where it has two; NaN in windows that were not fitted."""
     total, count = np.zeros((len(time_s), 6)), np.zeros(len(time_s))
     for part in residuals:
-        if sensor in part.sensors:
+        if sensor in part.sensors and part.rows.all():
             rows = np.searchsorted(time_s, part.time_s[part.kept])
             total[rows] += part.at_sensors[part.kept, part.sensors.index(sensor)]
             count[rows] += 1.0

@@ -16,7 +16,7 @@ from forcetorque.analysis.reading import readings_at
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration.joint import Stretch, UntouchedStretch, window_means
 from forcetorque.errors import ExperimentError
-from forcetorque.estimation.part_equations import joints_of_part, sensors_of, untouched_parts
+from forcetorque.estimation.part_equations import joints_of_cuts, joints_of_part, sensors_of, untouched_parts
 from forcetorque.estimation.picked import padded_samples
 from forcetorque.estimation.root_motion import imu_frame
 from forcetorque.estimation.samples import robot_motion_at
@@ -116,12 +116,12 @@ def joint_interval(
         # the motion is known where the IMU is: nothing needs to be carried to another link
         support = replace(support, frame=imu_frame(experiment.model, experiment.recording, support))
     tree = build_tree(experiment.model, support.frame)
-    parts, left_out = _logged(experiment, untouched_parts(tree, sensors, touched), tree)
-    if not parts:
+    parts, weighed, left_out = _logged(experiment, untouched_parts(tree, sensors, touched), tree)
+    if not parts and not weighed:
         raise ExperimentError(
             f"interval {interval.label!r}: of no untouched part are all joints in the log: {'; '.join(left_out)}"
         )
-    used = [experiment.sensor(name) for name in sensors if any(name in sensors_of(part) for part in parts)]
+    used = [experiment.sensor(name) for name in sensors if any(name in sensors_of(part) for part in (*parts, *weighed))]
     source = experiment.recording.stream(used[0].stream)
     for sensor in used[1:]:
         require_overlap(source, experiment.recording.stream(sensor.stream))
@@ -130,7 +130,14 @@ def joint_interval(
         experiment.recording,
         experiment.model,
         support,
-        tuple(dict.fromkeys(joint for part in parts for joint in joints_of_part(tree, part))),
+        tuple(
+            dict.fromkeys(
+                (
+                    *(joint for part in parts for joint in joints_of_part(tree, part)),
+                    *(joint for part in weighed for joint in joints_of_cuts(tree, part)),
+                )
+            )
+        ),
         source,
         samples.stamp_ns,
         processing=experiment.processing,
@@ -150,7 +157,7 @@ def joint_interval(
     )
     return JointInterval(
         interval=interval,
-        untouched=UntouchedStretch(stretch=stretch, parts=parts, left_out=left_out),
+        untouched=UntouchedStretch(stretch=stretch, parts=parts, weighed=weighed, left_out=left_out),
         raw={name: RawWindows.of(stretch, values) for name, values in raw.items()},
     )
 
@@ -177,14 +184,16 @@ def required_prior(sensor: ExperimentSensor) -> FloatArray:
 
 def _logged(
     experiment: Experiment, parts: Sequence[SubModel], tree: BodyTree
-) -> tuple[tuple[SubModel, ...], tuple[str, ...]]:
-    """Parts whose joints were logged, and of the others what they lack."""
+) -> tuple[tuple[SubModel, ...], tuple[SubModel, ...], tuple[str, ...]]:
+    """Parts whose joints were logged, those that can be weighed at least, and of the others what they lack."""
     available = set(experiment.recording.joint_signals("position"))
-    logged, lacking = [], []
+    logged, weighed, lacking = [], [], []
     for part in parts:
         missing = [joint for joint in joints_of_part(tree, part) if joint not in available]
-        if missing:
-            lacking.append(f"part {part.name!r} needs the joint(s) {', '.join(missing)}, which the log lacks")
-        else:
+        if not missing:
             logged.append(part)
-    return tuple(logged), tuple(lacking)
+        elif available.issuperset(joints_of_cuts(tree, part)):
+            weighed.append(replace(part, name=f"weight on {', '.join(sensors_of(part))}"))
+        else:
+            lacking.append(f"part {part.name!r} needs the joint(s) {', '.join(missing)}, which the log lacks")
+    return tuple(logged), tuple(weighed), tuple(lacking)

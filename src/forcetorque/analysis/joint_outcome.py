@@ -54,14 +54,13 @@ class JointOutcome(Row):
         Returns:
             The same for people and files.
         """
-        loads = {
-            name: calibration.posterior.load_centre
-            for name, calibration in calibrations.items()
-            if calibration.posterior is not None
-        }
         return cls(
             file=file,
-            sensors=tuple(SensorErrorRow.of(result.fit, name, load) for name, load in loads.items()),
+            sensors=tuple(
+                SensorErrorRow.of(name, calibration.posterior)
+                for name, calibration in calibrations.items()
+                if calibration.posterior is not None
+            ),
             parts=tuple(PartRow.of(one) for one in result.residuals if one.kept.any()),
             model_errors=tuple(ModelErrorRow.of(*error) for error in result.fit.model_errors()),
             touches=tuple(map(TouchRow.of, result.touches)),
@@ -93,22 +92,23 @@ class JointOutcome(Row):
         Yields:
             Sentences.
         """
-        yield from _open_gains(self.sensors)
+        yield from _open_loads(self.sensors)
         yield from _far_errors(self.model_errors)
         for interval, rows in groupby(self.parts, key=lambda row: row.interval):
             yield from _disagreeing(interval, [row for row in rows if row.mass_kg > _LIGHT_KG])
 
 
-def _open_gains(sensors: Sequence[SensorErrorRow]) -> Iterator[str]:
+def _open_loads(sensors: Sequence[SensorErrorRow]) -> Iterator[str]:
+    advice = (
+        "add a recording in which that load changes by a known weight: squat, sway with tilts, lift the feet in turn, "
+        "with all joints of torso and arms logged, or stand on one foot"
+    )
     if unknown := [row for row in sensors if not row.gain_known]:
-        words = ", ".join(
-            f"{row.sensor} (± {row.gain_error_after_percent:.1f} % of {row.load_N:.0f} N)" for row in unknown
-        )
-        yield (
-            f"stance gain not determined: {words}. Nothing in these recordings ties to newtons what these sensors make "
-            "of the weight that they bear; add one in which it changes by a known weight: squat, sway with tilts, lift "
-            "the feet in turn, with all joints of torso and arms logged, or stand on one foot"
-        )
+        words = ", ".join(f"{row.sensor} (± {row.gain_error_after_percent:.1f} %)" for row in unknown)
+        yield f"stance gain not determined: {words} of the weight that they bear, mostly by their priors; {advice}"
+    if unknown := [row for row in sensors if not row.offset_known]:
+        words = ", ".join(f"{row.sensor} (± {row.error_with_offset_N:.0f} N of {row.load_N:.0f} N)" for row in unknown)
+        yield f"offset not determined: {words}; only changes of load are known, or {advice}"
 
 
 def _far_errors(errors: Sequence[ModelErrorRow]) -> Iterator[str]:

@@ -7,13 +7,15 @@ from typing import Annotated, Self
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray
-from forcetorque.calibration.joint import ErrorTerm, JointFit, PartResidual, Touch
+from forcetorque.calibration import Posterior
+from forcetorque.calibration.joint import ErrorTerm, PartResidual, Touch
 from forcetorque.constants import STANDARD_GRAVITY
 from forcetorque.result import Row, Shown
 
 _GAIN_PERCENT = 3.0
 """Error of a gain from which it counts as not determined: as large as that of the masses that tell it."""
+_OFFSET_SHARE, _OFFSET_N = 0.1, 5.0
+"""Error of the load itself from which an offset counts as not determined: a share of the load, and the least of it."""
 _KNOWN = 0.5
 """Share of the uncertainty before below which an error of the model counts as told by the recordings."""
 _FAR = 3.0
@@ -38,26 +40,37 @@ class SensorErrorRow(Row):
     gain_error_after_percent: Annotated[float, Shown("after", "%", digits=2)]
     """The same by the calibration."""
 
+    error_with_offset_N: Annotated[float, Shown("with its offset", "N", digits=2)]
+    """The same, of the load itself and not of a change, by the calibration with the offset of its last session."""
+
     @property
     def gain_known(self) -> bool:
         """Whether it is known what the sensor makes of the weight that it bears."""
         return self.gain_error_after_percent < _GAIN_PERCENT
 
+    @property
+    def offset_known(self) -> bool:
+        """Whether the load itself can be read, and not only its changes."""
+        return self.error_with_offset_N < max(_OFFSET_SHARE * self.load_N, _OFFSET_N)
+
     @classmethod
-    def of(cls, fit: JointFit, sensor: str, load: FloatArray) -> Self:
+    def of(cls, sensor: str, posterior: Posterior) -> Self:
         """Predict the errors of a sensor.
 
         Args:
-            fit: The fit.
-            sensor: The sensor.
-            load: Its mean load; shape (6,); N, N m.
+            sensor: Its name.
+            posterior: What is known of it, with a prior.
 
         Returns:
             The row.
         """
+        load = posterior.load_centre
         size = max(float(np.linalg.norm(load[:3])), np.finfo(float).tiny)
         along = load[:3] / size
-        before, after = fit.prior_error_covariance(sensor, load)[:3, :3], fit.error_covariance(sensor, load)[:3, :3]
+        prior = posterior.prior_error_covariance(load)
+        after = posterior.error_covariance(load)[:3, :3]
+        before = after if prior is None else prior[:3, :3]
+        absolute = posterior.error_covariance(load, session=posterior.sessions[-1])[:3, :3]
         gains = [100.0 * float(np.sqrt(along @ one @ along)) / size for one in (before, after)]
         return cls(
             sensor=sensor,
@@ -66,6 +79,7 @@ class SensorErrorRow(Row):
             error_after_N=float(np.sqrt(np.trace(after))),
             gain_error_before_percent=gains[0],
             gain_error_after_percent=gains[1],
+            error_with_offset_N=float(np.sqrt(np.trace(absolute))),
         )
 
 
@@ -90,9 +104,9 @@ class PartRow(Row):
     """Sensors less what moves the bodies, by the prior matrices and the best offsets."""
     force_after_N: Annotated[float, Shown("after", "N", digits=2)]
     """The same by the calibrations."""
-    moment_before_Nm: Annotated[float, Shown("moment before", "N m", digits=3)]
-    """Moments about the root link, by the prior matrices and the best offsets."""
-    moment_after_Nm: Annotated[float, Shown("after", "N m", digits=3)]
+    moment_before_Nm: Annotated[float | None, Shown("moment before", "N m", digits=3)]
+    """Moments about the root link, by the prior matrices and the best offsets; None where only weight counts."""
+    moment_after_Nm: Annotated[float | None, Shown("after", "N m", digits=3)]
     """The same by the calibrations."""
 
     @property
@@ -115,7 +129,7 @@ class PartRow(Row):
         Returns:
             The row.
         """
-        kept = residual.kept
+        kept, with_moments = residual.kept, bool(residual.rows.all())
         sizes = [
             float(np.sqrt((values[kept][:, part] ** 2).sum(axis=1).mean()))
             for part in (slice(3), slice(3, 6))
@@ -131,8 +145,8 @@ class PartRow(Row):
             mass_kg=residual.mass_kg,
             force_before_N=sizes[0],
             force_after_N=sizes[1],
-            moment_before_Nm=sizes[2],
-            moment_after_Nm=sizes[3],
+            moment_before_Nm=sizes[2] if with_moments else None,
+            moment_after_Nm=sizes[3] if with_moments else None,
         )
 
 

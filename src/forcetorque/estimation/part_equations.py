@@ -11,8 +11,8 @@ part.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -42,6 +42,8 @@ class PartEquation:
     """Motion of its bodies that have inertia, by their index."""
     poses: dict[int, FloatArray]
     """`root_H_body` of all bodies between the root and it, and of its own; shape (n, 4, 4); m."""
+    rows: FloatArray = field(default_factory=lambda: np.ones(6))
+    """1 for a row that the equation has, 0 for one that is left out; shape (6,)."""
 
     def turned(self, tree: BodyTree, joint: str, readings: FloatArray) -> FloatArray:
         """Say how what the sensors transmit changes where a joint is elsewhere.
@@ -61,7 +63,7 @@ class PartEquation:
                 body = tree.bodies[index]
                 if body.coordinate is not None and body.coordinate.joint == joint:
                     derivative += body.coordinate.multiplier * _moved(body, self.poses[index], wrenches[:, k])
-        return derivative
+        return self.rows * derivative
 
 
 def untouched_parts(tree: BodyTree, sensors: Sequence[str], touched: Sequence[str]) -> tuple[SubModel, ...]:
@@ -120,6 +122,59 @@ def joints_of_part(tree: BodyTree, part: SubModel) -> tuple[str, ...]:
     return tuple(dict.fromkeys(coordinate.joint for coordinate in coordinates if coordinate is not None))
 
 
+def joints_of_cuts(tree: BodyTree, part: SubModel) -> tuple[str, ...]:
+    """Name the joints that tell where the sensors of a part are, which is all that its weight needs.
+
+    Args:
+        tree: The robot.
+        part: The part.
+
+    Returns:
+        Joints from the root outwards, each once; leaders instead of joints that mimic.
+    """
+    coordinates = (tree.bodies[k].coordinate for k in _paths(tree, _cuts(tree, part)))
+    return tuple(dict.fromkeys(coordinate.joint for coordinate in coordinates if coordinate is not None))
+
+
+def weight_equations(
+    tree: BodyTree, parts: Sequence[SubModel], joints: JointMotion, root: RootMotion
+) -> Iterator[PartEquation]:
+    """Set up the force rows of the equations of parts at rest: what their sensors transmit is their weight.
+
+    Where the bodies of a part are does not matter, so that their joints need not be known.
+
+    Args:
+        tree: The robot, rooted at the link whose motion is known.
+        parts: Some of its parts.
+        joints: Motion of at least the joints between its sensors (`joints_of_cuts`); n samples.
+        root: Motion of the root link's frame; one sample or n.
+
+    Yields:
+        The equation of every part; moments are all 0.
+    """
+    proper = root.proper_acceleration
+    still = RootMotion(
+        proper_acceleration=proper, angular_velocity=np.zeros_like(proper), angular_acceleration=np.zeros_like(proper)
+    )
+    state, here = root_state(stacked_root(still, len(joints))), np.broadcast_to(np.eye(4), (len(joints), 4, 4))
+    forces = np.repeat([1.0, 0.0], 3)
+    _, poses = _motion(tree, _paths(tree, [cut for part in parts for cut in _cuts(tree, part)]), joints, root)
+    for part in parts:
+        heavy = _heavy(tree, part)
+        mass = sum(tree.bodies[k].inertia.mass for k in heavy)
+        names = sensors_of(part)
+        transmission = np.stack([_transmission(tree, part, name, poses) for name in names], axis=1)
+        yield PartEquation(
+            part=part,
+            sensors=names,
+            transmission=forces[:, None] * transmission,
+            demand=np.concatenate([mass * state.proper_acceleration, np.zeros((len(joints), 3))], axis=1),
+            states=dict.fromkeys(heavy, state),
+            poses={**dict.fromkeys(heavy, here), **poses},
+            rows=forces,
+        )
+
+
 def part_equations(
     tree: BodyTree, parts: Sequence[SubModel], joints: JointMotion, root: RootMotion
 ) -> Iterator[PartEquation]:
@@ -137,10 +192,10 @@ def part_equations(
     Raises:
         RobotError: If a joint that is needed is not in `joints`.
     """
-    states, poses = _motion(tree, parts, joints, root)
+    states, poses = _motion(tree, {k for part in parts for k in _bodies(tree, part)}, joints, root)
     for part in parts:
         names = sensors_of(part)
-        heavy = [k for k in part.bodies if not tree.bodies[k].inertia.is_zero]
+        heavy = _heavy(tree, part)
         demand = np.zeros((len(joints), 6))
         for k in heavy:
             demand += transform_wrench(poses[k], net_wrench(tree.bodies[k].inertia, states[k]))
@@ -173,19 +228,30 @@ def _transmission(tree: BodyTree, part: SubModel, sensor: str, poses: dict[int, 
 
 def _bodies(tree: BodyTree, part: SubModel) -> list[int]:
     """Bodies whose motion a part needs, parents before children."""
-    heavy = [k for k in part.bodies if not tree.bodies[k].inertia.is_zero]
-    cuts = [tree.cuts[sensor].body for sensor in sensors_of(part)]
-    return sorted({k for body in (*heavy, *cuts) for k in path_to_root(tree, body)})
+    return _paths(tree, [*_heavy(tree, part), *_cuts(tree, part)])
+
+
+def _heavy(tree: BodyTree, part: SubModel) -> list[int]:
+    return [k for k in part.bodies if not tree.bodies[k].inertia.is_zero]
+
+
+def _cuts(tree: BodyTree, part: SubModel) -> list[int]:
+    return [tree.cuts[sensor].body for sensor in sensors_of(part)]
+
+
+def _paths(tree: BodyTree, bodies: Iterable[int]) -> list[int]:
+    """Bodies from the root to others, parents before children."""
+    return sorted({k for body in bodies for k in path_to_root(tree, body)})
 
 
 def _motion(
-    tree: BodyTree, parts: Sequence[SubModel], joints: JointMotion, root: RootMotion
+    tree: BodyTree, bodies: Iterable[int], joints: JointMotion, root: RootMotion
 ) -> tuple[dict[int, BodyState], dict[int, FloatArray]]:
     n = len(joints)
     base = stacked_root(root, n)
     states: dict[int, BodyState] = {}
     poses: dict[int, FloatArray] = {}
-    for k in sorted({k for part in parts for k in _bodies(tree, part)}):
+    for k in sorted(bodies):
         body = tree.bodies[k]
         if body.parent < 0:
             states[k], poses[k] = root_state(base), np.broadcast_to(np.eye(4), (n, 4, 4))

@@ -34,6 +34,8 @@ class UntouchedStretch:
     """Readings and motion."""
     parts: tuple[SubModel, ...]
     """Parts that nothing should touch and whose joints were logged."""
+    weighed: tuple[SubModel, ...] = ()
+    """Parts that nothing should touch, of whose joints only those between their sensors were logged."""
     left_out: tuple[str, ...] = ()
     """Parts that nothing touches either, but whose joints were not logged, in words."""
 
@@ -96,7 +98,11 @@ def fit_stretches(
 def _windows(
     stretches: Sequence[UntouchedStretch], terms: Sequence[ErrorTerm], about: JointFit | None, every: int
 ) -> tuple[PartWindows, ...]:
-    return tuple(w for one in stretches for w in part_windows(one.stretch, one.parts, terms, about=about, every=every))
+    return tuple(
+        windows
+        for one in stretches
+        for windows in part_windows(one.stretch, one.parts, terms, weighed=one.weighed, about=about, every=every)
+    )
 
 
 def _agreeing(windows: Sequence[PartWindows], fit: JointFit | None) -> list[BoolArray]:
@@ -113,5 +119,7 @@ def _fit(
 
 
 def _all_terms(stretches: Sequence[UntouchedStretch], tolerance: ModelTolerance) -> tuple[ErrorTerm, ...]:
-    terms = (term for one in stretches for term in error_terms(one.stretch.tree, one.parts, tolerance))
+    terms = (
+        term for one in stretches for term in error_terms(one.stretch.tree, one.parts, tolerance, weighed=one.weighed)
+    )
     return tuple({term.name: term for term in terms}.values())

@@ -10,7 +10,7 @@ from typing import Final
 import numpy as np
 
 from forcetorque.arrays import FloatArray
-from forcetorque.estimation.part_equations import PartEquation, joints_of_part, part_equations
+from forcetorque.estimation.part_equations import PartEquation, joints_of_cuts, joints_of_part, part_equations
 from forcetorque.robot import BodyTree, JointMotion, RootMotion
 from forcetorque.robot.newton_euler import net_wrench
 from forcetorque.robot.sub_model import SubModel
@@ -52,28 +52,37 @@ class ErrorTerm:
     """Standard deviation before any data."""
 
 
-def error_terms(tree: BodyTree, parts: Sequence[SubModel], tolerance: ModelTolerance) -> tuple[ErrorTerm, ...]:
+def error_terms(
+    tree: BodyTree, parts: Sequence[SubModel], tolerance: ModelTolerance, *, weighed: Sequence[SubModel] = ()
+) -> tuple[ErrorTerm, ...]:
     """List what the equations of parts depend on and may be wrong.
 
     Args:
         tree: The robot.
         parts: Its parts.
         tolerance: How far it may be.
+        weighed: Parts of which only the weight is asked.
 
     Returns:
         Terms of bodies, then of joints, then of the acceleration of the root; none that cannot be wrong.
     """
-    return tuple(term for term in _terms(tree, parts, tolerance) if term.deviation > 0.0)
+    return tuple(term for term in _terms(tree, parts, weighed, tolerance) if term.deviation > 0.0)
 
 
-def _terms(tree: BodyTree, parts: Sequence[SubModel], tolerance: ModelTolerance) -> Iterator[ErrorTerm]:
+def _terms(
+    tree: BodyTree, parts: Sequence[SubModel], weighed: Sequence[SubModel], tolerance: ModelTolerance
+) -> Iterator[ErrorTerm]:
+    for part in weighed:
+        for k in _heavy(tree, part):
+            yield ErrorTerm(name=_mass(tree, k), unit="", deviation=tolerance.mass)
     for part in parts:
         for k in _heavy(tree, part):
             name = _name(tree, k)
             yield ErrorTerm(name=_mass(tree, k), unit="", deviation=tolerance.mass)
             for axis in "xyz":
                 yield ErrorTerm(name=f"{axis} of centre of {name}", unit="m", deviation=tolerance.centre_m)
-    for joint in _joints(tree, parts):
+    of_cuts = (joint for part in weighed for joint in joints_of_cuts(tree, part))
+    for joint in dict.fromkeys((*_joints(tree, parts), *of_cuts)):
         yield ErrorTerm(name=f"{ZERO}{joint}", unit="rad", deviation=tolerance.joint_zero_rad)
     for axis in "xyz":
         yield ErrorTerm(name=_acceleration(axis, tree), unit="m/s2", deviation=tolerance.acceleration)
@@ -105,7 +114,7 @@ def body_columns(tree: BodyTree, equation: PartEquation) -> dict[str, FloatArray
     for axis, unit in zip("xyz", np.eye(3), strict=True):
         force = np.broadcast_to(mass * unit, moment.shape)
         columns[_acceleration(axis, tree)] = -np.concatenate([force, cross(moment, unit)], axis=1)
-    return columns
+    return {name: equation.rows * values for name, values in columns.items()}
 
 
 def demand_columns(

@@ -39,7 +39,9 @@ class PartResidual:
     """By the fit; shape (w, 6); N, N m."""
     at_sensors: FloatArray
     """What is left by the fit, carried to every sensor: by how much it reads too much if it alone is to blame; shape
-    (w, k, 6); N, N m."""
+    (w, k, 6); N, N m; NaN where the equation has forces only."""
+    rows: FloatArray
+    """1 for a row that the equation has, 0 for one that is left out; shape (6,)."""
     mass_kg: float
     """Mass of its bodies."""
     kept: BoolArray
@@ -59,8 +61,10 @@ class PartResidual:
         """
         after = residuals(windows, fit)
         count = len(windows.sensors)
-        transmission = windows.offsets.reshape(-1, _LOADS, count, _LOADS).transpose(0, 2, 1, 3)
-        carried = np.linalg.solve(transmission, np.repeat(after[:, None, :, None], count, axis=1))[..., 0]
+        carried = np.full((len(windows), count, _LOADS), np.nan)
+        if windows.rows.all():
+            transmission = windows.offsets.reshape(-1, _LOADS, count, _LOADS).transpose(0, 2, 1, 3)
+            carried = np.linalg.solve(transmission, np.repeat(after[:, None, :, None], count, axis=1))[..., 0]
         stretch = windows.stretch
         return cls(
             part=windows.part,
@@ -73,6 +77,7 @@ class PartResidual:
             before=residuals(windows, None) * UNITS,
             after=after * UNITS,
             at_sensors=carried * UNITS,
+            rows=windows.rows,
             mass_kg=windows.mass_kg,
             kept=kept,
         )

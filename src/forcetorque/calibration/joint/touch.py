@@ -69,7 +69,7 @@ def untouched(windows: PartWindows, fit: JointFit | None) -> BoolArray:
     """
     if len(windows) < _FEWEST:
         return np.ones(len(windows), dtype=bool)
-    left = residuals(windows, fit)
+    left = residuals(windows, fit)[:, windows.rows > 0.0]
     left = left - np.median(left, axis=0)
     scale = np.maximum(_NORMAL * np.median(np.abs(left), axis=0), _LEAST)
     far = np.sqrt(((left / scale) ** 2).mean(axis=1)) > FAR

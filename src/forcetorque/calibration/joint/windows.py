@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from itertools import islice
+from itertools import chain, islice
 from typing import TYPE_CHECKING, Any, Final
 
 import numpy as np
@@ -20,7 +20,7 @@ from forcetorque.arrays import BoolArray, FloatArray, IntArray
 from forcetorque.calibration.joint.model_error import ZERO, ErrorTerm, body_columns, demand_columns, mass_shares
 from forcetorque.calibration.joint.nodes import NODES, WEIGHTS, WindowNodes
 from forcetorque.calibration.joint.stretch import Stretch
-from forcetorque.estimation.part_equations import PartEquation, part_equations
+from forcetorque.estimation.part_equations import PartEquation, joints_of_cuts, part_equations, weight_equations
 from forcetorque.robot.sub_model import SubModel
 
 if TYPE_CHECKING:
@@ -34,6 +34,8 @@ WINDOW_S: Final = 0.25
 """Length of a window; s."""
 PIECE_S: Final = 500 * WINDOW_S
 """Length of what is worked on at a time; s: samples take more room than what is kept of them."""
+STILL_RAD_S: Final = 0.1
+"""Speed of joints and root below which a robot is at rest; rad/s."""
 _LOADS = 6
 _CHANGES = 36
 _BLOCK = 500
@@ -64,6 +66,8 @@ class PartWindows:
     """Coefficients of the errors of the model; shape (w, 6, terms)."""
     right: FloatArray
     """Right side; shape (w, 6)."""
+    rows: FloatArray
+    """1 for a row that the equation has, 0 for one that is left out; shape (6,)."""
     mass_kg: float
     """Mass of the bodies of the part."""
     mass_shares: FloatArray
@@ -137,6 +141,7 @@ def part_windows(
     parts: Sequence[SubModel],
     terms: Sequence[ErrorTerm],
     *,
+    weighed: Sequence[SubModel] = (),
     about: JointFit | None = None,
     every: int = 1,
 ) -> Iterator[PartWindows]:
@@ -148,6 +153,7 @@ def part_windows(
         stretch: Readings and motion.
         parts: Parts that nothing touches.
         terms: Errors of the model to allow for.
+        weighed: Parts of which only the weight is asked, in windows at rest.
         about: Fit that is known already, about which the equations are made linear: what the zero of a joint does
             depends on the wrenches that go through it, and on where it is. The prior matrices and zeros if None.
         every: Which pieces of `PIECE_S` are taken: 1 for all, 2 for every second.
@@ -156,7 +162,7 @@ def part_windows(
         The windows of every part, as long as there are any.
     """
     chosen = islice(stretch.pieces(PIECE_S), 0, None, every)
-    pieces = [list(_piece_windows(piece, parts, terms, about)) for piece in chosen]
+    pieces = [list(_piece_windows(piece, parts, weighed, terms, about)) for piece in chosen]
     for of_part in zip(*pieces, strict=True):
         yield _joined(of_part, stretch)
 
@@ -183,14 +189,24 @@ def _joined(pieces: Sequence[PartWindows], stretch: Stretch) -> PartWindows:
 
 
 def _piece_windows(
-    stretch: Stretch, parts: Sequence[SubModel], terms: Sequence[ErrorTerm], about: JointFit | None
+    stretch: Stretch,
+    parts: Sequence[SubModel],
+    weighed: Sequence[SubModel],
+    terms: Sequence[ErrorTerm],
+    about: JointFit | None,
 ) -> Iterator[PartWindows]:
     tree, zeros = stretch.tree, {} if about is None else about.joint_zeros()
     windows = WindowNodes(stretch.time_s, WINDOW_S)
     nodes = windows.condensed(stretch)
     joints, middle = nodes.joints.shifted(zeros), slice(NODES // 2, None, NODES)
     of_zeros = demand_columns(tree, parts, joints.samples(middle), nodes.root.samples(middle))
-    for equation, demanded in zip(part_equations(tree, parts, joints, nodes.root), of_zeros, strict=True):
+    moving = zip(part_equations(tree, parts, joints, nodes.root), of_zeros, strict=True)
+    # where the bodies of what is weighed are does not matter, nor does how joints turn them
+    resting = (
+        (equation, {f"{ZERO}{joint}": np.zeros(_LOADS) for joint in joints_of_cuts(tree, equation.part)})
+        for equation in weight_equations(tree, weighed, joints, nodes.root)
+    )
+    for equation, demanded in chain(moving, resting):
         logged = np.stack([nodes.readings[name] for name in equation.sensors], axis=1)
         through = logged
         if about is not None:
@@ -204,7 +220,15 @@ def _piece_windows(
         errors = np.empty((len(windows), _LOADS, len(own)))
         for k, term in enumerate(own):
             errors[:, :, k] = columns[term.name] / UNITS
-        yield _averaged(stretch, equation, windows, logged, errors, zeros, own)
+        result = _averaged(stretch, equation, windows, logged, errors, zeros, own)
+        yield result if equation.part in parts else result.kept(np.isin(result.time_s, windows.time_s[_at_rest(nodes)]))
+
+
+def _at_rest(nodes: Stretch) -> BoolArray:
+    """Windows in which the root, and every joint that is known, hardly move; shape (w,)."""
+    velocities = [nodes.joints.velocity, np.broadcast_to(nodes.root.angular_velocity, (len(nodes), 3))]
+    fastest = np.abs(np.concatenate(velocities, axis=1)).max(axis=1)
+    return np.asarray(fastest.reshape(-1, NODES).max(axis=1) < STILL_RAD_S)
 
 
 def _averaged(
@@ -233,6 +257,7 @@ def _averaged(
         errors=errors,
         # unknown is the whole error of a zero, some of which the equation has already
         right=windows.node_means(right) + errors @ known,
+        rows=equation.rows,
         mass_kg=sum(stretch.tree.bodies[k].inertia.mass for k in equation.part.bodies),
         mass_shares=mass_shares(stretch.tree, equation.part, terms),
         load_squares=_squares([*np.moveaxis(transmitted, 1, 0), equation.demand / UNITS]),
