@@ -105,7 +105,10 @@ def _without_equation(sensor: str) -> str:
 
 
 def _intervals(campaign: Campaign, sensors: Sequence[str], progress: Callable[[str], None]) -> Iterator[JointInterval]:
-    for run in campaign.runs_with(Use.CALIBRATION):
+    runs = [
+        run for run in campaign.runs if any(one.use is Use.CALIBRATION for one in run.experiment.recording.intervals)
+    ]
+    for run in runs or campaign.runs[:1]:  # the first says itself what it lacks
         for interval in run.experiment.intervals(Use.CALIBRATION):
             label = campaign.label(run, interval.label)
             progress(f"reading {label}")

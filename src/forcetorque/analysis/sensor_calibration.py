@@ -21,8 +21,6 @@ from forcetorque.analysis.sensor_run import SensorRun
 from forcetorque.array_field import ArrayField
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration import Calibration, EstimationType, RecordingMoments, write_calibration
-from forcetorque.experiment import Experiment
-from forcetorque.experiment.contacts import contacts_in
 from forcetorque.recording import Use
 from forcetorque.result import Result, Row, Table, table_of
 
@@ -148,7 +146,7 @@ def data_doubts(run: SensorRun, *, by_model: bool = True) -> Iterator[str]:
 
     Yields:
         A sentence where the load was weighed with the sensor itself, one per interval in which the file says that
-        something else may touch the robot, and one per finding in a fitted interval.
+        something touches the robot beyond it, and one per finding in a fitted interval.
     """
     experiment = run.experiment
     if experiment.payload is not None:
@@ -157,7 +155,7 @@ def data_doubts(run: SensorRun, *, by_model: bool = True) -> Iterator[str]:
             "give mass_kg and centre_of_mass_m to judge it"
         )
     if by_model:
-        yield from _touched(experiment)
+        yield from _touched(run)
     start_ns, alone = experiment.recording.start_ns, replace(experiment, sensors=(run.sensor,))
     for interval, finding in doubtful_spans(alone, Use.CALIBRATION, by_model=by_model):
         start, end = (((stamp_ns or 0) - start_ns) * 1e-9 for stamp_ns in (finding.start_ns, finding.end_ns))
@@ -167,12 +165,10 @@ def data_doubts(run: SensorRun, *, by_model: bool = True) -> Iterator[str]:
         )
 
 
-def _touched(experiment: Experiment) -> Iterator[str]:
-    """Intervals in which one sensor alone is fitted as if nothing but the support touched the robot."""
-    for interval in experiment.intervals(Use.CALIBRATION):
-        if present := contacts_in(interval, experiment.contacts):
-            names = ", ".join(entry.contact.name for entry in present)
+def _touched(run: SensorRun) -> Iterator[str]:
+    for interval in run.experiment.intervals(Use.CALIBRATION):
+        if names := run.touched_beyond(interval):
             yield (
-                f"interval {interval.label!r}: {names} may touch the robot too, by [[contact]]; a sensor by itself is "
-                "fitted as if nothing but the support did. Calibrate --jointly, or name intervals in [[contact]]"
+                f"interval {interval.label!r} is left out: {', '.join(names)} touches the robot beyond the sensor, by "
+                "[[contact]], so that nobody knows what it must read; calibrate all sensors at once, --jointly"
             )

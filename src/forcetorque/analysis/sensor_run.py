@@ -20,9 +20,11 @@ from forcetorque.errors import ExperimentError
 from forcetorque.estimation.picked import padded_samples
 from forcetorque.estimation.samples import robot_motion_at
 from forcetorque.experiment import Experiment, ExperimentSensor
-from forcetorque.experiment.contacts import touched_otherwise
-from forcetorque.recording import Interval, Stream, Use
-from forcetorque.robot import JointMotion, RootMotion
+from forcetorque.experiment.contacts import contacts_in, touched_otherwise
+from forcetorque.experiment.content import ExperimentContact
+from forcetorque.recording import Interval, MovingSupport, Stream, Use
+from forcetorque.robot import JointMotion, RootMotion, build_tree
+from forcetorque.robot.sub_model import path_to_root
 
 _Answer = TypeVar("_Answer")
 
@@ -69,7 +71,7 @@ class SensorRun:
         return int(logged.shape[1] if self.sensor.quantity == "raw" or prior is None else prior.shape[1])
 
     def has(self, use: Use) -> bool:
-        """Tell whether the recording has an interval of a use.
+        """Tell whether the recording has an interval of a use in which it is known what the sensor must read.
 
         Args:
             use: The use.
@@ -77,10 +79,13 @@ class SensorRun:
         Returns:
             Whether it has.
         """
-        return any(interval.use is use for interval in self.experiment.recording.intervals)
+        return any(
+            interval.use is use and not self.touched_beyond(interval)
+            for interval in self.experiment.recording.intervals
+        )
 
     def intervals(self, use: Use) -> tuple[Interval, ...]:
-        """Give the intervals of one use.
+        """Give the intervals of one use in which it is known what the sensor must read.
 
         Args:
             use: The use.
@@ -88,7 +93,25 @@ class SensorRun:
         Returns:
             Intervals in the order of time.
         """
-        return tuple(sorted(self.experiment.intervals(use), key=lambda interval: interval.start_ns))
+        return tuple(sorted(self._known_intervals(use), key=lambda interval: interval.start_ns))
+
+    def touched_beyond(self, interval: Interval) -> tuple[str, ...]:
+        """Name what touches a robot on the move beyond the sensor, seen from the support, and nobody knows how.
+
+        Where the support stands still a contact is one that may come, such as a hand; where it moves, with an IMU, the
+        robot stands on what the file names.
+
+        Args:
+            interval: An interval.
+
+        Returns:
+            Names of contacts; none where mechanics says what the sensor must read.
+        """
+        present = contacts_in(interval, self.experiment.contacts)
+        support = interval.support
+        if not present or not isinstance(support, MovingSupport):
+            return ()
+        return self._once(("touched", _key(interval)), lambda: self._beyond(support, present))
 
     def interval_samples(
         self, interval: Interval, *, variables: Collection[str] = (), smoothed: bool = True
@@ -135,7 +158,7 @@ class SensorRun:
         Returns:
             Samples per interval, in the order of the file.
         """
-        return [self.interval_samples(interval, variables=variables) for interval in self.experiment.intervals(use)]
+        return [self.interval_samples(interval, variables=variables) for interval in self._known_intervals(use)]
 
     def instants(self, interval: Interval) -> JudgedInstants:
         """Give the instants at which the sensor is judged in an interval.
@@ -255,6 +278,27 @@ class SensorRun:
             calibration: The calibration.
         """
         require_fit(name, calibration, self.experiment, self.sensor)
+
+    def _known_intervals(self, use: Use) -> tuple[Interval, ...]:
+        intervals = self.experiment.intervals(use)
+        known = tuple(interval for interval in intervals if not self.touched_beyond(interval))
+        if not known:
+            names = dict.fromkeys(name for interval in intervals for name in self.touched_beyond(interval))
+            raise ExperimentError(
+                f'expected an interval with use = "{use}" in which nothing touches the robot beyond '
+                f"{self.sensor.name!r}, but by [[contact]] {', '.join(names)} does in every one, so that nobody knows "
+                "what the sensor must read; record it with that in the air, or calibrate all at once, --jointly"
+            )
+        return known
+
+    def _beyond(self, support: MovingSupport, contacts: Sequence[ExperimentContact]) -> tuple[str, ...]:
+        tree = build_tree(self.experiment.model, support.frame)
+        cut = tree.cuts[self.sensor.name].body
+        return tuple(
+            entry.contact.name
+            for entry in contacts
+            if entry.stream is None and cut in path_to_root(tree, tree.frames[entry.contact.link][0])
+        )
 
     def _in_order(self, variables: Collection[str]) -> tuple[str, ...]:
         return tuple(v.linear.name for v in self.sensor.variables if v.linear.name in variables)

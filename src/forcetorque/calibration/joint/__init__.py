@@ -10,7 +10,7 @@ from forcetorque.calibration.joint.sensor_posterior import sensor_posterior
 from forcetorque.calibration.joint.spread import EVEN, ChangeSpread
 from forcetorque.calibration.joint.stretch import Stretch
 from forcetorque.calibration.joint.sums import PartSums, Places, part_sums
-from forcetorque.calibration.joint.touch import Touch, residuals, untouched
+from forcetorque.calibration.joint.touch import Touch, residuals, residuals_by, untouched
 from forcetorque.calibration.joint.windows import UNITS, PartWindows, part_windows, window_means
 
 __all__ = [
@@ -37,6 +37,7 @@ __all__ = [
     "part_windows",
     "read_joint_posterior",
     "residuals",
+    "residuals_by",
     "sensor_posterior",
     "untouched",
     "window_means",

@@ -16,7 +16,7 @@ from forcetorque.calibration.joint.residual import PartResidual
 from forcetorque.calibration.joint.spread import ChangeSpread
 from forcetorque.calibration.joint.stretch import Stretch
 from forcetorque.calibration.joint.sums import part_sums
-from forcetorque.calibration.joint.touch import Touch, all_touches, untouched
+from forcetorque.calibration.joint.touch import Touch, all_touches, residuals, untouched
 from forcetorque.calibration.joint.windows import PartWindows, part_windows
 from forcetorque.robot.sub_model import SubModel
 
@@ -89,7 +89,9 @@ def fit_stretches(
     kept = _agreeing(windows, fit)
     return JointResult(
         fit=fit,
-        residuals=tuple(PartResidual.of(one, fit, marks) for one, marks in zip(windows, kept, strict=True)),
+        residuals=tuple(
+            PartResidual.of(one, residuals(one, fit), marks) for one, marks in zip(windows, kept, strict=True)
+        ),
         touches=all_touches(windows, kept),
         left_out=tuple(dict.fromkeys(words for one in stretches for words in one.left_out)),
     )

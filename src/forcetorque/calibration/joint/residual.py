@@ -8,7 +8,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from forcetorque.arrays import BoolArray, FloatArray
-from forcetorque.calibration.joint.fit import JointFit
 from forcetorque.calibration.joint.touch import residuals
 from forcetorque.calibration.joint.windows import UNITS, PartWindows
 
@@ -36,7 +35,7 @@ class PartResidual:
     before: FloatArray
     """By the prior matrices, with the offsets that suit these windows best; shape (w, 6); N, N m."""
     after: FloatArray
-    """By the fit; shape (w, 6); N, N m."""
+    """By the fit, or by calibrations; shape (w, 6); N, N m."""
     at_sensors: FloatArray
     """What is left by the fit, carried to every sensor: by how much it reads too much if it alone is to blame; shape
     (w, k, 6); N, N m; NaN where the equation has forces only."""
@@ -48,18 +47,17 @@ class PartResidual:
     """Windows that were fitted: the others disagree with them; shape (w,)."""
 
     @classmethod
-    def of(cls, windows: PartWindows, fit: JointFit, kept: BoolArray) -> PartResidual:
+    def of(cls, windows: PartWindows, after: FloatArray, kept: BoolArray) -> PartResidual:
         """Take what is left in windows.
 
         Args:
             windows: Windows of a part.
-            fit: The fit.
+            after: What is left of their equations; shape (w, 6); in `UNITS`.
             kept: Which of them were fitted; shape (w,).
 
         Returns:
             The same in N and N m.
         """
-        after = residuals(windows, fit)
         count = len(windows.sensors)
         carried = np.full((len(windows), count, _LOADS), np.nan)
         if windows.rows.all():

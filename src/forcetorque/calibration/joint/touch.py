@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Final
 
@@ -11,8 +11,9 @@ import numpy as np
 
 from forcetorque.arrays import BoolArray, FloatArray
 from forcetorque.calibration.joint.fit import JointFit
-from forcetorque.calibration.joint.windows import WINDOW_S, PartWindows
+from forcetorque.calibration.joint.windows import UNITS, WINDOW_S, PartWindows
 
+_LOADS = 6
 FAR: Final = 4.0
 """Robust standard deviations of the residual from which a window disagrees."""
 _NEIGHBOURS = 2
@@ -50,11 +51,33 @@ def residuals(windows: PartWindows, fit: JointFit | None) -> FloatArray:
         Left side less right side; shape (w, 6); in `UNITS`.
     """
     if fit is None:
-        offsets = windows.offsets.reshape(-1, windows.offsets.shape[2])
-        best = np.linalg.lstsq(offsets, windows.right.ravel(), rcond=None)[0]
-        return np.asarray(windows.offsets @ best - windows.right)
+        return residuals_by(windows, {name: np.eye(_LOADS) for name in windows.sensors}, None)
     unknowns = fit.mean[fit.places.of_part(windows.sensors, windows.stretch.session, windows.terms)]
     return np.concatenate([block.columns @ unknowns - block.right for block in windows.blocks()])
+
+
+def residuals_by(
+    windows: PartWindows, factors: Mapping[str, FloatArray], offsets: Mapping[str, FloatArray] | None
+) -> FloatArray:
+    """Give what is left of the equations of a part by given calibrations, of a model that is taken for exact.
+
+    Args:
+        windows: Its windows.
+        factors: What wrenches by the prior matrix of a sensor are to be multiplied by; shape (6, 6); N, N m.
+        offsets: What is to be added to them; shape (6,); N, N m; None for what suits these windows best.
+
+    Returns:
+        Left side less right side; shape (w, 6); in `UNITS`.
+    """
+    changes = [(factors[name] * (UNITS / UNITS[:, None]) - np.eye(_LOADS)).ravel() for name in windows.sensors]
+    left = np.concatenate([block.changes @ np.concatenate(changes) - block.right for block in windows.blocks()])
+    of_offsets = windows.offsets
+    if offsets is None:
+        columns = of_offsets.reshape(-1, of_offsets.shape[2])
+        added = -np.linalg.lstsq(columns, left.ravel(), rcond=None)[0]
+    else:
+        added = np.concatenate([offsets[name] / UNITS for name in windows.sensors])
+    return np.asarray(left + of_offsets @ added)
 
 
 def untouched(windows: PartWindows, fit: JointFit | None) -> BoolArray:
