@@ -14,8 +14,11 @@ from typing import Any
 import numpy as np
 import pytest
 
-from forcetorque.analysis import calibrate_jointly, joint_interval
+from forcetorque.analysis import SensorRun, calibrate_jointly, calibrate_sensor, evaluate, joint_interval
 from forcetorque.analysis.joint_outcome import JointOutcome
+from forcetorque.analysis.joint_rows import PartRow
+from forcetorque.analysis.part_residuals import part_residuals
+from forcetorque.analysis.sensor_calibration import data_doubts
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration.joint import UNITS, JointFit, PartWindows, part_windows, residuals
 from forcetorque.errors import ExperimentError
@@ -174,6 +177,41 @@ def test_a_robot_that_stands_still_says_what_it_does_not_know(stance: Path) -> N
     gain, offset, *_ = joint.doubts()
     assert gain.startswith("stance gain not determined: l_foot_ft (±")
     assert offset.startswith("offset not determined: l_leg_ft (±")
+
+
+@pytest.mark.long
+def test_legs_of_a_robot_on_both_feet_are_not_judged_as_if_it_stood_on_one(stance: Path) -> None:
+    """Nobody knows what they must read; arms, which nothing touches, are judged; alone neither is fitted to the legs."""
+    judged, fitted = (load_experiment(stance / f"sway_day{day}.toml") for day in (2, 1))
+    legs, arm = SensorRun(judged, "l_leg_ft"), SensorRun(judged, "l_arm_ft")
+    with pytest.raises(ExperimentError, match="r_sole does in every one, so that nobody knows what the sensor must"):
+        evaluate(legs, {})
+    assert evaluate(arm, {}).verdicts
+    with pytest.raises(ExperimentError, match="calibrate all at once, --jointly"):
+        calibrate_sensor(SensorRun(fitted, "r_foot_ft"), code_version="1", created="2020-01-01")
+    assert any("r_sole touches the robot beyond" in doubt for doubt in data_doubts(SensorRun(fitted, "r_foot_ft")))
+
+
+@pytest.mark.long
+def test_parts_of_another_day_are_closed_by_the_calibrations(stance: Path) -> None:
+    """With the feet elsewhere and other offsets: what is left of every part is a small share of what priors leave."""
+    result = calibrate_jointly([load_experiment(stance / "sway_day1.toml")], "out", code_version="1", created="2020")
+    calibrations = {entry.calibration.sensor.name: entry.calibration for entry in result.calibrations}
+    rows = [
+        PartRow.of(one)
+        for one in part_residuals(load_experiment(stance / "sway_day2.toml"), calibrations, Use.VALIDATION)
+    ]
+    assert {row.part for row in rows} == {"chest", "l_leg_ft", "r_leg_ft", "l_arm_ft", "r_arm_ft"}
+    for row in rows:
+        assert row.force_after_N < 0.1 * row.force_before_N
+    # negative control: the calibration of the other leg does not close a part
+    swapped = {**calibrations, "l_leg_ft": calibrations["r_leg_ft"]}
+    (leg,) = (
+        PartRow.of(one)
+        for one in part_residuals(load_experiment(stance / "sway_day2.toml"), swapped, Use.VALIDATION)
+        if one.part == "l_leg_ft"
+    )
+    assert leg.force_after_N > 0.5 * leg.force_before_N
 
 
 @pytest.mark.long

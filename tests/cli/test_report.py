@@ -193,7 +193,7 @@ def test_the_document_holds_the_tables_and_pictures(result: Any) -> None:
     matrix = sensor["calibrations"]["fitted.json"]["matrix"]
     assert any(line.startswith(f"{matrix[2][3]:.3e} ±") for line in lines)
     html = Path("report.html").read_bytes()
-    assert html.count(b"<img ") == 6
+    assert html.count(b"<img ") == 7
     assert len(html) < NORMAL_BYTES
     assert Path("report.pdf").read_bytes().startswith(b"%PDF")
 

@@ -8,8 +8,15 @@ import pytest
 
 from forcetorque.errors import EstimationError, RobotError
 from forcetorque.estimation import Contact
-from forcetorque.estimation.part_equations import joints_of_part, part_equations, sensors_of, untouched_parts
-from forcetorque.robot import JointMotion, build_tree, read_urdf
+from forcetorque.estimation.part_equations import (
+    joints_of_cuts,
+    joints_of_part,
+    part_equations,
+    sensors_of,
+    untouched_parts,
+    weight_equations,
+)
+from forcetorque.robot import JointMotion, RootMotion, build_tree, read_urdf
 from forcetorque.spatial import invert_pose, transform_wrench
 from tests.estimation.simulated import Simulation, random_root
 from tests.robots import icub, random_motion
@@ -34,6 +41,17 @@ def simulation() -> Simulation:
     rest = robot.total_needed() - transform_wrench(left, on_left)
     robot.touch(Contact(link="r_sole"), transform_wrench(invert_pose(right), rest))
     return robot
+
+
+def _named(motion: JointMotion, names: tuple[str, ...]) -> JointMotion:
+    """Some of the joints."""
+    columns = [motion.names.index(joint) for joint in names]
+    return JointMotion(
+        names=names,
+        position=motion.position[:, columns],
+        velocity=motion.velocity[:, columns],
+        acceleration=motion.acceleration[:, columns],
+    )
 
 
 def test_parts_that_nothing_touches_are_closed_by_true_readings(simulation: Simulation) -> None:
@@ -64,20 +82,34 @@ def test_only_the_joints_of_a_part_are_needed(simulation: Simulation) -> None:
     assert sensors_of(shank) == ("l_leg_ft", "l_foot_ft")
     assert {"l_hip_pitch", "l_knee", "l_ankle_roll"} <= set(needed)
     assert not any(joint.startswith(("r_", "l_shoulder", "neck")) for joint in needed)
-    columns = [simulation.joints.names.index(joint) for joint in needed]
     motion = simulation.joints
-    few = JointMotion(
-        names=needed,
-        position=motion.position[:, columns],
-        velocity=motion.velocity[:, columns],
-        acceleration=motion.acceleration[:, columns],
-    )
+    few = _named(motion, needed)
     (alone,) = part_equations(tree, [shank], few, simulation.root)
     (whole,) = part_equations(tree, [shank], motion, simulation.root)
     np.testing.assert_array_equal(alone.demand, whole.demand)
     fewer = JointMotion.at_rest(needed[:-1], np.zeros((SAMPLES, len(needed) - 1)))
     with pytest.raises(RobotError, match=f"needs joint '{needed[-1]}'"):
         list(part_equations(tree, [shank], fewer, simulation.root))
+
+
+def test_the_weight_of_a_part_at_rest_needs_no_joints_of_its_own(simulation: Simulation) -> None:
+    """Force rows of a robot at rest are those of the whole equation, by the joints between the sensors alone."""
+    tree = build_tree(simulation.model, ROOT)
+    (torso,) = (part for part in untouched_parts(tree, SENSORS, FEET) if part.name == ROOT)
+    joints = JointMotion.at_rest(simulation.joints.names, simulation.joints.position)
+    root = RootMotion.fixed([0.0, 0.6, -0.8])
+    (whole,) = part_equations(tree, [torso], joints, root)
+    needed = joints_of_cuts(tree, torso)
+    assert not any(joint.startswith(("neck", "l_elbow", "l_wrist")) for joint in needed)
+    (weight,) = weight_equations(tree, [torso], _named(joints, needed), root)
+    np.testing.assert_allclose(weight.demand[:, :3], whole.demand[:, :3], atol=1e-10)
+    np.testing.assert_array_equal(weight.transmission[:, :, :3], whole.transmission[:, :, :3])
+    assert not weight.demand[:, 3:].any()
+    assert not weight.transmission[:, :, 3:].any()
+    # negative control: of a robot that moves it is only about right
+    (moving,) = part_equations(tree, [torso], simulation.joints, simulation.root)
+    (still,) = weight_equations(tree, [torso], simulation.joints, simulation.root)
+    assert np.abs(moving.demand[:, :3] - still.demand[:, :3]).max() > 1.0
 
 
 def test_touch_everywhere_is_refused() -> None:

@@ -5,13 +5,19 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 
+from pydantic import Field
+
 from forcetorque.analysis.assessment import Assessment, Demands, assess
 from forcetorque.analysis.findings import inspect_experiment
 from forcetorque.analysis.inspect import FindingRow, finding_rows
+from forcetorque.analysis.joint_rows import PartRow
 from forcetorque.analysis.overview import IntervalOverview, StreamOverview, interval_overviews, stream_overviews
+from forcetorque.analysis.part_residuals import part_residuals
 from forcetorque.analysis.sensor_run import SensorRun
 from forcetorque.calibration import Calibration
+from forcetorque.calibration.joint import PartResidual
 from forcetorque.experiment import Experiment
+from forcetorque.recording import Use
 from forcetorque.result import Row
 
 
@@ -34,6 +40,10 @@ class ExperimentAssessment(Row):
     """What is wrong with the recording."""
     sensors: tuple[Assessment, ...]
     """Its sensors."""
+    parts: tuple[PartRow, ...] = ()
+    """What the first calibration of every sensor leaves of parts that nothing touches, on data that was not fitted."""
+    part_residuals: tuple[PartResidual, ...] = Field(default=(), exclude=True, repr=False)
+    """The same window by window."""
     inputs_sha256: dict[str, str]
     """SHA-256 of every input file."""
 
@@ -75,6 +85,8 @@ def assess_experiment(
         }
         run = SensorRun(experiment, sensor) if runs is None else runs[sensor.name]
         sensors.append(assess(run, calibrations.get(sensor.name, {}), others=others, demands=demands))
+    first = {name: next(iter(group.values())) for name, group in calibrations.items() if group}
+    residuals = part_residuals(experiment, first, Use.VALIDATION)
     start, end = experiment.recording.span_ns
     return ExperimentAssessment(
         experiment=experiment.name,
@@ -85,5 +97,7 @@ def assess_experiment(
         intervals=interval_overviews(experiment.recording),
         findings=finding_rows(start, inspect_experiment(experiment)),
         sensors=tuple(sensors),
+        parts=tuple(map(PartRow.of, residuals)),
+        part_residuals=tuple(residuals),
         inputs_sha256=dict(experiment.inputs_sha256),
     )

@@ -11,7 +11,8 @@ from forcetorque.analysis import Assessment, ExperimentAssessment, finding_table
 from forcetorque.errors import ForceTorqueError
 from forcetorque.report import tables
 from forcetorque.report.calibration_sections import origin_words
-from forcetorque.report.document import Block, Document, List, Section, Text
+from forcetorque.report.document import Block, Document, Figure, List, Picture, Section, Text
+from forcetorque.report.figures import joint_figure
 from forcetorque.report.judgements import judgement_section
 from forcetorque.report.questions import ERRORS, QUESTIONS
 from forcetorque.result import Table, table_of
@@ -43,6 +44,7 @@ def report_document(
     """
     parts = [_question(*ERRORS, experiments), judgement_section(experiments)]
     parts += [_question(name, make, experiments) for name, make in QUESTIONS]
+    parts += [_parts(experiment) for experiment in experiments]
     parts += [_recording(experiment) for experiment in experiments]
     parts += [*viewers, *(_findings(experiment) for experiment in experiments)]
     for file, content in results.items():
@@ -82,6 +84,24 @@ def _question(
     return Section(
         title=title, sections=tuple(Section(title=name, blocks=blocks) for name, blocks in answers.items() if blocks)
     )
+
+
+def _parts(experiment: ExperimentAssessment) -> Section:
+    title = f"Parts that nothing touches: {experiment.experiment}"
+    residuals = experiment.part_residuals
+    if not residuals:
+        return Section(title=title)
+    words = (
+        "What the sensors around a part read, added up, is what moves its bodies, whatever the rest of the robot "
+        "touches. What is left, by the first calibration of each sensor on data that was not fitted: root mean square; "
+        "offsets are those of the session where it was fitted, else the best."
+    )
+    figure = Figure(
+        picture=Picture(lambda: joint_figure(residuals)),
+        caption="What is left of every part over time, by the prior matrices and by the calibrations.",
+        description="For every part two plots over time, force and moment, each before and after.",
+    )
+    return Section(title=title, blocks=(Text(text=words), table_of(experiment.parts, "Parts"), figure))
 
 
 def _recording(experiment: ExperimentAssessment) -> Section:
