@@ -12,7 +12,7 @@ import numpy as np
 
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration import DataSet, LinearVariable, calibrate
-from forcetorque.estimation import Processing, sensor_samples
+from forcetorque.estimation import Evaluator, Processing, sensor_samples
 from forcetorque.evaluation.sphere import SphereAnalysis, analyse_sphere
 from forcetorque.recording import Interval, Support, Use
 from forcetorque.simulation.scenario import (
@@ -125,6 +125,7 @@ def _references() -> dict[str, tuple[FloatArray, FloatArray]]:
             quantity="raw",
             interval=interval,
             processing=Processing(),
+            evaluator=Evaluator.COMPILED,
         )
         inside = np.flatnonzero(np.isin(made.recording.stream(LEG).stamp_ns, samples.stamp_ns))
         found[made.name] = (inside, samples.reference)
