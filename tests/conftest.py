@@ -3,12 +3,14 @@
 
 from __future__ import annotations
 
+import io
 import secrets
 from collections.abc import Sequence
 from pathlib import Path
 
 import pytest
 from hypothesis import settings
+from PIL import Image
 
 # a slow machine is no failure
 settings.register_profile("patient", deadline=None)
@@ -65,3 +67,11 @@ def data_dir(request: pytest.FixtureRequest) -> Path:
     if not folder.is_dir():
         pytest.skip(f"no measured data at {folder}; pass --data DIR")
     return folder
+
+
+@pytest.fixture
+def blank_pictures(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Make the pictures of a document, but leave them blank: drawing takes most of a report, and words need none."""
+    blank = io.BytesIO()
+    Image.new("RGB", (1, 1)).save(blank, format="png")
+    monkeypatch.setattr("forcetorque.report.document.picture.png_bytes", lambda figure: blank.getvalue())

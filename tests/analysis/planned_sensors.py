@@ -14,7 +14,7 @@ from forcetorque.analysis.plan_proposal import Proposal
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration import DataSet, LinearVariable
 from forcetorque.calibration.generative import REPEATABILITY, Assumptions, GenerativeFit, WindowMeans, fit_generative
-from forcetorque.estimation import Processing, sensor_samples
+from forcetorque.estimation import Evaluator, Processing, sensor_samples
 from forcetorque.evaluation.use import LoadCase
 from forcetorque.exchange.icub import encode_matrix, write_matrix_file
 from forcetorque.experiment.planned import load_planned
@@ -80,6 +80,7 @@ def _reference(recording: Recording, movement: Movement, sensor: str) -> tuple[F
         quantity="raw",
         interval=interval,
         processing=Processing(),
+        evaluator=Evaluator.COMPILED,
     )
     inside = np.isin(recording.stream(sensor).stamp_ns, samples.stamp_ns)
     return np.flatnonzero(inside), samples.reference, samples.flattening

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -56,6 +57,25 @@ def test_all_questions_about_a_sensor_compute_samples_and_motion_once(run: Senso
     assert calls == {"samples": 2, "motion": 1}
     assess(SensorRun(run.experiment, "arm_ft"), calibrations)  # negative control
     assert calls["samples"] > 2
+
+
+def test_much_work_in_all_intervals_together_is_compiled(run: SensorRun, monkeypatch: pytest.MonkeyPatch) -> None:
+    """However little there is in each: two intervals are more than either."""
+    readable, module = len(run.samples(Use.VALIDATION)[0].samples), sys.modules["forcetorque.estimation.estimate"]
+    stamps = run.stream.stamp_ns
+    counts = [
+        np.count_nonzero((one.start_ns <= stamps) & (stamps <= one.end_ns))
+        for one in run.experiment.recording.intervals
+        if one.support is not None
+    ]
+    assert max(counts) < sum(counts)
+    monkeypatch.setattr(module, "_FEW", sum(counts))
+    monkeypatch.setattr(module, "_run_readable", None)
+    (compiled,) = SensorRun(run.experiment, "arm_ft").samples(Use.VALIDATION)
+    assert len(compiled.samples) == readable
+    monkeypatch.setattr(module, "_FEW", sum(counts) + 1)  # negative control
+    with pytest.raises(TypeError):
+        SensorRun(run.experiment, "arm_ft").samples(Use.VALIDATION)
 
 
 def test_answers_do_not_depend_on_what_was_asked_before(run: SensorRun) -> None:

@@ -13,7 +13,7 @@ import numpy as np
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration import CalibrationFit, DataSet, LinearVariable, calibrate
 from forcetorque.calibration.generative import REPEATABILITY, Assumptions, GenerativeFit, WindowMeans, fit_generative
-from forcetorque.estimation import Processing, sensor_samples
+from forcetorque.estimation import Evaluator, Processing, sensor_samples
 from forcetorque.evaluation import push_error, pushes
 from forcetorque.recording import Interval, Support, Use
 from forcetorque.simulation.scenario import (
@@ -178,6 +178,7 @@ def _reference(
             support=Support(frame=movement.support, gravity_direction=movement.gravity_direction),
         ),
         processing=Processing(),
+        evaluator=Evaluator.COMPILED,
     )
     inside = np.isin(recorded.recording.stream(sensor).stamp_ns, samples.stamp_ns)
     return np.flatnonzero(inside), samples.reference, samples.flattening

@@ -11,7 +11,7 @@ import numpy as np
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration import DataSet
 from forcetorque.calibration.generative import Assumptions, GenerativeFit, WindowMeans, fit_generative
-from forcetorque.estimation import Processing, sensor_samples
+from forcetorque.estimation import Evaluator, Processing, sensor_samples
 from forcetorque.evaluation import pushes
 from forcetorque.recording import Interval, Support, Use
 from forcetorque.robot import read_urdf
@@ -62,6 +62,7 @@ def _swing(tool: int) -> tuple[Trace, FloatArray, FloatArray, FloatArray]:
             support=Support(frame=BASE, gravity_direction=DOWN),
         ),
         processing=Processing(),
+        evaluator=Evaluator.COMPILED,
     )
     index = np.flatnonzero(np.isin(recording.stream(SENSOR).stamp_ns, samples.stamp_ns))
     return trace, index, samples.reference, samples.flattening

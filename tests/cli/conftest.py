@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import io
 import logging
 import shutil
 import sys
@@ -11,7 +10,6 @@ from datetime import UTC, datetime
 from pathlib import Path
 
 import pytest
-from PIL import Image
 
 from forcetorque.analysis import SensorRun, calibrate_sensor
 from forcetorque.calibration import write_calibration
@@ -80,14 +78,6 @@ def days(recorded: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Pat
     folder = Path(shutil.copytree(recorded, tmp_path / "days"))
     monkeypatch.chdir(folder)
     return folder
-
-
-@pytest.fixture
-def blank_pictures(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Make the pictures of a document, but leave them blank: drawing takes most of a report, and words need none."""
-    blank = io.BytesIO()
-    Image.new("RGB", (1, 1)).save(blank, format="png")
-    monkeypatch.setattr("forcetorque.report.document.picture.png_bytes", lambda figure: blank.getvalue())
 
 
 @pytest.fixture

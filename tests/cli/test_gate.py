@@ -92,6 +92,7 @@ def test_a_wrong_model_is_refused(arm: Path, run: Run, name: str, regularisation
     assert snapshot(arm) == before
 
 
+@pytest.mark.usefixtures("blank_pictures")
 def test_the_intact_experiment_raises_no_doubt(arm: Path, run: Run) -> None:
     """The negative control of all the others: no warning, and a verdict "good"."""
     made = run("calibrate", PARQUET, "-o", "made.json")

@@ -40,6 +40,7 @@ class Simulation:
     links: dict[str, Motion] = field(init=False)
     far_side: dict[str, set[str]] = field(init=False)
     on_links: dict[str, FloatArray] = field(init=False)
+    needed: dict[str, FloatArray] = field(init=False)
 
     def __post_init__(self) -> None:
         n = len(self.joints)
@@ -62,6 +63,7 @@ class Simulation:
                     self.links[there] = self._across(name, here, downwards=there == joint.child)
                     way[there] = (*way[here], name)
                     waiting.append(there)
+        self.needed = {link: self._needed(link) for link in self.links}
 
     def coordinate(self, joint: str) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Position, velocity and acceleration of a joint, or of what it mimics."""
@@ -76,31 +78,16 @@ class Simulation:
         """Let the world do this to the robot, (n, 6), in and about the contact frame."""
         self.on_links[contact.link] += to_root(self.links[contact.link].pose @ contact.link_H_contact, wrench)
 
-    def needed(self, link: str) -> FloatArray:
-        """What moves a link as it moves, by Newton's and Euler's laws about its centre of mass."""
-        inertia, motion = self.model.links[link], self.links[link]
-        rotation, origin = motion.pose[:, :3, :3], motion.pose[:, :3, 3]
-        centre = inertia.first_moment / inertia.mass if inertia.mass else np.zeros(3)
-        about_centre = inertia.second_moment - inertia.mass * (centre @ centre * np.eye(3) - np.outer(centre, centre))
-        tensor = rotation @ about_centre @ rotation.transpose(0, 2, 1)
-        omega, alpha = motion.angular_velocity, motion.angular_acceleration
-        arm = rotation @ centre
-        force = inertia.mass * (
-            motion.proper_acceleration + np.cross(alpha, arm) + np.cross(omega, np.cross(omega, arm))
-        )
-        spin = np.einsum("nij,nj->ni", tensor, alpha) + np.cross(omega, np.einsum("nij,nj->ni", tensor, omega))
-        return np.concatenate([force, spin + np.cross(origin + arm, force)], axis=1)
-
     def passing(self, joint: str) -> FloatArray:
         """What the near side of a joint does to the far side."""
         total = np.zeros((len(self.joints), 6))
         for link in self.far_side[joint]:
-            total += self.needed(link) - self.on_links[link]
+            total += self.needed[link] - self.on_links[link]
         return total
 
     def total_needed(self) -> FloatArray:
         """What the world must do to the whole robot."""
-        return np.sum([self.needed(link) for link in self.model.links], axis=0)
+        return np.sum([self.needed[link] for link in self.model.links], axis=0)
 
     def parent_on_child(self, joint: str) -> FloatArray:
         """What the parent link's side of a joint does to the child link's."""
@@ -134,7 +121,22 @@ class Simulation:
 
     def net_wrench(self, link: str) -> FloatArray:
         """What moves a link as it moves, in and about its frame."""
-        return from_root(self.links[link].pose, self.needed(link))
+        return from_root(self.links[link].pose, self.needed[link])
+
+    def _needed(self, link: str) -> FloatArray:
+        """What moves a link, by Newton's and Euler's laws about its centre of mass."""
+        inertia, motion = self.model.links[link], self.links[link]
+        rotation, origin = motion.pose[:, :3, :3], motion.pose[:, :3, 3]
+        centre = inertia.first_moment / inertia.mass if inertia.mass else np.zeros(3)
+        about_centre = inertia.second_moment - inertia.mass * (centre @ centre * np.eye(3) - np.outer(centre, centre))
+        tensor = rotation @ about_centre @ rotation.transpose(0, 2, 1)
+        omega, alpha = motion.angular_velocity, motion.angular_acceleration
+        arm = rotation @ centre
+        force = inertia.mass * (
+            motion.proper_acceleration + np.cross(alpha, arm) + np.cross(omega, np.cross(omega, arm))
+        )
+        spin = np.einsum("nij,nj->ni", tensor, alpha) + np.cross(omega, np.einsum("nij,nj->ni", tensor, omega))
+        return np.concatenate([force, spin + np.cross(origin + arm, force)], axis=1)
 
     def _across(self, name: str, here: str, *, downwards: bool) -> Motion:
         joint, near = self.model.joints[name], self.links[here]

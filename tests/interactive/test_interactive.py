@@ -60,6 +60,7 @@ def _arrays(experiment: Experiment, **changes: Any) -> dict[str, Any]:
     return arguments | changes
 
 
+@pytest.mark.usefixtures("blank_pictures")
 def test_a_sensor_is_chosen_by_name_and_asked_by_method(experiment: Experiment, tmp_path: Path) -> None:
     """Calibrate, evaluate, verdict and report in a line each; the calibration is saved and read."""
     run = experiment["arm_ft"]

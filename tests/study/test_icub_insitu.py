@@ -11,7 +11,7 @@ import numpy as np
 
 from forcetorque.arrays import FloatArray, IntArray
 from forcetorque.calibration import ESTIMATION_TYPES, DataSet, LinearVariable, WrenchModel, calibrate
-from forcetorque.estimation import Processing, sensor_samples
+from forcetorque.estimation import Evaluator, Processing, sensor_samples
 from forcetorque.evaluation.offset import Offset
 from forcetorque.recording import Interval, Support, Use
 from forcetorque.simulation.scenario import (
@@ -86,6 +86,7 @@ def references() -> dict[str, tuple[FloatArray, FloatArray]]:
             quantity="raw",
             interval=interval,
             processing=Processing(),
+            evaluator=Evaluator.COMPILED,
         )
         inside = np.isin(stream.stamp_ns, samples.stamp_ns)
         found[made.name] = (np.flatnonzero(inside), samples.reference)

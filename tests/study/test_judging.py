@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Sequence
 from dataclasses import replace
 
@@ -21,6 +22,7 @@ from forcetorque.study import (
     judge,
     with_offset,
 )
+from tests.study import measured
 from tests.study.measured import JUDGED, NOISE, TRUTH, errors_by_samples, judged, study
 
 EXACT = 1e-10
@@ -73,6 +75,19 @@ def test_the_errors_are_those_of_the_samples_after_the_first_second(source: Offs
         )
         assert _difference(found, _by_samples(models[part], sets, source)) < EXACT, name
     assert _difference(judgement.over(["day 1"]), judgement.over()) > 1e-3
+
+
+def test_a_study_of_much_work_is_compiled(monkeypatch: pytest.MonkeyPatch) -> None:
+    """However little there is in each set: all candidates meet all samples in both modes."""
+    module = sys.modules["forcetorque.evaluation.candidate_errors"]
+    work = 2 * len(study().models) * sum(len(one.time_s) for one in JUDGED)
+    monkeypatch.setattr(module, "_FEW", work)
+    monkeypatch.setattr(module, "_run_readable", None)
+    compiled = measured.study.__wrapped__()
+    assert _difference(compiled.judgements[RE_ESTIMATED].over(), study().judgements[RE_ESTIMATED].over()) < EXACT
+    monkeypatch.setattr(module, "_FEW", work + 1)  # negative control
+    with pytest.raises(TypeError):
+        measured.study.__wrapped__()
 
 
 @BOTH

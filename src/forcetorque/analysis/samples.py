@@ -12,11 +12,11 @@ from forcetorque.analysis.reading import Readings
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration import DataSet
 from forcetorque.errors import ExperimentError
-from forcetorque.estimation import SensorSamples, sensor_samples
+from forcetorque.estimation import SensorSamples, evaluator_of_samples, sensor_samples
 from forcetorque.estimation.picked import padded_samples
 from forcetorque.experiment.contacts import touched_otherwise
 from forcetorque.experiment.content import Experiment, ExperimentSensor
-from forcetorque.recording import Interval
+from forcetorque.recording import Interval, Recording
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -68,9 +68,11 @@ def samples_over(
     Returns:
         Reading and reference at the same instants.
     """
-    processing = experiment.processing
+    processing, recording = experiment.processing, experiment.recording
+    # one interval is asked for after the other: together they may be worth the compiled evaluator
+    evaluator = evaluator_of_samples(_samples_with_support(recording, sensor.stream))
     samples = sensor_samples(
-        experiment.recording,
+        recording,
         experiment.model,
         sensor=sensor.name,
         stream=sensor.stream,
@@ -78,10 +80,17 @@ def samples_over(
         interval=interval,
         processing=processing if smoothed else replace(processing, smoothing=None),
         variables=[sensor.variable(name).source for name in variables],
-        apart=touched_otherwise(interval, experiment.recording, experiment.contacts),
+        apart=touched_otherwise(interval, recording, experiment.contacts),
+        evaluator=evaluator,
     )
     readings = Readings.of(sensor, samples.reading.values, dict(zip(variables, samples.variables.T, strict=True)))
     return IntervalSamples(interval=interval, samples=samples, readings=readings)
+
+
+def _samples_with_support(recording: Recording, stream: str) -> int:
+    stamps = recording.stream(stream).stamp_ns
+    spans = [(one.start_ns, one.end_ns + 1) for one in recording.intervals if one.support is not None]
+    return int(np.diff(np.searchsorted(stamps, np.array(spans, dtype=np.int64).reshape(-1, 2))).sum())
 
 
 def readings_over(

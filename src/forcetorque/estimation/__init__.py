@@ -3,7 +3,7 @@
 
 from forcetorque.estimation.ambiguity import indistinguishable
 from forcetorque.estimation.contact import Contact, ContactType
-from forcetorque.estimation.estimate import Evaluator, estimate
+from forcetorque.estimation.estimate import Evaluator, estimate, evaluator_of_samples
 from forcetorque.estimation.estimates import Estimates, Layout
 from forcetorque.estimation.needs import required_joints_of
 from forcetorque.estimation.payload import Payload, identify_payload
@@ -24,6 +24,7 @@ __all__ = [
     "SensorSamples",
     "TorqueSum",
     "estimate",
+    "evaluator_of_samples",
     "identify_payload",
     "indistinguishable",
     "moving_joints",

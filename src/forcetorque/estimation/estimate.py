@@ -33,6 +33,18 @@ class Evaluator(StrEnum):
     """Blocks of samples in compiled code, on several threads."""
 
 
+def evaluator_of_samples(samples: int) -> Evaluator:
+    """Choose who computes so many samples.
+
+    Args:
+        samples: Number of samples, of all calls of `estimate` together.
+
+    Returns:
+        The readable evaluator for few.
+    """
+    return Evaluator.READABLE if samples < _FEW else Evaluator.COMPILED
+
+
 def estimate(
     question: Question,
     joints: JointMotion,
@@ -79,7 +91,7 @@ def estimate(
     if len(answer) != n or answer.layout != question.layout:
         raise ShapeError(f"out: expected {n} samples of {question.layout}, got {len(answer)} of {answer.layout}")
     if evaluator is None:
-        evaluator = Evaluator.READABLE if n < _FEW else Evaluator.COMPILED
+        evaluator = evaluator_of_samples(n)
     if Evaluator(evaluator) is Evaluator.READABLE:
         _run_readable(question, inputs, answer, progress)
     else:

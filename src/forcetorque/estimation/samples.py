@@ -11,7 +11,7 @@ import numpy as np
 from forcetorque.arrays import FloatArray, IntArray, read_only, require_shape
 from forcetorque.constants import STANDARD_GRAVITY
 from forcetorque.errors import RecordingError
-from forcetorque.estimation.estimate import estimate
+from forcetorque.estimation.estimate import Evaluator, estimate
 from forcetorque.estimation.needs import required_joints_of
 from forcetorque.estimation.picked import padded_samples
 from forcetorque.estimation.question import Question
@@ -96,6 +96,7 @@ def sensor_samples(
     processing: Processing,
     variables: Sequence[ScalarSource] = (),
     apart: Collection[str] = (),
+    evaluator: Evaluator | None = None,
 ) -> SensorSamples:
     """Pair the readings of a sensor in an interval with the wrenches expected from the robot model.
 
@@ -111,6 +112,7 @@ def sensor_samples(
         processing: Filters and gravity.
         variables: Where linear variables, such as the temperature, come from.
         apart: Labels of intervals in which other links touch: the filter takes nothing from them.
+        evaluator: Who computes the reference; by the number of samples of the interval if None.
 
     Returns:
         Samples of the interval that lie in no ignored interval and have a finite reading, reference and variables.
@@ -124,7 +126,9 @@ def sensor_samples(
     source = recording.stream(stream)
     padded = padded_samples(recording, source, interval, processing.smoothing, apart=apart)
     at_ns = padded.stamp_ns
-    reference, flattening, joints = _reference(recording, model, sensor, source, interval.support, at_ns, processing)
+    reference, flattening, joints = _reference(
+        recording, model, sensor, source, interval.support, at_ns, processing, evaluator
+    )
     reading = source.signal(quantity)
     values = np.where(source.held[padded.rows, None], np.nan, reading.values[padded.rows])
     extra = _variables(recording, source, variables, at_ns)
@@ -163,6 +167,7 @@ def _reference(
     support: Support | MovingSupport,
     at_ns: IntArray,
     processing: Processing,
+    evaluator: Evaluator | None,
 ) -> tuple[FloatArray, FloatArray, tuple[str, ...]]:
     """Expected wrench of a sensor at given instants, what a longer window takes from it, and the joints it needed."""
     name = model.sensor(sensor).name
@@ -171,7 +176,7 @@ def _reference(
 
     def expected(how: Processing) -> tuple[FloatArray, tuple[str, ...]]:
         joints, root = robot_motion_at(recording, model, support, needed, source, at_ns, processing=how)
-        return estimate(question, joints, root).expected_of(name), joints.names
+        return estimate(question, joints, root, evaluator=evaluator).expected_of(name), joints.names
 
     reference, names = expected(processing)
     if processing.logged_derivatives:

@@ -2,7 +2,7 @@
 """How far a calibration can be trusted, on motions that were not fitted, and how well a sensor uses its range."""
 
 from forcetorque.evaluation.autocorrelation import Autocorrelation, autocorrelation
-from forcetorque.evaluation.candidate_errors import CandidateErrors, PooledErrors, candidate_errors
+from forcetorque.evaluation.candidate_errors import CandidateErrors, PooledErrors, candidate_errors, evaluator_of_work
 from forcetorque.evaluation.contact_force import (
     ContactForces,
     ContactForceValidation,
@@ -70,6 +70,7 @@ __all__ = [
     "channel_ranges",
     "contact_forces",
     "errors_from_zero",
+    "evaluator_of_work",
     "joints_of_sensor",
     "matrix_checks",
     "model_findings",

@@ -92,6 +92,19 @@ class CandidateErrors:
         )
 
 
+def evaluator_of_work(candidates: int, samples: int) -> Evaluator:
+    """Choose who computes the errors of so many candidates in so many samples.
+
+    Args:
+        candidates: Number of candidates.
+        samples: Number of samples, of all calls of `candidate_errors` together.
+
+    Returns:
+        The readable evaluator for little work.
+    """
+    return Evaluator.READABLE if candidates * samples < _FEW else Evaluator.COMPILED
+
+
 def candidate_errors(
     raw: Any,
     reference: Any,
@@ -133,7 +146,7 @@ def candidate_errors(
     k, n = len(inputs.matrices), len(inputs.raw)
     sums = np.zeros((k, len(inputs.blocks), 8))
     if evaluator is None:
-        evaluator = Evaluator.READABLE if k * n < _FEW else Evaluator.COMPILED
+        evaluator = evaluator_of_work(k, n)
     if Evaluator(evaluator) is Evaluator.READABLE:
         _run_readable(inputs, sums, progress)
     else:

@@ -8,12 +8,13 @@ expected one (`evaluation.contact_force` proves it), so that thousands of candid
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
 from forcetorque.arrays import BoolArray, FloatArray
 from forcetorque.calibration import WrenchModel
+from forcetorque.estimation import Evaluator
 from forcetorque.evaluation import CandidateErrors, Offset, PooledErrors, candidate_errors
 from forcetorque.study.validation_set import ValidationSet
 
@@ -62,6 +63,7 @@ def judge(
     sets: Sequence[ValidationSet],
     *,
     session_offsets: Mapping[int, Mapping[str, FloatArray]] | None = None,
+    evaluator: Evaluator | None = None,
     progress: Callable[[str], None] | None = None,
 ) -> Judgement:
     """Judge models on validation sets; samples that can give an offset are judged in neither mode.
@@ -72,37 +74,41 @@ def judge(
         sets: What they are judged on, at least one.
         session_offsets: Offsets by session of those models that have several, by their index; a set of another session
             is judged with that of the model.
+        evaluator: Who computes; by the amount of work of every set if None.
         progress: Called with the label of every set when its turn comes.
 
     Returns:
         The errors.
     """
-    found, sessions = [], []
+    errors, sessions = [], []
+    stack = _Stack.of(models, sets[0].variables.shape[1])
+    from_fit = np.array([source is Offset.FITTED for _, source in zip(models, sources, strict=True)])
     for one in sets:
         if progress is not None:
             progress(one.label)
         first = one.for_offset()
-        here = list(models)
-        for index, offsets in (session_offsets or {}).items():
-            if one.session in offsets:
-                here[index] = replace(models[index], offset=offsets[one.session])
-        moved = [_with_offset(model, one, first, source) for model, source in zip(here, sources, strict=True)]
-        errors = candidate_errors(
+        offsets = stack.offsets.copy()
+        for index, by_session in (session_offsets or {}).items():
+            if one.session in by_session:
+                offsets[index] += by_session[one.session] - models[index].offset
+        offsets = np.where(from_fit[:, None], offsets, stack.offsets_from(one, first))
+        part = candidate_errors(
             one.raw[~first],
             one.reference[~first],
-            np.stack([model.matrix for model in moved]),
-            np.stack([model.offset for model in moved]),
+            stack.matrices,
+            offsets,
             variables=one.variables[~first],
-            coefficients=np.stack([model.coefficients for model in moved]),
+            coefficients=stack.coefficients,
+            evaluator=evaluator,
         )
-        found.append(errors)
-        sessions += [one.session] * len(errors.count)
+        errors.append(part)
+        sessions += [one.session] * len(part.count)
     return Judgement(
         errors=CandidateErrors(
-            count=np.concatenate([errors.count for errors in found]),
-            mean_absolute=np.concatenate([errors.mean_absolute for errors in found], axis=1),
-            force_mean=np.concatenate([errors.force_mean for errors in found], axis=1),
-            moment_mean=np.concatenate([errors.moment_mean for errors in found], axis=1),
+            count=np.concatenate([part.count for part in errors]),
+            mean_absolute=np.concatenate([part.mean_absolute for part in errors], axis=1),
+            force_mean=np.concatenate([part.force_mean for part in errors], axis=1),
+            moment_mean=np.concatenate([part.moment_mean for part in errors], axis=1),
         ),
         sessions=tuple(sessions),
     )
@@ -119,14 +125,35 @@ def with_offset(model: WrenchModel, one: ValidationSet, source: Offset) -> Float
     Returns:
         Wrenches of all its samples, the first ones too; shape (n, 6); N, N m.
     """
-    return _with_offset(model, one, one.for_offset(), source).wrench(one.raw, one.variables)
+    wrench = model.wrench(one.raw, one.variables)
+    if source is not Offset.FITTED:
+        wrench -= (wrench - one.reference)[one.for_offset()].mean(axis=0)
+    return wrench
 
 
-def _with_offset(model: WrenchModel, one: ValidationSet, first: BoolArray, source: Offset) -> WrenchModel:
-    """The model with that offset, counted from zero in every variable of the set."""
-    same = model.counted_from_zero(one.variables.shape[1])
-    if source is Offset.FITTED:
-        return same
-    # the mean error is that of the mean reading: a model is linear
-    raw, variables, reference = (values[first].mean(axis=0) for values in (one.raw, one.variables, one.reference))
-    return replace(same, offset=same.offset + reference - same.wrench(raw[None], variables[None])[0])
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class _Stack:
+    """Matrices, coefficients and offsets of k models that count every variable from zero."""
+
+    matrices: FloatArray
+    """Shape (k, 6, c)."""
+    coefficients: FloatArray
+    """Shape (k, 6, v)."""
+    offsets: FloatArray
+    """Shape (k, 6)."""
+
+    @staticmethod
+    def of(models: Sequence[WrenchModel], variables: int) -> _Stack:
+        """Stack models for so many variables."""
+        counted = [model.counted_from_zero(variables) for model in models]
+        return _Stack(
+            matrices=np.stack([model.matrix for model in counted]),
+            coefficients=np.stack([model.coefficients for model in counted]),
+            offsets=np.stack([model.offset for model in counted]),
+        )
+
+    def offsets_from(self, one: ValidationSet, first: BoolArray) -> FloatArray:
+        """The offsets with which the mean error of some samples, that of the mean reading, is zero; shape (k, 6)."""
+        raw, variables, reference = (values[first].mean(axis=0) for values in (one.raw, one.variables, one.reference))
+        offsets: FloatArray = reference - (self.matrices @ raw + self.coefficients @ variables)
+        return offsets

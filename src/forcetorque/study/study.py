@@ -17,7 +17,7 @@ from forcetorque.calibration import (
     WrenchModel,
 )
 from forcetorque.errors import FitError
-from forcetorque.evaluation import KNOWN_BEFORE, Offset, PushError, push_error
+from forcetorque.evaluation import KNOWN_BEFORE, Offset, PushError, evaluator_of_work, push_error
 from forcetorque.study.candidate import Candidate, GenerativeCandidate
 from forcetorque.study.fitting import Fits, fit_candidates
 from forcetorque.study.judging import Judgement, judge
@@ -158,11 +158,14 @@ def run_study(
         models.append(workbench)
     session_offsets = {k: c.offsets for k, c in enumerate(candidates) if isinstance(c, GenerativeCandidate)}
     determined = np.array([candidate.determined for candidate in candidates])
+    evaluator = evaluator_of_work(len(KNOWN_BEFORE) * len(models), sum(len(one.time_s) for one in validation))
     judgements, choices = {}, {}
     for source in KNOWN_BEFORE:
         say(f"judging {len(models)} matrices on {len(validation)} intervals, offset {source}")
         sources = [source] * len(candidates) + [Offset.FIRST_SECOND] * (workbench is not None)
-        judgements[source] = judge(models, sources, validation, session_offsets=session_offsets, progress=say)
+        judgements[source] = judge(
+            models, sources, validation, session_offsets=session_offsets, evaluator=evaluator, progress=say
+        )
         choices[source] = _choice(judgements[source], determined)
     return Study(
         fits=fits,

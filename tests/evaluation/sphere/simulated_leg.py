@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from types import MappingProxyType
 
@@ -12,7 +12,7 @@ import numpy as np
 
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration import DataSet, LinearVariable, calibrate
-from forcetorque.estimation import Processing, sensor_samples
+from forcetorque.estimation import Evaluator, Processing, sensor_samples
 from forcetorque.evaluation.sphere import SphereAnalysis, analyse_sphere
 from forcetorque.recording import Interval, Support, Use
 from forcetorque.simulation.scenario import (
@@ -73,9 +73,8 @@ def leg(seed: int, **changes: object) -> Leg:
     """Draw a sensor and record it."""
     drawn = _scenario().with_sensors(seed=seed, **changes)
     specimen = drawn.specimens[LEG]
-    wanted = {*FITTED, JUDGED}
     return Leg(
-        data={made.name: _data_set(made) for made in simulate(drawn, _traces()) if made.name in wanted},
+        data={made.name: _data_set(made) for made in simulate(_of_use(drawn), _traces())},
         workbench=specimen.workbench,
         truth=specimen.sensor.matrix,
     )
@@ -99,16 +98,19 @@ def _scenario() -> Scenario:
 
 @cache
 def _traces() -> dict[str, Trace]:
-    return trace_recordings(_scenario())
+    return trace_recordings(_of_use(_scenario()))
+
+
+def _of_use(scenario: Scenario) -> Scenario:
+    """The recordings that are looked at; all others have random numbers of their own, so these stay the same."""
+    return replace(scenario, plans=tuple(plan for plan in scenario.plans if plan.name in {*FITTED, JUDGED}))
 
 
 @cache
 def _references() -> dict[str, tuple[FloatArray, FloatArray]]:
     """Instants of every recording and their expected wrenches; they do not depend on the sensor."""
     found = {}
-    for made in simulate(_scenario(), _traces()):
-        if made.name not in {*FITTED, JUDGED}:
-            continue
+    for made in simulate(_of_use(_scenario()), _traces()):
         start, end = made.recording.span_ns
         margin = round(INTERVAL_MARGIN_S * 1e9)
         support = Support(frame=made.movement.support, gravity_direction=made.movement.gravity_direction)
@@ -123,6 +125,7 @@ def _references() -> dict[str, tuple[FloatArray, FloatArray]]:
             quantity="raw",
             interval=interval,
             processing=Processing(),
+            evaluator=Evaluator.COMPILED,
         )
         inside = np.flatnonzero(np.isin(made.recording.stream(LEG).stamp_ns, samples.stamp_ns))
         found[made.name] = (inside, samples.reference)

@@ -156,7 +156,7 @@ def smallest_generalised(second: FloatArray, weight: FloatArray) -> FloatArray:
     values, vectors = np.linalg.eigh(weight)
     kept = values > _ROUNDING * values[:, -1:]
     root = vectors * np.where(kept, 1.0 / np.sqrt(np.where(kept, values, 1.0)), 0.0)[:, None, :]
-    reduced = np.einsum("mki,mkl,mlj->mij", root, second, root)
+    reduced = root.transpose(0, 2, 1) @ second @ root
     # what was left out must not come out as the smallest
     size = np.trace(reduced, axis1=1, axis2=2)[:, None]
     reduced += np.where(kept, 0.0, 1.0 + size)[:, :, None] * np.eye(weight.shape[1])
@@ -210,7 +210,7 @@ def _gradient_moments(mean: FloatArray) -> FloatArray:
         h[:, i, j] = h[:, j, i] = mean[:, column, 9] * (1.0 if i == j else 0.5)
     h[:, 3, :3] = h[:, :3, 3] = 0.5 * mean[:, 6:9, 9]
     h[:, 3, 3] = 1.0
-    products: FloatArray = np.einsum("aij,mjk,bik->mab", slope, h, slope)
+    products: FloatArray = (slope @ h[:, None]).reshape(-1, 9, 12) @ slope.reshape(9, 12).T
     return products
 
 

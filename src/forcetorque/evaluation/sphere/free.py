@@ -128,7 +128,9 @@ def fit_ellipsoid(cloud: FloatArray, radius: RadiusFit, *, tolerance: float) -> 
     if is_flat(cloud):
         return no_ellipsoid("the cloud lies in a plane")
     moments = QuadricMoments.of(cloud)
-    direct, weighted = (_measured(moments, fit) for fit in (direct_fit, gradient_weighted_fit))
+    both = resampled(moments.sums, lambda mean: _lengths_and_centres(direct_fit(mean, moments)), extent=extent)
+    direct, centres = both.mapped(lambda numbers: numbers[:, :6]), both.mapped(lambda numbers: numbers[:, 6:])
+    weighted = resampled(moments.sums, lambda mean: gradient_weighted_fit(mean, moments).inverse_lengths, extent=extent)
     first = direct_fit(whole(moments.sums), moments)
     if not first.closed[0]:  # nearly flat clouds leave the constraint to rounding
         return no_ellipsoid("the cloud lies in a plane")
@@ -143,7 +145,6 @@ def fit_ellipsoid(cloud: FloatArray, radius: RadiusFit, *, tolerance: float) -> 
     if far is not None:
         return no_ellipsoid(*why, far)
     low, high, index_low, index_high = _intervals(direct, weighted, geometric, radius if why else None)
-    centres = resampled(moments.sums, lambda mean: direct_fit(mean, moments).centre, extent=extent)
     return EllipsoidFit(
         ellipsoid=ellipsoid,
         low=low[:3],
@@ -183,9 +184,9 @@ def bends(moments: QuadricMoments, fit: Callable[[FloatArray, QuadricMoments], S
     return resampled(moments.sums, signed, extent=extent)
 
 
-def _measured(moments: QuadricMoments, fit: Callable[[FloatArray, QuadricMoments], Quadrics]) -> Resampled:
-    """One over the axis intersections and half-widths by a method, 0 for open surfaces; k is 6."""
-    return resampled(moments.sums, lambda mean: fit(mean, moments).inverse_lengths, extent=extent)
+def _lengths_and_centres(quadrics: Quadrics) -> FloatArray:
+    """One over the axis intersections and half-widths, 0 for open surfaces, then centres; shape (m, 9)."""
+    return np.concatenate([quadrics.inverse_lengths, quadrics.centre], axis=1)
 
 
 def _against(

@@ -23,8 +23,9 @@ _STEPS = 100
 """Most Newton steps towards the feet; near the surface three do."""
 _MISSING = 1e-8
 """What a foot lacks in the equation of the ellipsoid beyond rounding."""
-_FOOT = 1e-14
-"""Relative step at which a foot is found."""
+_LAST, _FOOT = 1e-8, 1e-14
+"""Step after which a foot is found: relative to the way from the pole, as what is left is of the order of its square,
+or to the shortest axis, which is rounding."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -96,9 +97,8 @@ def ellipsoid_equations(cloud: FloatArray, parameters: FloatArray) -> NormalEqua
     total = np.zeros((10, 10))
     for rows in _passes(cloud):
         distance, normal, unit = _feet(rows - parameters[:3], factor)
-        lower = normal[:, _LOWER[0]] * unit[:, _LOWER[1]]
-        made = np.concatenate([-normal, -lower, distance[:, None]], axis=1)
-        total += made.T @ made
+        made = np.concatenate([-normal, -normal[_LOWER[0]] * unit[_LOWER[1]], distance[None]])
+        total += made @ made.T
     return _equations(total)
 
 
@@ -142,45 +142,45 @@ def _factor(parameters: FloatArray) -> FloatArray:
 
 
 def _feet(points: FloatArray, factor: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Distances from an ellipsoid about the origin, normals at the feet, and the feet's points on the unit sphere."""
+    """Distances from an ellipsoid at the origin, normals at the feet, their points on the unit sphere; by columns."""
     squares, axes = np.linalg.eigh(factor @ factor.T)
     squares = np.maximum(squares, np.finfo(float).tiny)
-    y = (points @ axes).T  # (3, n): along the principal axes
-    t = _foot_parameters(y, squares)
-    share = squares[:, None] / (squares[:, None] + t)
-    foot = share * y
+    y = axes.T @ points.T  # along the principal axes
+    column = squares[:, None]
+    foot = column / (column + _foot_parameters(y, squares)) * y
     # near the centre a point that has nothing of the shortest axis still finds its foot along it, on either side
-    missing = 1.0 - (foot**2 / squares[:, None]).sum(axis=0)
-    foot[0] = np.where(
-        missing > _MISSING, np.copysign(np.sqrt(foot[0] ** 2 + squares[0] * missing.clip(0.0)), y[0]), foot[0]
-    )
-    normal = foot / squares[:, None]
+    missing = 1.0 - (foot**2 / column).sum(axis=0)
+    lacking = missing > _MISSING
+    if lacking.any():
+        along = np.sqrt(foot[0, lacking] ** 2 + squares[0] * missing[lacking])
+        foot[0, lacking] = np.copysign(along, y[0, lacking])
+    normal = foot / column
     normal /= np.sqrt((normal**2).sum(axis=0))
     distance = ((y - foot) * normal).sum(axis=0)
-    feet = axes @ foot
-    unit = np.linalg.solve(factor, feet)
-    return distance, (axes @ normal).T, unit.T
+    return distance, axes @ normal, np.linalg.solve(factor, axes) @ foot
 
 
 def _foot_parameters(y: FloatArray, squares: FloatArray) -> FloatArray:
-    """Largest root t of `sum squares y^2 / (squares + t)^2 = 1`, where `foot = squares y / (squares + t)`."""
+    """Largest root t of `f(t) = sum squares y^2 / (squares + t)^2 = 1`, where `foot = squares y / (squares + t)`."""
     column = squares[:, None]
     weighted = column * y**2
-    # the left side falls and is convex to the right of its last pole: Newton from the left of the root never passes it
+    # 1 / sqrt(f) rises and is concave to the right of its last zero: Newton from the left of the root never passes it,
+    # and needs few steps, as it is nearly straight
     lowest = (np.sqrt(column) * np.abs(y) - column).max(axis=0)
-    level = (y**2 / column).sum(axis=0)
-    slope = (y**2 / column**2).sum(axis=0)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        first = np.where(slope > 0.0, 0.5 * (level - 1.0) / slope, lowest)
-    t: FloatArray = np.maximum(lowest, first)
+    t: FloatArray = np.maximum(lowest, _step(weighted, 1.0 / column))
     # up to the pole of the shortest axis, where points without a part along it may have their feet
     t = np.maximum(t, (np.sqrt(np.finfo(float).eps) - 1.0) * squares[0])
     for _ in range(_STEPS):
-        over = 1.0 / (column + t)
-        terms = weighted * over**2
-        excess, fall = 0.5 * (terms.sum(axis=0) - 1.0), (terms * over).sum(axis=0)
-        step = np.where(excess > 0.0, excess / np.where(fall > 0.0, fall, 1.0), 0.0)
+        step = _step(weighted, 1.0 / (column + t)).clip(0.0)
         t += step
-        if (step <= _FOOT * (squares[0] + np.abs(t))).all():
+        if (step <= _LAST * (squares[0] + t) + _FOOT * squares[0]).all():
             break
     return t
+
+
+def _step(weighted: FloatArray, over: FloatArray) -> FloatArray:
+    """Newton's step of `1 / sqrt(f)` towards 1, where `over` is one over `squares + t`."""
+    terms = weighted * over**2
+    level, fall = terms.sum(axis=0), (terms * over).sum(axis=0)
+    step: FloatArray = level * (np.sqrt(level) - 1.0) / np.where(fall > 0.0, fall, 1.0)
+    return step

@@ -67,8 +67,10 @@ class ThermalDrift:
 
     def _play(self, temperature: FloatArray) -> FloatArray:
         """Play operator: a follower that is pushed only when the temperature reaches the end of its play."""
-        followed, position = np.empty_like(temperature), float(temperature[0])
-        for k, value in enumerate(temperature.tolist()):
-            position = min(max(position, value - self.play_degC), value + self.play_degC)
-            followed[k] = position
-        return followed
+        # while the temperature rises, or falls, the follower stays until it is pushed
+        turns = np.flatnonzero(np.diff(np.sign(np.diff(temperature)))) + 2
+        followed, position = [], temperature[0]
+        for stretch in np.split(temperature, turns):
+            followed.append(position.clip(stretch - self.play_degC, stretch + self.play_degC))
+            position = followed[-1][-1]
+        return np.concatenate(followed)

@@ -5,10 +5,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray
+from forcetorque.arrays import FloatArray, read_only
 from forcetorque.recording import Use
 from forcetorque.robot import RobotModel
 from forcetorque.simulation.motions import (
@@ -110,7 +111,8 @@ def plan_recordings(content: ScenarioFile, model: RobotModel) -> Iterator[Plan]:
             start_ns += round(movement.duration_s * 1e9)
 
 
-def validation_loads(plans: Sequence[Plan], sensor: str) -> list[FloatArray]:
+@lru_cache(maxsize=1)  # one sensor after the other is drawn for the same motions
+def validation_loads(plans: tuple[Plan, ...], sensor: str) -> tuple[FloatArray, ...]:
     """Compute how the true loads of a sensor change in the recordings that are for validation.
 
     Args:
@@ -126,8 +128,9 @@ def validation_loads(plans: Sequence[Plan], sensor: str) -> list[FloatArray]:
         if plan.entry.use is Use.VALIDATION:
             time_s = np.arange(INTERVAL_MARGIN_S, plan.movement.duration_s - INTERVAL_MARGIN_S, 1.0 / _JUDGED_HZ)
             load = plan.movement.readings(time_s, [sensor]).of_name(sensor)
-            changes.append(load - load[time_s < INTERVAL_MARGIN_S + OFFSET_S].mean(axis=0))
-    return changes
+            change = load - load[time_s < INTERVAL_MARGIN_S + OFFSET_S].mean(axis=0)
+            changes.append(read_only(change, name="loads", shape=(None, 6)))
+    return tuple(changes)
 
 
 def _placement(seed: int, number: int) -> FloatArray:

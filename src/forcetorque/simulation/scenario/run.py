@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -226,7 +226,7 @@ def _powered_up(scenario: Scenario, power_up: int) -> dict[str, SimulatedSensor]
     }
 
 
-def _specimens(content: ScenarioFile, model: RobotModel, plans: Sequence[Plan]) -> dict[str, Specimen]:
+def _specimens(content: ScenarioFile, model: RobotModel, plans: tuple[Plan, ...]) -> dict[str, Specimen]:
     described = content.sensors
     names = [model.sensor(name).name for name in described.names or model.sensors]
     loads = {}
