@@ -181,7 +181,7 @@ def test_a_robot_that_stands_still_says_what_it_does_not_know(stance: Path) -> N
 
 @pytest.mark.long
 def test_legs_of_a_robot_on_both_feet_are_not_judged_as_if_it_stood_on_one(stance: Path) -> None:
-    """Nobody knows what they must read; arms, which nothing touches, are judged; alone neither is fitted to the legs."""
+    """Nobody knows what they must read; arms, which nothing touches, are judged."""
     judged, fitted = (load_experiment(stance / f"sway_day{day}.toml") for day in (2, 1))
     legs, arm = SensorRun(judged, "l_leg_ft"), SensorRun(judged, "l_arm_ft")
     with pytest.raises(ExperimentError, match="r_sole does in every one, so that nobody knows what the sensor must"):
