@@ -41,6 +41,7 @@ bench: $(VENV)/test.stamp
 	$(BIN)/python -m benchmarks.calibration --json build/benchmarks/calibration.json
 	$(BIN)/python -m benchmarks.dynamics --json build/benchmarks/dynamics.json
 	$(BIN)/python -m benchmarks.simulation --json build/benchmarks/simulation.json
+	$(BIN)/python -m benchmarks.joint --json build/benchmarks/joint.json
 	$(BIN)/python -m benchmarks.sphere --json build/benchmarks/sphere.json
 	$(BIN)/python -m benchmarks.viewer --json build/benchmarks/viewer.json
 
