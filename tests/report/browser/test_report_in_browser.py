@@ -47,7 +47,7 @@ def test_the_verdict_is_on_the_first_screen(visit: Visit, report: Path) -> None:
     assert verdict is not None
     assert verdict["y"] + verdict["height"] < page.viewport_size["height"]  # type: ignore[index]
     widths = page.locator("img").evaluate_all("images => images.map(image => image.complete ? image.naturalWidth : 0)")
-    assert len(widths) == 6
+    assert len(widths) == 7
     assert min(widths) >= 1000
 
 
