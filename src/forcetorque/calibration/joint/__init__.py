@@ -4,7 +4,7 @@
 from forcetorque.calibration.joint.calibrate import JointResult, UntouchedStretch, fit_stretches
 from forcetorque.calibration.joint.fit import JointFit, fit_jointly
 from forcetorque.calibration.joint.joint_posterior import JointPosterior, read_joint_posterior
-from forcetorque.calibration.joint.model_error import EXACT, ErrorTerm, ModelTolerance, error_terms
+from forcetorque.calibration.joint.model_error import EXACT, ErrorTerm, ModelTolerance, delay_terms, error_terms
 from forcetorque.calibration.joint.residual import PartResidual
 from forcetorque.calibration.joint.sensor_posterior import sensor_posterior
 from forcetorque.calibration.joint.spread import EVEN, ChangeSpread
@@ -31,6 +31,7 @@ __all__ = [
     "Touch",
     "UntouchedStretch",
     "fit_stretches",
+    "delay_terms",
     "error_terms",
     "fit_jointly",
     "part_sums",

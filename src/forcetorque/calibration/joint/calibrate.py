@@ -11,7 +11,7 @@ import numpy as np
 
 from forcetorque.arrays import BoolArray
 from forcetorque.calibration.joint.fit import JointFit, fit_jointly
-from forcetorque.calibration.joint.model_error import ErrorTerm, ModelTolerance, error_terms
+from forcetorque.calibration.joint.model_error import ErrorTerm, ModelTolerance, delay_terms, error_terms
 from forcetorque.calibration.joint.residual import PartResidual
 from forcetorque.calibration.joint.spread import ChangeSpread
 from forcetorque.calibration.joint.stretch import Stretch
@@ -124,4 +124,5 @@ def _all_terms(stretches: Sequence[UntouchedStretch], tolerance: ModelTolerance)
     terms = (
         term for one in stretches for term in error_terms(one.stretch.tree, one.parts, tolerance, weighed=one.weighed)
     )
-    return tuple({term.name: term for term in terms}.values())
+    delays = delay_terms([one.stretch.recording for one in stretches], tolerance)
+    return (*{term.name: term for term in terms}.values(), *delays)

@@ -18,6 +18,8 @@ from forcetorque.spatial import cross, transform_wrench
 
 ZERO: Final = "zero of "
 """How the name of the error of a joint begins."""
+DELAY: Final = "delay of the readings of "
+"""How the name of the delay of a recording begins."""
 _STEP: Final = 1e-6
 """Step of numerical derivatives by joint positions; rad or m."""
 
@@ -34,9 +36,11 @@ class ModelTolerance:
     """Of the zero of every joint; rad, or m for one that slides."""
     acceleration: float = 0.05
     """Of every component of what an accelerometer reads at rest, or of gravity in a still frame; m/s2."""
+    delay_s: float = 0.005
+    """Of the time by which the readings of a recording come later than the joints; s."""
 
 
-EXACT: Final = ModelTolerance(mass=0.0, centre_m=0.0, joint_zero_rad=0.0, acceleration=0.0)
+EXACT: Final = ModelTolerance(mass=0.0, centre_m=0.0, joint_zero_rad=0.0, acceleration=0.0, delay_s=0.0)
 """A model that is taken to be exact."""
 
 
@@ -86,6 +90,20 @@ def _terms(
         yield ErrorTerm(name=f"{ZERO}{joint}", unit="rad", deviation=tolerance.joint_zero_rad)
     for axis in "xyz":
         yield ErrorTerm(name=_acceleration(axis, tree), unit="m/s2", deviation=tolerance.acceleration)
+
+
+def delay_terms(recordings: Sequence[str], tolerance: ModelTolerance) -> tuple[ErrorTerm, ...]:
+    """List the delays of recordings.
+
+    Args:
+        recordings: Their names.
+        tolerance: How long a delay may be.
+
+    Returns:
+        A term per recording; none where there can be no delay.
+    """
+    terms = (ErrorTerm(name=DELAY + name, unit="s", deviation=tolerance.delay_s) for name in dict.fromkeys(recordings))
+    return tuple(term for term in terms if term.deviation > 0.0)
 
 
 def body_columns(tree: BodyTree, equation: PartEquation) -> dict[str, FloatArray]:

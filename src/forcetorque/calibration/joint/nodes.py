@@ -104,15 +104,32 @@ class WindowNodes:
             touched=stretch.touched,
         )
 
+    def rates(self, values: FloatArray) -> FloatArray:
+        """Differentiate a signal.
+
+        Args:
+            values: Values of every sample; shape (n, k).
+
+        Returns:
+            Derivatives of the parabolas that fit best, at the nodes; shape (3 w, k); per second.
+        """
+        slopes = np.stack([np.zeros(NODES), np.ones(NODES), 3.0 * _PLACES], axis=1) / self._half[:, None, None]
+        rates: FloatArray = (slopes @ self._parabolas(values)).reshape(-1, values.shape[1])
+        return rates
+
     def _at_nodes(self, values: FloatArray) -> FloatArray:
         """Parabolas that fit samples best, at the nodes; shape (3 w, k)."""
+        nodes = np.stack([np.ones(NODES), _PLACES, 1.5 * _PLACES**2 - 0.5], axis=1)
+        at_nodes: FloatArray = (nodes @ self._parabolas(values)).reshape(-1, values.shape[1])
+        return at_nodes
+
+    def _parabolas(self, values: FloatArray) -> FloatArray:
+        """Coefficients of the parabolas that fit samples best; shape (w, 3, k)."""
         products = np.stack(
             [np.add.reduceat(column[:, None] * values, self._starts, axis=0) for column in self._basis.T], axis=1
         )
-        parabolas = self._inverse @ products
-        nodes = np.stack([np.ones(NODES), _PLACES, 1.5 * _PLACES**2 - 0.5], axis=1)
-        at_nodes: FloatArray = (nodes @ parabolas).reshape(-1, values.shape[1])
-        return at_nodes
+        parabolas: FloatArray = self._inverse @ products
+        return parabolas
 
     def _polynomials(self, place: FloatArray) -> FloatArray:
         """Legendre's polynomials, of no higher degree than the samples of a window can tell; shape (n, 3)."""

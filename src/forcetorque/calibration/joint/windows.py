@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 
 from forcetorque.arrays import BoolArray, FloatArray, IntArray
-from forcetorque.calibration.joint.model_error import ZERO, ErrorTerm, body_columns, demand_columns, mass_shares
+from forcetorque.calibration.joint.model_error import DELAY, ZERO, ErrorTerm, body_columns, demand_columns, mass_shares
 from forcetorque.calibration.joint.nodes import NODES, WEIGHTS, WindowNodes
 from forcetorque.calibration.joint.stretch import Stretch
 from forcetorque.estimation.part_equations import PartEquation, joints_of_cuts, part_equations, weight_equations
@@ -206,6 +206,9 @@ def _piece_windows(
         (equation, {f"{ZERO}{joint}": np.zeros(_LOADS) for joint in joints_of_cuts(tree, equation.part)})
         for equation in weight_equations(tree, weighed, joints, nodes.root)
     )
+    slopes = {name: windows.rates(values) for name, values in stretch.readings.items()}
+    if about is not None:
+        slopes = {name: rates @ about.change(name).T for name, rates in slopes.items()}
     for equation, demanded in chain(moving, resting):
         logged = np.stack([nodes.readings[name] for name in equation.sensors], axis=1)
         through = logged
@@ -216,6 +219,9 @@ def _piece_windows(
         for name, values in demanded.items():
             turned = equation.turned(tree, name.removeprefix(ZERO), through)
             columns[name] = windows.node_means(turned) + values
+        rates = np.stack([slopes[name] for name in equation.sensors], axis=1)
+        delayed = np.einsum("nkij,nkj->ni", equation.transmission, rates)
+        columns[DELAY + stretch.recording] = windows.node_means(delayed)
         own = [term for term in terms if term.name in columns]
         errors = np.empty((len(windows), _LOADS, len(own)))
         for k, term in enumerate(own):
