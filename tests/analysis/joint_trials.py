@@ -8,18 +8,23 @@ import tomllib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
-from forcetorque.analysis import calibrate_jointly
+from forcetorque.analysis import SensorRun, calibrate_jointly, calibrate_sensor
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration import Calibration
-from forcetorque.experiment import load_experiment
+from forcetorque.experiment import Experiment, load_experiment
 from forcetorque.experiment.simulated import write_scenario
 from forcetorque.simulation.scenario import ScenarioFile, build_scenario, bundled_scenario, simulate, trace_recordings
 
 ARMS = ("l_arm_ft", "r_arm_ft")
 PUSH_N = 50.0
+ALONE = "alone"
+"""Way in which every sensor is calibrated by itself, on one foot and then on the other."""
+FEET = {"left_foot": ("l_sole", "r_sole"), "right_foot": ("r_sole", "l_sole")}
+"""Support and free foot of motions on one foot."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -81,8 +86,7 @@ def trials(
         results = {}
         for way, kinds in fitted.items():
             experiments = [load_experiment(place / f"{kind}_fitted.toml") for kind in kinds]
-            result = calibrate_jointly(experiments, place, code_version="1", created="2020-01-01")
-            results[way] = {one.calibration.sensor.name: one.calibration for one in result.calibrations}
+            results[way] = _alone(experiments) if way == ALONE else _together(experiments)
     true = {name: sensor.matrix for name, sensor in next(iter(simulated.values())).sensors.items()}
     return {
         way: [
@@ -101,6 +105,29 @@ def trials(
         ]
         for way, calibrations in results.items()
     }
+
+
+def _together(experiments: Sequence[Experiment]) -> dict[str, Calibration]:
+    result = calibrate_jointly(experiments, "out", code_version="1", created="2020-01-01")
+    return {one.calibration.sensor.name: one.calibration for one in result.calibrations}
+
+
+def _alone(experiments: Sequence[Experiment]) -> dict[str, Calibration]:
+    """Every sensor by itself, with the support known."""
+    return {
+        sensor.name: calibrate_sensor(
+            [SensorRun(experiment, sensor.name) for experiment in experiments], code_version="1", created="2020-01-01"
+        )
+        for sensor in experiments[0].sensors
+    }
+
+
+def _motion(kind: str, duration_s: float, placement: int) -> dict[str, Any]:
+    if kind in FEET:
+        support, swing = FEET[kind]
+        return {"motion": {"kind": "balancing", "swing": swing, "postures": 3}, "support": support}
+    motion = {"kind": kind, "swing": "r_sole", "duration_s": duration_s, "placement": placement}
+    return {"motion": motion, "support": "l_sole"}
 
 
 def _content(
@@ -124,8 +151,7 @@ def _content(
     table["recording"] = [
         {
             "name": f"{kind}_{role}",
-            "motion": {"kind": kind, "swing": "r_sole", "duration_s": duration_s, "placement": placement},
-            "support": "l_sole",
+            **_motion(kind, duration_s, placement),
             "power_up": 1,
             "session": "day",
             "use": use,

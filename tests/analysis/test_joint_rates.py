@@ -19,7 +19,7 @@ import pytest
 from forcetorque.arrays import FloatArray
 from forcetorque.errors import RobotError
 from forcetorque.simulation.scenario import LINEAR_ONLY
-from tests.analysis.joint_trials import ARMS, SensorTrial, trials
+from tests.analysis.joint_trials import ALONE, ARMS, SensorTrial, trials
 
 ROBOTS: Final = 20
 FIRST_SEED: Final = 101
@@ -92,6 +92,16 @@ def test_the_predicted_error_is_about_the_true_one(robots: Robots, way: str) -> 
         ratios = np.array([trial.ratio for trial in _sensors(robots, way, arms=arms)])
         assert 0.5 < np.sqrt((ratios**2).mean()) < 1.5
         assert np.mean(ratios > 1.96) < 0.05
+
+
+@pytest.mark.long
+def test_legs_come_out_better_than_each_alone_on_one_foot() -> None:
+    """Of four robots: 20 s of steps against a stretch of poses on each foot, whose support and loads are known."""
+    ways = {"steps": ["stepping"], ALONE: ["left_foot", "right_foot"]}
+    robots = [trials(seed, ways, ["sway", "squat"], noise_counts=3.0) for seed in (101, 102, 103, 104)]
+    for kind in ("sway", "squat"):
+        together, alone = (_errors(_sensors(robots, way), kind)[:, 0].mean() for way in ways)
+        assert together < alone
 
 
 @pytest.mark.long
