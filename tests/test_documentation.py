@@ -87,6 +87,13 @@ def test_every_page_is_in_the_index() -> None:
     assert "docs/README.md" in _links(ROOT / "README.md")
 
 
+def test_every_page_is_in_the_sidebar() -> None:
+    """What is not would be a warning of `make docs`, which is an error."""
+    sidebar = (ROOT / "docs" / "site" / "index.rst").read_text(encoding="utf-8").split()
+    pages = {f"docs/{page.stem}" for page in (ROOT / "docs").glob("*.md")} - {"docs/README"}
+    assert pages <= set(sidebar)
+
+
 def test_every_example_is_on_their_page() -> None:
     """Each with a line on what it shows."""
     page = ROOT / "examples" / "README.md"
