@@ -15,6 +15,7 @@ import numpy as np
 from forcetorque.analysis import SensorRun, calibrate_jointly, calibrate_sensor
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration import Calibration
+from forcetorque.calibration.joint import ModelTolerance
 from forcetorque.experiment import Experiment, load_experiment
 from forcetorque.experiment.simulated import write_scenario
 from forcetorque.simulation.scenario import ScenarioFile, build_scenario, bundled_scenario, simulate, trace_recordings
@@ -57,6 +58,7 @@ def trials(
     centre_m: float = 0.002,
     joint_zero_deg: float = 0.5,
     sensors: Mapping[str, float] | None = None,
+    tolerance: ModelTolerance | None = None,
     duration_s: float = 20.0,
 ) -> dict[str, list[SensorTrial]]:
     """Simulate a robot, calibrate it in several ways and judge every way.
@@ -70,6 +72,7 @@ def trials(
         centre_m: Of centres of mass; m.
         joint_zero_deg: Of joint zeros; degrees.
         sensors: Other values of the scenario's sensors.
+        tolerance: How far the model is allowed to be off; the default if None.
         duration_s: Length of every motion; s.
 
     Returns:
@@ -86,7 +89,7 @@ def trials(
         results = {}
         for way, kinds in fitted.items():
             experiments = [load_experiment(place / f"{kind}_fitted.toml") for kind in kinds]
-            results[way] = _alone(experiments) if way == ALONE else _together(experiments)
+            results[way] = _alone(experiments) if way == ALONE else _together(experiments, tolerance)
     true = {name: sensor.matrix for name, sensor in next(iter(simulated.values())).sensors.items()}
     return {
         way: [
@@ -107,8 +110,8 @@ def trials(
     }
 
 
-def _together(experiments: Sequence[Experiment]) -> dict[str, Calibration]:
-    result = calibrate_jointly(experiments, "out", code_version="1", created="2020-01-01")
+def _together(experiments: Sequence[Experiment], tolerance: ModelTolerance | None) -> dict[str, Calibration]:
+    result = calibrate_jointly(experiments, "out", code_version="1", created="2020-01-01", tolerance=tolerance)
     return {one.calibration.sensor.name: one.calibration for one in result.calibrations}
 
 
