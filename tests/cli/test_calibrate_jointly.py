@@ -49,6 +49,13 @@ def test_other_questions_take_the_calibration(arm: Path, run: Run) -> None:
     assert errors[str(file)] < 0.5 * errors["prior"]
 
 
+def test_the_shared_file_is_no_calibration(arm: Path, run: Run) -> None:
+    """Who names all files of the folder is told which to leave out."""
+    run("calibrate", PARQUET, "--jointly", "-o", "joint")
+    error = run("evaluate", PARQUET, "-c", "joint/joint.json").error()
+    assert "name the files of the sensors beside it" in error
+
+
 def test_the_table_says_what_is_left_and_what_was_found(arm: Path, run: Run) -> None:
     """Predicted errors, equations, and errors of the model; a figure of the equations where one is asked for."""
     text = run("calibrate", PARQUET, "--jointly", "-o", "joint", "--figure", "joint.png").out

@@ -47,6 +47,9 @@ GENERATIVE: Final = "generative"
 JOINT: Final = "joint"
 """Name of the estimator of all sensors at once among the estimation types."""
 
+JOINT_SCHEMA: Final = "forcetorque/joint/1"
+"""Name and version of the form of the file that sensors of a joint calibration share."""
+
 
 def _lambda_from_file(value: Any) -> Any:
     return math.inf if value == "infinite" else value
@@ -438,6 +441,11 @@ def read_calibration(path: Path | str) -> Calibration:
     schema = content.get("schema") if isinstance(content, dict) else None
     if schema in _EARLIER:
         content["schema"] = schema = SCHEMA
+    if schema == JOINT_SCHEMA:
+        raise FormatError(
+            f"{file}: expected the calibration of a sensor, got what the sensors of a joint calibration share; name "
+            "the files of the sensors beside it"
+        )
     if schema != SCHEMA:
         raise FormatError(f"{file}: expected the schema {SCHEMA!r}, got {schema!r}; fit again with this version")
     try:

@@ -5,19 +5,17 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
-from typing import Annotated, Any, Final, Literal, Self
+from typing import Annotated, Any, Literal, Self
 
 from pydantic import ConfigDict, Field
 
 from forcetorque.array_field import ArrayField
 from forcetorque.arrays import FloatArray
 from forcetorque.atomic import write_bytes_atomically
+from forcetorque.calibration.artefact import JOINT_SCHEMA
 from forcetorque.calibration.joint.fit import JointFit
 from forcetorque.calibration.joint.windows import LENGTH_M
 from forcetorque.calibration.part import Part, read_part
-
-SCHEMA: Final = "forcetorque/joint/1"
-"""Name and version of the file's form."""
 
 
 class JointSensor(Part):
@@ -56,7 +54,7 @@ class JointPosterior(Part):
         defer_build=True, extra="forbid", frozen=True, arbitrary_types_allowed=True, populate_by_name=True
     )
 
-    schema_name: Literal["forcetorque/joint/1"] = Field(default=SCHEMA, alias="schema")
+    schema_name: Literal["forcetorque/joint/1"] = Field(default=JOINT_SCHEMA, alias="schema")
     """Form of the file."""
     sensors: tuple[JointSensor, ...]
     """Sensors."""
