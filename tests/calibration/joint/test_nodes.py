@@ -5,9 +5,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from forcetorque.calibration.joint import Stretch
+from forcetorque.calibration.joint import Stretch, part_windows, window_means
 from forcetorque.calibration.joint.nodes import WindowNodes
-from tests.calibration.joint.swaying import swaying
+from forcetorque.calibration.joint.windows import PIECE_S, WINDOW_S
+from forcetorque.estimation.part_equations import untouched_parts
+from tests.calibration.joint.swaying import FEET, SENSORS, swaying
 
 
 def _with_readings(stretch: Stretch, values: np.ndarray) -> Stretch:
@@ -85,3 +87,16 @@ def test_pieces_are_the_stretch() -> None:
     assert len(pieces) == 4
     np.testing.assert_array_equal(np.concatenate([piece.time_s for piece in pieces]), stretch.time_s)
     assert len(list(stretch.pieces(1e3))) == 1
+
+
+def test_what_else_was_logged_is_averaged_over_the_windows_of_the_equations() -> None:
+    """Also where a recording is so long that it is worked on in pieces, which begin anywhere between two windows."""
+    stretch = swaying(1, noise=0.0, duration_s=130.13).stretch
+    parts = untouched_parts(stretch.tree, SENSORS, FEET)
+    assert len(list(stretch.pieces(PIECE_S))) == 2
+    times, means = window_means(stretch, stretch.time_s[:, None])
+    np.testing.assert_allclose(means[:, 0], times)
+    for windows in part_windows(stretch, parts, ()):
+        np.testing.assert_array_equal(windows.time_s, times)
+    # negative control: windows of the whole stretch are others
+    assert not np.isin(WindowNodes(stretch.time_s, WINDOW_S).time_s, times).all()

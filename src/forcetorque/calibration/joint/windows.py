@@ -177,8 +177,13 @@ def window_means(stretch: Stretch, values: FloatArray) -> tuple[FloatArray, Floa
     Returns:
         Mean instants, shape (w,), s; and means, shape (w, c), NaN where a window has a gap.
     """
-    windows = WindowNodes(stretch.time_s, WINDOW_S)
-    return windows.time_s, windows.means(values)
+    times, means, start = [np.empty(0)], [np.empty((0, values.shape[1]))], 0
+    for piece in stretch.pieces(PIECE_S):  # as the equations are cut, or the windows would be others
+        windows = WindowNodes(piece.time_s, WINDOW_S)
+        times.append(windows.time_s)
+        means.append(windows.means(values[start : start + len(piece)]))
+        start += len(piece)
+    return np.concatenate(times), np.concatenate(means)
 
 
 def _joined(pieces: Sequence[PartWindows], stretch: Stretch) -> PartWindows:
