@@ -203,36 +203,51 @@ def _piece_windows(
     tree, zeros = stretch.tree, {} if about is None else about.joint_zeros()
     windows = WindowNodes(stretch.time_s, WINDOW_S)
     nodes = windows.condensed(stretch)
-    joints, middle = nodes.joints.shifted(zeros), slice(NODES // 2, None, NODES)
-    of_zeros = demand_columns(tree, parts, joints.samples(middle), nodes.root.samples(middle))
+    joints = nodes.joints.shifted(zeros)
+    of_zeros: Sequence[dict[str, FloatArray]] = [{} for _ in parts]
+    if terms:
+        middle = slice(NODES // 2, None, NODES)
+        of_zeros = demand_columns(tree, parts, joints.samples(middle), nodes.root.samples(middle))
     moving = zip(part_equations(tree, parts, joints, nodes.root), of_zeros, strict=True)
     # where the bodies of what is weighed are does not matter, nor does how joints turn them
     resting = (
         (equation, {f"{ZERO}{joint}": np.zeros(_LOADS) for joint in joints_of_cuts(tree, equation.part)})
         for equation in weight_equations(tree, weighed, joints, nodes.root)
     )
-    slopes = {name: windows.rates(values) for name, values in stretch.readings.items()}
-    if about is not None:
-        slopes = {name: rates @ about.change(name).T for name, rates in slopes.items()}
     for equation, demanded in chain(moving, resting):
-        logged = np.stack([nodes.readings[name] for name in equation.sensors], axis=1)
-        through = logged
-        if about is not None:
-            corrected = (about.wrench(name, stretch.session, nodes.readings[name]) for name in equation.sensors)
-            through = np.stack(list(corrected), axis=1)
-        columns = {name: windows.node_means(values) for name, values in body_columns(tree, equation).items()}
-        for name, values in demanded.items():
-            turned = equation.turned(tree, name.removeprefix(ZERO), through)
-            columns[name] = windows.node_means(turned) + values
-        rates = np.stack([slopes[name] for name in equation.sensors], axis=1)
-        delayed = np.einsum("nkij,nkj->ni", equation.transmission, rates)
-        columns[DELAY + stretch.recording] = windows.node_means(delayed)
+        columns = _error_columns(stretch, equation, windows, nodes, demanded, about) if terms else {}
         own = [term for term in terms if term.name in columns]
         errors = np.empty((len(windows), _LOADS, len(own)))
         for k, term in enumerate(own):
             errors[:, :, k] = columns[term.name] / UNITS
+        logged = np.stack([nodes.readings[name] for name in equation.sensors], axis=1)
         result = _averaged(stretch, equation, windows, logged, errors, zeros, own)
         yield result if equation.part in parts else result.kept(np.isin(result.time_s, windows.time_s[_at_rest(nodes)]))
+
+
+def _error_columns(
+    stretch: Stretch,
+    equation: PartEquation,
+    windows: WindowNodes,
+    nodes: Stretch,
+    demanded: Mapping[str, FloatArray],
+    about: JointFit | None,
+) -> dict[str, FloatArray]:
+    """Means of what a unit of every error of the model adds to the left side, by its name; shape (w, 6)."""
+    columns = {name: windows.node_means(values) for name, values in body_columns(stretch.tree, equation).items()}
+    through = [nodes.readings[name] for name in equation.sensors]
+    rates = [windows.rates(stretch.readings[name]) for name in equation.sensors]
+    if about is not None:
+        through = [
+            about.wrench(name, stretch.session, one) for name, one in zip(equation.sensors, through, strict=True)
+        ]
+        rates = [one @ about.change(name).T for name, one in zip(equation.sensors, rates, strict=True)]
+    for name, values in demanded.items():
+        turned = equation.turned(stretch.tree, name.removeprefix(ZERO), np.stack(through, axis=1))
+        columns[name] = windows.node_means(turned) + values
+    delayed = np.einsum("nkij,nkj->ni", equation.transmission, np.stack(rates, axis=1))
+    columns[DELAY + stretch.recording] = windows.node_means(delayed)
+    return columns
 
 
 def _at_rest(nodes: Stretch) -> BoolArray:
