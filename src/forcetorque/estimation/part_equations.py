@@ -108,6 +108,19 @@ def sensors_of(part: SubModel) -> tuple[str, ...]:
     return ((part.sensor,) if part.sensor is not None else ()) + part.outboard_sensors
 
 
+def heavy_bodies(tree: BodyTree, part: SubModel) -> list[int]:
+    """List the bodies of a part that have inertia.
+
+    Args:
+        tree: The robot.
+        part: The part.
+
+    Returns:
+        Their indices, parents before children.
+    """
+    return [k for k in part.bodies if not tree.bodies[k].inertia.is_zero]
+
+
 def joints_of_part(tree: BodyTree, part: SubModel) -> tuple[str, ...]:
     """Name the joints whose motion the equation of a part needs.
 
@@ -118,8 +131,7 @@ def joints_of_part(tree: BodyTree, part: SubModel) -> tuple[str, ...]:
     Returns:
         Joints from the root outwards, each once; leaders instead of joints that mimic.
     """
-    coordinates = (tree.bodies[k].coordinate for k in _bodies(tree, part))
-    return tuple(dict.fromkeys(coordinate.joint for coordinate in coordinates if coordinate is not None))
+    return _joints(tree, _bodies(tree, part))
 
 
 def joints_of_cuts(tree: BodyTree, part: SubModel) -> tuple[str, ...]:
@@ -132,8 +144,7 @@ def joints_of_cuts(tree: BodyTree, part: SubModel) -> tuple[str, ...]:
     Returns:
         Joints from the root outwards, each once; leaders instead of joints that mimic.
     """
-    coordinates = (tree.bodies[k].coordinate for k in _paths(tree, _cuts(tree, part)))
-    return tuple(dict.fromkeys(coordinate.joint for coordinate in coordinates if coordinate is not None))
+    return _joints(tree, _paths(tree, _cuts(tree, part)))
 
 
 def weight_equations(
@@ -160,7 +171,7 @@ def weight_equations(
     forces = np.repeat([1.0, 0.0], 3)
     _, poses = _motion(tree, _paths(tree, [cut for part in parts for cut in _cuts(tree, part)]), joints, root)
     for part in parts:
-        heavy = _heavy(tree, part)
+        heavy = heavy_bodies(tree, part)
         mass = sum(tree.bodies[k].inertia.mass for k in heavy)
         names = sensors_of(part)
         transmission = np.stack([_transmission(tree, part, name, poses) for name in names], axis=1)
@@ -195,7 +206,7 @@ def part_equations(
     states, poses = _motion(tree, {k for part in parts for k in _bodies(tree, part)}, joints, root)
     for part in parts:
         names = sensors_of(part)
-        heavy = _heavy(tree, part)
+        heavy = heavy_bodies(tree, part)
         demand = np.zeros((len(joints), 6))
         for k in heavy:
             demand += transform_wrench(poses[k], net_wrench(tree.bodies[k].inertia, states[k]))
@@ -228,11 +239,12 @@ def _transmission(tree: BodyTree, part: SubModel, sensor: str, poses: dict[int, 
 
 def _bodies(tree: BodyTree, part: SubModel) -> list[int]:
     """Bodies whose motion a part needs, parents before children."""
-    return _paths(tree, [*_heavy(tree, part), *_cuts(tree, part)])
+    return _paths(tree, [*heavy_bodies(tree, part), *_cuts(tree, part)])
 
 
-def _heavy(tree: BodyTree, part: SubModel) -> list[int]:
-    return [k for k in part.bodies if not tree.bodies[k].inertia.is_zero]
+def _joints(tree: BodyTree, bodies: Iterable[int]) -> tuple[str, ...]:
+    coordinates = (tree.bodies[k].coordinate for k in bodies)
+    return tuple(dict.fromkeys(coordinate.joint for coordinate in coordinates if coordinate is not None))
 
 
 def _cuts(tree: BodyTree, part: SubModel) -> list[int]:

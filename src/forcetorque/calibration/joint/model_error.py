@@ -10,7 +10,13 @@ from typing import Final
 import numpy as np
 
 from forcetorque.arrays import FloatArray
-from forcetorque.estimation.part_equations import PartEquation, joints_of_cuts, joints_of_part, part_equations
+from forcetorque.estimation.part_equations import (
+    PartEquation,
+    heavy_bodies,
+    joints_of_cuts,
+    joints_of_part,
+    part_equations,
+)
 from forcetorque.robot import BodyTree, JointMotion, RootMotion
 from forcetorque.robot.newton_euler import net_wrench
 from forcetorque.robot.sub_model import SubModel
@@ -77,10 +83,10 @@ def _terms(
     tree: BodyTree, parts: Sequence[SubModel], weighed: Sequence[SubModel], tolerance: ModelTolerance
 ) -> Iterator[ErrorTerm]:
     for part in weighed:
-        for k in _heavy(tree, part):
+        for k in heavy_bodies(tree, part):
             yield ErrorTerm(name=_mass(tree, k), unit="", deviation=tolerance.mass)
     for part in parts:
-        for k in _heavy(tree, part):
+        for k in heavy_bodies(tree, part):
             name = _name(tree, k)
             yield ErrorTerm(name=_mass(tree, k), unit="", deviation=tolerance.mass)
             for axis in "xyz":
@@ -170,17 +176,13 @@ def mass_shares(tree: BodyTree, part: SubModel, terms: Sequence[ErrorTerm]) -> F
     Returns:
         Shares, of errors of masses of its bodies; zero for all others; shape (terms,).
     """
-    masses = {_mass(tree, k): tree.bodies[k].inertia.mass for k in _heavy(tree, part)}
+    masses = {_mass(tree, k): tree.bodies[k].inertia.mass for k in heavy_bodies(tree, part)}
     total = sum(masses.values())
     return np.array([masses.get(term.name, 0.0) / total if total else 0.0 for term in terms])
 
 
 def _mass(tree: BodyTree, k: int) -> str:
     return f"mass of {_name(tree, k)}"
-
-
-def _heavy(tree: BodyTree, part: SubModel) -> list[int]:
-    return [k for k in part.bodies if not tree.bodies[k].inertia.is_zero]
 
 
 def _acceleration(axis: str, tree: BodyTree) -> str:
