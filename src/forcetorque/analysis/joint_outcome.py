@@ -11,7 +11,7 @@ from pydantic import Field
 
 from forcetorque.analysis.joint_rows import ModelErrorRow, PartRow, SensorErrorRow, TouchRow
 from forcetorque.calibration import Calibration
-from forcetorque.calibration.joint import JointFit, JointPosterior, JointResult, PartResidual
+from forcetorque.calibration.joint import JointFit, JointResult, PartResidual
 from forcetorque.result import Row, Table, table_of, with_error
 
 _DOUBTFUL_SHARE = 0.1
@@ -35,8 +35,6 @@ class JointOutcome(Row):
     """Spans that were left out because they disagree."""
     left_out: tuple[str, ...]
     """Parts that nothing touches, but whose joints were not logged, in words."""
-    posterior: JointPosterior = Field(exclude=True, repr=False)
-    """Mean and covariance of all unknowns."""
     fit: JointFit = Field(exclude=True, repr=False)
     """The fit."""
     residuals: tuple[PartResidual, ...] = Field(exclude=True, repr=False)
@@ -65,7 +63,6 @@ class JointOutcome(Row):
             model_errors=tuple(ModelErrorRow.of(*error) for error in result.fit.model_errors()),
             touches=tuple(map(TouchRow.of, result.touches)),
             left_out=result.left_out,
-            posterior=JointPosterior.of(result.fit, {name: c.sensor.serial for name, c in calibrations.items()}),
             fit=result.fit,
             residuals=result.residuals,
         )

@@ -21,6 +21,7 @@ from forcetorque.analysis.sensor_run import SensorRun
 from forcetorque.array_field import ArrayField
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration import Calibration, EstimationType, RecordingMoments, write_calibration
+from forcetorque.calibration.joint import JointPosterior
 from forcetorque.recording import Use
 from forcetorque.result import Result, Row, Table, table_of
 
@@ -59,7 +60,8 @@ class SensorCalibrations(Result):
             file.parent.mkdir(parents=True, exist_ok=True)
             write_calibration(file, entry.calibration)
         if self.joint is not None and self.joint.file is not None:
-            self.joint.posterior.save(self.joint.file)
+            sensors = [entry.calibration.sensor for entry in self.calibrations]
+            JointPosterior.of(self.joint.fit, {one.name: one.serial for one in sensors}).save(self.joint.file)
 
     def blocks(self) -> Iterator[Table | str]:
         """Give matrix, variables and excitation of every sensor.

@@ -55,15 +55,14 @@ def calibrate_together(
         raise ExperimentError(
             f"--output {output}: expected a folder, for one file per sensor and {JOINT_FILE} with what they share"
         )
-    contents = read_experiments(experiments, log)
-    names = [sensor.name for sensor in sensors_named(next(iter(contents.values())), sensors)]
-    first = next(iter(contents.values()))
-    files = [output / calibration_file(name, first.sensor(name).serial) for name in names]
+    contents = list(read_experiments(experiments, log).values())
+    chosen = sensors_named(contents[0], sensors)
+    files = [output / calibration_file(sensor.name, sensor.serial) for sensor in chosen]
     refuse_inputs([*files, output / JOINT_FILE], experiments)
     result = calibrate_jointly(
-        list(contents.values()),
+        contents,
         output,
-        names,
+        [sensor.name for sensor in chosen],
         code_version=version("forcetorque"),
         created=datetime.now(UTC).isoformat(timespec="seconds"),
         progress=log.info,

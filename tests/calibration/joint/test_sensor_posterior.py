@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from forcetorque.calibration import Posterior
-from forcetorque.calibration.joint import JointFit, UntouchedStretch, fit_stretches, sensor_posterior
+from forcetorque.calibration.joint import UNITS, JointFit, UntouchedStretch, fit_stretches, sensor_posterior
 from forcetorque.estimation.part_equations import untouched_parts
 from tests.calibration.joint.swaying import FEET, SENSORS, swaying
 
@@ -76,5 +76,7 @@ def test_the_prior_is_as_wide_as_it_was() -> None:
     fit, posterior = _fit(), _posterior()
     before = posterior.prior_error_covariance(LOADS[0])
     assert before is not None
-    expected = fit.prior_error_covariance(SENSOR, LOADS[0])
+    by_row = fit.prior_covariance(SENSOR).reshape(6, 6, 6, 6)
+    unit = LOADS[0] / UNITS
+    expected = np.einsum("b,abcd,d->ac", unit, by_row, unit) * np.outer(UNITS, UNITS)
     np.testing.assert_allclose(np.diag(before), np.diag(expected), rtol=0.3)  # turned by 1 + D

@@ -113,19 +113,10 @@ class JointFit:
             Covariance; shape (..., 6, 6).
         """
         own = self.places.changes(sensor)
-        return self._error_covariance(self.covariance[own, own], load)
-
-    def prior_error_covariance(self, sensor: str, load: FloatArray) -> FloatArray:
-        """Predict the covariance of the error of changes of load by the prior matrix.
-
-        Args:
-            sensor: The sensor.
-            load: Change of the load; shape (..., 6); N, N m.
-
-        Returns:
-            Covariance; shape (..., 6, 6).
-        """
-        return self._error_covariance(self.prior_covariance(sensor), load)
+        covariance = self.covariance[own, own].reshape(6, 6, 6, 6)
+        unit = np.asarray(load, dtype=np.float64) / UNITS
+        scaled: FloatArray = np.einsum("...b,abcd,...d->...ac", unit, covariance, unit) * np.outer(UNITS, UNITS)
+        return scaled
 
     def prior_covariance(self, sensor: str) -> FloatArray:
         """Give the covariance of the changes of a sensor before any data.
@@ -140,12 +131,6 @@ class JointFit:
         root = self.prior_root[own, own]
         covariance: FloatArray = root @ root.T
         return covariance
-
-    @staticmethod
-    def _error_covariance(covariance: FloatArray, load: FloatArray) -> FloatArray:
-        unit, by_row = np.asarray(load, dtype=np.float64) / UNITS, covariance.reshape(6, 6, 6, 6)
-        scaled: FloatArray = np.einsum("...b,abcd,...d->...ac", unit, by_row, unit) * np.outer(UNITS, UNITS)
-        return scaled
 
     def model_errors(self) -> list[tuple[ErrorTerm, float, float]]:
         """Give what was found to be wrong with the model.
