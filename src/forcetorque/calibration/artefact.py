@@ -15,7 +15,6 @@ from pydantic import (
     ConfigDict,
     Field,
     PlainSerializer,
-    ValidationError,
     WithJsonSchema,
     field_validator,
 )
@@ -26,12 +25,12 @@ from forcetorque.arrays import BoolArray, FloatArray
 from forcetorque.atomic import write_bytes_atomically
 from forcetorque.calibration.fitted_loads import FittedLoads
 from forcetorque.calibration.nonlinear_trial import NonlinearTrial
-from forcetorque.calibration.part import Part
+from forcetorque.calibration.part import Part, checked_part, read_json
 from forcetorque.calibration.posterior import Posterior
 from forcetorque.calibration.quadratic_correction import QuadraticCorrection
 from forcetorque.calibration.secondary import secondary_matrix
 from forcetorque.calibration.wrench_model import WrenchModel
-from forcetorque.errors import FormatError, MissingFileError, RecordingError, SerialNumberError, ShapeError
+from forcetorque.errors import FormatError, RecordingError, SerialNumberError, ShapeError
 from forcetorque.result import Table, html_table
 from forcetorque.spatial import WRENCH_COMPONENTS, WRENCH_UNITS, MeasureDirection
 
@@ -428,16 +427,10 @@ def read_calibration(path: Path | str) -> Calibration:
         The calibration.
 
     Raises:
-        MissingFileError: If there is no such file.
-        FormatError: If it is not JSON, or not a calibration of this schema version.
+        FormatError: If it is not a calibration of this schema version.
     """
     file = Path(path)
-    if not file.is_file():
-        raise MissingFileError(f"{file}: expected a calibration file, there is none; `forcetorque calibrate` makes one")
-    try:
-        content = json.loads(file.read_text(encoding="utf-8"))
-    except (json.JSONDecodeError, UnicodeDecodeError, RecursionError) as error:
-        raise FormatError(f"{file}: expected JSON, got {error}") from error
+    content = read_json(file, expected="a calibration file, there is none; `forcetorque calibrate` makes one")
     schema = content.get("schema") if isinstance(content, dict) else None
     if schema in _EARLIER:
         content["schema"] = schema = SCHEMA
@@ -448,11 +441,4 @@ def read_calibration(path: Path | str) -> Calibration:
         )
     if schema != SCHEMA:
         raise FormatError(f"{file}: expected the schema {SCHEMA!r}, got {schema!r}; fit again with this version")
-    try:
-        return Calibration.model_validate(content)
-    except ValidationError as error:
-        first = error.errors()[0]
-        where = ".".join(str(part) for part in first["loc"])
-        raise FormatError(f"{file}: {where}: {first['msg']}; the file was changed by hand or cut") from error
-    except ShapeError as error:
-        raise FormatError(f"{file}: {error}") from error
+    return checked_part(file, Calibration, content)

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
-from typing import TypeVar
+from typing import Any, TypeVar
 
 from pydantic import BaseModel, ConfigDict, ValidationError
 
@@ -31,18 +31,49 @@ def read_part(path: Path | str, kind: type[_Kind], *, expected: str) -> _Kind:
 
     Returns:
         The table.
+    """
+    file = Path(path)
+    return checked_part(file, kind, read_json(file, expected=expected))
+
+
+def read_json(file: Path, *, expected: str) -> Any:
+    """Read a file.
+
+    Args:
+        file: JSON file.
+        expected: As of `read_part`.
+
+    Returns:
+        Its content.
 
     Raises:
         MissingFileError: If there is no such file.
-        FormatError: If it is not JSON, or not of this form.
+        FormatError: If it is not JSON.
     """
-    file = Path(path)
     if not file.is_file():
         raise MissingFileError(f"{file}: expected {expected}")
     try:
-        return kind.model_validate(json.loads(file.read_text(encoding="utf-8")))
+        return json.loads(file.read_text(encoding="utf-8"))
     except (json.JSONDecodeError, UnicodeDecodeError, RecursionError) as error:
         raise FormatError(f"{file}: expected JSON, got {error}") from error
+
+
+def checked_part(file: Path, kind: type[_Kind], content: Any) -> _Kind:
+    """Make a table of the content of a file.
+
+    Args:
+        file: The file, for messages.
+        kind: Class of the table.
+        content: Its content.
+
+    Returns:
+        The table.
+
+    Raises:
+        FormatError: If it is not of this form.
+    """
+    try:
+        return kind.model_validate(content)
     except ValidationError as error:
         first = error.errors()[0]
         where = ".".join(str(place) for place in first["loc"])
