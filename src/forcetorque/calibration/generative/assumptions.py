@@ -21,6 +21,10 @@ FRAME_M: Final = 0.1
 """Lever by which the frame of the reference may be displaced: as far as the origins of links and sensors lie apart."""
 
 
+FRAME_ROOTS: Final = np.stack([np.diag([1.0] * 3 + [0.0] * 3)] * 3 + [np.diag([FRAME_M] * 3 + [1.0] * 3)] * 3)
+"""L of every row, with L L^T the covariance of what gain, rotation and displacement of a frame do; shape (6, 6, 6)."""
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Scale:
     """Size that a kind of deviation is expected to have, and how many coefficients' worth of data that counts for."""

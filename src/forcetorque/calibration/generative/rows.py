@@ -13,7 +13,7 @@ from typing import Literal
 import numpy as np
 
 from forcetorque.arrays import FloatArray, IntArray
-from forcetorque.calibration.generative.assumptions import ACCURACY_SHARE, FRAME_M, Assumptions
+from forcetorque.calibration.generative.assumptions import ACCURACY_SHARE, FRAME_ROOTS, Assumptions
 
 LOADS = 6
 
@@ -59,7 +59,6 @@ def rows_of(matrix: FloatArray, assumptions: Assumptions, *, with_prior: bool) -
     size = np.sqrt((scaled**2).mean(axis=1))
     accuracy = assumptions.reference_accuracy(matrix)
     spread = _root(response.T @ response)
-    frames = np.stack([np.diag([1.0] * 3 + [0.0] * 3)] * 3 + [np.diag([FRAME_M] * 3 + [1.0] * 3)] * 3)
     if channels == LOADS and with_prior:
         return Rows(
             space="wrench",
@@ -69,12 +68,12 @@ def rows_of(matrix: FloatArray, assumptions: Assumptions, *, with_prior: bool) -
             from_load=np.diag(1.0 / size),
             load_to_full_scale=response,
             sensor_root=np.stack([spread] * LOADS),
-            frame_root=frames / size[:, None, None],
+            frame_root=FRAME_ROOTS / size[:, None, None],
             accuracy=accuracy / size,
         )
     _, strengths, directions = np.linalg.svd(response, full_matrices=False)
     readings: FloatArray = np.sqrt(LOADS / channels) * strengths[:, None] * directions
-    squares = np.einsum("ji,iab->jab", response**2, frames @ frames)
+    squares = np.einsum("ji,iab->jab", response**2, FRAME_ROOTS @ FRAME_ROOTS)
     return Rows(
         space="channel",
         unit=np.array(assumptions.full_scale),

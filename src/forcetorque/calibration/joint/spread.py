@@ -14,7 +14,7 @@ from typing import Final, Self
 import numpy as np
 
 from forcetorque.arrays import FloatArray, require_shape
-from forcetorque.calibration.generative.assumptions import FRAME, FRAME_M, SENSOR
+from forcetorque.calibration.generative.assumptions import FRAME, FRAME_ROOTS, SENSOR
 from forcetorque.calibration.joint.windows import UNITS
 
 KINDS: Final = (SENSOR, FRAME)
@@ -46,12 +46,11 @@ class ChangeSpread:
         scaled = matrix * full_scale
         response = np.linalg.pinv(scaled) * UNITS
         sizes = np.sqrt((scaled**2).mean(axis=1)) / UNITS
-        frames = np.stack([np.diag([1.0] * 3 + [0.0] * 3)] * 3 + [np.diag([FRAME_M] * 3 + [1.0] * 3)] * 3)
         return cls(
             roots=np.stack(
                 [
                     sizes[:, None, None] * np.linalg.cholesky(response.T @ response),
-                    frames * UNITS / UNITS[:, None, None],
+                    FRAME_ROOTS * UNITS / UNITS[:, None, None],
                 ]
             )
         )
