@@ -1,12 +1,18 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Robots on both feet, each with its own sensors and errors, calibrated in one motion and judged in others."""
+"""Robots on both feet, each with its own sensors and errors, calibrated in one motion and judged in others.
+
+`python -m tests.analysis.joint_trials` prints the figures of docs/joint.md.
+"""
 
 from __future__ import annotations
 
+import argparse
 import tempfile
 import tomllib
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
+from itertools import count, product
 from pathlib import Path
 from typing import Any
 
@@ -16,10 +22,16 @@ from forcetorque.analysis import SensorRun, calibrate_jointly, calibrate_sensor
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration import Calibration
 from forcetorque.calibration.joint import ModelTolerance
+from forcetorque.errors import RobotError
 from forcetorque.experiment import Experiment, load_experiment
 from forcetorque.experiment.simulated import write_scenario
 from forcetorque.simulation.scenario import ScenarioFile, build_scenario, bundled_scenario, simulate, trace_recordings
 
+WAYS = {"sway": ["sway"], "steps": ["stepping"], "both": ["sway", "stepping"]}
+"""Motions that are fitted together."""
+JUDGED = ("sway", "stepping", "squat")
+"""Motions in which a calibration is judged."""
+FIRST_SEED = 101
 ARMS = ("l_arm_ft", "r_arm_ft")
 PUSH_N = 50.0
 ALONE = "alone"
@@ -46,6 +58,18 @@ class SensorTrial:
     """Error of these pushes over what is predicted, root mean square."""
     predicted_150: float
     """Predicted standard deviation of 150 N along z; N."""
+
+
+def robots(number: int) -> Iterator[dict[str, list[SensorTrial]]]:
+    """Try so many robots, of 1 to 10 counts of noise; one whose joints would leave their limits is another's turn."""
+    tried = 0
+    for seed in count(FIRST_SEED):
+        if tried == number:
+            return
+        with suppress(RobotError):
+            noise = float(np.random.default_rng(seed).uniform(1.0, 10.0))
+            yield trials(seed, WAYS, JUDGED, noise_counts=noise)
+            tried += 1
 
 
 def trials(
@@ -198,3 +222,33 @@ def _mean_norms(error: FloatArray) -> FloatArray:
 
 def _size(error: FloatArray) -> float:
     return float(np.sqrt((error[:, :3] ** 2).sum(axis=1).mean()))
+
+
+def main() -> None:
+    """Print errors by way, kind of sensor and judged motion; the prior with the offset that is best for the motion."""
+    parser = argparse.ArgumentParser(description=main.__doc__)
+    parser.add_argument("--robots", type=int, default=20)
+    tried = list(robots(parser.parse_args().robots))
+    for way, arms in product(WAYS, (False, True)):
+        by_robot = [[one for one in robot[way] if (one.sensor in ARMS) == arms] for robot in tried]
+        sensors = [one for own in by_robot for one in own]
+        who = f"{way}, {'arms' if arms else 'legs and feet'}"
+        for kind in JUDGED:
+            errors = np.array([one.motions[kind] for one in sensors])
+            before = np.mean([one.prior_motions[kind][0] for one in sensors])
+            worst = max(np.mean([one.motions[kind][0] for one in own]) for own in by_robot)
+            print(  # noqa: T201
+                f"{who}, judged in {kind}: {errors[:, 0].mean():.2f} N, worst robot {worst:.2f}, worst sensor "
+                f"{errors[:, 0].max():.2f}; {errors[:, 1].mean():.3f} N m; by the prior {before:.2f} N"
+            )
+        pushes, ratios = np.array([one.push for one in sensors]), np.array([one.ratio for one in sensors])
+        print(  # noqa: T201
+            f"{who}, pushes of {PUSH_N:g} N: {pushes.mean():.2f} N, worst {pushes.max():.2f}, by the prior "
+            f"{np.mean([one.prior_push for one in sensors]):.2f}, worst share of it "
+            f"{max(one.push / one.prior_push for one in sensors):.2f}; error over predicted "
+            f"{np.sqrt((ratios**2).mean()):.2f}, worst {ratios.max():.2f}"
+        )
+
+
+if __name__ == "__main__":
+    main()

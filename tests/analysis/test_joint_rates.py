@@ -9,8 +9,6 @@ offset, in sway, steps and squats with the feet elsewhere.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from contextlib import suppress
-from itertools import count
 from typing import Final
 
 import numpy as np
@@ -18,29 +16,18 @@ import pytest
 
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration.joint import EXACT
-from forcetorque.errors import RobotError
 from forcetorque.simulation.scenario import LINEAR_ONLY
-from tests.analysis.joint_trials import ALONE, ARMS, SensorTrial, trials
+from tests.analysis.joint_trials import ALONE, ARMS, JUDGED, WAYS, SensorTrial, robots, trials
 
 ROBOTS: Final = 20
-FIRST_SEED: Final = 101
-WAYS: Final = {"sway": ["sway"], "steps": ["stepping"], "both": ["sway", "stepping"]}
-JUDGED: Final = ("sway", "stepping", "squat")
 
 Robots = Sequence[Mapping[str, list[SensorTrial]]]
 
 
-@pytest.fixture(scope="module")
-def robots() -> Robots:
-    """Sensors of every robot, by what was fitted; a robot whose joints would leave their limits is another's turn."""
-    results: list[dict[str, list[SensorTrial]]] = []
-    for seed in count(FIRST_SEED):
-        with suppress(RobotError):
-            noise = float(np.random.default_rng(seed).uniform(1.0, 10.0))
-            results.append(trials(seed, WAYS, JUDGED, noise_counts=noise))
-        if len(results) == ROBOTS:
-            return results
-    raise AssertionError("unreachable")
+@pytest.fixture(scope="module", name="robots")
+def tried_robots() -> Robots:
+    """Sensors of every robot, by what was fitted."""
+    return list(robots(ROBOTS))
 
 
 def _sensors(robots: Robots, way: str, *, arms: bool = False) -> list[SensorTrial]:
