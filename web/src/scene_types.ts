@@ -111,19 +111,19 @@ export interface WrenchSeries {
   readonly ellipsoid_moment: Ellipsoid | null;
 }
 
-/** A force-torque sensor. */
+/** A force-torque sensor; or a part that nothing touches, with what its sensors leave of its equation. */
 export interface Sensor {
-  /** Name in the robot model. */
+  /** Name in the robot model; of a part, in words. */
   readonly name: string;
-  /** Serial number. */
+  /** Serial number; empty for a part. */
   readonly serial: string;
   /** Link that its frame is given in. */
   readonly link: string;
   /** Pose of its frame; 16 numbers. */
   readonly link_H_sensor: readonly number[];
-  /** Link that acts, in the sign of the reading. */
-  readonly acting: string;
-  /** Link that is acted on. */
+  /** Link that acts, in the sign of the reading; null for a part: no link does what is left over. */
+  readonly acting: string | null;
+  /** Link, or part, that is acted on. */
   readonly acted_on: string;
   /** The expected wrench, what was logged or the prior gives, then one series per calibration. */
   readonly wrenches: readonly WrenchSeries[];

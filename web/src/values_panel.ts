@@ -84,7 +84,8 @@ export class JointsPanel implements Drawable {
 
 /** Who acts on whom: arrows and numbers of sensors are of either sign. */
 function acts(sensor: Sensor | undefined): string {
-  return sensor ? ` of ${sensor.acting} on ${sensor.acted_on}` : "";
+  if (!sensor) return "";
+  return sensor.acting === null ? ` unexplained on ${sensor.acted_on}` : ` of ${sensor.acting} on ${sensor.acted_on}`;
 }
 
 function shown(value: number, quantity: Quantity): string {

@@ -20,6 +20,7 @@ from forcetorque.viewer.expected import expected_readings
 from forcetorque.viewer.geometry import robot_geometry
 from forcetorque.viewer.instants import Posture, posture_at
 from forcetorque.viewer.once import Priors, differentiated
+from forcetorque.viewer.parts import scene_parts
 from forcetorque.viewer.root_pose import root_poses
 from forcetorque.viewer.scene import Block, Robot, Scene, SceneFinding, SceneInterval
 from forcetorque.viewer.series import scene_sensor
@@ -98,7 +99,7 @@ def build_scene(
         coordinates=posture.names,
         root=block.add(root.values, "float32"),
         robot=robot,
-        sensors=tuple(series),
+        sensors=(*series, *scene_parts(computed, groups, posture, block, sources)),
         contacts=contacts,
         intervals=tuple(
             _interval(interval, recording.start_ns, states_support=not is_wrist_load(model))

@@ -145,20 +145,20 @@ class WrenchSeries:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Sensor:
-    """A force-torque sensor."""
+    """A force-torque sensor; or a part that nothing touches, with what its sensors leave of its equation."""
 
     name: str
-    """Name in the robot model."""
+    """Name in the robot model; of a part, in words."""
     serial: str
-    """Serial number."""
+    """Serial number; empty for a part."""
     link: str
     """Link that its frame is given in."""
     link_H_sensor: tuple[float, ...]
     """Pose of its frame; 16 numbers."""
-    acting: str
-    """Link that acts, in the sign of the reading."""
+    acting: str | None
+    """Link that acts, in the sign of the reading; null for a part: no link does what is left over."""
     acted_on: str
-    """Link that is acted on."""
+    """Link, or part, that is acted on."""
     wrenches: tuple[WrenchSeries, ...]
     """The expected wrench, what was logged or the prior gives, then one series per calibration."""
 

@@ -48,7 +48,7 @@ class View(Result):
         """
         return cls(
             experiment=built.scene.title,
-            sensors=tuple(sensor.name for sensor in built.scene.sensors),
+            sensors=tuple(sensor.name for sensor in built.scene.sensors if sensor.acting is not None),
             samples=built.scene.samples,
             url=None,
             file=None,
