@@ -11,7 +11,8 @@ from forcetorque.arrays import FloatArray, IntArray
 from forcetorque.errors import RecordingError, known_names
 from forcetorque.recording.alignment import interpolate
 from forcetorque.recording.recording import Recording
-from forcetorque.recording.smoothing import SavitzkyGolay, smooth
+from forcetorque.recording.smoothing import SavitzkyGolay, smooth_columns
+from forcetorque.recording.stream import Signal, Stream
 from forcetorque.robot import JointMotion
 
 
@@ -38,23 +39,28 @@ def joint_motion_at(
     Raises:
         RecordingError: If a joint is in no stream, or the log lacks derivatives that are to be taken from it.
     """
-    quantities = ("position", "velocity", "acceleration")
-    columns: dict[str, list[FloatArray]] = {quantity: [] for quantity in quantities}
-    for derivative, quantity in enumerate(quantities):
+    motion: dict[str, FloatArray] = {}
+    for derivative, quantity in enumerate(("position", "velocity", "acceleration")):
         source = quantity if logged_derivatives else "position"
-        signals = recording.joint_signals(source)
-        for joint in joints:
-            if joint not in signals:
-                hint = "; take derivatives from the positions instead" if source != "position" else ""
-                raise RecordingError(
-                    f"no stream holds the {source} of joint {joint!r}{hint}; {known_names(joint, signals)}"
-                )
-            stream, signal = signals[joint]
-            values = signal.column(joint)[:, None]
+        motion[quantity] = np.empty((len(at_ns), len(joints)))
+        for stream, signal, columns in _holders(recording, joints, source):
+            values = signal.values[:, [signal.columns.index(joints[k]) for k in columns]]
             if derivative and not logged_derivatives:
-                values = smooth(stream.stamp_ns, values, window, derivative=derivative)
-            columns[quantity].append(interpolate(stream, values, at_ns)[:, 0])
-    stacked = {
-        quantity: np.column_stack(found) if found else np.empty((len(at_ns), 0)) for quantity, found in columns.items()
-    }
-    return JointMotion(names=tuple(joints), **stacked)
+                values = smooth_columns(stream.stamp_ns, values, window, derivative=derivative)
+            motion[quantity][:, columns] = interpolate(stream, values, at_ns)
+    return JointMotion(names=tuple(joints), **motion)
+
+
+def _holders(recording: Recording, joints: Sequence[str], source: str) -> list[tuple[Stream, Signal, list[int]]]:
+    """Streams that hold joints, with the places of these joints among all."""
+    signals = recording.joint_signals(source)
+    for joint in joints:
+        if joint not in signals:
+            hint = "; take derivatives from the positions instead" if source != "position" else ""
+            raise RecordingError(
+                f"no stream holds the {source} of joint {joint!r}{hint}; {known_names(joint, signals)}"
+            )
+    places: dict[str, list[int]] = {}
+    for k, joint in enumerate(joints):
+        places.setdefault(signals[joint][0].name, []).append(k)
+    return [(*signals[joints[columns[0]]], columns) for columns in places.values()]

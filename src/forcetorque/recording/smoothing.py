@@ -154,6 +154,30 @@ def smooth(
     return result
 
 
+def smooth_columns(stamp_ns: IntArray, values: FloatArray, window: SavitzkyGolay, *, derivative: int = 0) -> FloatArray:
+    """Smooth or differentiate columns as if each were a stream of its own: a NaN in one takes nothing from another.
+
+    Args:
+        stamp_ns: Stamps in the order of the log; shape (n,); ns.
+        values: Samples; shape (n, k).
+        window: Length and order of the filter.
+        derivative: 0 to smooth, 1 for the rate, 2 for the second derivative.
+
+    Returns:
+        Filtered samples at the same stamps, as `smooth` gives them; shape (n, k); the unit of `values` per s ** derivative.
+
+    Raises:
+        RecordingError: If the order is too low for the derivative, or the window holds too few samples.
+    """
+    together: dict[bytes, list[int]] = {}  # columns that lack the same samples may be filtered at once
+    for k, absent in enumerate(~np.isfinite(values).T):
+        together.setdefault(np.packbits(absent).tobytes(), []).append(k)
+    result = np.empty(values.shape)
+    for columns in together.values():
+        result[:, columns] = smooth(stamp_ns, values[:, columns], window, derivative=derivative)
+    return result
+
+
 def _smooth_on_grid(
     grid: FloatArray, places: FloatArray, values: FloatArray, filtering: tuple[int, int, int], step: float
 ) -> FloatArray:

@@ -5,13 +5,11 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-import numpy as np
-
 from forcetorque.analysis import Correction, SensorRun
 from forcetorque.errors import ForceTorqueError
 from forcetorque.experiment import Experiment, ExperimentSensor
 from forcetorque.recording import Signal, Stream
-from forcetorque.recording.smoothing import smooth
+from forcetorque.recording.smoothing import smooth_columns
 
 _DERIVATIVES = {"velocity": 1, "acceleration": 2}
 
@@ -77,10 +75,7 @@ def _with_derivatives(stream: Stream, experiment: Experiment) -> Stream:
     window = experiment.processing.derivative_window
     signals = dict(stream.signals)
     for quantity, derivative in _DERIVATIVES.items():
-        # joint by joint, because a NaN counts for all columns that are filtered together
-        columns = [
-            smooth(stream.stamp_ns, column[:, None], window, derivative=derivative) for column in position.values.T
-        ]
+        values = smooth_columns(stream.stamp_ns, position.values, window, derivative=derivative)
         units = tuple(unit + ("/s" if derivative == 1 else "/s2") for unit in position.units)
-        signals[quantity] = Signal(quantity=quantity, values=np.hstack(columns), columns=position.columns, units=units)
+        signals[quantity] = Signal(quantity=quantity, values=values, columns=position.columns, units=units)
     return replace(stream, signals=signals)
