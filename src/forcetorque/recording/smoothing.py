@@ -127,7 +127,8 @@ def smooth(
         grid: Grid of the stream that the samples are a part of; None for that of the complete samples themselves.
 
     Returns:
-        Filtered samples at the same stamps; shape (n, k); the unit of `values` per s ** derivative.
+        Filtered samples at the same stamps; shape (n, k); the unit of `values` per
+        s ** derivative.
 
     Raises:
         RecordingError: If the order is too low for the derivative, or the window holds too few samples.
@@ -164,7 +165,8 @@ def smooth_columns(stamp_ns: IntArray, values: FloatArray, window: SavitzkyGolay
         derivative: 0 to smooth, 1 for the rate, 2 for the second derivative.
 
     Returns:
-        Filtered samples at the same stamps, as `smooth` gives them; shape (n, k); the unit of `values` per s ** derivative.
+        Filtered samples at the same stamps, as `smooth` gives them; shape (n, k); the unit of `values` per
+        s ** derivative.
 
     Raises:
         RecordingError: If the order is too low for the derivative, or the window holds too few samples.
