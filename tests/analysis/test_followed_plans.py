@@ -96,6 +96,7 @@ def refused() -> list[Outcome]:
     return [one for one in outcomes(range(811, 821)) if one.decision != "use"]
 
 
+@pytest.mark.long
 def test_a_foot_that_hung_free_may_be_used_after_recordings_with_weights(tmp_path: Path) -> None:
     """And not after recordings without: a foot by itself is too light to teach what the use needs."""
     judged = outcomes(range(811, 812), fitted={"tz": ["tz"]})

@@ -223,9 +223,10 @@ def _followed(planned: Plan, sensor: str, specimen: Specimen, seed: int) -> list
     return [calibrated(data[: k + 1], specimen) for k in range(len(data))]
 
 
-def test_two_tools_teach_what_a_stiff_arm_does_not(tmp_path: Path) -> None:
+@pytest.mark.parametrize("seeds", [range(601, 602), pytest.param(range(602, 608), marks=pytest.mark.long)], ids=len)
+def test_two_tools_teach_what_a_stiff_arm_does_not(tmp_path: Path, seeds: range) -> None:
     """Three recordings of 40 s; what is expected after each is not less than what is true."""
-    errors = arm_errors(tmp_path, range(601, 604))
+    errors = arm_errors(tmp_path, seeds)
     assert (errors["two tools", 3].median < 0.1 * errors["no tool", 3].median).all()
     for tools in ("no tool", "two tools"):
         assert (np.diff([errors[tools, k].typical for k in (1, 2, 3)], axis=0) <= 0.0).all()

@@ -68,7 +68,7 @@ def test_noise_that_is_misjudged_moves_errors_by_little(factor: float, monkeypat
     assert abs(np.mean(wrong) - np.mean(right)) < 0.1
 
 
-@pytest.mark.parametrize("delay_s", [0.0, 0.02])
+@pytest.mark.parametrize("delay_s", [pytest.param(0.0, marks=pytest.mark.long), 0.02])
 def test_readings_that_come_late_are_found_to(delay_s: float) -> None:
     """Two samples of delay are found to a millisecond; without the term, as a negative control, they cost accuracy."""
     motion, other = swaying(91, **WRONG), swaying(191, sensor_seed=91, **WRONG)
