@@ -10,7 +10,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from forcetorque.analysis import SensorRun, calibrate_sensor, evaluate
+    from forcetorque.analysis import SensorRun, calibrate_sensor, evaluate, plan_jointly
     from forcetorque.calibration import Calibration, DataSet, calibrate, read_calibration, write_calibration
     from forcetorque.errors import ForceTorqueError
     from forcetorque.evaluation.wrench_errors import wrench_errors  # of the package, mypy may take it for the module
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from forcetorque.robot import RobotModel, expected_wrenches, read_urdf
 
 _HOMES = {
-    "analysis": ("SensorRun", "calibrate_sensor", "evaluate"),
+    "analysis": ("SensorRun", "calibrate_sensor", "evaluate", "plan_jointly"),
     "calibration": ("Calibration", "DataSet", "calibrate", "read_calibration", "write_calibration"),
     "errors": ("ForceTorqueError",),
     "evaluation": ("wrench_errors",),
@@ -43,6 +43,7 @@ __all__ = [
     "experiment_of_arrays",
     "expected_wrenches",
     "load_experiment",
+    "plan_jointly",
     "read_calibration",
     "read_recording",
     "read_urdf",

@@ -21,7 +21,7 @@ from forcetorque.analysis.part_residuals import part_residuals
 from forcetorque.analysis.sensor_calibration import data_doubts
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration.joint import UNITS, JointFit, PartWindows, part_windows, residuals
-from forcetorque.errors import ExperimentError
+from forcetorque.errors import ExperimentError, FitError
 from forcetorque.experiment import Experiment, load_experiment
 from forcetorque.recording import Use
 from tests.page_scripts import unmarked
@@ -253,3 +253,18 @@ def test_what_cannot_be_calibrated_together_is_refused(arm: Path) -> None:
         _calibrated([experiment, experiment])
     with pytest.raises(ExperimentError, match="has no sensor 'leg'"):
         _calibrated([experiment], ["leg"])
+
+
+@pytest.mark.real_data
+def test_a_sensor_of_which_only_weights_are_known_is_named_and_not_calibrated(data_dir: Path, tmp_path: Path) -> None:
+    """The stance leg of the yoga bears a torso whose joints nobody logged, and its foot's sensor was not asked for."""
+    example = (Path(__file__).parents[2] / "examples" / "15_icub_yoga_jointly.toml").read_text(encoding="utf-8")
+    file = tmp_path / "yoga.toml"
+    file.write_text(example.replace("../../shared/data", data_dir.as_posix()), encoding="utf-8")
+    experiment = load_experiment(file)
+    both = ["l_leg_ft_sensor", "r_leg_ft_sensor"]
+    result = calibrate_jointly([experiment], "out", both, code_version="1", created="2020-01-01")
+    assert [entry.calibration.sensor.name for entry in result.calibrations] == ["r_leg_ft_sensor"]
+    assert any(warning.startswith("l_leg_ft_sensor: beside no untouched part") for warning in result.warnings)
+    with pytest.raises(FitError, match="name the other sensors of the part too"):
+        calibrate_jointly([experiment], "out", both[:1], code_version="1", created="2020-01-01")

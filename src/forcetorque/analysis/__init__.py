@@ -49,8 +49,10 @@ from forcetorque.analysis.inspect import (
     inspect_log,
 )
 from forcetorque.analysis.interval_quality import IntervalQuality
-from forcetorque.analysis.joint_calibration import JOINT_FILE, calibrate_jointly, calibration_file
+from forcetorque.analysis.joint_calibration import calibrate_jointly, calibration_file
+from forcetorque.analysis.joint_data import JOINT_FILE
 from forcetorque.analysis.joint_interval import joint_interval
+from forcetorque.analysis.joint_plan import JointPlan, plan_jointly
 from forcetorque.analysis.joint_torques import JointTorqueErrors, JointTorques, joint_torques
 from forcetorque.analysis.judged import JudgedWrenches
 from forcetorque.analysis.learnt import LITTLE_LEARNT, LearntDirection, learnt_directions, learnt_words, to_learn
@@ -165,6 +167,8 @@ __all__ = [
     "calibrate_for_file",
     "JOINT_FILE",
     "calibrate_jointly",
+    "plan_jointly",
+    "JointPlan",
     "calibration_file",
     "joint_interval",
     "calibrate_sensor",

@@ -80,7 +80,7 @@ def plan(
     load_case: str | None = None,
     clearance_deg: float | None = None,
     recordings: int = RECORDINGS,
-    seconds: float = SECONDS,
+    seconds: float | None = None,
     effort: Effort | None = None,
     progress: Callable[[str], None] = lambda _: None,
 ) -> Plan:
@@ -92,7 +92,7 @@ def plan(
         load_case: Name of the use; the one that is furthest from what is allowed if left out.
         clearance_deg: What joints keep away from their limits; that of `[plan]` if left out; deg.
         recordings: How many recordings.
-        seconds: About how long each may be; s.
+        seconds: About how long each may be; 60 if None; s.
         effort: How long to look for them.
         progress: Called with what is being done.
 
@@ -107,7 +107,7 @@ def plan(
     table = _table(start.runs)
     demand = Demand(
         criterion=Criterion(case=start.case),
-        seconds=_seconds(seconds, table),
+        seconds=_seconds(SECONDS if seconds is None else seconds, table),
         hold_s=table.hold_s,
         effort=effort or Effort(),
     )

@@ -27,7 +27,9 @@ def refuse_beside_jointly(options: Mapping[str, object]) -> None:
     """
     for option, value in options.items():
         if value is not None:
-            raise ExperimentError(f"{option}: a joint calibration has no such choice; leave out {option} or --jointly")
+            raise ExperimentError(
+                f"{option}: all sensors together have no such choice; leave out {option} or --jointly"
+            )
 
 
 def calibrate_together(

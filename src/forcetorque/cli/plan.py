@@ -35,7 +35,16 @@ def plan(
         typer.Option("--clearance-deg", help="What joints keep away from their limits. Default: that of [plan]."),
     ] = None,
     recordings: Annotated[int, typer.Option("--recordings", min=1, max=20, help="How many recordings to plan.")] = 3,
-    seconds: Annotated[float, typer.Option("--seconds", help="About how long each recording may be.")] = 60.0,
+    seconds: Annotated[
+        float | None, typer.Option("--seconds", help="About how long each recording may be. Default: 60.")
+    ] = None,
+    jointly: Annotated[
+        bool,
+        typer.Option(
+            "--jointly",
+            help="Order these recordings, real or simulated, by what they teach all sensors together; docs/joint.md.",
+        ),
+    ] = False,
     output: Annotated[
         Path | None, typer.Option("--output", "-o", help="Folder to make, for trajectories (CSV, ROS, YARP) and JSON.")
     ] = None,
@@ -47,9 +56,16 @@ def plan(
     """
     from forcetorque import analysis
     from forcetorque.calibration import read_calibration
-    from forcetorque.cli.reading import planned_experiments, planned_sensor
+    from forcetorque.cli.calibrate_jointly import refuse_beside_jointly
+    from forcetorque.cli.reading import planned_experiments, planned_sensor, read_experiments
 
     log = start_logging()
+    if jointly:
+        alone = {"-c": calibration, "--load-case": load_case, "--sensor": sensor, "--clearance-deg": clearance_deg}
+        refuse_beside_jointly(alone | {"--seconds": seconds, "--output": output})
+        contents = list(read_experiments(experiments, log).values())
+        show(analysis.plan_jointly(contents, recordings=recordings, progress=log.info), output_format)
+        return
     refuse_standard_output("--output", output)
     if output is not None:
         analysis.refuse_full_folder(output, where="--output ")
