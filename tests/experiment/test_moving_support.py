@@ -12,6 +12,7 @@ import pytest
 from forcetorque.errors import ForceTorqueError
 from forcetorque.estimation import Processing, sensor_samples
 from forcetorque.experiment import load_experiment
+from forcetorque.experiment.contacts import contacts_in
 from forcetorque.recording import (
     Interval,
     MovingSupport,
@@ -111,6 +112,69 @@ def test_incomplete_imus_are_refused(arm: Path, streams: tuple[str, ...], frame:
     recording = _with_imu(read_recording(arm / "recording"), frame=frame)
     with pytest.raises(ForceTorqueError, match=match):
         _reference(recording, MovingSupport(frame="base", motion_streams=streams))
+
+
+SUPPORT = '[[support]]\nframe = "base"\ngravity_direction = [0.0, 0.0, -1.0]\n'
+
+
+def _touched(arm: Path, links: str, recording: Recording | None = None) -> Path:
+    """The experiment whose first interval names links that touch, and no support anywhere."""
+    if recording is not None:
+        write_recording(arm / "recording", recording)
+    path = arm / PARQUET
+    text = path.read_text(encoding="utf-8").replace(SUPPORT, "").replace('support = "base"', f"touched = {links}")
+    assert "[[support]]" not in text
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+def test_links_that_touch_need_no_support(arm: Path) -> None:
+    """The first stands for the support, the IMU of the recording tells its motion, the others are contacts there."""
+    path = _touched(arm, '["base", "hand"]', _with_imu(read_recording(arm / "recording")))
+    experiment = load_experiment(path)
+    for interval in experiment.recording.intervals:
+        assert isinstance(interval.support, MovingSupport)
+        assert (interval.support.frame, set(interval.support.motion_streams)) == ("base", {"gyro", "accelerometer"})
+        assert [entry.contact.link for entry in contacts_in(interval, experiment.contacts)] == ["hand"]
+    assert len(experiment.recording.intervals) > 1
+
+
+def test_a_contact_that_is_stated_is_not_added_again(arm: Path) -> None:
+    """Its type is what the file says."""
+    path = _touched(arm, '["base", "hand"]', _with_imu(read_recording(arm / "recording")))
+    path.write_text(path.read_text(encoding="utf-8") + '\n[[contact]]\nframe = "hand"\ntype = "force"\n')
+    (entry,) = load_experiment(path).contacts
+    assert (entry.contact.link, str(entry.contact.type)) == ("hand", "force")
+
+
+@pytest.mark.parametrize(
+    ("links", "match"),
+    [
+        ('["base", "nose"]', r"touched: robot 'arm' has no link 'nose'"),
+        ("[]", "at least 1 item"),
+        ('["base"]\nsupport = "base"', "expected support or touched, got both"),
+    ],
+)
+def test_what_touches_is_a_link_and_no_support(arm: Path, links: str, match: str) -> None:
+    """Each wrong word is named."""
+    path = _touched(arm, links, _with_imu(read_recording(arm / "recording")))
+    with pytest.raises(ForceTorqueError, match=match):
+        load_experiment(path)
+
+
+def test_without_an_imu_nobody_knows_how_a_touched_robot_moves(arm: Path) -> None:
+    """Nothing is taken for level or still."""
+    with pytest.raises(ForceTorqueError, match="expected an IMU in the recording"):
+        load_experiment(_touched(arm, '["base"]'))
+
+
+def test_of_two_imus_the_file_must_name_one(arm: Path) -> None:
+    """As a support, which names its streams."""
+    recording = _with_imu(read_recording(arm / "recording"))
+    gyro = recording.stream("gyro")
+    double = {**recording.streams, "gyro_2": replace(gyro, name="gyro_2")}
+    with pytest.raises(ForceTorqueError, match="'gyro' and 'gyro_2'; keep one"):
+        load_experiment(_touched(arm, '["base"]', replace(recording, streams=double)))
 
 
 def test_a_joint_between_imu_and_support_is_needed(arm: Path) -> None:

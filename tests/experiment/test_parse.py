@@ -208,7 +208,7 @@ TABLES = {
         "serial, stream, variable",
     ),
     "[[support]]": (r"support\[0\]", "frame, gravity_direction, imu"),
-    'label = "judge"': (r"interval\[1\]", "end_s, kind, label, session, start_s, support, use"),
+    'label = "judge"': (r"interval\[1\]", "end_s, kind, label, session, start_s, support, touched, use"),
     "[processing]": ("processing", "derivatives, smoothing"),
     "[calibration]": (
         "calibration",

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Final
 
 import numpy as np
 
@@ -13,6 +14,9 @@ from forcetorque.recording import MovingSupport, Recording, SavitzkyGolay, Signa
 from forcetorque.recording.alignment import interpolate
 from forcetorque.recording.smoothing import smooth
 from forcetorque.robot import JointMotion, RobotModel, RootMotion, build_tree, joints_between, motion_of_link
+
+IMU_QUANTITIES: Final = ("proper_acceleration", "angular_velocity", "angular_acceleration", "gravity")
+"""What an IMU may tell."""
 
 
 def joints_to_support(model: RobotModel, recording: Recording, support: Support | MovingSupport) -> tuple[str, ...]:
@@ -116,7 +120,7 @@ def _imu_signals(recording: Recording, support: MovingSupport) -> dict[str, tupl
     found: dict[str, tuple[Stream, Signal]] = {}
     for name in support.motion_streams:
         stream = recording.stream(name)
-        for quantity in ("proper_acceleration", "angular_velocity", "angular_acceleration", "gravity"):
+        for quantity in IMU_QUANTITIES:
             if quantity not in stream.signals:
                 continue
             if quantity in found:

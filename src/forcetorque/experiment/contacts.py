@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -53,7 +53,21 @@ def read_contacts(
         if contact.name in [earlier.contact.name for earlier in found]:
             raise ExperimentError(f"{where}: the contact {contact.name!r} is listed twice; give each its own name")
         found.append(ExperimentContact(contact=contact, stream=entry.stream, intervals=entry.intervals))
-    return tuple(found)
+    return (*found, *_touched_beside(parsed, found))
+
+
+def _touched_beside(parsed: schema.ExperimentFile, stated: Sequence[ExperimentContact]) -> Iterator[ExperimentContact]:
+    """Links that intervals name as touched beside the first, which stands for the support, and no contact states."""
+    spans: dict[str, list[str]] = {}
+    for span in parsed.interval:
+        own = {entry.contact.link for entry in stated if entry.intervals is None or span.label in entry.intervals}
+        for link in dict.fromkeys((span.touched or ())[1:]):
+            if link not in own:
+                spans.setdefault(link, []).append(span.label)
+    names = {entry.contact.name for entry in stated}
+    for link, labels in spans.items():
+        name = link if link not in names else f"{link} touched"
+        yield ExperimentContact(contact=Contact(link=link, name=name), intervals=tuple(labels))
 
 
 def contact_in_words(text: str, model: RobotModel) -> ExperimentContact:

@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from forcetorque.errors import ExperimentError, known_names
+from forcetorque.estimation.root_motion import IMU_QUANTITIES, imu_frame
 from forcetorque.experiment import schema
 from forcetorque.experiment.inputs import stated_in
 from forcetorque.recording import Interval, MovingSupport, Recording, Support, Use
@@ -57,6 +58,7 @@ def read_intervals(
     file: Path,
     recording: Recording,
     supports: Mapping[str, Support | MovingSupport],
+    model: RobotModel | None,
     *,
     default: MovingSupport | None,
 ) -> list[Interval]:
@@ -67,13 +69,15 @@ def read_intervals(
         file: The experiment file, for messages.
         recording: The streams, whose earliest stamp is second 0.
         supports: Supports by frame.
+        model: The robot; None for the load of a wrist sensor.
         default: Support of every interval, for a wrist sensor.
 
     Returns:
         Intervals in the order of the file.
 
     Raises:
-        ExperimentError: If an interval names no known support, lies outside the log, or overlaps another.
+        ExperimentError: If an interval names no known support or link, lies outside the log, or overlaps another, or
+            links are touched in it and no IMU tells how the robot moves.
     """
     with stated_in(f"{file}: recording"):
         start, end = recording.span_ns
@@ -97,11 +101,37 @@ def read_intervals(
                 start_ns=start + round(span.start_s * 1e9),
                 end_ns=end_ns,
                 use=span.use,
-                support=default if span.support is None else supports[span.support],
+                support=_support(span, supports, recording, model, default),
             )
         found.append(interval)
     _refuse_overlap(file, found)
     return found
+
+
+def _support(
+    span: schema.Interval,
+    supports: Mapping[str, Support | MovingSupport],
+    recording: Recording,
+    model: RobotModel | None,
+    default: MovingSupport | None,
+) -> Support | MovingSupport | None:
+    # which of several touched links stands for the support does not matter to parts that nothing touches
+    if span.touched is None or model is None:
+        return default if span.support is None else supports[span.support]
+    for link in span.touched:
+        if link not in model.links:
+            raise ExperimentError(
+                f"touched: robot {model.name!r} has no link {link!r}; {known_names(link, model.links)}"
+            )
+    imu = tuple(name for name, stream in recording.streams.items() if stream.signals.keys() & set(IMU_QUANTITIES))
+    if not imu:
+        raise ExperimentError(
+            "touched: expected an IMU in the recording, which tells how the robot moves whatever touches it; without "
+            "one name the link that stands still as support"
+        )
+    support = MovingSupport(frame=span.touched[0], motion_streams=imu)
+    imu_frame(model, recording, support)  # of several IMUs the file must name one
+    return support
 
 
 def _refuse_overlap(file: Path, intervals: list[Interval]) -> None:

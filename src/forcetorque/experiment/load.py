@@ -55,7 +55,7 @@ def _of_robot(parsed: schema.ExperimentFile, file: Path) -> Experiment:
     streams = read_streams(parsed, file, model, inputs)
     logs = inputs.names() - before
     supports = read_supports(parsed.support, file, streams, model)
-    intervals = read_intervals(parsed, file, streams, supports, default=None)
+    intervals = read_intervals(parsed, file, streams, supports, model, default=None)
     with stated_in(str(file)):
         recording = streams.with_intervals(intervals)
     sensors, hashes = read_sensors(parsed, file, model, recording, inputs), inputs.sha256()
@@ -96,7 +96,7 @@ def _of_wrist(parsed: schema.ExperimentFile, file: Path) -> Experiment:
     with stated_in(f"{file}: load"):
         for stream in load.motion:
             streams.stream(stream)
-    intervals = read_intervals(parsed, file, streams, {}, default=moving)
+    intervals = read_intervals(parsed, file, streams, {}, None, default=moving)
     (sensor,) = read_sensors(parsed, file, load_model(load, name, Inertia.zero()), streams, inputs)
     inertia, payload = given_inertia(load), None
     processing = processing_of(parsed.processing, gravity=Processing().gravity)

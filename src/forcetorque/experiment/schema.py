@@ -215,7 +215,19 @@ class Interval(Table):
     """Stretch of time in which nothing was switched off, such as a day; a study chooses on some sessions and scores on
     others; a calibration has an offset for each; one for the whole recording if left out."""
     support: Text | None = None
-    """Support frame; required unless the use is ignore."""
+    """Support frame; required unless the use is ignore, or the links that touch are named."""
+    touched: Annotated[tuple[Text, ...], Field(min_length=1)] | None = None
+    """In place of a support: links that the world touches, nobody knows how, while the IMU of the recording tells how
+    the robot moves."""
+
+    @model_validator(mode="after")
+    def _support_or_touched(self) -> Interval:
+        if self.support is not None and self.touched is not None:
+            raise PydanticCustomError(
+                "support_or_touched",
+                "expected support or touched, got both; other links than the support are [[contact]]",
+            )
+        return self
 
 
 class Smoothing(Table):
@@ -354,8 +366,12 @@ class ExperimentFile(Table):
     def _robot_or_load(self) -> ExperimentFile:
         if (self.robot is None) == (self.load is None):
             raise PydanticCustomError("robot_or_load", "expected [robot] with a URDF, or [load] for a wrist sensor")
-        if self.robot is not None and not self.support:
-            raise PydanticCustomError("no_support", "expected [[support]]: the frame that the robot stands on")
+        if self.robot is not None and not self.support and not any(one.touched for one in self.interval):
+            raise PydanticCustomError(
+                "no_support", "expected [[support]]: the frame that the robot stands on, or touched in [[interval]]"
+            )
         if self.load is not None and (self.support or len(self.sensor) > 1):
             raise PydanticCustomError("load_alone", "with [load] there is one [[sensor]] and no [[support]]")
+        if self.load is not None and any(one.touched for one in self.interval):
+            raise PydanticCustomError("load_touched", "with [load] nothing else is touched: leave out touched")
         return self
