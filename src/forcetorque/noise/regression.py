@@ -125,7 +125,8 @@ def regress(
     residual[:, np.abs(residual).max(axis=0, initial=0.0) <= _ROUNDING * np.abs(values).max(axis=0, initial=0.0)] = 0.0
     if n <= p:
         return _undetermined(start.T if about is None else about)
-    fits = [_fit(line, design, residual, noise) for noise in shapes]
+    columns = np.asfortranarray(np.column_stack([design, residual]))
+    fits = [_fit(line, columns, p, noise) for noise in shapes]
     log_weight = np.array([fit.log_evidence + _log_prior(noise) for fit, noise in zip(fits, shapes, strict=True)])
     weight = np.exp(log_weight - log_weight.max(axis=0))
     weight /= weight.sum(axis=0)  # (shapes, k)
@@ -161,9 +162,9 @@ class _Fit:
     log_evidence: FloatArray  # restricted; (k,)
 
 
-def _fit(line: Timeline, design: FloatArray, residual: FloatArray, noise: SlowNoise) -> _Fit:
-    n, p = design.shape
-    moments, log_determinant = line.product(np.column_stack([design, residual]), noise)
+def _fit(line: Timeline, columns: FloatArray, p: int, noise: SlowNoise) -> _Fit:
+    n = len(line)
+    moments, log_determinant = line.product(columns, noise)
     inverse = np.asarray(np.linalg.inv(moments[:p, :p]), dtype=np.float64)
     coefficients = moments[p:, :p] @ inverse
     squares = np.diag(moments)[p:] - np.einsum("kp,kp->k", coefficients, moments[p:, :p])

@@ -8,7 +8,7 @@ instants.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any, Self
 
 import numpy as np
@@ -31,6 +31,7 @@ class Timeline:
     """Number of the recording of each; those of one recording stand together; shape (n,)."""
     share: FloatArray
     """Samples in each mean over the usual number: its white noise has the variance s^2 / share; shape (n,)."""
+    _precisions: dict[float, tuple[FloatArray, FloatArray, float]] = field(default_factory=dict, init=False, repr=False)
 
     @classmethod
     def of(cls, time_s: Any, recording: Any = None, share: Any = None) -> Self:
@@ -86,7 +87,9 @@ class Timeline:
         if len(self) == 1:  # LAPACK wants a side diagonal
             total = 1.0 + noise.ratio * float(self.share[0])
             return white / total, log_white + float(np.log(total))
-        diagonal, beside, log_inverse = self._precision(noise.time_constant_s)
+        if noise.time_constant_s not in self._precisions:  # shapes that are tried have few time constants
+            self._precisions[noise.time_constant_s] = self._precision(noise.time_constant_s)
+        diagonal, beside, log_inverse = self._precisions[noise.time_constant_s]
         pivots, multipliers, failed = dpttrf(diagonal + noise.ratio * self.share, beside)
         solved, wrong = dpttrs(pivots, multipliers, weighed) if not failed else (weighed, 1)
         if failed or wrong:
