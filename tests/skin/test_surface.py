@@ -6,7 +6,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from forcetorque.errors import SensorError
+from forcetorque.errors import SkinError
 from forcetorque.skin.surface import HALF_PITCH_M, LONGEST_EDGE_M, rim_strip, skin_surface
 from forcetorque.spatial import rotation_from_rpy
 from tests.skin.skins import PITCH_M, cylinder, plane_lattice
@@ -30,7 +30,7 @@ def test_a_plane_is_covered_once() -> None:
 def test_directions_say_which_side_is_out() -> None:
     """Of a plane nothing else can: without them it is refused, with the opposite ones normals turn around."""
     flat = plane_lattice()
-    with pytest.raises(SensorError, match="state rough outward directions"):
+    with pytest.raises(SkinError, match="state rough outward directions"):
         skin_surface(flat)
     down = skin_surface(flat, outward=np.tile([0.3, 0.0, -1.0], (len(flat), 1)))
     np.testing.assert_allclose(down.vertex_normals, np.tile([0.0, 0.0, -1.0], (len(flat), 1)), atol=1e-12)
@@ -122,5 +122,5 @@ def test_where_two_boundaries_meet_each_keeps_its_strip() -> None:
 )
 def test_what_is_no_surface_is_refused(positions: np.ndarray, message: str) -> None:
     """Taxels on each other, in millimetres, on a line, or none."""
-    with pytest.raises(SensorError, match=message):
+    with pytest.raises(SkinError, match=message):
         skin_surface(positions)

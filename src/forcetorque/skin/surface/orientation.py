@@ -8,7 +8,7 @@ from typing import Final
 import numpy as np
 
 from forcetorque.arrays import FloatArray, IntArray
-from forcetorque.errors import SensorError
+from forcetorque.errors import SkinError
 
 _FLAT: Final = 0.02
 """Mean outward cosine below which a surface does not tell by its shape which side is out."""
@@ -30,7 +30,7 @@ def outward_triangles(positions: FloatArray, triangles: IntArray, outward: Float
         The triangles, turned; shape (m, 3).
 
     Raises:
-        SensorError: If the surface has only one side, or neither directions nor shape tell which one is outer.
+        SkinError: If the surface has only one side, or neither directions nor shape tell which one is outer.
     """
     turned, pieces = _turned_alike(triangles)
     corners = positions[turned]
@@ -45,7 +45,7 @@ def outward_triangles(positions: FloatArray, triangles: IntArray, outward: Float
         own = pieces == piece
         cosine = agreement[own].sum() / full[own].sum() if full[own].any() else 0.0
         if not abs(cosine) > _FLAT:
-            raise SensorError(
+            raise SkinError(
                 f"outward: expected directions that tell the outer side of the skin about taxel {turned[own][0, 0]}, "
                 f"got a mean cosine of {cosine:.3f}; state rough outward directions of the taxels"
             )
@@ -73,7 +73,7 @@ def _turned_alike(triangles: IntArray) -> tuple[IntArray, IntArray]:
                     turned[other] = turned[other][::-1] if runs_alike else turned[other]
                     open_ended.append(other)
                 elif runs_alike:
-                    raise SensorError(
+                    raise SkinError(
                         f"positions: expected a skin with two sides, got one whose sides meet at taxels {turned[one]}; "
                         "look at the layout with `forcetorque skin check`"
                     )

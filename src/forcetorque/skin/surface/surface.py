@@ -7,8 +7,8 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from forcetorque.arrays import BoolArray, FloatArray, IntArray, read_only, require_shape
-from forcetorque.errors import SensorError
+from forcetorque.arrays import BoolArray, FloatArray, IntArray, read_only, read_only_integers
+from forcetorque.errors import SkinError
 from forcetorque.skin.surface.orientation import outward_triangles
 from forcetorque.skin.surface.triangulation import LONGEST_EDGE_M, surface_triangles
 
@@ -34,8 +34,7 @@ class SkinSurface:
 
     def __post_init__(self) -> None:
         positions = read_only(self.positions, name="positions", shape=(None, 3))
-        triangles = np.array(self.triangles, dtype=np.int64)
-        require_shape(triangles, name="triangles", shape=(None, 3))
+        triangles = read_only_integers(self.triangles, name="triangles", shape=(None, 3))
         corners = positions[triangles]
         doubled = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
         sums = np.zeros_like(positions)
@@ -97,20 +96,20 @@ def skin_surface(
         The surface; taxels farther than an edge from all others stay without facet.
 
     Raises:
-        SensorError: If two taxels share a position, no three taxels are neighbours, or it is open which side is outer.
+        SkinError: If two taxels share a position, no three taxels are neighbours, or it is open which side is outer.
     """
     points = read_only(positions, name="positions", shape=(None, 3))
     hints = None if outward is None else read_only(outward, name="outward", shape=(len(points), 3))
     _, first, count = np.unique(points, axis=0, return_index=True, return_counts=True)
     if (count > 1).any():
         shared = points[first[count > 1][0]]
-        raise SensorError(
+        raise SkinError(
             f"positions: expected distinct taxels, got {np.flatnonzero((points == shared).all(axis=1)).tolist()} all "
             f"at {shared.tolist()} m; look at the layout with `forcetorque skin check`"
         )
     triangles = surface_triangles(points, longest_edge_m)
     if not len(triangles):
-        raise SensorError(
+        raise SkinError(
             f"positions: expected taxels with neighbours within {1e3 * longest_edge_m:g} mm, got {len(points)} taxels "
             "and no triangle between them; positions are in m"
         )
