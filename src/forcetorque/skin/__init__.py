@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Artificial skin: where its taxels are, and what may be wrong with that."""
+"""Artificial skin: where its taxels are and what may be wrong with that, and what they say about contacts."""
 
 from forcetorque.skin.description import PatchDescription
 from forcetorque.skin.findings import Defect, LayoutFinding, layout_findings

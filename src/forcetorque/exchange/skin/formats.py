@@ -42,6 +42,7 @@ class LayoutFormat(Protocol):
 
 
 LAYOUT_FORMATS: tuple[LayoutFormat, ...] = (IcubPositions(),)
+"""Forms of layouts, all of which are asked whether they know a file."""
 
 
 def describe_patch(path: Path | str) -> PatchDescription:
