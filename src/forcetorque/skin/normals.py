@@ -69,12 +69,8 @@ def surface_normals(surface: SkinSurface, modules: IntArray) -> FloatArray:
         Outward unit normals; shape (n, 3).
     """
     planes = _module_planes(surface, modules) or _facet_planes(surface)
-    return np.array(
-        [
-            _normal_at(point, rough, planes)
-            for point, rough in zip(surface.positions, surface.vertex_normals, strict=True)
-        ]
-    )
+    rows = zip(surface.positions, planes.rough, strict=True)
+    return np.array([_normal_at(point, rough, planes) for point, rough in rows])
 
 
 def _module_planes(surface: SkinSurface, modules: IntArray) -> _Planes | None:
