@@ -13,6 +13,7 @@ from forcetorque.skin.module import (
     MODULE_THERMAL,
     placed_pads,
 )
+from forcetorque.skin.normals import rebuilt_normals
 
 __all__ = [
     "MODULE_CENTRE",
@@ -29,4 +30,5 @@ __all__ = [
     "SkinLayout",
     "layout_findings",
     "placed_pads",
+    "rebuilt_normals",
 ]
