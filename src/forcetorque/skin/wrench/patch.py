@@ -3,8 +3,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import Final, Self
+from typing import Final, Self, TypeVar
 
 import numpy as np
 
@@ -13,12 +14,14 @@ from forcetorque.errors import SkinError
 from forcetorque.skin.layout import SkinLayout
 from forcetorque.skin.surface import SkinSurface, edge_taxels, rim_strip, skin_surface
 from forcetorque.skin.wrench.elements import SkinElements, skin_elements
+from forcetorque.skin.wrench.foretold import ForetoldPressures
 from forcetorque.skin.wrench.kriging import kriging_operator
 from forcetorque.skin.wrench.linear import linear_operator
 from forcetorque.skin.wrench.operator import WrenchMethod, WrenchOperator
 from forcetorque.skin.wrench.simple import simple_operator
 from forcetorque.skin.wrench.thesis import thesis_operator
 
+_Built = TypeVar("_Built")
 _KEPT: Final = 16
 """Operators that are kept: masks of live taxels change now and then, not from frame to frame."""
 
@@ -42,6 +45,7 @@ class SkinPatch:
     plane: FloatArray | None = None
     """Places of the taxels in a drawing, for the method of the thesis; shape (n, 2); m."""
     _operators: dict[bytes, WrenchOperator] = field(default_factory=dict, repr=False)
+    _foretold: dict[bytes, ForetoldPressures] = field(default_factory=dict, repr=False)
 
     @classmethod
     def of(
@@ -88,6 +92,17 @@ class SkinPatch:
             plane=None if plane is None else read_only(plane, name="plane", shape=(len(layout), 2)),
         )
 
+    def foretold(self, live: BoolArray) -> ForetoldPressures:
+        """Give what neighbours tell of each taxel, built and kept as operators are.
+
+        Args:
+            live: Taxels that can be trusted, at least two; shape (n,).
+
+        Returns:
+            Who tells whom.
+        """
+        return _kept(self._foretold, live, lambda: ForetoldPressures.of(self.surface, live))
+
     def operator(self, live: BoolArray | None = None) -> WrenchOperator:
         """Give the map from pressures to the wrench, built anew for every other mask of live taxels and then kept.
 
@@ -104,12 +119,7 @@ class SkinPatch:
         require_shape(mask, name="live", shape=(len(self.layout),))
         if not mask.any():
             raise SkinError(f"patch {self.layout.name!r}: live: expected a taxel that can be trusted, got none")
-        key = mask.tobytes()
-        if key not in self._operators:
-            while len(self._operators) >= _KEPT:
-                self._operators.pop(next(iter(self._operators)))
-            self._operators[key] = self._built(mask)
-        return self._operators[key]
+        return _kept(self._operators, mask, lambda: self._built(mask))
 
     def _built(self, live: BoolArray) -> WrenchOperator:
         if self.taxel_area_m2 is not None:
@@ -118,3 +128,13 @@ class SkinPatch:
             return thesis_operator(self.layout, live, plane=self.plane)
         build = linear_operator if self.method is WrenchMethod.LINEAR else kriging_operator
         return build(self.surface, self.elements, live)
+
+
+def _kept(kept: dict[bytes, _Built], mask: BoolArray, build: Callable[[], _Built]) -> _Built:
+    """What belongs to a mask, from what is kept or built and kept; the oldest makes room."""
+    key = mask.tobytes()
+    if key not in kept:
+        while len(kept) >= _KEPT:
+            kept.pop(next(iter(kept)))
+        kept[key] = build()
+    return kept[key]
