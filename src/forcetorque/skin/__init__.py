@@ -4,6 +4,7 @@
 from forcetorque.skin.description import PatchDescription
 from forcetorque.skin.findings import Defect, LayoutFinding, layout_findings
 from forcetorque.skin.layout import SAME_PLACE_M, UNIT_TOLERANCE, SkinLayout
+from forcetorque.skin.modular import modular_patch
 from forcetorque.skin.module import (
     MODULE_CENTRE,
     MODULE_COLUMNS,
@@ -14,6 +15,7 @@ from forcetorque.skin.module import (
     placed_pads,
 )
 from forcetorque.skin.normals import rebuilt_normals
+from forcetorque.skin.plan import PlannedModule, module_poses, placed_on_paper
 
 __all__ = [
     "MODULE_CENTRE",
@@ -28,7 +30,11 @@ __all__ = [
     "LayoutFinding",
     "PatchDescription",
     "SkinLayout",
+    "PlannedModule",
     "layout_findings",
+    "modular_patch",
+    "module_poses",
+    "placed_on_paper",
     "placed_pads",
     "rebuilt_normals",
 ]
