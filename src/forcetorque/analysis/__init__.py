@@ -72,6 +72,7 @@ from forcetorque.analysis.sensor_calibration import (
 )
 from forcetorque.analysis.sensor_run import SensorRun
 from forcetorque.analysis.sensor_sphere import SensorSphere, sensor_spheres, sphere_intervals
+from forcetorque.analysis.skin_check import LayoutFindingRow, SkinCheck, check_patch, check_skin
 from forcetorque.analysis.sphere import Spheres, spheres, spheres_of_sensors
 from forcetorque.analysis.sphere_rows import FailureRow, SphereRow
 from forcetorque.analysis.static_checks import IntervalOffset, StaticChecks, check
@@ -99,6 +100,10 @@ __all__ = [
     "loads_of_use",
     "use_sentences",
     "use_verdicts",
+    "LayoutFindingRow",
+    "SkinCheck",
+    "check_patch",
+    "check_skin",
     "LearntDirection",
     "learnt_directions",
     "learnt_words",

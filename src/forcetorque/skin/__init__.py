@@ -1,6 +1,32 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Artificial skin: where its taxels are."""
+"""Artificial skin: where its taxels are and what may be wrong with that, and what they say about contacts."""
 
+from forcetorque.skin.description import PatchDescription
+from forcetorque.skin.findings import Defect, LayoutFinding, layout_findings
 from forcetorque.skin.layout import SAME_PLACE_M, UNIT_TOLERANCE, SkinLayout
+from forcetorque.skin.module import (
+    MODULE_CENTRE,
+    MODULE_COLUMNS,
+    MODULE_PADS,
+    MODULE_SIDE_M,
+    MODULE_TAXELS,
+    MODULE_THERMAL,
+    placed_pads,
+)
 
-__all__ = ["SAME_PLACE_M", "UNIT_TOLERANCE", "SkinLayout"]
+__all__ = [
+    "MODULE_CENTRE",
+    "MODULE_COLUMNS",
+    "MODULE_PADS",
+    "MODULE_SIDE_M",
+    "MODULE_TAXELS",
+    "MODULE_THERMAL",
+    "SAME_PLACE_M",
+    "UNIT_TOLERANCE",
+    "Defect",
+    "LayoutFinding",
+    "PatchDescription",
+    "SkinLayout",
+    "layout_findings",
+    "placed_pads",
+]

@@ -82,9 +82,9 @@ class SkinLayout:
     def _require_sound(self) -> None:
         """Positions and normals are numbers, positions differ, normals have length 1."""
         for name, vectors in (("positions", self.positions), ("normals", self.normals)):
-            self._refuse(~np.isfinite(vectors).all(axis=1), f"{name}: expected finite numbers", vectors)
+            self._refuse(~np.isfinite(vectors.sum(axis=1)), f"{name}: expected finite numbers", vectors)
         lengths: FloatArray = np.linalg.norm(self.normals, axis=1)
-        self._refuse(np.abs(lengths - 1.0) > UNIT_TOLERANCE, "normals: expected length 1", lengths)
+        self._refuse(~np.isclose(lengths, 1.0, rtol=0.0, atol=UNIT_TOLERANCE), "normals: expected length 1", lengths)
         cells = np.rint(self.positions / SAME_PLACE_M)
         _, place, count = np.unique(cells, axis=0, return_inverse=True, return_counts=True)
         self._refuse(count[place.ravel()] > 1, "positions: expected a place for each", self.positions)

@@ -1,0 +1,111 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Position files of iCub's skin: `app/skinGui/conf/positions/*.txt` of icub-main."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import numpy as np
+
+from forcetorque.arrays import FloatArray, IntArray
+from forcetorque.errors import FormatError
+from forcetorque.skin import MODULE_COLUMNS, MODULE_THERMAL, PatchDescription
+
+_SIGN = "[calibration]"
+
+
+class IcubPositions:
+    """Lines `name`, `spatial_sampling` and `taxel2Repr`, then a row x y z nx ny nz (m, link frame) per column.
+
+    A row of zeros is no taxel: a thermal pad where its module has taxels, else a dummy. `taxel2Repr` is kept as it is
+    written, and decides nothing: in published files it contradicts the rows.
+    """
+
+    sign = "a text with the line [calibration]"
+    """What it is recognised by."""
+
+    def recognises(self, path: Path, text: str) -> bool:
+        """Tell whether a file is one.
+
+        Args:
+            path: File.
+            text: Its content.
+
+        Returns:
+            Whether it is.
+        """
+        return _SIGN in text
+
+    def read(self, path: Path, text: str) -> PatchDescription:
+        """Read a file.
+
+        Args:
+            path: File; the patch is called like it.
+            text: Its content.
+
+        Returns:
+            What it says.
+
+        Raises:
+            FormatError: If a line is not what the form has, or no row is a taxel.
+        """
+        head, _, body = text.partition(_SIGN)
+        rows, lines = _rows(path, body, first_line=head.count("\n") + 1)
+        taxel = rows.any(axis=1)
+        if not taxel.any():
+            raise FormatError(f"{path}: expected rows x y z nx ny nz of taxels below {_SIGN}, got none but zeros")
+        columns = np.arange(len(rows))
+        thermal = (
+            ~taxel
+            & np.isin(columns % MODULE_COLUMNS, MODULE_THERMAL)
+            & np.isin(columns // MODULE_COLUMNS, columns[taxel] // MODULE_COLUMNS)
+        )
+        return PatchDescription(
+            source=str(path),
+            name=path.stem,
+            frame=_word(path, head, "name"),
+            columns=len(rows),
+            lines=lines[taxel],
+            taxels=columns[taxel],
+            modules=columns[taxel] // MODULE_COLUMNS,
+            positions=rows[taxel, :3],
+            normals=rows[taxel, 3:],
+            thermal_pads=columns[thermal],
+            thermal_modules=columns[thermal] // MODULE_COLUMNS,
+            representatives=_representatives(path, head),
+        )
+
+
+def _word(path: Path, head: str, key: str) -> str:
+    match = re.search(rf"^{key}[ \t]+(\S+)[ \t]*$", head, re.MULTILINE)
+    if match is None:
+        raise FormatError(f"{path}: expected a line `{key} LINK` above {_SIGN}, got none; write the frame of its rows")
+    return match[1]
+
+
+def _representatives(path: Path, head: str) -> IntArray:
+    match = re.search(r"^taxel2Repr\s*\(([^)]*)\)", head, re.MULTILINE)
+    if match is None:
+        raise FormatError(f"{path}: expected a line `taxel2Repr ( ... )` above {_SIGN}, got none")
+    try:
+        return np.array([int(word) for word in match[1].split()], dtype=np.int64)
+    except ValueError as error:
+        raise FormatError(f"{path}: taxel2Repr: expected whole numbers, got {error}") from error
+
+
+def _rows(path: Path, body: str, *, first_line: int) -> tuple[FloatArray, IntArray]:
+    """Rows of six numbers, and the line of each."""
+    stated = [(first_line + k, line.split()) for k, line in enumerate(body.split("\n")) if line.strip()]
+    values = [_six(f"{path}:{line}", words) for line, words in stated]
+    return np.array(values).reshape(-1, 6), np.array([line for line, _ in stated], dtype=np.int64)
+
+
+def _six(where: str, words: list[str]) -> list[float]:
+    try:
+        numbers = [float(word) for word in words]
+    except ValueError:
+        numbers = []
+    if len(numbers) != 6 or not np.isfinite(numbers).all():
+        raise FormatError(f"{where}: expected six finite numbers x y z nx ny nz, got {' '.join(words)!r}")
+    return numbers
