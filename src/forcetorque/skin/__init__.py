@@ -13,6 +13,7 @@ from forcetorque.skin.module import (
     MODULE_THERMAL,
     placed_pads,
 )
+from forcetorque.skin.pressure_clock import PressureClock, match_pressure
 
 __all__ = [
     "MODULE_CENTRE",
@@ -26,7 +27,9 @@ __all__ = [
     "Defect",
     "LayoutFinding",
     "PatchDescription",
+    "PressureClock",
     "SkinLayout",
     "layout_findings",
+    "match_pressure",
     "placed_pads",
 ]
