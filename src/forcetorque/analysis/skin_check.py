@@ -12,6 +12,7 @@ from pydantic import Field
 from forcetorque.exchange.skin import describe_patch
 from forcetorque.result import Result, Row, Shown, Table
 from forcetorque.skin import LayoutFinding, PatchDescription, layout_findings
+from forcetorque.skin.findings import counted
 
 _MOST = 6
 """Stretches of numbers that a table has; JSON and CSV have all numbers."""
@@ -86,7 +87,7 @@ class SkinCheck(Result):
             yield f"{row.defect}: {row.message}. {row.remedy[:1].upper()}{row.remedy[1:]}."
         yield (
             f"{self.patch} in {self.frame}: {self.taxels} taxels on {self.modules} modules, {self.thermal_pads} "
-            f"thermal pads, {self.message_columns} numbers in a message; {len(self.findings)} finding(s)"
+            f"thermal pads, {self.message_columns} numbers in a message; {counted(len(self.findings), 'finding')}"
         )
         if self.figure is not None:
             yield f"drawn to {self.figure}"

@@ -13,6 +13,7 @@ from forcetorque.skin.module import (
     MODULE_THERMAL,
     placed_pads,
 )
+from forcetorque.skin.normals import rebuilt_normals
 from forcetorque.skin.pressure_clock import PressureClock, match_pressure
 
 __all__ = [
@@ -32,4 +33,5 @@ __all__ = [
     "layout_findings",
     "match_pressure",
     "placed_pads",
+    "rebuilt_normals",
 ]

@@ -27,7 +27,7 @@ class PatchDescription:
     columns: int
     """Numbers in one message of counts; dummies and thermal pads included."""
     lines: IntArray
-    """Line of the file that states each pressure taxel, from 1; shape (n,)."""
+    """Line of the file that states each column, from 1; 0 where none does; shape (columns,)."""
     taxels: IntArray
     """Column of each pressure taxel; shape (n,)."""
     modules: IntArray
@@ -42,11 +42,13 @@ class PatchDescription:
     """Module that each thermal pad sits on; shape (t,)."""
     representatives: IntArray | None = None
     """Entry of `taxel2Repr` for each column, as many as are written; None if the form has none."""
+    placed: IntArray | None = None
+    """Columns whose row in the file is a place, whatever they are; shape (k,); None for the taxels."""
 
     def __post_init__(self) -> None:
         count, pads = len(self.taxels), len(self.thermal_pads)
         for name, length in {
-            "lines": count,
+            "lines": self.columns,
             "taxels": count,
             "modules": count,
             "thermal_pads": pads,
@@ -56,9 +58,9 @@ class PatchDescription:
         object.__setattr__(self, "positions", read_only(self.positions, name="positions", shape=(count, 3)))
         if self.normals is not None:
             object.__setattr__(self, "normals", read_only(self.normals, name="normals", shape=(count, 3)))
-        if self.representatives is not None:
-            entries = read_only_integers(self.representatives, name="representatives", shape=(None,))
-            object.__setattr__(self, "representatives", entries)
+        for name in ("representatives", "placed"):
+            if getattr(self, name) is not None:
+                object.__setattr__(self, name, read_only_integers(getattr(self, name), name=name, shape=(None,)))
 
     def __len__(self) -> int:
         return len(self.taxels)
@@ -75,7 +77,7 @@ class PatchDescription:
         Raises:
             SkinError: If it is not sound.
         """
-        given = self.normals if normals is None else normals
+        given = self.unit_normals() if normals is None else normals
         return SkinLayout(
             name=self.name,
             frame=self.frame,
@@ -83,14 +85,19 @@ class PatchDescription:
             taxels=self.taxels,
             modules=self.modules,
             positions=self.positions,
-            normals=np.zeros((len(self), 3)) if given is None else _without_rounding(given),
+            normals=given,
             thermal_pads=self.thermal_pads,
             thermal_modules=self.thermal_modules,
         )
 
+    def unit_normals(self) -> FloatArray:
+        """Give the normals that are written; lengths that are off by rounding are made 1.
 
-def _without_rounding(normals: FloatArray) -> FloatArray:
-    length = np.linalg.norm(normals, axis=1, keepdims=True)
-    return np.where(
-        np.isclose(length, 1.0, rtol=0.0, atol=UNIT_DIGITS), normals / np.where(length, length, 1.0), normals
-    )
+        Returns:
+            Normals, zero where the form has none; shape (n, 3).
+        """
+        if self.normals is None:
+            return np.zeros((len(self), 3))
+        length = np.linalg.norm(self.normals, axis=1, keepdims=True)
+        rounded = np.isclose(length, 1.0, rtol=0.0, atol=UNIT_DIGITS)
+        return np.where(rounded, self.normals / np.where(length > 0.0, length, 1.0), self.normals)

@@ -13,13 +13,16 @@ from forcetorque.errors import FormatError
 from forcetorque.skin import MODULE_COLUMNS, MODULE_THERMAL, PatchDescription
 
 _SIGN = "[calibration]"
+_THERMAL_ENTRY = -2
+"""What `taxel2Repr` has for a thermal pad."""
 
 
 class IcubPositions:
     """Lines `name`, `spatial_sampling` and `taxel2Repr`, then a row x y z nx ny nz (m, link frame) per column.
 
-    A row of zeros is no taxel: a thermal pad where its module has taxels, else a dummy. `taxel2Repr` is kept as it is
-    written, and decides nothing: in published files it contradicts the rows.
+    A row of zeros is no taxel: a thermal pad where its module has taxels, else a dummy. A column that `taxel2Repr`
+    calls a thermal pad is one, whatever its row says: its counts are no pressure. Where else the two disagree, rows
+    are believed.
     """
 
     sign = "a text with the line [calibration]"
@@ -52,28 +55,28 @@ class IcubPositions:
         """
         head, _, body = text.partition(_SIGN)
         rows, lines = _rows(path, body, first_line=head.count("\n") + 1)
-        taxel = rows.any(axis=1)
+        entries = _representatives(path, head)
+        columns = np.arange(len(rows))
+        placed = rows.any(axis=1)
+        taxel = placed & ~np.isin(columns, np.flatnonzero(entries == _THERMAL_ENTRY))
         if not taxel.any():
             raise FormatError(f"{path}: expected rows x y z nx ny nz of taxels below {_SIGN}, got none but zeros")
-        columns = np.arange(len(rows))
-        thermal = (
-            ~taxel
-            & np.isin(columns % MODULE_COLUMNS, MODULE_THERMAL)
-            & np.isin(columns // MODULE_COLUMNS, columns[taxel] // MODULE_COLUMNS)
-        )
+        modules = columns // MODULE_COLUMNS
+        thermal = ~taxel & np.isin(columns % MODULE_COLUMNS, MODULE_THERMAL) & np.isin(modules, modules[taxel])
         return PatchDescription(
             source=str(path),
             name=path.stem,
             frame=_word(path, head, "name"),
             columns=len(rows),
-            lines=lines[taxel],
+            lines=lines,
             taxels=columns[taxel],
-            modules=columns[taxel] // MODULE_COLUMNS,
+            modules=modules[taxel],
             positions=rows[taxel, :3],
             normals=rows[taxel, 3:],
             thermal_pads=columns[thermal],
-            thermal_modules=columns[thermal] // MODULE_COLUMNS,
-            representatives=_representatives(path, head),
+            thermal_modules=modules[thermal],
+            representatives=entries,
+            placed=columns[placed],
         )
 
 

@@ -4,10 +4,24 @@
 from collections.abc import Callable, Iterator
 
 from forcetorque.skin.description import PatchDescription
-from forcetorque.skin.findings.finding import Defect, LayoutFinding
+from forcetorque.skin.findings.directions import FACETED_DEG, OBLIQUE_DEG, normal_directions
+from forcetorque.skin.findings.finding import Defect, LayoutFinding, counted
+from forcetorque.skin.findings.gaps import gaps
+from forcetorque.skin.findings.lengths import normal_lengths
+from forcetorque.skin.findings.modules import NEAREST_CENTRES_M, TEMPLATE_M, off_template, overlaps
 from forcetorque.skin.findings.places import duplicates
+from forcetorque.skin.findings.representatives import representatives
+from forcetorque.skin.findings.shape import PatchShape, shape_of
 
-_LOOKS: tuple[Callable[[PatchDescription], Iterator[LayoutFinding]], ...] = (duplicates,)
+_LOOKS: tuple[Callable[[PatchShape], Iterator[LayoutFinding]], ...] = (
+    representatives,
+    duplicates,
+    off_template,
+    overlaps,
+    normal_lengths,
+    normal_directions,
+    gaps,
+)
 
 
 def layout_findings(patch: PatchDescription) -> tuple[LayoutFinding, ...]:
@@ -19,7 +33,19 @@ def layout_findings(patch: PatchDescription) -> tuple[LayoutFinding, ...]:
     Returns:
         Findings; none where it is sound.
     """
-    return tuple(finding for look in _LOOKS for finding in look(patch))
+    shape = shape_of(patch)
+    return tuple(finding for look in _LOOKS for finding in look(shape))
 
 
-__all__ = ["Defect", "LayoutFinding", "layout_findings"]
+__all__ = [
+    "FACETED_DEG",
+    "NEAREST_CENTRES_M",
+    "OBLIQUE_DEG",
+    "TEMPLATE_M",
+    "Defect",
+    "LayoutFinding",
+    "PatchShape",
+    "counted",
+    "layout_findings",
+    "shape_of",
+]

@@ -8,7 +8,7 @@ from enum import StrEnum
 
 import numpy as np
 
-from forcetorque.arrays import BoolArray, IntArray
+from forcetorque.arrays import IntArray
 from forcetorque.skin.description import PatchDescription
 
 
@@ -17,6 +17,26 @@ class Defect(StrEnum):
 
     DUPLICATE = "duplicate taxels"
     """Taxels at one place."""
+    ZERO = "zero normals"
+    """Normals of length 0."""
+    NOT_UNIT = "normals not unit"
+    """Normals of another length than 1."""
+    PLACEHOLDER = "placeholder normals"
+    """One direction for taxels that look in many."""
+    INWARD = "inward normals"
+    """Normals into the link."""
+    OBLIQUE = "oblique normals"
+    """Normals that are not those of the surface through the taxels."""
+    FACETED = "one normal per module"
+    """Normals of flat modules, where the surface is curved."""
+    REPRESENTATIVES = "taxel2Repr"
+    """Rows and `taxel2Repr` contradict each other."""
+    TEMPLATE = "off the template"
+    """Modules that are not the triangle of ten taxels."""
+    OVERLAP = "modules on each other"
+    """Modules where another one is."""
+    GAP = "gaps"
+    """Taxels that nothing joins to the rest, and holes."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -26,9 +46,9 @@ class LayoutFinding:
     defect: Defect
     """What is wrong."""
     taxels: IntArray
-    """Columns of the taxels that have it; shape (k,); empty where it is of the file."""
+    """Columns of the message that have it; shape (k,); empty where it is of the whole file."""
     lines: IntArray
-    """Lines of the file that state them; shape (k,)."""
+    """Lines of the file that state them, where it has lines for them; shape (l,)."""
     modules: IntArray
     """Modules that have it, each once; shape (m,)."""
     message: str
@@ -37,24 +57,41 @@ class LayoutFinding:
     """What to do."""
 
 
-def finding_of(patch: PatchDescription, bad: BoolArray, *, defect: Defect, message: str, remedy: str) -> LayoutFinding:
-    """Tell a defect of taxels.
+def counted(count: int, noun: str) -> str:
+    """Say how many.
+
+    Args:
+        count: How many.
+        noun: Of what, in the singular.
+
+    Returns:
+        Such as `1 hole` or `3 holes`.
+    """
+    return f"{count} {noun}" if count == 1 else f"{count} {noun}s"
+
+
+def finding_of(
+    patch: PatchDescription, columns: IntArray, *, defect: Defect, message: str, remedy: str
+) -> LayoutFinding:
+    """Tell a defect of some columns.
 
     Args:
         patch: Patch.
-        bad: Which of its taxels have it; shape (n,).
+        columns: Columns that have it; shape (k,); none where it is of the whole file.
         defect: What is wrong.
         message: What was found.
         remedy: What to do.
 
     Returns:
-        The finding, with the lines and modules of the taxels.
+        The finding, with the lines and modules of the columns.
     """
+    inside = columns[columns < len(patch.lines)]
+    lines = patch.lines[inside]
     return LayoutFinding(
         defect=defect,
-        taxels=patch.taxels[bad],
-        lines=patch.lines[bad],
-        modules=np.unique(patch.modules[bad]),
+        taxels=columns,
+        lines=lines[lines > 0],
+        modules=np.unique(patch.modules[np.isin(patch.taxels, columns)]),
         message=message,
         remedy=remedy,
     )

@@ -7,30 +7,27 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from forcetorque.skin.description import PatchDescription
-from forcetorque.skin.findings.finding import Defect, LayoutFinding, finding_of
-from forcetorque.skin.layout import SAME_PLACE_M
+from forcetorque.skin.findings.finding import Defect, LayoutFinding, counted, finding_of
+from forcetorque.skin.findings.shape import PatchShape
 
 
-def duplicates(patch: PatchDescription) -> Iterator[LayoutFinding]:
+def duplicates(shape: PatchShape) -> Iterator[LayoutFinding]:
     """Find taxels that have the position of another one.
 
     Args:
-        patch: Patch.
+        shape: Patch.
 
     Yields:
         One finding of them all.
     """
-    _, place, count = np.unique(
-        np.rint(patch.positions / SAME_PLACE_M), axis=0, return_inverse=True, return_counts=True
-    )
-    shared = count[place.ravel()] > 1
+    patch, count = shape.patch, np.bincount(shape.place)
+    shared = count[shape.place] > 1
     if shared.any():
+        places = counted(int(np.count_nonzero(count > 1)), "place")
         yield finding_of(
             patch,
-            shared,
+            patch.taxels[shared],
             defect=Defect.DUPLICATE,
-            message=f"{np.count_nonzero(shared)} taxels share {np.count_nonzero(count > 1)} places: {len(count)} "
-            f"distinct positions of {len(patch)}",
-            remedy="place the modules anew by the frames of their centres (`frames` in docs/skin_layout.md)",
+            message=f"{np.count_nonzero(shared)} taxels share {places}: {len(count)} distinct places of {len(patch)}",
+            remedy="place their modules anew, from the frames of the modules' centres",
         )
