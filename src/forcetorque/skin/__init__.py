@@ -14,7 +14,9 @@ from forcetorque.skin.module import (
     placed_pads,
 )
 from forcetorque.skin.normals import rebuilt_normals
+from forcetorque.skin.patch_calibration import PatchCalibration, read_patch_calibration
 from forcetorque.skin.pressure_clock import PressureClock, match_pressure
+from forcetorque.skin.pressure_table import PressureTable
 
 __all__ = [
     "MODULE_CENTRE",
@@ -27,11 +29,14 @@ __all__ = [
     "UNIT_TOLERANCE",
     "Defect",
     "LayoutFinding",
+    "PatchCalibration",
     "PatchDescription",
     "PressureClock",
+    "PressureTable",
     "SkinLayout",
     "layout_findings",
     "match_pressure",
     "placed_pads",
+    "read_patch_calibration",
     "rebuilt_normals",
 ]

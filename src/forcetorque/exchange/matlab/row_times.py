@@ -12,7 +12,6 @@ import numpy as np
 from forcetorque.arrays import IntArray
 from forcetorque.errors import FormatError
 from forcetorque.recording import Finding, Signal, Stream
-from forcetorque.skin import match_pressure
 
 
 def rows_of_another(
@@ -48,6 +47,8 @@ def rows_of_another(
 
 
 def _estimated(name: str, signals: Mapping[str, Signal], other: Stream) -> tuple[IntArray, Finding]:
+    from forcetorque.skin import match_pressure
+
     if set(signals) != {"pressure"} or "taxel_counts" not in other.signals:
         raise FormatError(
             f'shift_rows = "estimated": expected a pressure with the rows of a stream of taxel_counts, got '
