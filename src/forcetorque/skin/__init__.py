@@ -4,7 +4,6 @@
 from forcetorque.skin.description import PatchDescription
 from forcetorque.skin.findings import Defect, LayoutFinding, layout_findings
 from forcetorque.skin.layout import SAME_PLACE_M, UNIT_TOLERANCE, SkinLayout
-from forcetorque.skin.modular import modular_patch
 from forcetorque.skin.module import (
     MODULE_CENTRE,
     MODULE_COLUMNS,
@@ -15,7 +14,10 @@ from forcetorque.skin.module import (
     placed_pads,
 )
 from forcetorque.skin.normals import rebuilt_normals
+from forcetorque.skin.patch_calibration import PatchCalibration, read_patch_calibration
 from forcetorque.skin.plan import PlannedModule, module_poses, placed_on_paper
+from forcetorque.skin.pressure_clock import PressureClock, match_pressure
+from forcetorque.skin.pressure_table import PressureTable
 
 __all__ = [
     "MODULE_CENTRE",
@@ -28,13 +30,18 @@ __all__ = [
     "UNIT_TOLERANCE",
     "Defect",
     "LayoutFinding",
+    "PatchCalibration",
     "PatchDescription",
-    "SkinLayout",
     "PlannedModule",
+    "PressureClock",
+    "PressureTable",
+    "SkinLayout",
     "layout_findings",
+    "match_pressure",
     "modular_patch",
     "module_poses",
     "placed_on_paper",
     "placed_pads",
+    "read_patch_calibration",
     "rebuilt_normals",
 ]

@@ -15,6 +15,7 @@ from forcetorque.report.figures.lambda_force import lambda_force_figure
 from forcetorque.report.figures.learnt import learnt_figure
 from forcetorque.report.figures.residuals import residual_figure
 from forcetorque.report.figures.sphere import sphere_figure
+from forcetorque.report.figures.taxels import taxel_figure
 from forcetorque.report.figures.uses import use_figure
 from forcetorque.report.figures.wrench_space import space_figure
 
@@ -34,5 +35,6 @@ __all__ = [
     "residual_figure",
     "space_figure",
     "sphere_figure",
+    "taxel_figure",
     "use_figure",
 ]
