@@ -4,6 +4,7 @@
 from forcetorque.skin.description import PatchDescription
 from forcetorque.skin.findings import Defect, LayoutFinding, layout_findings
 from forcetorque.skin.layout import SAME_PLACE_M, UNIT_TOLERANCE, SkinLayout
+from forcetorque.skin.modular import modular_patch
 from forcetorque.skin.module import (
     MODULE_CENTRE,
     MODULE_COLUMNS,
