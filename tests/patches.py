@@ -36,8 +36,25 @@ def cylinder_patch(*, across: int = 7, along: int = 3, radius_m: float = RADIUS_
     Returns:
         A patch of `across * along` modules.
     """
-    poses = [_on_cylinder(u, v, turned=turned, radius_m=radius_m) for u, v, turned in _tiling(across, along)]
+    _, poses = cylinder_modules(across=across, along=along, radius_m=radius_m)
     return _patch(poses, lambda positions: positions * [1.0, 1.0, 0.0])
+
+
+def cylinder_modules(
+    *, across: int, along: int, radius_m: float = RADIUS_M
+) -> tuple[list[tuple[float, float, bool]], list[FloatArray]]:
+    """The modules of `cylinder_patch`.
+
+    Args:
+        across: Modules of a row.
+        along: Rows.
+        radius_m: Radius; m.
+
+    Returns:
+        Centre on paper (m) and whether it is turned by 180 degrees, and pose in the link, of each.
+    """
+    tiles = _tiling(across, along)
+    return tiles, [_on_cylinder(u, v, turned=turned, radius_m=radius_m) for u, v, turned in tiles]
 
 
 def ellipsoid_patch(

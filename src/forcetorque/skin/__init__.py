@@ -4,6 +4,7 @@
 from forcetorque.skin.description import PatchDescription
 from forcetorque.skin.findings import Defect, LayoutFinding, layout_findings
 from forcetorque.skin.layout import SAME_PLACE_M, UNIT_TOLERANCE, SkinLayout
+from forcetorque.skin.modular import modular_patch
 from forcetorque.skin.module import (
     MODULE_CENTRE,
     MODULE_COLUMNS,
@@ -15,6 +16,7 @@ from forcetorque.skin.module import (
 )
 from forcetorque.skin.normals import rebuilt_normals
 from forcetorque.skin.patch_calibration import PatchCalibration, read_patch_calibration
+from forcetorque.skin.plan import PlannedModule, module_poses, placed_on_paper
 from forcetorque.skin.pressure_clock import PressureClock, match_pressure
 from forcetorque.skin.pressure_table import PressureTable
 
@@ -34,8 +36,12 @@ __all__ = [
     "PressureClock",
     "PressureTable",
     "SkinLayout",
+    "PlannedModule",
     "layout_findings",
     "match_pressure",
+    "modular_patch",
+    "module_poses",
+    "placed_on_paper",
     "placed_pads",
     "read_patch_calibration",
     "rebuilt_normals",

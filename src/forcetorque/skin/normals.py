@@ -25,6 +25,8 @@ _SAME_SIDE: Final = 0.3
 """Least cosine between the normals of two places that belong to one side of a limb."""
 _FLAT_M: Final = 1e-4
 """Greatest distance of taxels from the plane of a flat module; m: rounding, not shape."""
+_PASSES: Final = 2
+"""How often the normal is found in the plane of the last one, which at the corner of a module is 10 degrees off."""
 _FEWEST: Final = 3
 """Taxels that make a plane."""
 
@@ -98,11 +100,17 @@ def _facet_planes(surface: SkinSurface) -> _Planes:
 
 
 def _normal_at(point: FloatArray, rough: FloatArray, planes: _Planes) -> FloatArray:
-    """Normal at a point: the constant of a linear function of the offset, fitted to the normals of planes around it."""
+    """Normal at a point, in whose own tangent plane offsets are measured."""
     offsets = planes.centres - point
+    normal = rough if rough.any() else planes.normals[np.linalg.norm(offsets, axis=1).argmin()]
+    for _ in range(_PASSES):
+        normal = _continued(offsets, normal, planes)
+    return normal
+
+
+def _continued(offsets: FloatArray, rough: FloatArray, planes: _Planes) -> FloatArray:
+    """Constant of a linear function of the offset along a plane, fitted to the normals of the planes around a point."""
     distance = np.linalg.norm(offsets, axis=1)
-    if not rough.any():  # a taxel that no facet touches
-        rough = planes.normals[distance.argmin()]
     near = (distance < _FARTHEST * _REACH_M) & (planes.normals @ rough > _SAME_SIDE)
     if not near.any():
         near = distance == distance.min()

@@ -6,9 +6,16 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Protocol
 
-from forcetorque.errors import FormatError, MissingFileError
+import numpy as np
+
+from forcetorque.arrays import FloatArray
+from forcetorque.errors import FormatError, MissingFileError, SkinError
 from forcetorque.exchange.skin.icub_positions import IcubPositions
-from forcetorque.skin import PatchDescription, SkinLayout
+from forcetorque.exchange.skin.layout_table import LayoutTable
+from forcetorque.exchange.skin.skin_gui import SkinGuiPlan
+from forcetorque.exchange.skin.taxel_array import TaxelArrayMessage
+from forcetorque.exchange.skin.urdf_frames import UrdfFrames
+from forcetorque.skin import PatchDescription, SkinLayout, rebuilt_normals
 
 
 class LayoutFormat(Protocol):
@@ -41,7 +48,13 @@ class LayoutFormat(Protocol):
         """
 
 
-LAYOUT_FORMATS: tuple[LayoutFormat, ...] = (IcubPositions(),)
+LAYOUT_FORMATS: tuple[LayoutFormat, ...] = (
+    IcubPositions(),
+    SkinGuiPlan(),
+    LayoutTable(),
+    TaxelArrayMessage(),
+    UrdfFrames(),
+)
 """Forms of layouts, all of which are asked whether they know a file."""
 
 
@@ -68,17 +81,29 @@ def describe_patch(path: Path | str) -> PatchDescription:
     known = [form for form in LAYOUT_FORMATS if form.recognises(file, text)]
     if len(known) != 1:
         signs = "; or ".join(form.sign for form in (known or LAYOUT_FORMATS))
-        raise FormatError(f"{file}: expected {signs}; got {'all of them' if known else 'none of them'}")
+        raise FormatError(f"{file}: expected {signs}; got {'several' if known else 'none of them'}")
     return known[0].read(file, text)
 
 
-def read_layout(path: Path | str) -> SkinLayout:
+def read_layout(path: Path | str, *, rebuild_normals: bool = False, outward: FloatArray | None = None) -> SkinLayout:
     """Read the layout of a patch, which must be sound.
 
     Args:
         path: File of any known form.
+        rebuild_normals: Whether to find the normals from the positions instead of taking those of the file.
+        outward: Rough outward direction in the link, where a flat patch does not tell which side is out; shape (3,).
 
     Returns:
         The layout.
+
+    Raises:
+        SkinError: If it is not sound; `forcetorque skin check` says more.
     """
-    return describe_patch(path).layout()
+    patch = describe_patch(path)
+    try:
+        if not rebuild_normals:
+            return patch.layout()
+        directions = None if outward is None else np.broadcast_to(outward, (len(patch), 3))
+        return patch.layout(rebuilt_normals(patch.positions, patch.modules, outward=directions))
+    except SkinError as error:
+        raise SkinError(f"{path}: {error}") from error

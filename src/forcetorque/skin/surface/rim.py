@@ -8,11 +8,13 @@ from typing import Final
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray, IntArray
+from forcetorque.arrays import BoolArray, FloatArray, IntArray
 from forcetorque.skin.surface.surface import SkinSurface
 
 HALF_PITCH_M: Final = 0.0033
 """Width of the strip: half the distance between taxels of a module."""
+_HOLE: Final = 4
+"""Most edges around a hole that the strip fills."""
 _LONGEST_MITRE: Final = 2.0
 """Length of the strip at a sharp corner, in widths."""
 
@@ -53,6 +55,37 @@ def rim_strip(surface: SkinSurface, width_m: float = HALF_PITCH_M) -> Rim:
     second[before] = first
     triangles = np.concatenate([np.stack([start, first, second], axis=1), np.stack([start, second, end], axis=1)])
     return Rim(positions=surface.positions[start] + width_m * mitre, taxels=start, triangles=triangles)
+
+
+def edge_taxels(surface: SkinSurface) -> BoolArray:
+    """Tell the taxels at the edge of a patch, beyond which pressure is not felt.
+
+    A hole between four taxels is none: the strip fills it where corners of modules meet.
+
+    Args:
+        surface: The patch.
+
+    Returns:
+        Whether each taxel is at the edge; shape (n,).
+    """
+    before = _edge_before(surface)
+    at_edge = np.zeros(len(surface), dtype=np.bool_)
+    for loop in _loops(before):
+        if len(loop) > _HOLE:
+            at_edge[surface.boundary[loop]] = True
+    return at_edge
+
+
+def _loops(before: IntArray) -> list[list[int]]:
+    """Edges of every closed line of the boundary."""
+    loops, open_edges = [], set(range(len(before)))
+    while open_edges:
+        loop = [open_edges.pop()]
+        while (edge := int(before[loop[-1]])) != loop[0]:
+            open_edges.remove(edge)
+            loop.append(edge)
+        loops.append(loop)
+    return loops
 
 
 def _normals_at(surface: SkinSurface) -> FloatArray:

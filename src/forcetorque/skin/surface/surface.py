@@ -23,6 +23,8 @@ class SkinSurface:
     """Taxels at the corners of each facet, counterclockwise seen from outside; shape (m, 3)."""
     edges: IntArray = field(init=False)
     """Pairs of neighbours, the smaller number first; shape (e, 2)."""
+    neighbours: IntArray = field(init=False)
+    """Neighbours of each taxel, filled up with the taxel itself; shape (n, d), where d is the most that one has."""
     boundary: IntArray = field(init=False)
     """Edges of one facet only, in its direction, so that the skin is on their left; shape (b, 2)."""
     facet_areas: FloatArray = field(init=False)
@@ -44,6 +46,7 @@ class SkinSurface:
             ("positions", positions),
             ("triangles", triangles),
             ("edges", edges),
+            ("neighbours", _neighbours(edges, len(positions))),
             ("boundary", boundary),
             ("facet_areas", np.linalg.norm(doubled, axis=1) / 2.0),
             ("facet_normals", _unit(doubled)),
@@ -75,9 +78,7 @@ class SkinSurface:
             The same taxels and one ring around them; shape (n,).
         """
         widened = taxels.copy()
-        start, end = self.edges.T
-        widened[end[taxels[start]]] = True
-        widened[start[taxels[end]]] = True
+        widened[self.neighbours[taxels]] = True
         return widened
 
 
@@ -122,6 +123,16 @@ def _edges(triangles: IntArray, count: int) -> tuple[IntArray, IntArray]:
     ordered = np.sort(directed, axis=1)
     _, first, sharing = np.unique(ordered[:, 0] * count + ordered[:, 1], return_index=True, return_counts=True)
     return ordered[first], directed[first[sharing == 1]]
+
+
+def _neighbours(edges: IntArray, count: int) -> IntArray:
+    both = np.concatenate([edges, edges[:, ::-1]])
+    both = both[np.argsort(both[:, 0], kind="stable")]
+    degrees = np.bincount(both[:, 0], minlength=count)
+    neighbours = np.tile(np.arange(count)[:, None], (1, int(degrees.max(initial=0))))
+    place = np.arange(len(both)) - np.repeat(np.cumsum(degrees) - degrees, degrees)
+    neighbours[both[:, 0], place] = both[:, 1]
+    return neighbours
 
 
 def _unit(vectors: FloatArray) -> FloatArray:
