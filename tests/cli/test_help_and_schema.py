@@ -21,7 +21,7 @@ from tests.experiments import TEXTS
 COMMANDS = typed_commands(app)
 GROUPS = sorted(str(group.typer_instance.info.name) for group in app.registered_groups if group.typer_instance)
 ROOT = Path(__file__).parents[2]
-FILES = ("experiment", "acceptance", "scenario", "recording", "calibration", "joint", "moments")
+FILES = ("experiment", "acceptance", "scenario", "recording", "calibration", "joint", "moments", "taxels")
 """What people write, and what is written to be read again."""
 JSON_SCHEMAS = (
     "experiment",
@@ -37,8 +37,10 @@ JSON_SCHEMAS = (
     "gains",
     "plan",
     "report",
+    "skin_calibrate",
     "skin_check",
     "study",
+    "taxels",
 )
 
 
@@ -180,6 +182,8 @@ def test_experiment_files_fit_the_printed_schema(run: Run, form: str) -> None:
         {"name": 3},
         {"calibration": {"lambda_counts2": -1}},
         {"sensor": []},
+        {"patch": []},
+        {"patch": [{"name": "palm"}]},
     ]
     for damage in bad:
         assert faults({**content, **damage}, schema) != []
