@@ -50,9 +50,9 @@ def _flat(*, upside_down: bool = False) -> PatchDescription:
 
 
 def test_a_sound_layout_has_no_finding() -> None:
-    """Neither curved nor flat; of a flat one nobody but its normals can tell which side is out."""
+    """Neither curved nor flat, nor one without normals and entries."""
     assert len(SOUND) == 210
-    for patch in (SOUND, WIDE, _flat(), _flat(upside_down=True), replace(SOUND, normals=None, representatives=None)):
+    for patch in (SOUND, WIDE, _flat(), replace(SOUND, normals=None, representatives=None)):
         assert layout_findings(patch) == ()
 
 
@@ -124,6 +124,14 @@ def test_a_patch_that_is_inside_out_is_found() -> None:
     finding = _only(_normals(SOUND, lambda normals: np.negative(normals, out=normals)), Defect.INWARD)
     assert len(finding.taxels) == len(SOUND)
     assert finding.remedy.startswith("reverse them all")
+
+
+def test_a_flat_patch_that_is_inside_out_is_found() -> None:
+    """Its boards tell; without boards nobody but the normals does."""
+    patch = _flat(upside_down=True)
+    finding = _only(patch, Defect.INWARD)
+    assert finding.remedy.startswith("reverse them all, unless its boards are mirror images")
+    assert layout_findings(replace(patch, modules=patch.modules + 100, representatives=None)) == ()
 
 
 def test_one_normal_per_module_is_found_alone() -> None:

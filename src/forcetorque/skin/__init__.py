@@ -14,7 +14,7 @@ from forcetorque.skin.module import (
     MODULE_THERMAL,
     placed_pads,
 )
-from forcetorque.skin.normals import rebuilt_normals
+from forcetorque.skin.normals import patch_normals, rebuilt_normals
 from forcetorque.skin.plan import PlannedModule, module_poses, placed_on_paper
 
 __all__ = [
@@ -34,6 +34,7 @@ __all__ = [
     "layout_findings",
     "modular_patch",
     "module_poses",
+    "patch_normals",
     "placed_on_paper",
     "placed_pads",
     "rebuilt_normals",

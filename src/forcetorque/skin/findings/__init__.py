@@ -8,7 +8,7 @@ from forcetorque.skin.findings.directions import FACETED_DEG, OBLIQUE_DEG, norma
 from forcetorque.skin.findings.finding import Defect, LayoutFinding, counted
 from forcetorque.skin.findings.gaps import gaps
 from forcetorque.skin.findings.lengths import normal_lengths
-from forcetorque.skin.findings.modules import NEAREST_CENTRES_M, TEMPLATE_M, off_template, overlaps
+from forcetorque.skin.findings.modules import NEAREST_CENTRES_M, off_template, overlaps
 from forcetorque.skin.findings.places import duplicates
 from forcetorque.skin.findings.representatives import representatives
 from forcetorque.skin.findings.shape import PatchShape, shape_of
@@ -41,7 +41,6 @@ __all__ = [
     "FACETED_DEG",
     "NEAREST_CENTRES_M",
     "OBLIQUE_DEG",
-    "TEMPLATE_M",
     "Defect",
     "LayoutFinding",
     "PatchShape",
