@@ -42,12 +42,14 @@ from forcetorque.report.figures import (
     lambda_force_figure,
     learnt_figure,
     residual_figure,
+    skin_layout_figure,
     space_figure,
     sphere_figure,
     use_figure,
 )
 from forcetorque.report.figures.canvas import png_bytes
 from forcetorque.spatial import WRENCH_COMPONENTS
+from tests.patches import cylinder_patch
 
 LAMBDAS = np.array([0, 1, 5, 10, 50, 100, 1e3, 5e3, 1e4, 5e4, 1e5, 5e5, 1e6])
 """Those of the thesis, table 5.5; counts2."""
@@ -275,6 +277,13 @@ def _index(rng: np.random.Generator) -> Figure:
     return index_figure(trial_groups(rng, sensors=2, trials=2, caps=1))
 
 
+def _skin_layout(rng: np.random.Generator) -> Figure:
+    patch = cylinder_patch()
+    assert patch.normals is not None
+    placeholder = np.tile(rng.normal(size=3) / 3.0, (len(patch), 1))
+    return skin_layout_figure(patch.positions, {"as written": placeholder, "rebuilt": patch.normals})
+
+
 FIGURES: dict[str, Callable[[np.random.Generator], Figure]] = {
     "space": _space,
     "force space": _force_space,
@@ -290,6 +299,7 @@ FIGURES: dict[str, Callable[[np.random.Generator], Figure]] = {
     "joint": _joint,
     "learnt": _learnt,
     "index": _index,
+    "skin layout": _skin_layout,
     "use": _use,
 }
 """A figure of every kind that is drawn from plain arrays, of random data."""

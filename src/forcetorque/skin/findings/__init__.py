@@ -33,7 +33,18 @@ def layout_findings(patch: PatchDescription) -> tuple[LayoutFinding, ...]:
     Returns:
         Findings; none where it is sound.
     """
-    shape = shape_of(patch)
+    return shape_findings(shape_of(patch))
+
+
+def shape_findings(shape: PatchShape) -> tuple[LayoutFinding, ...]:
+    """Look for everything that may be wrong with a layout whose shape is known.
+
+    Args:
+        shape: Patch.
+
+    Returns:
+        Findings; none where it is sound.
+    """
     return tuple(finding for look in _LOOKS for finding in look(shape))
 
 
@@ -46,5 +57,6 @@ __all__ = [
     "PatchShape",
     "counted",
     "layout_findings",
+    "shape_findings",
     "shape_of",
 ]
