@@ -17,8 +17,8 @@ def schema(
     name: Annotated[
         str,
         typer.Argument(
-            help="experiment, acceptance, scenario, recording, calibration, joint, moments or module_frames for a file; "
-            "a command, with _ for its space, for its result."
+            help="experiment, acceptance, scenario, recording, calibration, joint, moments or module_frames for a "
+            "file; a command, with _ for its space, for its result."
         ),
     ],
 ) -> None:
