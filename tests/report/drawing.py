@@ -27,6 +27,7 @@ from forcetorque.analysis import (
     UseVerdict,
     group_trials,
 )
+from forcetorque.analysis.skin_picture import TaxelPicture
 from forcetorque.calibration.joint import PartResidual
 from forcetorque.evaluation.sphere import analyse_sphere
 from forcetorque.report.figures import (
@@ -45,6 +46,7 @@ from forcetorque.report.figures import (
     skin_layout_figure,
     space_figure,
     sphere_figure,
+    taxel_figure,
     use_figure,
 )
 from forcetorque.report.figures.canvas import png_bytes
@@ -182,6 +184,32 @@ def _joint(rng: np.random.Generator) -> Figure:
     )
 
 
+def _taxel(rng: np.random.Generator) -> Figure:
+    seconds = 0.1 * np.arange(600)
+    pressure = 3e5 * np.clip(1.1 - np.abs(seconds / 30.0 - 1.0), 0.0, 1.0)
+    fall = np.rint(pressure[:, None] / rng.uniform(6e3, 1e4, 8) + rng.normal(0.0, 0.6, (600, 8)))
+    levels = np.linspace(0.0, 50.0, 100)
+    curves = {
+        "monotone": 8e3 * levels,
+        "line": 8.2e3 * levels,
+        "polynomial": 2e2 * levels**2,
+        "capacitor": 7e3 * levels,
+    }
+    return taxel_figure(
+        TaxelPicture(
+            recording="chamber: up and down",
+            seconds=seconds,
+            pressure=pressure,
+            fall=fall,
+            mean_fall=fall.mean(axis=1),
+            names=tuple(f"taxel {k}" for k in range(8)),
+            curves=curves,
+            levels=levels,
+            highest=1.5e5,
+        )
+    )
+
+
 def _learnt(rng: np.random.Generator) -> Figure:
     return learnt_figure({"one recording": learnt_of(rng), "all": learnt_of(rng)})
 
@@ -298,6 +326,7 @@ FIGURES: dict[str, Callable[[np.random.Generator], Figure]] = {
     "held out": _held_out,
     "joint": _joint,
     "learnt": _learnt,
+    "taxel": _taxel,
     "index": _index,
     "skin layout": _skin_layout,
     "use": _use,

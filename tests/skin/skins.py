@@ -8,6 +8,7 @@ from typing import Final
 import numpy as np
 
 from forcetorque.arrays import FloatArray
+from forcetorque.skin import SkinLayout
 
 PITCH_M: Final = 6.533e-3
 
@@ -23,3 +24,20 @@ def cylinder(radius_m: float = 0.05, rows: int = 12, columns: int = 20) -> Float
     flat = plane_lattice(rows, columns)
     angle = flat[:, 1] / radius_m
     return np.stack([flat[:, 0], radius_m * np.sin(angle), radius_m * np.cos(angle)], axis=1)
+
+
+def plane_layout(rows: int = 12, columns: int = 14) -> SkinLayout:
+    """The lattice as a patch that looks along z."""
+    positions = plane_lattice(rows, columns)
+    number = np.arange(len(positions))
+    return SkinLayout(
+        name="plate",
+        frame="plate",
+        columns=len(positions),
+        taxels=number,
+        modules=number // 10,
+        positions=positions,
+        normals=np.tile([0.0, 0.0, 1.0], (len(positions), 1)),
+        thermal_pads=np.zeros(0, dtype=np.int64),
+        thermal_modules=np.zeros(0, dtype=np.int64),
+    )

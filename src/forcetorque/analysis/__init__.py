@@ -72,6 +72,7 @@ from forcetorque.analysis.sensor_calibration import (
 )
 from forcetorque.analysis.sensor_run import SensorRun
 from forcetorque.analysis.sensor_sphere import SensorSphere, sensor_spheres, sphere_intervals
+from forcetorque.analysis.skin_calibrate import SkinCalibration, calibrate_skin, read_patches
 from forcetorque.analysis.skin_check import LayoutFindingRow, SkinCheck, check_patch, check_skin
 from forcetorque.analysis.sphere import Spheres, spheres, spheres_of_sensors
 from forcetorque.analysis.sphere_rows import FailureRow, SphereRow
@@ -152,6 +153,7 @@ __all__ = [
     "SensorRun",
     "SensorSphere",
     "SensorStudy",
+    "SkinCalibration",
     "SphereRow",
     "Spheres",
     "StaticChecks",
@@ -173,6 +175,7 @@ __all__ = [
     "calibration_file",
     "joint_interval",
     "calibrate_sensor",
+    "calibrate_skin",
     "check",
     "compare",
     "compare_with_prior",
@@ -197,6 +200,7 @@ __all__ = [
     "joint_torques",
     "one_per_sensor",
     "read_acceptance",
+    "read_patches",
     "read_population",
     "read_study_data",
     "read_trials",

@@ -17,8 +17,8 @@ def schema(
     name: Annotated[
         str,
         typer.Argument(
-            help="experiment, acceptance, scenario, recording, calibration, joint, moments or module_frames for a "
-            "file; a command, with _ for its space, for its result."
+            help="experiment, acceptance, scenario, recording, calibration, joint, moments, taxels or module_frames "
+            "for a file; a command, with _ for its space, for its result."
         ),
     ],
 ) -> None:
@@ -44,6 +44,7 @@ def _files() -> dict[str, Callable[[], dict[str, Any]]]:
     from forcetorque.experiment import ExperimentFile
     from forcetorque.recording import recording_schema
     from forcetorque.simulation.scenario import ScenarioFile
+    from forcetorque.skin import PatchCalibration
 
     return {
         "experiment": ExperimentFile.model_json_schema,
@@ -53,6 +54,7 @@ def _files() -> dict[str, Callable[[], dict[str, Any]]]:
         "calibration": Calibration.model_json_schema,
         "joint": JointPosterior.model_json_schema,
         "moments": RecordingMoments.model_json_schema,
+        "taxels": PatchCalibration.model_json_schema,
         "module_frames": ModuleFrames.model_json_schema,
     }
 

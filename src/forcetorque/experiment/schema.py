@@ -134,6 +134,23 @@ class Sensor(Table):
         return self
 
 
+class Patch(Table):
+    """A patch of artificial skin."""
+
+    name: Text
+    """Name of the patch."""
+    counts: Text
+    """Stream of the recording that holds its `taxel_counts`."""
+    pressure: Text | None = None
+    """Stream with the `pressure` of the chamber or bag that it was calibrated in."""
+    serial: Text | None = None
+    """Serial number, or another mark that tells it from patches of the same name."""
+    layout: Path | None = None
+    """File that says where its taxels are; every column of the counts is one if left out."""
+    link: Text | None = None
+    """Link that it is mounted on; that of the layout if left out."""
+
+
 class Trial(Table):
     """What the recording is to a comparison with others of the same sensor."""
 
@@ -329,8 +346,10 @@ class ExperimentFile(Table):
     """What hangs on a wrist sensor, in place of a robot."""
     recording: AnyLog
     """Where the recording is."""
-    sensor: Annotated[tuple[Sensor, ...], Field(min_length=1)]
-    """Sensors."""
+    sensor: tuple[Sensor, ...] = ()
+    """Sensors; none where the file is about skin alone."""
+    patch: tuple[Patch, ...] = ()
+    """Patches of artificial skin."""
     support: tuple[Support, ...] = ()
     """Support frames; none with `load`."""
     interval: Annotated[tuple[Interval, ...], Field(min_length=1)]
@@ -352,6 +371,10 @@ class ExperimentFile(Table):
 
     @model_validator(mode="after")
     def _robot_or_load(self) -> ExperimentFile:
+        if not self.sensor and not self.patch:
+            raise PydanticCustomError("no_sensor", "expected [[sensor]], or [[patch]] for skin")
+        if not self.sensor:
+            return self
         if (self.robot is None) == (self.load is None):
             raise PydanticCustomError("robot_or_load", "expected [robot] with a URDF, or [load] for a wrist sensor")
         if self.robot is not None and not self.support:

@@ -15,7 +15,10 @@ from forcetorque.skin.module import (
     placed_pads,
 )
 from forcetorque.skin.normals import patch_normals, rebuilt_normals
+from forcetorque.skin.patch_calibration import PatchCalibration, read_patch_calibration
 from forcetorque.skin.plan import PlannedModule, module_poses, placed_on_paper
+from forcetorque.skin.pressure_clock import PressureClock, match_pressure
+from forcetorque.skin.pressure_table import PressureTable
 
 __all__ = [
     "MODULE_CENTRE",
@@ -28,14 +31,19 @@ __all__ = [
     "UNIT_TOLERANCE",
     "Defect",
     "LayoutFinding",
+    "PatchCalibration",
     "PatchDescription",
-    "SkinLayout",
     "PlannedModule",
+    "PressureClock",
+    "PressureTable",
+    "SkinLayout",
     "layout_findings",
+    "match_pressure",
     "modular_patch",
     "module_poses",
     "patch_normals",
     "placed_on_paper",
     "placed_pads",
+    "read_patch_calibration",
     "rebuilt_normals",
 ]

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import typer
 
+from forcetorque.cli.skin.calibrate import calibrate
 from forcetorque.cli.skin.check import check
 
 skin = typer.Typer(
@@ -14,5 +15,5 @@ skin = typer.Typer(
     rich_markup_mode=None,
 )
 
-for _command in (check,):
+for _command in (calibrate, check):
     skin.command(_command.__name__)(_command)

@@ -16,6 +16,7 @@ from forcetorque.report.figures.learnt import learnt_figure
 from forcetorque.report.figures.residuals import residual_figure
 from forcetorque.report.figures.skin_layout import skin_layout_figure
 from forcetorque.report.figures.sphere import sphere_figure
+from forcetorque.report.figures.taxels import taxel_figure
 from forcetorque.report.figures.uses import use_figure
 from forcetorque.report.figures.wrench_space import space_figure
 
@@ -36,5 +37,6 @@ __all__ = [
     "skin_layout_figure",
     "space_figure",
     "sphere_figure",
+    "taxel_figure",
     "use_figure",
 ]

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Simulated skin: objects of known weight on a smooth surface, and what the taxels of a patch read of them."""
 
+from forcetorque.simulation.skin.chamber import chamber_log
 from forcetorque.simulation.skin.contact import GRID_M, ContactTruth, SkinBody, SkinContact
 from forcetorque.simulation.skin.draw import ON_SKIN, contacts
 from forcetorque.simulation.skin.objects import ClothStrip, FlatWeight, Palm, SkinObject, Sphere
@@ -25,5 +26,6 @@ __all__ = [
     "SurfacePoints",
     "TaxelResponses",
     "TrueSurface",
+    "chamber_log",
     "contacts",
 ]

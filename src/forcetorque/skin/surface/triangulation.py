@@ -18,6 +18,13 @@ LONGEST_EDGE_M: Final = 0.015
 """Longest edge between neighbours: twice the pitch of a module, less than a gap that a missing module leaves."""
 _SURROUNDINGS: Final = 1.5
 """Radius of what a point sees, in longest edges: no emptier circle can hold a triangle that short."""
+_GOLDEN: Final = (np.sqrt(5.0) - 1.0) / 2.0
+"""Multiples of it are spread evenly."""
+_TIE: Final = 1e-8
+"""By how much points on one circle are told apart, over the square of the longest edge: else rounding would decide
+which diagonal is taken, and a layout that is turned would get another surface."""
+_SAME_LENGTH_M: Final = 1e-9
+"""Difference between lengths that is rounding."""
 
 
 def surface_triangles(positions: FloatArray, longest_edge_m: float) -> IntArray:
@@ -35,7 +42,7 @@ def surface_triangles(positions: FloatArray, longest_edge_m: float) -> IntArray:
     longest = sides.max(axis=1)
     # taxels on a line, as along the side of a module, make triangles of nothing but rounding
     fits = (longest <= longest_edge_m) & (_circumradius(positions[candidates], sides) <= longest_edge_m)
-    order = np.lexsort((longest[fits], -votes[fits]))
+    order = np.lexsort((np.rint(longest[fits] / _SAME_LENGTH_M), -votes[fits]))
     return _without_overlap(positions, candidates[fits][order])
 
 
@@ -48,7 +55,7 @@ def _circumradius(corners: FloatArray, sides: FloatArray) -> FloatArray:
 
 def _voted_triangles(positions: FloatArray, longest_edge_m: float) -> tuple[IntArray, IntArray]:
     """Every triangle that some corner sees, and how many of its corners do."""
-    from scipy.spatial import Delaunay, KDTree
+    from scipy.spatial import KDTree
 
     tree = KDTree(positions)
     nearby = tree.query_ball_point(positions, longest_edge_m)
@@ -58,10 +65,22 @@ def _voted_triangles(positions: FloatArray, longest_edge_m: float) -> tuple[IntA
         plane = _tangent_plane(positions[near])
         if plane is None:
             continue
-        triangles = np.array(far)[Delaunay((positions[far] - positions[point]) @ plane.T).simplices]
+        flat = (positions[far] - positions[point]) @ plane.T / longest_edge_m
+        triangles = np.array(far)[_delaunay(flat, _TIE * np.modf(_GOLDEN * np.array(far))[0])]
         seen.append(triangles[(triangles == point).any(axis=1)])
     triangles, votes = np.unique(np.sort(np.concatenate(seen), axis=1), axis=0, return_counts=True)
     return triangles, votes
+
+
+def _delaunay(points: FloatArray, lift: FloatArray) -> IntArray:
+    """Delaunay triangles in a plane: the lower side of the hull of points on a paraboloid, each lifted a little."""
+    from scipy.spatial import ConvexHull
+
+    if len(points) == 3:
+        return np.array([[0, 1, 2]])
+    hull = ConvexHull(np.column_stack([points, (points**2).sum(axis=1) + lift]))
+    lower: IntArray = hull.simplices[hull.equations[:, 2] < 0.0].astype(np.int64)
+    return lower
 
 
 def _tangent_plane(points: FloatArray) -> FloatArray | None:

@@ -10,7 +10,7 @@ import numpy as np
 
 from forcetorque.arrays import BoolArray, FloatArray, IntArray
 from forcetorque.skin.surface import SkinSurface
-from forcetorque.skin.wrench.kriging import NEIGHBOURS, kriging_shares
+from forcetorque.skin.wrench.kriging import NEIGHBOURS, kriging_shares, nearest
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -33,12 +33,9 @@ class ForetoldPressures:
         Returns:
             Who tells whom.
         """
-        from scipy.spatial import KDTree
-
         known = np.flatnonzero(live)
         number = min(NEIGHBOURS, len(known) - 1)
-        _, nearest = KDTree(surface.positions[known]).query(surface.positions, k=np.arange(1, number + 2))
-        taxels = known[nearest]
+        taxels = known[nearest(surface.positions[known], surface.positions, number + 1)]
         own = taxels == np.arange(len(surface))[:, None]
         own[~own.any(axis=1), -1] = True  # a dead taxel is not among them: leave out the farthest
         neighbours = taxels[~own].reshape(len(surface), number)

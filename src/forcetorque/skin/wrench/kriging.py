@@ -16,6 +16,8 @@ LENGTH_M: Final = 0.008
 """Length over which pressures resemble each other; errors differ by less than 7 % from 6 to 20 mm."""
 NEIGHBOURS: Final = 24
 """Taxels that tell the pressure in one piece of skin: three rings about it."""
+_SAME_LENGTH_M: Final = 1e-9
+"""Difference between distances that is rounding: a layout that is turned has the same neighbours."""
 
 
 def kriging_operator(surface: SkinSurface, elements: SkinElements, live: BoolArray) -> WrenchOperator:
@@ -29,12 +31,9 @@ def kriging_operator(surface: SkinSurface, elements: SkinElements, live: BoolArr
     Returns:
         The operator.
     """
-    from scipy.spatial import KDTree
-
     known = np.flatnonzero(live)
     number = min(NEIGHBOURS, len(known))
-    _, nearest = KDTree(surface.positions[known]).query(elements.centres, k=np.arange(1, number + 1))
-    taxels: IntArray = known[nearest]  # (m, k)
+    taxels = known[nearest(surface.positions[known], elements.centres, number)]  # (m, k)
     shares = kriging_shares(surface.positions[taxels], elements.positions)
     weights, areas = summed_weights(
         elements.positions.reshape(-1, 3),
@@ -44,6 +43,25 @@ def kriging_operator(surface: SkinSurface, elements: SkinElements, live: BoolArr
         len(surface),
     )
     return WrenchOperator(method=WrenchMethod.KRIGING, live=live, weights=weights, areas=areas)
+
+
+def nearest(positions: FloatArray, places: FloatArray, number: int) -> IntArray:
+    """Find the points nearest to places; of several that are equally far, those that come first.
+
+    Args:
+        positions: Points; shape (n, 3); m.
+        places: Places; shape (m, 3); m.
+        number: How many, at most n.
+
+    Returns:
+        Indices of the points, the nearest first; shape (m, number).
+    """
+    from scipy.spatial import KDTree
+
+    more = min(2 * number, len(positions))
+    distance, index = KDTree(positions).query(places, k=np.arange(1, more + 1))
+    order = np.lexsort((index, np.rint(distance / _SAME_LENGTH_M)), axis=1)[:, :number]
+    return np.take_along_axis(index.astype(np.int64), order, axis=1)
 
 
 def kriging_shares(taxels: FloatArray, points: FloatArray) -> FloatArray:
