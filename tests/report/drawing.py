@@ -44,6 +44,7 @@ from forcetorque.report.figures import (
     lambda_force_figure,
     learnt_figure,
     residual_figure,
+    skin_layout_figure,
     skin_wrench_figure,
     space_figure,
     sphere_figure,
@@ -53,6 +54,7 @@ from forcetorque.report.figures import (
 from forcetorque.report.figures.canvas import png_bytes
 from forcetorque.skin.surface import skin_surface, unrolled
 from forcetorque.spatial import WRENCH_COMPONENTS
+from tests.patches import cylinder_patch
 from tests.skin.skins import cylinder
 
 LAMBDAS = np.array([0, 1, 5, 10, 50, 100, 1e3, 5e3, 1e4, 5e4, 1e5, 5e5, 1e6])
@@ -329,6 +331,13 @@ def _index(rng: np.random.Generator) -> Figure:
     return index_figure(trial_groups(rng, sensors=2, trials=2, caps=1))
 
 
+def _skin_layout(rng: np.random.Generator) -> Figure:
+    patch = cylinder_patch()
+    assert patch.normals is not None
+    placeholder = np.tile(rng.normal(size=3) / 3.0, (len(patch), 1))
+    return skin_layout_figure(patch.positions, {"as written": placeholder, "rebuilt": patch.normals})
+
+
 FIGURES: dict[str, Callable[[np.random.Generator], Figure]] = {
     "space": _space,
     "force space": _force_space,
@@ -346,6 +355,7 @@ FIGURES: dict[str, Callable[[np.random.Generator], Figure]] = {
     "skin_wrench": _skin_wrench,
     "taxel": _taxel,
     "index": _index,
+    "skin layout": _skin_layout,
     "use": _use,
 }
 """A figure of every kind that is drawn from plain arrays, of random data."""

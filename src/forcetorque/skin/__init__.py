@@ -14,7 +14,7 @@ from forcetorque.skin.module import (
     MODULE_THERMAL,
     placed_pads,
 )
-from forcetorque.skin.normals import rebuilt_normals
+from forcetorque.skin.normals import patch_normals, rebuilt_normals
 from forcetorque.skin.patch_calibration import PatchCalibration, read_patch_calibration
 from forcetorque.skin.plan import PlannedModule, module_poses, placed_on_paper
 from forcetorque.skin.pressure_clock import PressureClock, match_pressure
@@ -41,6 +41,7 @@ __all__ = [
     "match_pressure",
     "modular_patch",
     "module_poses",
+    "patch_normals",
     "placed_on_paper",
     "placed_pads",
     "read_patch_calibration",

@@ -15,6 +15,9 @@ from typing import Final
 import numpy as np
 
 from forcetorque.arrays import FloatArray, IntArray
+from forcetorque.errors import SkinError
+from forcetorque.skin.boards import outward_of_boards
+from forcetorque.skin.description import PatchDescription
 from forcetorque.skin.surface import SkinSurface, skin_surface
 
 _REACH_M: Final = 0.012
@@ -58,6 +61,31 @@ def rebuilt_normals(positions: FloatArray, modules: IntArray, *, outward: FloatA
         Outward unit normals; shape (n, 3).
     """
     return surface_normals(skin_surface(positions, outward=outward), modules)
+
+
+def patch_normals(patch: PatchDescription, outward: FloatArray | None = None) -> FloatArray:
+    """Find the normals of the taxels of a patch from their positions.
+
+    Args:
+        patch: Patch with no two taxels at one place.
+        outward: Rough outward direction; shape (3,). By default the shape of the patch tells which side is out, and
+            where it is flat its boards do.
+
+    Returns:
+        Outward unit normals; shape (n, 3).
+
+    Raises:
+        SkinError: If two taxels are at one place, or it is open which side is out.
+    """
+    if outward is not None:
+        return rebuilt_normals(patch.positions, patch.modules, outward=np.broadcast_to(outward, patch.positions.shape))
+    try:
+        return rebuilt_normals(patch.positions, patch.modules)
+    except SkinError:
+        boards = outward_of_boards(patch.positions, patch.taxels, patch.modules)
+        if boards is None:
+            raise
+        return rebuilt_normals(patch.positions, patch.modules, outward=boards)
 
 
 def surface_normals(surface: SkinSurface, modules: IntArray) -> FloatArray:

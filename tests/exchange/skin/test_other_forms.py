@@ -71,7 +71,7 @@ def _written(folder: Path, name: str, text: str) -> Path:
 
 
 def test_a_plan_has_the_template_at_every_place(tmp_path: Path) -> None:
-    """In mm, turned by degrees; a mirrored module has its x reversed."""
+    """In mm, turned by degrees; a mirrored module has its x reversed, for it is seen from behind."""
     path = _written(tmp_path, "plan.ini", PLAN)
     patch = describe_patch(path)
     assert (patch.name, patch.frame, patch.columns) == ("shank_lower", "u-v plane", 192)
@@ -79,6 +79,8 @@ def test_a_plan_has_the_template_at_every_place(tmp_path: Path) -> None:
     assert np.abs(patch.positions[:10] - template).max() < 1e-15
     assert np.abs(patch.positions[10:20] - (template * [1.0, -1.0, 1.0] + [-0.016, 0.009, 0.0])).max() < 1e-15
     assert np.abs(patch.positions[20:] - (template * [-1.0, -1.0, 1.0] + [0.016, 0.009, 0.0])).max() < 1e-15
+    assert patch.normals is not None
+    assert patch.normals[[0, 10, 20], 2].tolist() == [1.0, -1.0, 1.0]
     assert patch.lines[[0, 12, 24]].tolist() == [7, 8, 5]
     assert [module.number for module in read_plan(path)] == [2, 0, 1]
 

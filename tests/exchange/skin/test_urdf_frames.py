@@ -25,8 +25,8 @@ link = "shank"
 frames = "shank_skin_{module}"
 columns = 252
 """
-NEAR_M = 0.001
-"""Mean distance of taxels that a plan and centres place on a cylinder of 60 mm; m. Measured: 0.5 mm."""
+NEAR_M = 3e-4
+"""Mean distance of taxels that a plan and centres place on a cylinder of 60 mm; m. Measured: 0.15 mm."""
 
 
 def _urdf(poses: dict[int, tuple[FloatArray, str]]) -> str:

@@ -47,7 +47,7 @@ class SkinGuiPlan:
             text: Its content.
 
         Returns:
-            The patch in the plane of the drawing, with normals towards the reader.
+            The patch in the plane of the drawing, with normals out of the link.
         """
         plan = planned_modules(path, text)
         return modular_patch(
@@ -57,7 +57,7 @@ class SkinGuiPlan:
             modules=[module.number for module in plan],
             poses=placed_on_paper(plan),
             lines=[module.line for module in plan],
-            mirrored=[module.mirrored for module in plan],
+            mirrored=[False] * len(plan),  # its image is the board as it is seen from behind
         )
 
 
