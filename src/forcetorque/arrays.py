@@ -38,6 +38,29 @@ def read_only(values: Any, *, name: str, shape: tuple[int | None, ...]) -> Float
     return array
 
 
+def read_only_integers(values: Any, *, name: str, shape: tuple[int | None, ...]) -> IntArray:
+    """Copy whole numbers to an int64 array that nobody can change afterwards.
+
+    Args:
+        values: Anything NumPy can turn into whole numbers; an empty list is none of them.
+        name: Name of the argument, for the message.
+        shape: Expected shape; `None` accepts any length of that axis.
+
+    Returns:
+        A read-only array of that shape.
+
+    Raises:
+        ShapeError: If the shape differs, or a number has a fraction.
+    """
+    given = np.asarray(values)
+    require_shape(given, name=name, shape=shape)
+    array = given.astype(np.int64)
+    if not np.array_equal(array, given):
+        raise ShapeError(f"{name}: expected whole numbers, got {given[array != given].flat[0]}")
+    array.setflags(write=False)
+    return array
+
+
 def _is_frozen(values: Any) -> bool:
     """Whether it is a C-ordered float64 array that nobody holds a writable view of by accident."""
     if not isinstance(values, np.ndarray) or values.dtype != np.float64 or not values.flags.c_contiguous:

@@ -13,13 +13,25 @@ import pytest
 
 from forcetorque.cli.main import app
 from forcetorque.recording import QUANTITIES
+from tests.cli.commands import question_of, typed_commands
 from tests.cli.json_schema import faults
 from tests.cli.outcome import Run
 from tests.experiments import TEXTS
 
-COMMANDS = sorted(str(command.name) for command in app.registered_commands)
+COMMANDS = typed_commands(app)
+GROUPS = sorted(str(group.typer_instance.info.name) for group in app.registered_groups if group.typer_instance)
 ROOT = Path(__file__).parents[2]
-FILES = ("experiment", "acceptance", "scenario", "recording", "calibration", "joint", "moments")
+FILES = (
+    "experiment",
+    "acceptance",
+    "scenario",
+    "recording",
+    "calibration",
+    "joint",
+    "moments",
+    "taxels",
+    "module_frames",
+)
 """What people write, and what is written to be read again."""
 OF_OPTIONS = ("plan_jointly",)
 """Results of commands that an option asks something else."""
@@ -37,7 +49,11 @@ JSON_SCHEMAS = (
     "gains",
     "plan",
     "report",
+    "skin_calibrate",
+    "skin_check",
+    "skin_wrench",
     "study",
+    "taxels",
 )
 
 
@@ -47,21 +63,38 @@ def _paragraphs(help_text: str) -> list[str]:
 
 def test_there_are_commands() -> None:
     """The tests below look at something."""
-    assert {"calibrate", "evaluate", "schema"} <= set(COMMANDS)
+    assert {"calibrate", "evaluate", "schema", "skin check"} <= set(COMMANDS)
+
+
+def _listed(help_text: str) -> list[str]:
+    """Names below `Commands:`, all with a line that says what they are for."""
+    return sorted(re.findall(r"^  (\w+)  +[A-Z]", help_text.partition("Commands:")[2], re.MULTILINE))
 
 
 def test_the_help_lists_every_command(run: Run) -> None:
-    """Asked for help the program lists its commands; without a word it does so too, and fails."""
+    """Asked for help the program lists its commands and groups; without a word it does so too, and fails."""
     asked, bare = run("--help"), run()
     assert asked.code == 0
     assert (bare.code, bare.out + bare.err) == (2, asked.out)
-    assert sorted(re.findall(r"^  (\w+)  ", asked.out.partition("Commands:")[2], re.MULTILINE)) == COMMANDS
+    assert _listed(asked.out) == sorted([name for name in COMMANDS if " " not in name] + GROUPS)
+
+
+@pytest.mark.parametrize("group", GROUPS)
+def test_the_help_of_a_group_lists_its_commands(run: Run, group: str) -> None:
+    """As that of the program does, below one sentence that says what they are about."""
+    asked, bare = run(group, "--help"), run(group)
+    assert (asked.code, asked.err) == (0, "")
+    assert (bare.code, bare.out + bare.err) == (2, asked.out)
+    usage, sentence, *_ = asked.out.split("\n\n")
+    assert re.match(rf"Usage: .*\bforcetorque {group} ", usage)
+    assert re.fullmatch(r"  [A-Z][^\n]+\.", sentence)
+    assert [f"{group} {name}" for name in _listed(asked.out)] == [name for name in COMMANDS if name.split()[0] == group]
 
 
 @pytest.mark.parametrize("command", COMMANDS)
 def test_the_help_of_a_command_has_one_line_and_an_example(run: Run, command: str) -> None:
     """One sentence says what it does, one line can be copied; every option is explained."""
-    asked = run(command, "--help")
+    asked = run(*command.split(), "--help")
     assert (asked.code, asked.err) == (0, "")
     usage, sentence, example, *_ = asked.out.split("\n\n")
     assert re.match(rf"Usage: .*\bforcetorque {command} ", usage)
@@ -79,7 +112,7 @@ def test_the_example_of_a_command_can_be_typed(
 ) -> None:
     """Where its files are missing, that is the only complaint; the words themselves are right."""
     monkeypatch.chdir(tmp_path)
-    example = next(text for text in _paragraphs(run(command, "--help").out) if text.startswith("Example: "))
+    example = next(text for text in _paragraphs(run(*command.split(), "--help").out) if text.startswith("Example: "))
     _, name, *words = example.split()
     assert name == "forcetorque"
     ended = run(*words)
@@ -92,8 +125,8 @@ def test_the_example_of_a_command_can_be_typed(
 
 @pytest.mark.parametrize("command", COMMANDS)
 def test_the_readme_names_every_command(command: str) -> None:
-    """Who reads the README learns that the command exists."""
-    assert re.search(rf"\bforcetorque {command}\b", (ROOT / "README.md").read_text(encoding="utf-8"))
+    """Who reads the README learns that the command, or its group, exists."""
+    assert re.search(rf"\bforcetorque {command.split()[0]}\b", (ROOT / "README.md").read_text(encoding="utf-8"))
 
 
 def test_the_version_is_that_of_the_package(run: Run) -> None:
@@ -111,7 +144,7 @@ def _names(run: Run) -> list[str]:
 def test_an_unknown_schema_leads_to_the_known_ones(run: Run) -> None:
     """The error lists files and every command that has a result; the help those files; each is printed as JSON."""
     names = _names(run)
-    assert set(names) == {*FILES, *OF_OPTIONS, *COMMANDS} - {"schema"}
+    assert set(names) == {*FILES, *OF_OPTIONS, *map(question_of, COMMANDS)} - {"schema"}
     (argument,) = re.findall(r"Arguments:\n((?:.+\n)+)", run("schema", "--help").out)
     assert all(re.search(rf"\b{name}\b", argument) for name in FILES)
     for name in names:
@@ -162,6 +195,8 @@ def test_experiment_files_fit_the_printed_schema(run: Run, form: str) -> None:
         {"name": 3},
         {"calibration": {"lambda_counts2": -1}},
         {"sensor": []},
+        {"patch": []},
+        {"patch": [{"name": "palm"}]},
     ]
     for damage in bad:
         assert faults({**content, **damage}, schema) != []

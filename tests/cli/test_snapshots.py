@@ -14,8 +14,11 @@ import pytest
 
 from forcetorque.cli.main import app
 from forcetorque.result import Result
+from tests.chambers import write_chambers
+from tests.cli.commands import question_of, typed_commands
 from tests.cli.outcome import Run
 from tests.experiments import PARQUET, TWO
+from tests.patches import collapsed, cylinder_patch, position_text
 
 WIDTHS = (60, 80, 100, 120)
 FOLDER = Path(__file__).parent / "snapshots"
@@ -34,6 +37,8 @@ COMMANDS = {
     "inspect": ("inspect", "faulty.toml"),
     "plan": ("plan", PARQUET, "-c", "fitted.json", "--clearance-deg", "12", "--seconds", "20", "--recordings", "2"),
     "report": ("report", PARQUET, "fitted.json", "-o", "report.html"),
+    "skin calibrate": ("skin", "calibrate", "fit.toml", "kept.toml", "-o", "palm.json"),
+    "skin check": ("skin", "check", "patch.txt"),
     "sphere": ("sphere", PARQUET, "-c", "fitted.json"),
     "study": ("study", PARQUET, "-o", "study", *SHORT),
     "validate": ("validate", TWO, "-c", "fitted.json"),
@@ -56,7 +61,7 @@ def shown_widths(monkeypatch: pytest.MonkeyPatch) -> None:
 
 def test_every_command_is_here() -> None:
     """A new command gets its picture."""
-    assert {str(command.name) for command in app.registered_commands} == COMMANDS.keys() | WITHOUT_TABLE
+    assert set(typed_commands(app)) == COMMANDS.keys() | WITHOUT_TABLE
 
 
 @pytest.mark.usefixtures("shown_widths", "blank_pictures")
@@ -70,12 +75,14 @@ def test_the_layout_is_that_which_was_looked_at(arm: Path, run: Run, name: str, 
         .replace('stream = "arm_ft"', 'stream = "arm_ft"\nlimit_counts = 9000')
     )
     (arm / "faulty.toml").write_text(faulty, encoding="utf-8")
+    write_chambers(arm)
+    (arm / "patch.txt").write_text(position_text(collapsed(cylinder_patch(), 4)), encoding="utf-8")
     ended = run(*COMMANDS[name])
     assert ended.code in (0, 1), ended.err
     shown = re.sub(
         r"\d", "0", re.sub(r"(?<======) (\d+) (?=====)", lambda match: f" {'x' * int(match[1])} ", ended.out)
     )
-    file = FOLDER / f"{name}.txt"
+    file = FOLDER / f"{question_of(name)}.txt"
     if request.config.getoption("--write-snapshots"):
         file.write_text(shown, encoding="utf-8")
     assert shown == file.read_text(encoding="utf-8")

@@ -21,12 +21,14 @@ from forcetorque.analysis import (
     LearntDirection,
     Reason,
     SensorSphere,
+    SkinWrenchPicture,
     TrialGroup,
     TrialSphere,
     UseError,
     UseVerdict,
     group_trials,
 )
+from forcetorque.analysis.skin_picture import TaxelPicture
 from forcetorque.calibration.joint import PartResidual
 from forcetorque.evaluation.sphere import analyse_sphere
 from forcetorque.report.figures import (
@@ -42,12 +44,18 @@ from forcetorque.report.figures import (
     lambda_force_figure,
     learnt_figure,
     residual_figure,
+    skin_layout_figure,
+    skin_wrench_figure,
     space_figure,
     sphere_figure,
+    taxel_figure,
     use_figure,
 )
 from forcetorque.report.figures.canvas import png_bytes
+from forcetorque.skin.surface import skin_surface, unrolled
 from forcetorque.spatial import WRENCH_COMPONENTS
+from tests.patches import cylinder_patch
+from tests.skin.skins import cylinder
 
 LAMBDAS = np.array([0, 1, 5, 10, 50, 100, 1e3, 5e3, 1e4, 5e4, 1e5, 5e5, 1e6])
 """Those of the thesis, table 5.5; counts2."""
@@ -180,6 +188,54 @@ def _joint(rng: np.random.Generator) -> Figure:
     )
 
 
+def _taxel(rng: np.random.Generator) -> Figure:
+    seconds = 0.1 * np.arange(600)
+    pressure = 3e5 * np.clip(1.1 - np.abs(seconds / 30.0 - 1.0), 0.0, 1.0)
+    fall = np.rint(pressure[:, None] / rng.uniform(6e3, 1e4, 8) + rng.normal(0.0, 0.6, (600, 8)))
+    levels = np.linspace(0.0, 50.0, 100)
+    curves = {
+        "monotone": 8e3 * levels,
+        "line": 8.2e3 * levels,
+        "polynomial": 2e2 * levels**2,
+        "capacitor": 7e3 * levels,
+    }
+    return taxel_figure(
+        TaxelPicture(
+            recording="chamber: up and down",
+            seconds=seconds,
+            pressure=pressure,
+            fall=fall,
+            mean_fall=fall.mean(axis=1),
+            names=tuple(f"taxel {k}" for k in range(8)),
+            curves=curves,
+            levels=levels,
+            highest=1.5e5,
+        )
+    )
+
+
+def _skin_wrench(rng: np.random.Generator) -> Figure:
+    surface = skin_surface(cylinder())
+    pressures = 2e4 * np.exp(-0.5 * (np.linalg.norm(surface.positions - surface.positions[100], axis=1) / 0.012) ** 2)
+    seconds = np.linspace(0.0, 60.0, 300)
+    load = 9.81 * np.clip(np.sin(0.2 * seconds), 0.0, 1.0)
+    return skin_wrench_figure(
+        SkinWrenchPicture(
+            patch="lower leg",
+            seconds=seconds,
+            forces={
+                "kriging, norm of the force": load + rng.normal(0.0, 0.2, 300),
+                "simple, norm of the force": 0.8 * load,
+            },
+            places=unrolled(surface),
+            triangles=surface.triangles,
+            pressures=pressures,
+            pressed_s=7.8,
+        ),
+        load,
+    )
+
+
 def _learnt(rng: np.random.Generator) -> Figure:
     return learnt_figure({"one recording": learnt_of(rng), "all": learnt_of(rng)})
 
@@ -275,6 +331,13 @@ def _index(rng: np.random.Generator) -> Figure:
     return index_figure(trial_groups(rng, sensors=2, trials=2, caps=1))
 
 
+def _skin_layout(rng: np.random.Generator) -> Figure:
+    patch = cylinder_patch()
+    assert patch.normals is not None
+    placeholder = np.tile(rng.normal(size=3) / 3.0, (len(patch), 1))
+    return skin_layout_figure(patch.positions, {"as written": placeholder, "rebuilt": patch.normals})
+
+
 FIGURES: dict[str, Callable[[np.random.Generator], Figure]] = {
     "space": _space,
     "force space": _force_space,
@@ -289,7 +352,10 @@ FIGURES: dict[str, Callable[[np.random.Generator], Figure]] = {
     "held out": _held_out,
     "joint": _joint,
     "learnt": _learnt,
+    "skin_wrench": _skin_wrench,
+    "taxel": _taxel,
     "index": _index,
+    "skin layout": _skin_layout,
     "use": _use,
 }
 """A figure of every kind that is drawn from plain arrays, of random data."""

@@ -74,6 +74,10 @@ from forcetorque.analysis.sensor_calibration import (
 )
 from forcetorque.analysis.sensor_run import SensorRun
 from forcetorque.analysis.sensor_sphere import SensorSphere, sensor_spheres, sphere_intervals
+from forcetorque.analysis.skin_calibrate import SkinCalibration, calibrate_skin, read_patches
+from forcetorque.analysis.skin_check import LayoutFindingRow, SkinCheck, check_patch, check_skin
+from forcetorque.analysis.skin_contact_rows import SkinContactRow, SkinWrenchPicture
+from forcetorque.analysis.skin_wrench import SkinWrench, WrenchChoice, skin_wrench
 from forcetorque.analysis.sphere import Spheres, spheres, spheres_of_sensors
 from forcetorque.analysis.sphere_rows import FailureRow, SphereRow
 from forcetorque.analysis.static_checks import IntervalOffset, StaticChecks, check
@@ -101,6 +105,15 @@ __all__ = [
     "loads_of_use",
     "use_sentences",
     "use_verdicts",
+    "LayoutFindingRow",
+    "SkinCheck",
+    "SkinContactRow",
+    "SkinWrench",
+    "SkinWrenchPicture",
+    "WrenchChoice",
+    "skin_wrench",
+    "check_patch",
+    "check_skin",
     "LearntDirection",
     "learnt_directions",
     "learnt_words",
@@ -149,6 +162,7 @@ __all__ = [
     "SensorRun",
     "SensorSphere",
     "SensorStudy",
+    "SkinCalibration",
     "SphereRow",
     "Spheres",
     "StaticChecks",
@@ -172,6 +186,7 @@ __all__ = [
     "calibration_file",
     "joint_interval",
     "calibrate_sensor",
+    "calibrate_skin",
     "check",
     "compare",
     "compare_with_prior",
@@ -196,6 +211,7 @@ __all__ = [
     "joint_torques",
     "one_per_sensor",
     "read_acceptance",
+    "read_patches",
     "read_population",
     "read_study_data",
     "read_trials",

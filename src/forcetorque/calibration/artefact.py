@@ -25,12 +25,12 @@ from forcetorque.arrays import BoolArray, FloatArray
 from forcetorque.atomic import write_bytes_atomically
 from forcetorque.calibration.fitted_loads import FittedLoads
 from forcetorque.calibration.nonlinear_trial import NonlinearTrial
-from forcetorque.calibration.part import Part, checked_part, read_json
 from forcetorque.calibration.posterior import Posterior
 from forcetorque.calibration.quadratic_correction import QuadraticCorrection
 from forcetorque.calibration.secondary import secondary_matrix
 from forcetorque.calibration.wrench_model import WrenchModel
 from forcetorque.errors import FormatError, RecordingError, SerialNumberError, ShapeError
+from forcetorque.part import Part, checked_part, read_json
 from forcetorque.result import Table, html_table
 from forcetorque.spatial import WRENCH_COMPONENTS, WRENCH_UNITS, MeasureDirection
 

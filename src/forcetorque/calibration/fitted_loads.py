@@ -10,7 +10,7 @@ import numpy as np
 
 from forcetorque.array_field import ArrayField
 from forcetorque.arrays import FloatArray
-from forcetorque.calibration.part import Part
+from forcetorque.part import Part
 
 _Wrench = Annotated[FloatArray, ArrayField((6,))]
 

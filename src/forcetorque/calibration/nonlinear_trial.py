@@ -9,7 +9,7 @@ import numpy as np
 
 from forcetorque.array_field import ArrayField
 from forcetorque.arrays import FloatArray
-from forcetorque.calibration.part import Part
+from forcetorque.part import Part
 
 CLEARLY: Final = 0.9
 """Pooled error with the correction over that without, below which it is kept."""

@@ -21,8 +21,8 @@ from pydantic import Field
 
 from forcetorque.array_field import ArrayField
 from forcetorque.arrays import FloatArray, require_shape
-from forcetorque.calibration.part import Part
 from forcetorque.errors import ShapeError, known_names
+from forcetorque.part import Part
 
 
 class RowNoise(Part):

@@ -19,7 +19,7 @@ from pydantic_core import PydanticCustomError
 
 from forcetorque.array_field import ArrayField
 from forcetorque.arrays import BoolArray, FloatArray, require_last_axis
-from forcetorque.calibration.part import Part
+from forcetorque.part import Part
 
 PAIRS: Final = np.triu_indices(6)
 """Pairs of components of the load whose products are the 21 quadratic terms."""

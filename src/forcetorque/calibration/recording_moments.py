@@ -20,8 +20,8 @@ from forcetorque.calibration.generative.assumptions import Assumptions
 from forcetorque.calibration.generative.means import WindowMeans
 from forcetorque.calibration.linear_variable import LinearVariable
 from forcetorque.calibration.moments import Moments
-from forcetorque.calibration.part import Part, read_part
 from forcetorque.errors import FitError
+from forcetorque.part import Part, read_part
 
 SCHEMA: Final = "forcetorque/moments/1"
 """Name and version of the file's form."""

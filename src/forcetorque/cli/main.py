@@ -23,6 +23,7 @@ from forcetorque.cli.plan import plan
 from forcetorque.cli.report import report
 from forcetorque.cli.schema import schema
 from forcetorque.cli.simulate import simulate
+from forcetorque.cli.skin import skin
 from forcetorque.cli.sphere import sphere
 from forcetorque.cli.study import study
 from forcetorque.cli.validate import validate
@@ -69,20 +70,27 @@ _COMMANDS = (
     view,
 )
 
+_GROUPS = (skin,)
+"""Commands that stand behind the name of what they are about."""
+
 for _command in _COMMANDS:
     app.command(_command.__name__)(_command)
+for _group in _GROUPS:
+    app.add_typer(_group)
 
 
 def _program(first: list[str]) -> typer.Typer:
     """The program with the one command that is asked for: making the others and its own options ready takes longer."""
     # options of the program itself stand before a command, so with a command first there are none
+    one = typer.Typer(name=app.info.name, add_completion=False, pretty_exceptions_enable=False, rich_markup_mode=None)
+    one.callback(add_help_option=False)(_no_options)
     for command in _COMMANDS:
         if [command.__name__] == first:
-            one = typer.Typer(
-                name=app.info.name, add_completion=False, pretty_exceptions_enable=False, rich_markup_mode=None
-            )
-            one.callback(add_help_option=False)(_no_options)
             one.command(command.__name__)(command)
+            return one
+    for group in _GROUPS:
+        if [group.info.name] == first:
+            one.add_typer(group)
             return one
     return app
 

@@ -17,8 +17,8 @@ def schema(
     name: Annotated[
         str,
         typer.Argument(
-            help="experiment, acceptance, scenario, recording, calibration, joint or moments for a file; a command for "
-            "its result."
+            help="experiment, acceptance, scenario, recording, calibration, joint, moments, taxels or module_frames "
+            "for a file; a command, with _ for its space, for its result."
         ),
     ],
 ) -> None:
@@ -40,9 +40,11 @@ def _files() -> dict[str, Callable[[], dict[str, Any]]]:
     from forcetorque.analysis import AcceptanceFile
     from forcetorque.calibration import Calibration, RecordingMoments
     from forcetorque.calibration.joint import JointPosterior
+    from forcetorque.exchange.skin import ModuleFrames
     from forcetorque.experiment import ExperimentFile
     from forcetorque.recording import recording_schema
     from forcetorque.simulation.scenario import ScenarioFile
+    from forcetorque.skin import PatchCalibration
 
     return {
         "experiment": ExperimentFile.model_json_schema,
@@ -52,6 +54,8 @@ def _files() -> dict[str, Callable[[], dict[str, Any]]]:
         "calibration": Calibration.model_json_schema,
         "joint": JointPosterior.model_json_schema,
         "moments": RecordingMoments.model_json_schema,
+        "taxels": PatchCalibration.model_json_schema,
+        "module_frames": ModuleFrames.model_json_schema,
     }
 
 

@@ -16,6 +16,7 @@ from pydantic_core import CoreSchema
 
 from forcetorque.errors import FormatError
 from forcetorque.exchange.log_format import LogContext, LogFormat, LogReading, LogTable
+from forcetorque.exchange.matlab import MatlabFormat
 from forcetorque.exchange.parquet import ParquetFormat
 from forcetorque.exchange.tabular.log_format import TabularFormat
 from forcetorque.exchange.yarp.log_format import YarpFormat
@@ -24,6 +25,7 @@ LOG_FORMATS: tuple[LogFormat[Any], ...] = (
     YarpFormat(),
     ParquetFormat(),
     TabularFormat(),
+    MatlabFormat(),
 )
 
 

@@ -4,12 +4,17 @@
 from forcetorque.experiment.content import Experiment, ExperimentSensor
 from forcetorque.experiment.load import load_experiment
 from forcetorque.experiment.parse import parse_experiment
+from forcetorque.experiment.patches import ExperimentPatch, PatchExperiment, PatchInterval, load_patches
 from forcetorque.experiment.schema import ExperimentFile
 
 __all__ = [
     "Experiment",
     "ExperimentFile",
+    "ExperimentPatch",
     "ExperimentSensor",
+    "PatchExperiment",
+    "PatchInterval",
     "load_experiment",
+    "load_patches",
     "parse_experiment",
 ]

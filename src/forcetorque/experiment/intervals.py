@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import Protocol
 
 from forcetorque.errors import ExperimentError, known_names
 from forcetorque.estimation.root_motion import IMU_QUANTITIES, imu_frame
@@ -81,7 +82,6 @@ def read_intervals(
     """
     with stated_in(f"{file}: recording"):
         start, end = recording.span_ns
-    log_s = (end - start) // 1_000_000 / 1000  # rounded down, so that who copies it from the message stays inside
     found = []
     for index, span in enumerate(parsed.interval):
         where = f"{file}: interval[{index}] {span.label!r}"
@@ -89,22 +89,17 @@ def read_intervals(
             raise ExperimentError(
                 f"{where}: no [[support]] has the frame {span.support!r}; {known_names(span.support, supports)}"
             )
-        end_ns = end + 1 if span.end_s is None else start + round(min(span.end_s, _FAR_S) * 1e9)
-        if span.start_s < 0.0 or max(span.start_s * 1e9, end_ns - start) > end - start + 1.5:
-            raise ExperimentError(
-                f"{where}: expected a span inside the log, 0 to {log_s:.3f} s, "
-                f"got {span.start_s:g} to {(end_ns - start) * 1e-9 if span.end_s is None else span.end_s:g} s"
-            )
+        start_ns, end_ns = span_ns(where, span, start, end)
         with stated_in(f"{file}: interval[{index}]"):
             interval = Interval(
                 label=span.label,
-                start_ns=start + round(span.start_s * 1e9),
+                start_ns=start_ns,
                 end_ns=end_ns,
                 use=span.use,
                 support=_support(span, supports, recording, model, default),
             )
         found.append(interval)
-    _refuse_overlap(file, found)
+    refuse_overlap(file, found)
     return found
 
 
@@ -134,8 +129,61 @@ def _support(
     return support
 
 
-def _refuse_overlap(file: Path, intervals: list[Interval]) -> None:
-    """Refuse samples that would be fitted and judged, or fitted twice."""
+def span_ns(where: str, span: schema.Interval, start: int, end: int) -> tuple[int, int]:
+    """Bring a span to the clock of the recording.
+
+    Args:
+        where: File and table, for messages.
+        span: The span; s from the earliest stamp.
+        start: Earliest stamp of the recording; ns.
+        end: Latest stamp; ns.
+
+    Returns:
+        First instant, and first instant after it; ns.
+
+    Raises:
+        ExperimentError: If it lies outside the log.
+    """
+    log_s = (end - start) // 1_000_000 / 1000  # rounded down, so that who copies it from the message stays inside
+    end_ns = end + 1 if span.end_s is None else start + round(min(span.end_s, _FAR_S) * 1e9)
+    if span.start_s < 0.0 or max(span.start_s * 1e9, end_ns - start) > end - start + 1.5:
+        raise ExperimentError(
+            f"{where}: expected a span inside the log, 0 to {log_s:.3f} s, "
+            f"got {span.start_s:g} to {(end_ns - start) * 1e-9 if span.end_s is None else span.end_s:g} s"
+        )
+    return start + round(span.start_s * 1e9), end_ns
+
+
+class UsedSpan(Protocol):
+    """A span of time with a use."""
+
+    @property
+    def label(self) -> str:
+        """Name."""
+
+    @property
+    def start_ns(self) -> int:
+        """First instant; ns."""
+
+    @property
+    def end_ns(self) -> int:
+        """First instant after it; ns."""
+
+    @property
+    def use(self) -> Use:
+        """What it is for."""
+
+
+def refuse_overlap(file: Path, intervals: Sequence[UsedSpan]) -> None:
+    """Refuse samples that would be fitted and judged, or fitted twice.
+
+    Args:
+        file: The experiment file, for messages.
+        intervals: Its intervals.
+
+    Raises:
+        ExperimentError: If two that are used overlap.
+    """
     used = [interval for interval in intervals if interval.use is not Use.IGNORE]
     for k, first in enumerate(used):
         for second in used[k + 1 :]:

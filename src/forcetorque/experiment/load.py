@@ -42,6 +42,11 @@ def load_experiment(path: Path | str) -> Experiment:
     """
     file = Path(path)
     parsed = parse_experiment(file)
+    if not parsed.sensor:
+        raise ExperimentError(
+            f"{file}: expected [[sensor]], a force-torque sensor, got patches of skin only; `forcetorque skin` and "
+            "`forcetorque inspect` read such a file"
+        )
     return _of_wrist(parsed, file) if parsed.load is not None else _of_robot(parsed, file)
 
 

@@ -8,6 +8,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import (
     BeforeValidator,
+    ConfigDict,
     Discriminator,
     Field,
     Tag,
@@ -132,6 +133,23 @@ class Sensor(Table):
                 "gain_missing", "allowed_gains needs amplifier_gain, the gains with which the recording was made"
             )
         return self
+
+
+class Patch(Table):
+    """A patch of artificial skin."""
+
+    name: Text
+    """Name of the patch."""
+    counts: Text
+    """Stream of the recording that holds its `taxel_counts`."""
+    pressure: Text | None = None
+    """Stream with the `pressure` of the chamber or bag that it was calibrated in."""
+    serial: Text | None = None
+    """Serial number, or another mark that tells it from patches of the same name."""
+    layout: Path | None = None
+    """File that says where its taxels are; every column of the counts is one if left out."""
+    link: Text | None = None
+    """Link that it is mounted on; that of the layout if left out."""
 
 
 class Trial(Table):
@@ -331,6 +349,10 @@ class CalibrationTable(Table):
 class ExperimentFile(Table):
     """The whole file."""
 
+    model_config = ConfigDict(
+        **Table.model_config, json_schema_extra={"anyOf": [{"required": ["sensor"]}, {"required": ["patch"]}]}
+    )
+
     schema_name: Literal["forcetorque/experiment/1"] = Field(alias="schema")
     """Form of the file."""
     name: Text
@@ -341,8 +363,10 @@ class ExperimentFile(Table):
     """What hangs on a wrist sensor, in place of a robot."""
     recording: AnyLog
     """Where the recording is."""
-    sensor: Annotated[tuple[Sensor, ...], Field(min_length=1)]
-    """Sensors."""
+    sensor: Annotated[tuple[Sensor, ...], Field(min_length=1)] = ()
+    """Sensors; may be left out where the file is about skin alone."""
+    patch: Annotated[tuple[Patch, ...], Field(min_length=1)] = ()
+    """Patches of artificial skin."""
     support: tuple[Support, ...] = ()
     """Support frames; none with `load`."""
     interval: Annotated[tuple[Interval, ...], Field(min_length=1)]
@@ -364,6 +388,10 @@ class ExperimentFile(Table):
 
     @model_validator(mode="after")
     def _robot_or_load(self) -> ExperimentFile:
+        if not self.sensor and not self.patch:
+            raise PydanticCustomError("no_sensor", "expected [[sensor]], or [[patch]] for skin")
+        if not self.sensor:
+            return self
         if (self.robot is None) == (self.load is None):
             raise PydanticCustomError("robot_or_load", "expected [robot] with a URDF, or [load] for a wrist sensor")
         if self.robot is not None and not self.support and not any(one.touched for one in self.interval):

@@ -22,6 +22,8 @@ class Labels(StrEnum):
     """One column per joint, named as in the robot model."""
     CHANNELS = "channels"
     """One column per channel of the electronics, in the order of the electronics."""
+    TAXELS = "taxels"
+    """One column per number in a message of skin, in its order."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -127,6 +129,19 @@ QUANTITIES = {
             columns=("saturated",),
             units=("0 or 1",),
             description="Status of a board: 1 while a channel is at its limit and the last valid sample is held.",
+        ),
+        Quantity(
+            name="taxel_counts",
+            labels=Labels.TAXELS,
+            units=("counts",),
+            description="Reading of every taxel of a patch of skin as its electronics deliver it; pressure lowers it.",
+        ),
+        Quantity(
+            name="pressure",
+            labels=Labels.FIXED,
+            columns=("pressure",),
+            units=("Pa",),
+            description="Pressure of a chamber or bag above that of the air around, which skin is calibrated with.",
         ),
         Quantity(
             name="scalar",

@@ -12,6 +12,7 @@ _LABELS = {
     Labels.FIXED: "as listed",
     Labels.JOINTS: "one per joint, named as in the robot model",
     Labels.CHANNELS: "one per channel, in the order of the electronics",
+    Labels.TAXELS: "one per number in a message of skin, in its order",
 }
 
 

@@ -15,7 +15,7 @@ from forcetorque.atomic import write_bytes_atomically
 from forcetorque.calibration.artefact import JOINT_SCHEMA
 from forcetorque.calibration.joint.fit import JointFit
 from forcetorque.calibration.joint.windows import LENGTH_M
-from forcetorque.calibration.part import Part, read_part
+from forcetorque.part import Part, read_part
 
 
 class JointSensor(Part):

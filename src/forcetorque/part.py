@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The form of everything in a file of ours that holds a calibration."""
+"""The form of everything in a file of ours that holds a calibration, of a sensor or of skin."""
 
 from __future__ import annotations
 

@@ -1,0 +1,278 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Calibrate the taxels of a patch in a pressure chamber or a vacuum bag, and compare forms of curves."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from typing import Literal
+
+import numpy as np
+from pydantic import Field
+
+from forcetorque.analysis.campaign_recording import refuse_a_file_twice
+from forcetorque.analysis.skin_fit import FittedSamples, HeldOutErrors, fitted_samples, held_out_errors
+from forcetorque.analysis.skin_picture import TaxelPicture, taxel_picture
+from forcetorque.analysis.skin_recording import PatchRecording, of_use, patch_recordings, same_patch
+from forcetorque.analysis.skin_rows import (
+    CandidateRow,
+    SkinRecordingRow,
+    TaxelRow,
+    in_kPa,
+    recording_name,
+    recording_row,
+    taxel_row,
+)
+from forcetorque.errors import ExperimentError, FitError, known_names
+from forcetorque.experiment import ExperimentPatch, PatchExperiment, load_patches
+from forcetorque.recording import Use
+from forcetorque.result import Result, Table, table_of
+from forcetorque.skin.patch_calibration import CalibratedTaxel, PatchCalibration, PatchProvenance
+from forcetorque.skin.taxels import CurveKind, TaxelCurve, taxel_response
+
+_ALL = "all"
+_SHOWN = 12
+"""Taxels of the table; JSON and CSV have all."""
+
+
+class SkinCalibration(Result):
+    """Curves of the taxels of a patch, what they are worth, and which taxels have none."""
+
+    schema_name: Literal["forcetorque/skin_calibrate/1"] = Field(default="forcetorque/skin_calibrate/1", alias="schema")
+    """Form of the result."""
+    patch: str
+    """Name of the patch."""
+    serial: str | None
+    """Its serial number, if it has one."""
+    curve: str
+    """Form of the curves that were kept."""
+    highest_kPa: float
+    """Highest pressure above rest that was fitted."""
+    sound: int
+    """Taxels with a curve."""
+    left_out: int
+    """Taxels without."""
+    least_inside: str | None
+    """Candidate with the least error at fitted pressures where it was not fitted; None where nothing was kept back."""
+    least_above: str | None
+    """The same at higher pressures, among those that nowhere fall."""
+    file: str | None = None
+    """File of the calibration."""
+    figure: str | None = None
+    """File of the figure."""
+    taxels: tuple[TaxelRow, ...]
+    """Taxels in the order of their columns."""
+    candidates: tuple[CandidateRow, ...]
+    """Forms of curves on each recording that was not fitted, and on all."""
+    recordings: tuple[SkinRecordingRow, ...]
+    """Recordings, and how many taxels are sound in each."""
+    calibration: PatchCalibration = Field(exclude=True, repr=False)
+    """The curves."""
+    picture: TaxelPicture = Field(exclude=True, repr=False)
+    """Samples and curves, for figures."""
+
+    def blocks(self) -> Iterator[Table | str]:
+        """Give recordings, candidates, the first taxels, and a sentence.
+
+        Yields:
+            Tables and sentences.
+        """
+        yield table_of(self.recordings, f"{self.patch}: taxels by recording")
+        if self.candidates:
+            yield table_of(self.candidates, "where they were not fitted: medians over taxels of their rmse")
+        yield table_of(self.taxels[:_SHOWN], f"taxels with the curve {self.curve}")
+        if len(self.taxels) > _SHOWN:
+            yield f"{len(self.taxels) - _SHOWN} more taxels; --format csv or json has all"
+        yield (
+            f"{self.sound} of {len(self.taxels)} taxels have a curve ({self.curve}, fitted up to "
+            f"{self.highest_kPa:.0f} kPa); {self.left_out} were left out"
+        )
+        if self.least_inside is not None:
+            above = "" if self.least_above is None else f"; above them, of those that nowhere fall, {self.least_above}"
+            yield f"least error at fitted pressures: {self.least_inside}{above}"
+        for name, file in (("kept in", self.file), ("drawn to", self.figure)):
+            if file is not None:
+                yield f"{name} {file}"
+
+
+def calibrate_skin(
+    experiments: Sequence[Path | str | PatchExperiment],
+    *,
+    code_version: str,
+    created: str,
+    patch: str | None = None,
+    curve: str = CurveKind.MONOTONE,
+    highest_pa: float | None = None,
+) -> SkinCalibration:
+    """Fit a curve to every sound taxel of a patch.
+
+    All forms of curves are fitted to the calibration intervals and judged on the validation intervals; one is kept.
+
+    Args:
+        experiments: Experiment files with the patch, or what was read of them.
+        code_version: Version of this library.
+        created: Date and time, ISO 8601, UTC.
+        patch: Name of the patch; None for the only one.
+        curve: Form to keep: one of `CurveKind`.
+        highest_pa: Highest pressure above rest to fit; Pa; None for all.
+
+    Returns:
+        The curves, and what they are worth.
+
+    Raises:
+        FitError: If there is no such form, or no taxel is sound.
+        ExperimentError: If no interval is for calibration.
+    """
+    if curve not in list(CurveKind):
+        raise FitError(f"no curve is called {curve!r}; {known_names(curve, CurveKind)}")
+    contents = read_patches(experiments)
+    patches = same_patch(contents, patch)
+    logs = [log for content, own in zip(contents, patches, strict=True) for log in patch_recordings(content, own)]
+    if not of_use(logs, Use.CALIBRATION):
+        raise ExperimentError(f'{contents[0].file}: expected an interval with use = "calibration", got none')
+    samples = fitted_samples(of_use(logs, Use.CALIBRATION), highest_pa)
+    curves = {kind: samples.fit(kind) for kind in CurveKind}
+    kept = CurveKind(curve)
+    artefact = _artefact(contents, patches[0], logs, samples, curves[kept], kept, code_version, created)
+    return _answer(artefact, logs, samples, curves)
+
+
+def read_patches(experiments: Sequence[Path | str | PatchExperiment]) -> list[PatchExperiment]:
+    """Read the patches of experiment files.
+
+    Args:
+        experiments: Files, or what was read of them.
+
+    Returns:
+        What they hold.
+
+    Raises:
+        ExperimentError: If there is no file.
+    """
+    if not experiments:
+        raise ExperimentError("expected an experiment file with [[patch]], got none")
+    refuse_a_file_twice([Path(entry) for entry in experiments if isinstance(entry, (Path, str))])
+    return [load_patches(entry) if isinstance(entry, (Path, str)) else entry for entry in experiments]
+
+
+def _artefact(
+    contents: Sequence[PatchExperiment],
+    patch: ExperimentPatch,
+    logs: Sequence[PatchRecording],
+    samples: FittedSamples,
+    curves: Sequence[TaxelCurve | None],
+    kind: CurveKind,
+    code_version: str,
+    created: str,
+) -> PatchCalibration:
+    fitted = of_use(logs, Use.CALIBRATION)
+    return PatchCalibration(
+        patch=patch.name,
+        serial=patch.serial,
+        columns=patch.columns,
+        curve=kind,
+        highest_pa=samples.highest,
+        taxels=tuple(_taxel(int(column), k, curves[k], samples) for k, column in enumerate(patch.taxels)),
+        provenance=PatchProvenance(
+            code_version=code_version,
+            created=created,
+            experiments=tuple(content.name for content in contents),
+            intervals=tuple(recording_name(log) for log in fitted),
+            samples=len(samples.pressure),
+            inputs_sha256={name: digest for content in contents for name, digest in content.inputs_sha256.items()},
+        ),
+    )
+
+
+def _taxel(column: int, k: int, curve: TaxelCurve | None, samples: FittedSamples) -> CalibratedTaxel:
+    if curve is None:
+        return CalibratedTaxel(taxel=column, left_out=tuple(reason.value for reason in samples.ailments[k]))
+    response = taxel_response(curve, samples.fall[:, k], samples.pressure, samples.unloading)
+    return CalibratedTaxel(
+        taxel=column,
+        coefficients=curve.coefficients,
+        range_counts=curve.range_counts,
+        rmse_pa=response.rmse_pa,
+        error_pa=response.error_pa,
+        hysteresis_pa=response.hysteresis_pa,
+        hysteresis_share=response.hysteresis_share,
+    )
+
+
+def _answer(
+    artefact: PatchCalibration,
+    logs: Sequence[PatchRecording],
+    samples: FittedSamples,
+    curves: dict[CurveKind, list[TaxelCurve | None]],
+) -> SkinCalibration:
+    held_out, fitted = of_use(logs, Use.VALIDATION), of_use(logs, Use.CALIBRATION)[0]
+    candidates: list[CandidateRow] = []
+    pooled: dict[CurveKind, HeldOutErrors] = {}
+    for kind, own in curves.items():
+        falling = _falling(own)
+        errors = [held_out_errors(own, log, samples.highest) for log in held_out]
+        sound = [error.of(log.sound) for error, log in zip(errors, held_out, strict=True)]
+        for log, error, kept in zip(held_out, errors, sound, strict=True):
+            candidates.append(_candidate(kind, recording_name(log), kept, error, falling))
+        if held_out:
+            pooled[kind] = _sum(sound)
+            candidates.append(_candidate(kind, _ALL, pooled[kind], _sum(errors), falling))
+    own_errors = pooled[artefact.curve].rmse if pooled else np.full((2, len(artefact.taxels)), np.nan)
+    total = [row for row in candidates if row.recording == _ALL]
+    left_out = sum(taxel.coefficients is None for taxel in artefact.taxels)
+    return SkinCalibration(
+        patch=artefact.patch,
+        serial=artefact.serial,
+        curve=artefact.curve.value,
+        highest_kPa=1e-3 * artefact.highest_pa,
+        sound=len(artefact.taxels) - left_out,
+        left_out=left_out,
+        least_inside=_least({row.curve: row.inside_kPa for row in total}),
+        least_above=_least({row.curve: row.above_kPa for row in total if not row.falling}),
+        taxels=tuple(taxel_row(taxel, *map(float, own_errors[:, k])) for k, taxel in enumerate(artefact.taxels)),
+        candidates=tuple(candidates),
+        recordings=tuple(recording_row(log) for log in logs),
+        calibration=artefact,
+        picture=taxel_picture(
+            fitted,
+            recording_name(fitted),
+            [taxel.taxel for taxel in artefact.taxels],
+            {kind.value: own for kind, own in curves.items()},
+            samples.highest,
+        ),
+        warnings=() if held_out else ("no interval for validation: nothing says how good the curves are elsewhere",),
+    )
+
+
+def _sum(errors: Sequence[HeldOutErrors]) -> HeldOutErrors:
+    first, *more = errors
+    for error in more:
+        first += error
+    return first
+
+
+def _falling(curves: Sequence[TaxelCurve | None]) -> int:
+    fall = np.arange(256.0)
+    return sum(bool((np.diff(curve.pressure(fall)) < 0.0).any()) for curve in curves if curve is not None)
+
+
+def _candidate(kind: CurveKind, name: str, kept: HeldOutErrors, errors: HeldOutErrors, falling: int) -> CandidateRow:
+    taxels = int(np.count_nonzero(np.isfinite(kept.rmse).any(axis=0)))
+    inside, above = kept.median()
+    inside_any, above_any = errors.median()
+    return CandidateRow(
+        curve=kind.value,
+        recording=name,
+        taxels=taxels,
+        left_out=kept.squares.shape[1] - taxels,
+        inside_kPa=in_kPa(inside),
+        above_kPa=in_kPa(above),
+        inside_any_kPa=in_kPa(inside_any),
+        above_any_kPa=in_kPa(above_any),
+        falling=falling,
+    )
+
+
+def _least(errors: dict[str, float | None]) -> str | None:
+    known = {name: error for name, error in errors.items() if error is not None}
+    return min(known, key=known.__getitem__) if known else None

@@ -1,0 +1,108 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""`forcetorque skin calibrate`: from counts of taxels to pressure."""
+
+from __future__ import annotations
+
+from enum import StrEnum
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from forcetorque.cli.options import FormatOption
+from forcetorque.cli.output import (
+    Format,
+    refuse_standard_output,
+    refuse_two_on_standard_output,
+    show,
+    show_warnings,
+    start_logging,
+)
+
+if TYPE_CHECKING:
+    from forcetorque.analysis import SkinCalibration
+
+
+class CurveChoice(StrEnum):
+    """Form of the curves that are kept."""
+
+    MONOTONE = "monotone"
+    LINE = "line"
+    POLYNOMIAL = "polynomial"
+    CAPACITOR = "capacitor"
+
+
+def calibrate(
+    experiments: Annotated[
+        list[Path],
+        typer.Argument(help="Experiment files (TOML) of one [[patch]]; see docs/taxel_calibration.md."),
+    ],
+    output: Annotated[Path, typer.Option("--output", "-o", help="File of the calibration (JSON) to write.")],
+    patch: Annotated[str | None, typer.Option("--patch", help="Name of the patch. Default: the only one.")] = None,
+    curve: Annotated[
+        CurveChoice, typer.Option("--curve", help="Form of the curves to keep; all are compared where not fitted.")
+    ] = CurveChoice.MONOTONE,
+    highest: Annotated[
+        float | None,
+        typer.Option("--highest-kPa", help="Highest pressure above rest to fit; higher ones only judge. Default: all."),
+    ] = None,
+    table: Annotated[
+        Path | None, typer.Option("--table", help="CSV of the pressure of every taxel at 0 to 255 counts below rest.")
+    ] = None,
+    figure: Annotated[
+        Path | None, typer.Option("--figure", help="PNG of pressure and counts over time, and of curves of taxels.")
+    ] = None,
+    output_format: FormatOption = Format.TABLE,
+) -> None:
+    """Fit the pressure curve of every taxel of a patch of skin.
+
+    Example: forcetorque skin calibrate fit.toml held_out.toml -o patch.json
+    """
+    from datetime import UTC, datetime
+    from importlib.metadata import version
+
+    from forcetorque import analysis
+    from forcetorque.atomic import refuse_unwritable
+    from forcetorque.cli.figure_file import refuse_figure
+    from forcetorque.cli.reading import refuse_inputs
+    from forcetorque.exchange.skin.pressure_table import write_pressure_table
+
+    log = start_logging()
+    refuse_two_on_standard_output(output, output_format)
+    refuse_standard_output("--table", table)
+    refuse_figure(figure)
+    written = [path for path in (output, table) if path is not None]
+    refuse_inputs(written, experiments)
+    for path in written:
+        refuse_unwritable(path)
+    contents = analysis.read_patches(experiments)
+    for content in contents:
+        for finding in content.recording.findings:
+            log.warning("%s: %s: %s", content.file, finding.stream, finding.message)
+    answer = analysis.calibrate_skin(
+        contents,
+        code_version=version("forcetorque"),
+        created=datetime.now(UTC).isoformat(timespec="seconds"),
+        patch=patch,
+        curve=curve.value,
+        highest_pa=None if highest is None else 1e3 * highest,
+    )
+    answer.calibration.save(output)
+    if table is not None:
+        write_pressure_table(table, answer.calibration.table())
+    answer = answer.model_copy(update={"file": str(output)})
+    if figure is not None:
+        answer = _drawn(answer, figure)
+    if output.name == "-":
+        show_warnings(answer)
+    else:
+        show(answer, output_format)
+
+
+def _drawn(answer: SkinCalibration, figure: Path) -> SkinCalibration:
+    from forcetorque.atomic import write_bytes_atomically
+    from forcetorque.report.figures import taxel_figure
+    from forcetorque.report.figures.canvas import png_bytes
+
+    write_bytes_atomically(figure, png_bytes(taxel_figure(answer.picture)))
+    return answer.model_copy(update={"figure": str(figure)})

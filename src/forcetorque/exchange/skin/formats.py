@@ -1,0 +1,104 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The forms of layouts that are known: to add one, write its file and add its line to `LAYOUT_FORMATS`."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Protocol
+
+from forcetorque.arrays import FloatArray
+from forcetorque.errors import FormatError, MissingFileError, SkinError
+from forcetorque.exchange.skin.icub_positions import IcubPositions
+from forcetorque.exchange.skin.layout_table import LayoutTable
+from forcetorque.exchange.skin.skin_gui import SkinGuiPlan
+from forcetorque.exchange.skin.taxel_array import TaxelArrayMessage
+from forcetorque.exchange.skin.urdf_frames import UrdfFrames
+from forcetorque.skin import PatchDescription, SkinLayout, patch_normals
+
+
+class LayoutFormat(Protocol):
+    """A form of layouts, recognised by the content of the file."""
+
+    @property
+    def sign(self) -> str:
+        """What it is recognised by, for the message where nothing is."""
+
+    def recognises(self, path: Path, text: str) -> bool:
+        """Tell whether a file is one.
+
+        Args:
+            path: File.
+            text: Its content.
+
+        Returns:
+            Whether it is.
+        """
+
+    def read(self, path: Path, text: str) -> PatchDescription:
+        """Read a file.
+
+        Args:
+            path: File.
+            text: Its content.
+
+        Returns:
+            What it says, sound or not.
+        """
+
+
+LAYOUT_FORMATS: tuple[LayoutFormat, ...] = (
+    IcubPositions(),
+    SkinGuiPlan(),
+    LayoutTable(),
+    TaxelArrayMessage(),
+    UrdfFrames(),
+)
+"""Forms of layouts, all of which are asked whether they know a file."""
+
+
+def describe_patch(path: Path | str) -> PatchDescription:
+    """Read what a file of any known form says of a patch, sound or not.
+
+    Args:
+        path: File.
+
+    Returns:
+        What it says.
+
+    Raises:
+        MissingFileError: If there is none.
+        FormatError: If it is of no known form, or of several, or not what its form has.
+    """
+    file = Path(path)
+    if not file.is_file():
+        raise MissingFileError(f"{file}: expected a file with a layout of skin, there is none")
+    try:
+        text = file.read_text(encoding="utf-8")
+    except UnicodeDecodeError as error:
+        raise FormatError(f"{file}: expected a text, got bytes that are none ({error})") from error
+    known = [form for form in LAYOUT_FORMATS if form.recognises(file, text)]
+    if len(known) != 1:
+        signs = "; or ".join(form.sign for form in (known or LAYOUT_FORMATS))
+        raise FormatError(f"{file}: expected {signs}; got {'several' if known else 'none of them'}")
+    return known[0].read(file, text)
+
+
+def read_layout(path: Path | str, *, rebuild_normals: bool = False, outward: FloatArray | None = None) -> SkinLayout:
+    """Read the layout of a patch, which must be sound.
+
+    Args:
+        path: File of any known form.
+        rebuild_normals: Whether to find the normals from the positions instead of taking those of the file.
+        outward: Rough outward direction in the link, for a flat patch without boards; shape (3,).
+
+    Returns:
+        The layout.
+
+    Raises:
+        SkinError: If it is not sound; `forcetorque skin check` says more.
+    """
+    patch = describe_patch(path)
+    try:
+        return patch.layout(patch_normals(patch, outward) if rebuild_normals else None)
+    except SkinError as error:
+        raise SkinError(f"{path}: {error}") from error

@@ -1,0 +1,186 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Patches of skin of an experiment: matched to their streams; neither robot nor force-torque sensor is needed."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from forcetorque.arrays import BoolArray, IntArray
+from forcetorque.errors import ExperimentError, known_names
+from forcetorque.experiment import schema
+from forcetorque.experiment.inputs import Inputs, stated_in
+from forcetorque.experiment.intervals import refuse_overlap, span_ns
+from forcetorque.experiment.parse import parse_experiment
+from forcetorque.experiment.streams import read_streams
+from forcetorque.recording import Recording, Use
+from forcetorque.recording.alignment import require_overlap
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PatchInterval:
+    """A span of time, start included and end excluded; skin needs no support frame."""
+
+    label: str
+    """Name of the interval."""
+    start_ns: int
+    """First instant; ns."""
+    end_ns: int
+    """First instant after it; ns."""
+    use: Use
+    """What it is for."""
+
+    def holds(self, stamp_ns: IntArray) -> BoolArray:
+        """Tell which instants lie in the interval.
+
+        Args:
+            stamp_ns: Instants; shape (n,); ns on the recording's clock.
+
+        Returns:
+            Whether each does; shape (n,).
+        """
+        inside: BoolArray = (stamp_ns >= self.start_ns) & (stamp_ns < self.end_ns)
+        return inside
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class ExperimentPatch:
+    """A patch of skin, matched to its streams."""
+
+    name: str
+    """Name."""
+    serial: str | None
+    """Serial number, if it has one."""
+    counts: str
+    """Stream of the counts."""
+    pressure: str | None
+    """Stream of the pressure that it was calibrated with."""
+    layout: Path | None
+    """File with its layout."""
+    link: str | None
+    """Link that it is mounted on, where the file says so."""
+    columns: int
+    """Numbers in one message of counts."""
+    taxels: IntArray
+    """Columns of the pressure taxels; shape (n,)."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False, repr=False)
+class PatchExperiment:
+    """The patches of an experiment, and what was measured with them."""
+
+    name: str
+    """Name of the experiment."""
+    file: Path
+    """Its file."""
+    recording: Recording
+    """What was measured."""
+    patches: tuple[ExperimentPatch, ...]
+    """Patches in the order of the file."""
+    intervals: tuple[PatchInterval, ...]
+    """Intervals in the order of the file."""
+    inputs_sha256: dict[str, str]
+    """SHA-256 of every input file, by its path as the experiment names it."""
+
+    def __repr__(self) -> str:
+        patches = ", ".join(f"{patch.name} ({len(patch.taxels)} taxels)" for patch in self.patches)
+        return f"<PatchExperiment {self.name!r}: {patches}>"
+
+    def patch(self, name: str | None) -> ExperimentPatch:
+        """Find a patch.
+
+        Args:
+            name: Its name; None for the only one.
+
+        Returns:
+            The patch.
+
+        Raises:
+            ExperimentError: If there is none of that name, or nobody says which of several.
+        """
+        known = [patch.name for patch in self.patches]
+        if name is None and len(known) > 1:
+            raise ExperimentError(f"{self.file}: expected the name of a patch, one of {', '.join(known)}")
+        for patch in self.patches:
+            if name in (None, patch.name):
+                return patch
+        raise ExperimentError(f"{self.file}: no patch is called {name!r}; {known_names(name or '', known)}")
+
+
+def load_patches(path: Path | str) -> PatchExperiment:
+    """Read the patches of an experiment file, and their recording.
+
+    Args:
+        path: TOML file; the paths in it are relative to its folder.
+
+    Returns:
+        The patches.
+
+    Raises:
+        MissingFileError: If a file is not there.
+        FormatError: If a file does not have its form.
+        ExperimentError: If the file has no patch, or contradicts itself or the recording.
+    """
+    file = Path(path)
+    parsed = parse_experiment(file)
+    if not parsed.patch:
+        raise ExperimentError(f"{file}: expected [[patch]], a patch of skin, got none")
+    inputs = Inputs(file.parent)
+    inputs.file(Path(file.name))
+    recording = read_streams(parsed, file, None, inputs)
+    names = [entry.name for entry in parsed.patch]
+    for index, name in enumerate(names):
+        if name in names[:index]:
+            raise ExperimentError(f"{file}: patch[{index}]: {name!r} is listed twice; keep one")
+    return PatchExperiment(
+        name=parsed.name,
+        file=file,
+        recording=recording,
+        patches=tuple(_patch(f"{file}: patch[{k}]", entry, recording, inputs) for k, entry in enumerate(parsed.patch)),
+        intervals=_intervals(parsed, file, recording),
+        inputs_sha256=inputs.sha256(),
+    )
+
+
+def _patch(where: str, entry: schema.Patch, recording: Recording, inputs: Inputs) -> ExperimentPatch:
+    with stated_in(where):
+        stream = recording.stream(entry.counts)
+        columns = len(stream.signal("taxel_counts").columns)
+        if entry.pressure is not None:
+            chamber = recording.stream(entry.pressure)
+            chamber.signal("pressure")
+            require_overlap(stream, chamber)
+        taxels = np.arange(columns)
+        if entry.layout is not None:
+            from forcetorque.exchange.skin import describe_patch
+
+            layout = describe_patch(inputs.file(entry.layout))
+            if layout.columns != columns:
+                raise ExperimentError(
+                    f"expected counts of {layout.columns} columns, as {entry.layout} has them, got {columns} in the "
+                    f"stream {entry.counts!r}; the log is of another patch"
+                )
+            taxels = layout.taxels
+    return ExperimentPatch(
+        name=entry.name,
+        serial=entry.serial,
+        counts=entry.counts,
+        pressure=entry.pressure,
+        layout=None if entry.layout is None else inputs.folder / entry.layout,
+        link=entry.link,
+        columns=columns,
+        taxels=taxels,
+    )
+
+
+def _intervals(parsed: schema.ExperimentFile, file: Path, recording: Recording) -> tuple[PatchInterval, ...]:
+    with stated_in(f"{file}: recording"):
+        first, last = recording.span_ns
+    intervals = []
+    for index, span in enumerate(parsed.interval):
+        start_ns, end_ns = span_ns(f"{file}: interval[{index}] {span.label!r}", span, first, last)
+        intervals.append(PatchInterval(label=span.label, start_ns=start_ns, end_ns=end_ns, use=span.use))
+    refuse_overlap(file, intervals)
+    return tuple(intervals)

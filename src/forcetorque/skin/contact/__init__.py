@@ -1,0 +1,10 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Contacts on a patch of skin: which taxels feel the same one, where it is, and what it does to the link."""
+
+from forcetorque.skin.contact.clusters import NO_CONTACT, clusters
+from forcetorque.skin.contact.contacts import SkinContacts, find_contacts
+from forcetorque.skin.contact.frame import PressureFrame
+from forcetorque.skin.contact.lobes import lobes
+from forcetorque.skin.contact.reading import PatchReader
+
+__all__ = ["NO_CONTACT", "PatchReader", "PressureFrame", "SkinContacts", "clusters", "find_contacts", "lobes"]

@@ -1,0 +1,149 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Tables from counts to pressure: counts have 8 bits, so that any curve is a row of 256 numbers for each taxel."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from forcetorque.arrays import BoolArray, FloatArray, IntArray, read_only, read_only_integers, require_last_axis
+from forcetorque.errors import ShapeError, SkinError
+
+ROWS = 256
+"""Counts below rest that a table has, from 0 on."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class PressureTable:
+    """Pressure of every taxel of one patch by its counts below rest."""
+
+    patch: str
+    """Patch."""
+    serial: str | None = None
+    """Serial number of the patch, if it has one."""
+    columns: int
+    """Numbers in one message of counts."""
+    taxels: IntArray
+    """Column of each taxel, increasing; shape (n,)."""
+    live: BoolArray
+    """Whether the taxel has a table; shape (n,)."""
+    values: FloatArray
+    """Pressure at 0 to 255 counts below rest; shape (256, n); Pa; 0 where the taxel is not live."""
+    range_counts: FloatArray
+    """Fall beyond which the table is extrapolated; shape (n,); counts."""
+    error: FloatArray
+    """Standard deviation of the table while loading; shape (n,); Pa."""
+    hysteresis: FloatArray
+    """How much more the same pressure reads while unloading; shape (n,); Pa."""
+
+    def __post_init__(self) -> None:
+        taxels = read_only_integers(self.taxels, name="taxels", shape=(None,))
+        n = len(taxels)
+        live = np.array(self.live, dtype=bool)
+        live.setflags(write=False)
+        if live.shape != (n,):
+            raise ShapeError(f"live: expected shape ({n},), got {live.shape}")
+        if n and not 0 <= int(taxels.min()) <= int(taxels.max()) < self.columns:
+            raise ShapeError(
+                f"taxels: expected columns of 0 to {self.columns - 1}, got {taxels.min()} to {taxels.max()}"
+            )
+        object.__setattr__(self, "taxels", taxels)
+        object.__setattr__(self, "live", live)
+        object.__setattr__(self, "values", read_only(self.values, name="values", shape=(ROWS, n)))
+        for name in ("range_counts", "error", "hysteresis"):
+            object.__setattr__(self, name, read_only(getattr(self, name), name=name, shape=(n,)))
+
+    def __len__(self) -> int:
+        return len(self.taxels)
+
+    def fall(self, counts: Any, rest: Any) -> FloatArray:
+        """Give how far the taxels are below rest.
+
+        Args:
+            counts: Messages; shape (..., columns); counts.
+            rest: Counts of one message at rest; shape (columns,); of this power-up, as rest moves.
+
+        Returns:
+            Counts below rest; shape (..., n).
+
+        Raises:
+            ShapeError: If a message has another number of counts.
+            SkinError: If a message is all zero.
+        """
+        message = np.asarray(counts, dtype=np.float64)
+        level = np.asarray(rest, dtype=np.float64)
+        for name, array in (("counts", message), ("rest", level)):
+            require_last_axis(array, name=f"patch {self.patch!r}: {name}", length=self.columns)
+        chosen = message[..., self.taxels]
+        if not chosen.any(axis=-1).all():
+            raise SkinError(
+                f"patch {self.patch!r}: expected counts, got a message of zeros: the board has no power or the message "
+                "was lost; leave it out"
+            )
+        fall: FloatArray = level[self.taxels] - chosen
+        return fall
+
+    def pressures(self, counts: Any, rest: Any) -> FloatArray:
+        """Turn counts into pressures; between whole counts, as means have them, the table is interpolated.
+
+        Args:
+            counts: As of `fall`.
+            rest: As of `fall`.
+
+        Returns:
+            Pressures; shape (..., n); Pa; 0 above rest, and where a taxel is not live.
+        """
+        place = np.clip(self.fall(counts, rest), 0.0, ROWS - 1.0)
+        row = np.minimum(place.astype(np.int64), ROWS - 2)
+        column = np.arange(len(self.taxels))
+        below = self.values[row, column]
+        pressure: FloatArray = below + (place - row) * (self.values[row + 1, column] - below)
+        return pressure
+
+    def beyond_range(self, counts: Any, rest: Any) -> BoolArray:
+        """Tell which taxels read more than was fitted, so that their pressure is extrapolated.
+
+        Args:
+            counts: As of `fall`.
+            rest: As of `fall`.
+
+        Returns:
+            Whether each does; shape (..., n).
+        """
+        beyond: BoolArray = self.live & (self.fall(counts, rest) > self.range_counts)
+        return beyond
+
+    def falls(self) -> BoolArray:
+        """Tell which tables fall anywhere: there a higher pressure reads as a lower one.
+
+        Returns:
+            Whether each does; shape (n,).
+        """
+        falling: BoolArray = np.any(np.diff(self.values, axis=0) < 0.0, axis=0)
+        return falling
+
+    def require_patch(self, patch: str, *, columns: int, serial: str | None = None) -> None:
+        """Refuse counts of another patch.
+
+        Args:
+            patch: Name of the patch that the counts are of.
+            columns: Numbers in one of its messages.
+            serial: Its serial number, if it has one.
+
+        Raises:
+            SkinError: If it is another one.
+        """
+        own = (self.patch, self.columns, self.serial)
+        if (patch, columns, serial) != own:
+            names = ("name", "columns", "serial")
+            differ = [
+                f"{name} {other!r} for {mine!r}"
+                for name, mine, other in zip(names, own, (patch, columns, serial), strict=True)
+                if mine != other
+            ]
+            raise SkinError(
+                f"table of patch {self.patch!r}: expected counts of that patch, got {', '.join(differ)}; every patch "
+                "has its own table"
+            )

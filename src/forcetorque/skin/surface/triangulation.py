@@ -1,0 +1,117 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Triangles between points of a curved surface, without a plane in which all of it could be drawn.
+
+Every point sees its surroundings as nearly plane: the Delaunay triangles about it, in its own tangent plane. Points
+that agree on a triangle, which most do, settle it; where four points lie on a circle, as between two modules, some may
+see one diagonal and some the other, and the triangles with more votes win.
+"""
+
+from __future__ import annotations
+
+from typing import Final
+
+import numpy as np
+
+from forcetorque.arrays import FloatArray, IntArray
+
+LONGEST_EDGE_M: Final = 0.015
+"""Longest edge between neighbours: twice the pitch of a module, less than a gap that a missing module leaves."""
+_SURROUNDINGS: Final = 1.5
+"""Radius of what a point sees, in longest edges: no emptier circle can hold a triangle that short."""
+_GOLDEN: Final = (np.sqrt(5.0) - 1.0) / 2.0
+"""Multiples of it are spread evenly."""
+_TIE: Final = 1e-8
+"""By how much points on one circle are told apart, over the square of the longest edge: else rounding would decide
+which diagonal is taken, and a layout that is turned would get another surface."""
+_SAME_LENGTH_M: Final = 1e-9
+"""Difference between lengths that is rounding."""
+
+
+def surface_triangles(positions: FloatArray, longest_edge_m: float) -> IntArray:
+    """Join points of a surface to triangles whose inner edges belong to two of them.
+
+    Args:
+        positions: Points, all of them distinct; shape (n, 3); m.
+        longest_edge_m: Longest edge; m.
+
+    Returns:
+        Triangles, in no particular orientation; shape (m, 3).
+    """
+    candidates, votes = _voted_triangles(positions, longest_edge_m)
+    sides = np.linalg.norm(positions[candidates] - positions[np.roll(candidates, 1, axis=1)], axis=2)
+    longest = sides.max(axis=1)
+    # taxels on a line, as along the side of a module, make triangles of nothing but rounding
+    fits = (longest <= longest_edge_m) & (_circumradius(positions[candidates], sides) <= longest_edge_m)
+    order = np.lexsort((np.rint(longest[fits] / _SAME_LENGTH_M), -votes[fits]))
+    return _without_overlap(positions, candidates[fits][order])
+
+
+def _circumradius(corners: FloatArray, sides: FloatArray) -> FloatArray:
+    """Radius of the circle through three corners each; shape (m,); m."""
+    doubled = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
+    radius: FloatArray = sides.prod(axis=1) / np.maximum(2.0 * doubled, np.finfo(np.float64).tiny)
+    return radius
+
+
+def _voted_triangles(positions: FloatArray, longest_edge_m: float) -> tuple[IntArray, IntArray]:
+    """Every triangle that some corner sees, and how many of its corners do."""
+    from scipy.spatial import KDTree
+
+    tree = KDTree(positions)
+    nearby = tree.query_ball_point(positions, longest_edge_m)
+    around = tree.query_ball_point(positions, _SURROUNDINGS * longest_edge_m)
+    seen = [np.empty((0, 3), dtype=np.int64)]
+    for point, (near, far) in enumerate(zip(nearby, around, strict=True)):
+        plane = _tangent_plane(positions[near])
+        if plane is None:
+            continue
+        flat = (positions[far] - positions[point]) @ plane.T / longest_edge_m
+        triangles = np.array(far)[_delaunay(flat, _TIE * np.modf(_GOLDEN * np.array(far))[0])]
+        seen.append(triangles[(triangles == point).any(axis=1)])
+    triangles, votes = np.unique(np.sort(np.concatenate(seen), axis=1), axis=0, return_counts=True)
+    return triangles, votes
+
+
+def _delaunay(points: FloatArray, lift: FloatArray) -> IntArray:
+    """Delaunay triangles in a plane: the lower side of the hull of points on a paraboloid, each lifted a little."""
+    from scipy.spatial import ConvexHull
+
+    if len(points) == 3:
+        return np.array([[0, 1, 2]])
+    hull = ConvexHull(np.column_stack([points, (points**2).sum(axis=1) + lift]))
+    lower: IntArray = hull.simplices[hull.equations[:, 2] < 0.0].astype(np.int64)
+    return lower
+
+
+def _tangent_plane(points: FloatArray) -> FloatArray | None:
+    """Two directions that span points best; shape (2, 3); None for points on a line."""
+    if len(points) < 3:
+        return None
+    _, spread, directions = np.linalg.svd(points - points.mean(axis=0), full_matrices=False)
+    plane: FloatArray = directions[:2]
+    return plane if spread[1] > 1e-3 * spread[0] else None
+
+
+def _without_overlap(positions: FloatArray, candidates: IntArray) -> IntArray:
+    """Take triangles in their order, unless one lies over another that was taken."""
+    across: dict[tuple[int, int], list[int]] = {}
+    taken = []
+    for triangle in candidates.tolist():
+        sides = [(tuple(sorted((triangle[k - 2], triangle[k - 1]))), triangle[k]) for k in range(3)]
+        if all(_is_free(positions, edge, corner, across.get(edge, [])) for edge, corner in sides):
+            taken.append(triangle)
+            for edge, corner in sides:
+                across.setdefault(edge, []).append(corner)
+    return np.array(taken, dtype=np.int64).reshape(-1, 3)
+
+
+def _is_free(positions: FloatArray, edge: tuple[int, int], corner: int, corners: list[int]) -> bool:
+    """Whether the side of an edge on which a corner lies has no triangle yet."""
+    if not corners:
+        return True
+    start = positions[edge[0]]
+    direction = positions[edge[1]] - start
+    direction = direction / np.linalg.norm(direction)
+    offsets = positions[[corner, corners[0]]] - start
+    offsets = offsets - np.outer(offsets @ direction, direction)
+    return len(corners) == 1 and bool(offsets[0] @ offsets[1] < 0.0)

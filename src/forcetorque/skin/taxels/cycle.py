@@ -1,0 +1,134 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A recording of pressure on a patch: where it rests, loads and unloads, counted from its own rest."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from forcetorque.arrays import BoolArray, FloatArray, read_only, require_shape
+from forcetorque.errors import SkinError
+
+REST_SHARE = 0.03
+"""Share of the highest pressure below which a patch rests."""
+TURN_SHARE = 0.05
+"""Share of the highest pressure by which it must turn back to have turned; less is the valve."""
+TOP_SHARE = 0.9
+"""Share of the highest pressure from which on samples tell how a taxel reads there."""
+LEAST_RISE_PA = 1e3
+"""A pressure that changes by less does not rise: one count of a taxel is about 8 kPa; Pa."""
+
+_REST_ROWS = 20
+"""Messages at rest that a rest level needs: their mean then is good to a tenth of a count."""
+_SMOOTH_ROWS = 25
+"""Rows of a median that takes single wrong readings of the pressure away."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class PressureCycle:
+    """Counts and pressure of one recording, both from their rest level in it."""
+
+    fall: FloatArray
+    """Counts below rest; shape (n, c)."""
+    pressure: FloatArray
+    """Pressure above that at rest; shape (n,); Pa."""
+    unloading: BoolArray
+    """Whether the pressure came down to a sample, and did not go up to it; shape (n,)."""
+    rest: FloatArray
+    """Rest level of each column; shape (c,); counts."""
+    rest_pressure: float
+    """Reading of the pressure at rest; Pa."""
+
+    def __post_init__(self) -> None:
+        n, c = self.fall.shape
+        require_shape(self.unloading, name="unloading", shape=(n,))
+        object.__setattr__(self, "fall", read_only(self.fall, name="fall", shape=(n, c)))
+        object.__setattr__(self, "pressure", read_only(self.pressure, name="pressure", shape=(n,)))
+        object.__setattr__(self, "rest", read_only(self.rest, name="rest", shape=(c,)))
+
+    @property
+    def highest(self) -> float:
+        """Highest pressure; Pa."""
+        return float(self.pressure.max())
+
+    @property
+    def top_fall(self) -> FloatArray:
+        """Mean fall of each column near the highest pressure; shape (c,); counts."""
+        top: FloatArray = self.fall[self.pressure >= TOP_SHARE * self.highest].mean(axis=0)
+        return top
+
+
+def pressure_cycle(counts: FloatArray, pressure: FloatArray) -> PressureCycle:
+    """Split a recording of pressure on a patch into rest, loading and unloading.
+
+    The rest level is that of this recording, before the pressure first rises: it moves from one to the next with
+    temperature and creep. The pressure counts from its own rest too, for gauges read some hundredths of a bar there.
+
+    Args:
+        counts: Counts, a row per message; shape (n, c).
+        pressure: Pressure at the same instants; shape (n,); Pa.
+
+    Returns:
+        The recording from rest.
+
+    Raises:
+        SkinError: If a message is all zero, or the pressure never rises, only rises, or does not begin at rest.
+    """
+    require_shape(pressure, name="pressure", shape=(len(counts),))
+    empty = np.flatnonzero(~counts.any(axis=1))
+    if len(empty):
+        raise SkinError(
+            f"row {empty[0]}: expected counts, got a message of zeros ({len(empty)} such of {len(counts)}): the board "
+            "had no power or the message was lost; leave that time out of the interval"
+        )
+    smooth = _median_filtered(pressure)
+    lowest, highest = float(smooth.min()), float(smooth.max())
+    if highest - lowest < LEAST_RISE_PA:
+        raise SkinError(
+            f"expected a pressure that rises by at least {LEAST_RISE_PA:g} Pa, got {lowest:.0f} to {highest:.0f} Pa: "
+            "it never rises; is the unit right?"
+        )
+    risen = smooth > lowest + REST_SHARE * (highest - lowest)
+    start = int(np.argmax(risen))
+    if start < _REST_ROWS:
+        raise SkinError(
+            f"expected at least {_REST_ROWS} messages at rest before the pressure rises, got {start}: the rest level "
+            "is taken anew in each recording; begin the interval earlier"
+        )
+    unloading = _unloading(smooth, TURN_SHARE * (highest - lowest))
+    if not unloading.any():
+        raise SkinError(
+            f"expected a pressure that rises and falls, got one that only rises, to {highest:.0f} Pa: without "
+            "unloading nothing is known of hysteresis; let the interval go on until the pressure is let out"
+        )
+    rest = counts[:start].mean(axis=0)
+    rest_pressure = float(pressure[:start].mean())
+    return PressureCycle(
+        fall=rest - counts,
+        pressure=pressure - rest_pressure,
+        unloading=unloading,
+        rest=rest,
+        rest_pressure=rest_pressure,
+    )
+
+
+def _median_filtered(values: FloatArray) -> FloatArray:
+    padded = np.pad(values, _SMOOTH_ROWS // 2, mode="edge")
+    windows = np.lib.stride_tricks.sliding_window_view(padded, _SMOOTH_ROWS)
+    filtered: FloatArray = np.median(windows, axis=1)
+    return filtered
+
+
+def _unloading(pressure: FloatArray, turn: float) -> BoolArray:
+    """Whether each sample comes after a highest point, and before the next lowest one, which differ by `turn`."""
+    unloading = np.zeros(len(pressure), dtype=bool)
+    down, extreme, place = False, pressure[0], 0
+    for k, value in enumerate(pressure.tolist()):
+        if (value < extreme) if down else (value > extreme):
+            extreme, place = value, k
+        elif abs(value - extreme) > turn:
+            down, extreme = not down, value
+            unloading[place:] = down
+            place = k
+    return unloading

@@ -1,0 +1,62 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What is wrong with a taxel in one recording: one that is sound in a log may break before the next."""
+
+from __future__ import annotations
+
+from enum import StrEnum
+
+import numpy as np
+
+from forcetorque.arrays import BoolArray, FloatArray
+
+FULL_COUNTS = 255.0
+"""Largest count of the 8 bits that a taxel sends."""
+JUMP_COUNTS = 20.0
+"""A change from one message to the next that is larger is no pressure: a swing of 3.4 bar is 42 counts."""
+WRAP_COUNTS = 6.0
+"""A change that modulo 256 is not larger, and else is, runs over an end of the 8 bits."""
+NOISE_COUNTS = 3.0
+"""Standard deviation from message to message above which a taxel is noisy; it is 0.65 where nothing is wrong."""
+LEAST_FALL_COUNTS = 5.0
+"""A taxel that falls by less, from rest to the highest pressure, does not move."""
+
+
+class Ailment(StrEnum):
+    """What is wrong with a taxel."""
+
+    WRAPS = "wraps"
+    """Its counts run below 0 and go on at 255."""
+    RAILS = "rails"
+    """It reads 0 or 255, the ends of its range."""
+    JUMPS = "jumps"
+    """It changes by more than `JUMP_COUNTS` from one message to the next."""
+    NOISE = "noise"
+    """It is noisier than `NOISE_COUNTS`."""
+    NEVER_MOVES = "never moves"
+    """It falls by less than `LEAST_FALL_COUNTS` under the highest pressure."""
+    RISES = "rises"
+    """It rises under pressure, by more than it may not move."""
+
+
+def taxel_ailments(counts: FloatArray, fall: FloatArray) -> tuple[tuple[Ailment, ...], ...]:
+    """Say what is wrong with every taxel of a recording.
+
+    Args:
+        counts: Counts of all messages of the recording; shape (n, c).
+        fall: How far each falls from rest to the highest pressure; shape (c,); counts.
+
+    Returns:
+        For each taxel what is wrong, all that applies; nothing for a sound one.
+    """
+    step = np.abs(np.diff(counts, axis=0))
+    wraps = FULL_COUNTS + 1.0 - step <= WRAP_COUNTS
+    noise = np.sqrt(np.mean(np.minimum(step, JUMP_COUNTS) ** 2, axis=0) / 2.0)
+    signs: dict[Ailment, BoolArray] = {
+        Ailment.WRAPS: np.any(wraps, axis=0),
+        Ailment.RAILS: np.any((counts <= 0.0) | (counts >= FULL_COUNTS), axis=0),
+        Ailment.JUMPS: np.any((step > JUMP_COUNTS) & ~wraps, axis=0),
+        Ailment.NOISE: noise > NOISE_COUNTS,
+        Ailment.NEVER_MOVES: np.abs(fall) < LEAST_FALL_COUNTS,
+        Ailment.RISES: fall <= -LEAST_FALL_COUNTS,
+    }
+    return tuple(tuple(name for name, sign in signs.items() if sign[k]) for k in range(counts.shape[1]))

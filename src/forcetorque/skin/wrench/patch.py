@@ -1,0 +1,140 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A patch of skin as a force-torque sensor."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Final, Self, TypeVar
+
+import numpy as np
+
+from forcetorque.arrays import BoolArray, FloatArray, read_only, require_shape
+from forcetorque.errors import SkinError
+from forcetorque.skin.layout import SkinLayout
+from forcetorque.skin.surface import SkinSurface, edge_taxels, rim_strip, skin_surface
+from forcetorque.skin.wrench.elements import SkinElements, skin_elements
+from forcetorque.skin.wrench.foretold import ForetoldPressures
+from forcetorque.skin.wrench.kriging import kriging_operator
+from forcetorque.skin.wrench.linear import linear_operator
+from forcetorque.skin.wrench.operator import WrenchMethod, WrenchOperator
+from forcetorque.skin.wrench.simple import simple_operator
+from forcetorque.skin.wrench.thesis import thesis_operator
+
+_Built = TypeVar("_Built")
+_KEPT: Final = 16
+"""Operators that are kept: masks of live taxels change now and then, not from frame to frame."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class SkinPatch:
+    """A patch, its surface, and how the wrench is told from its pressures."""
+
+    layout: SkinLayout
+    """Where the taxels are."""
+    method: WrenchMethod
+    """How pressures between taxels are told."""
+    surface: SkinSurface
+    """The surface through the taxels."""
+    elements: SkinElements
+    """Its pieces, over which pressures are summed."""
+    at_edge: BoolArray
+    """Taxels beyond which pressure is not felt; shape (n,)."""
+    taxel_area_m2: float | None = None
+    """Area of a taxel, for the simple method."""
+    plane: FloatArray | None = None
+    """Places of the taxels in a drawing, for the method of the thesis; shape (n, 2); m."""
+    _operators: dict[bytes, WrenchOperator] = field(default_factory=dict, repr=False)
+    _foretold: dict[bytes, ForetoldPressures] = field(default_factory=dict, repr=False)
+
+    @classmethod
+    def of(
+        cls,
+        layout: SkinLayout,
+        method: WrenchMethod | str = WrenchMethod.KRIGING,
+        *,
+        taxel_area_m2: float | None = None,
+        plane: FloatArray | None = None,
+    ) -> Self:
+        """Prepare a patch.
+
+        Args:
+            layout: Where the taxels are, with sound normals.
+            method: How pressures between taxels are told.
+            taxel_area_m2: Area of a taxel; the simple method needs it, no other takes it.
+            plane: Places of the taxels in a drawing; the method of the thesis needs them, no other takes them; shape
+                (n, 2); m.
+
+        Returns:
+            The patch.
+
+        Raises:
+            SkinError: If the method lacks what it needs, or is given what it does not take.
+        """
+        chosen = WrenchMethod(method)
+        for name, given, owner in (
+            ("taxel_area_m2", taxel_area_m2, WrenchMethod.SIMPLE),
+            ("plane", plane, WrenchMethod.THESIS),
+        ):
+            if (given is not None) != (chosen is owner):
+                raise SkinError(
+                    f"patch {layout.name!r}: {name}: expected {'a value' if chosen is owner else 'none'} for the "
+                    f"method {chosen}, got {'none' if given is None else 'one'}; only {owner} takes it"
+                )
+        surface = skin_surface(layout.positions, outward=layout.normals)
+        return cls(
+            layout=layout,
+            method=chosen,
+            surface=surface,
+            elements=skin_elements(surface, rim_strip(surface)),
+            at_edge=edge_taxels(surface),
+            taxel_area_m2=taxel_area_m2,
+            plane=None if plane is None else read_only(plane, name="plane", shape=(len(layout), 2)),
+        )
+
+    def foretold(self, live: BoolArray) -> ForetoldPressures:
+        """Give what neighbours tell of each taxel, built and kept as operators are.
+
+        Args:
+            live: Taxels that can be trusted, at least two; shape (n,).
+
+        Returns:
+            Who tells whom.
+        """
+        return _kept(self._foretold, live, lambda: ForetoldPressures.of(self.surface, live))
+
+    def operator(self, live: BoolArray | None = None) -> WrenchOperator:
+        """Give the map from pressures to the wrench, built anew for every other mask of live taxels and then kept.
+
+        Args:
+            live: Taxels that can be trusted; all by default; shape (n,).
+
+        Returns:
+            The operator.
+
+        Raises:
+            SkinError: If no taxel lives.
+        """
+        mask = np.ones(len(self.layout), dtype=np.bool_) if live is None else np.asarray(live, dtype=np.bool_)
+        require_shape(mask, name="live", shape=(len(self.layout),))
+        if not mask.any():
+            raise SkinError(f"patch {self.layout.name!r}: live: expected a taxel that can be trusted, got none")
+        return _kept(self._operators, mask, lambda: self._built(mask))
+
+    def _built(self, live: BoolArray) -> WrenchOperator:
+        if self.taxel_area_m2 is not None:
+            return simple_operator(self.layout, live, taxel_area_m2=self.taxel_area_m2)
+        if self.plane is not None:
+            return thesis_operator(self.layout, live, plane=self.plane)
+        build = linear_operator if self.method is WrenchMethod.LINEAR else kriging_operator
+        return build(self.surface, self.elements, live)
+
+
+def _kept(kept: dict[bytes, _Built], mask: BoolArray, build: Callable[[], _Built]) -> _Built:
+    """What belongs to a mask, from what is kept or built and kept; the oldest makes room."""
+    key = mask.tobytes()
+    if key not in kept:
+        while len(kept) >= _KEPT:
+            kept.pop(next(iter(kept)))
+        kept[key] = build()
+    return kept[key]
