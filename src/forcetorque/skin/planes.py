@@ -76,7 +76,9 @@ class TouchingPlanes:
         near = (distance < _FARTHEST * _REACH_M) & (self.normals @ rough > _SAME_SIDE)
         if not near.any():
             near = distance == distance.min()
-        root = np.sqrt(self.weights[near] * np.exp(-0.5 * (distance[near] / _REACH_M) ** 2))[:, None]
+        # only ratios of weights count: the nearest plane has 1, however far it is
+        farther = (distance[near] ** 2 - distance[near].min() ** 2) / _REACH_M**2
+        root = np.sqrt(self.weights[near] * np.exp(-0.5 * farther))[:, None]
         along = offsets[near] - np.outer(offsets[near] @ rough, rough)
         terms = np.column_stack([np.ones(len(along)), along / _REACH_M])
         # few planes do not tell how the normal turns: then it turns least

@@ -17,7 +17,7 @@ from forcetorque.arrays import FloatArray
 from forcetorque.errors import FormatError, SkinError
 from forcetorque.exchange.skin.skin_gui import read_plan
 from forcetorque.robot import RobotModel, build_tree, read_urdf
-from forcetorque.skin import MODULE_COLUMNS, PatchDescription, modular_patch, module_poses
+from forcetorque.skin import LARGEST_MESSAGE, MODULE_COLUMNS, PatchDescription, modular_patch, module_poses
 from forcetorque.toml_table import Table, read_toml
 
 _SCHEMA = "forcetorque/module_frames/1"
@@ -37,7 +37,7 @@ class ModuleFrames(Table):
     """Link that the patch is on."""
     frames: str
     """Names of the links whose origins are the centres of modules, with `{module}` where the number of each stands."""
-    columns: int = Field(gt=0)
+    columns: int = Field(gt=0, le=LARGEST_MESSAGE)
     """Numbers in one message of counts."""
     plan: Path | None = None
     """Plan of skinGui, which says how modules are turned where the frames are only places; relative to this file."""
