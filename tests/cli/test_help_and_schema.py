@@ -47,8 +47,11 @@ JSON_SCHEMAS = (
     "gains",
     "plan",
     "report",
+    "skin_calibrate",
     "skin_check",
+    "skin_wrench",
     "study",
+    "taxels",
 )
 
 
@@ -190,6 +193,8 @@ def test_experiment_files_fit_the_printed_schema(run: Run, form: str) -> None:
         {"name": 3},
         {"calibration": {"lambda_counts2": -1}},
         {"sensor": []},
+        {"patch": []},
+        {"patch": [{"name": "palm"}]},
     ]
     for damage in bad:
         assert faults({**content, **damage}, schema) != []

@@ -14,6 +14,7 @@ import pytest
 
 from forcetorque.cli.main import app
 from forcetorque.result import Result
+from tests.chambers import write_chambers
 from tests.cli.commands import question_of, typed_commands
 from tests.cli.outcome import Run
 from tests.experiments import PARQUET, TWO
@@ -36,6 +37,7 @@ COMMANDS = {
     "inspect": ("inspect", "faulty.toml"),
     "plan": ("plan", PARQUET, "-c", "fitted.json", "--clearance-deg", "12", "--seconds", "20", "--recordings", "2"),
     "report": ("report", PARQUET, "fitted.json", "-o", "report.html"),
+    "skin calibrate": ("skin", "calibrate", "fit.toml", "kept.toml", "-o", "palm.json"),
     "skin check": ("skin", "check", "patch.txt"),
     "sphere": ("sphere", PARQUET, "-c", "fitted.json"),
     "study": ("study", PARQUET, "-o", "study", *SHORT),
@@ -73,6 +75,7 @@ def test_the_layout_is_that_which_was_looked_at(arm: Path, run: Run, name: str, 
         .replace('stream = "arm_ft"', 'stream = "arm_ft"\nlimit_counts = 9000')
     )
     (arm / "faulty.toml").write_text(faulty, encoding="utf-8")
+    write_chambers(arm)
     (arm / "patch.txt").write_text(position_text(collapsed(cylinder_patch(), 4)), encoding="utf-8")
     ended = run(*COMMANDS[name])
     assert ended.code in (0, 1), ended.err

@@ -18,7 +18,14 @@ import numpy as np
 
 from forcetorque.arrays import FloatArray
 from forcetorque.exchange.skin import describe_patch
-from forcetorque.simulation.skin import REFERENCE_PA, ContactTruth, SkinBody, TaxelResponses, chamber_log, contacts
+from forcetorque.simulation.skin import (
+    REFERENCE_PA,
+    ContactTruth,
+    SkinBody,
+    TaxelResponses,
+    chamber_recording,
+    contacts,
+)
 from forcetorque.skin import PressureTable, SkinLayout, rebuilt_normals
 from forcetorque.skin.contact import PatchReader, PressureFrame, find_contacts
 from forcetorque.skin.taxels import CurveKind, fit_curve, pressure_cycle, taxel_response
@@ -157,7 +164,9 @@ class Leg:
 
 def chamber_table(taxels: TaxelResponses, rng: np.random.Generator, *, both_ways: bool) -> PressureTable:
     """Calibrate taxels in a chamber, on loading alone or on both ways."""
-    cycle = pressure_cycle(*chamber_log(taxels, rng))
+    log = chamber_recording(taxels, highest_pa=REFERENCE_PA, ramp_s=8.0, rng=rng)
+    counts = log.stream("counts").signal("taxel_counts").values
+    cycle = pressure_cycle(counts, log.stream("chamber").signal("pressure").values[:, 0])
     used = np.ones(len(cycle.pressure), dtype=np.bool_) if both_ways else ~cycle.unloading
     number = cycle.fall.shape[1]
     curves = [

@@ -11,9 +11,10 @@ from typing import Literal
 from pydantic import Field
 
 from forcetorque.analysis.findings import inspect_experiment, inspect_recording
+from forcetorque.analysis.skin_findings import inspect_patches, taxel_findings
 from forcetorque.errors import MissingFileError
 from forcetorque.exchange.formats import not_recognised, recognised_format
-from forcetorque.experiment import load_experiment
+from forcetorque.experiment import load_experiment, load_patches, parse_experiment
 from forcetorque.recording import Finding, Recording
 from forcetorque.result import Result, Row, Table
 
@@ -115,8 +116,13 @@ def _recorded(source: Path) -> tuple[Recording, tuple[Finding, ...]]:
         return recording, inspect_recording(recording)
     if source.is_dir():
         raise not_recognised(source)
+    stated = parse_experiment(source)
+    patches = load_patches(source) if stated.patch else None
+    if patches is not None and not stated.sensor:
+        return patches.recording, inspect_patches(patches)
     experiment = load_experiment(source)
-    return experiment.recording, inspect_experiment(experiment)
+    findings = inspect_experiment(experiment)
+    return experiment.recording, findings if patches is None else (*findings, *taxel_findings(patches))
 
 
 def finding_rows(recording_start: int, findings: Iterable[Finding]) -> tuple[FindingRow, ...]:

@@ -8,6 +8,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import (
     BeforeValidator,
+    ConfigDict,
     Discriminator,
     Field,
     Tag,
@@ -336,6 +337,10 @@ class CalibrationTable(Table):
 class ExperimentFile(Table):
     """The whole file."""
 
+    model_config = ConfigDict(
+        **Table.model_config, json_schema_extra={"anyOf": [{"required": ["sensor"]}, {"required": ["patch"]}]}
+    )
+
     schema_name: Literal["forcetorque/experiment/1"] = Field(alias="schema")
     """Form of the file."""
     name: Text
@@ -346,9 +351,9 @@ class ExperimentFile(Table):
     """What hangs on a wrist sensor, in place of a robot."""
     recording: AnyLog
     """Where the recording is."""
-    sensor: tuple[Sensor, ...] = ()
-    """Sensors; none where the file is about skin alone."""
-    patch: tuple[Patch, ...] = ()
+    sensor: Annotated[tuple[Sensor, ...], Field(min_length=1)] = ()
+    """Sensors; may be left out where the file is about skin alone."""
+    patch: Annotated[tuple[Patch, ...], Field(min_length=1)] = ()
     """Patches of artificial skin."""
     support: tuple[Support, ...] = ()
     """Support frames; none with `load`."""

@@ -1,0 +1,26 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Questions about artificial skin, for scripts and notebooks."""
+
+from __future__ import annotations
+
+from datetime import UTC, datetime
+from importlib.metadata import version
+from pathlib import Path
+from typing import Any
+
+from forcetorque import analysis
+from forcetorque.analysis import SkinCalibration
+
+
+def calibrate_skin(*experiments: Path | str, **options: Any) -> SkinCalibration:
+    """Fit the pressure curve of every taxel of a patch.
+
+    Args:
+        experiments: Experiment files with the patch, fitted and kept back.
+        options: As of `forcetorque.analysis.calibrate_skin`: patch, curve, highest_pa.
+
+    Returns:
+        The answer, with the curves as its `calibration`.
+    """
+    created = datetime.now(UTC).isoformat(timespec="seconds")
+    return analysis.calibrate_skin(experiments, code_version=version("forcetorque"), created=created, **options)
