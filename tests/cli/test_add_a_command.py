@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A command is two files and two lines: help, schema, report and their tests know it from then on.
 
-This is the recipe of docs/architecture.md, followed with `tests/toy_command`.
+So it is in a group, which is a folder and two lines more. This is the recipe of docs/architecture.md, followed with
+`tests/toy_command` and `tests/toy_group`.
 """
 
 from __future__ import annotations
@@ -13,10 +14,11 @@ import pytest
 
 from forcetorque.report.sources import sort_sources
 from tests.cli import test_help_and_schema as every_command
-from tests.cli.added_command import NAME, added_command
+from tests.cli.added_command import GROUP, GROUP_COMMAND, NAME, added_command, added_group
 from tests.cli.json_schema import faults
 from tests.cli.outcome import Run
 from tests.experiments import TWO
+from tests.patches import cylinder_patch, position_text
 
 
 @pytest.fixture
@@ -66,9 +68,47 @@ def test_it_is_held_to_what_holds_for_every_command(run: Run, tmp_path: Path, mo
         every_command.test_the_readme_names_every_command(NAME)
 
 
+@pytest.fixture
+def grouped(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Iterator[None]:
+    """The recipe for a group, its command among those that every test of commands looks at, and a layout for it."""
+    (tmp_path / "patch.txt").write_text(position_text(cylinder_patch()), encoding="utf-8")
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(every_command, "COMMANDS", sorted([*every_command.COMMANDS, GROUP_COMMAND]))
+    monkeypatch.setattr(every_command, "GROUPS", sorted([*every_command.GROUPS, GROUP]))
+    with added_group():
+        yield
+
+
+@pytest.mark.usefixtures("grouped")
+def test_a_command_of_a_group_answers_and_has_a_schema(run: Run) -> None:
+    """Typed behind the name of its group; its schema is called after both."""
+    assert "patch      210" in run(GROUP, "count", "patch.txt").out
+    content = run(GROUP, "count", "patch.txt", "--format", "json").result()
+    schema = run("schema", "toy_count").result()
+    assert faults(content, schema) == []
+    assert faults({**content, "patches": [{"patch": 1}]}, schema) != []
+    every_command.test_an_unknown_schema_leads_to_the_known_ones(run)
+
+
+@pytest.mark.usefixtures("grouped")
+def test_a_group_is_held_to_what_holds_for_every_command(
+    run: Run, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Help of the program, of the group and of the command; that the README does not name the group is noticed."""
+    every_command.test_the_help_lists_every_command(run)
+    every_command.test_the_help_of_a_group_lists_its_commands(run, GROUP)
+    every_command.test_the_help_of_a_command_has_one_line_and_an_example(run, GROUP_COMMAND)
+    every_command.test_the_example_of_a_command_can_be_typed(run, GROUP_COMMAND, tmp_path, monkeypatch)
+    with pytest.raises(AssertionError):
+        every_command.test_the_readme_names_every_command(GROUP_COMMAND)
+
+
 def test_without_the_recipe_nobody_knows_it(run: Run, arm: Path) -> None:
     """Negative control: it is the files and lines that do it, and nothing of them stays."""
     with added_command():
         pass
+    with added_group():
+        pass
     assert f"No such command '{NAME}'" in run(NAME, TWO).err
+    assert f"No such command '{GROUP}'" in run(GROUP, "count", TWO).err
     assert f"no schema is called '{NAME}'" in run("schema", NAME).error()

@@ -21,7 +21,17 @@ from tests.experiments import TEXTS
 COMMANDS = typed_commands(app)
 GROUPS = sorted(str(group.typer_instance.info.name) for group in app.registered_groups if group.typer_instance)
 ROOT = Path(__file__).parents[2]
-FILES = ("experiment", "acceptance", "scenario", "recording", "calibration", "joint", "moments", "taxels")
+FILES = (
+    "experiment",
+    "acceptance",
+    "scenario",
+    "recording",
+    "calibration",
+    "joint",
+    "moments",
+    "taxels",
+    "module_frames",
+)
 """What people write, and what is written to be read again."""
 JSON_SCHEMAS = (
     "experiment",
@@ -39,6 +49,7 @@ JSON_SCHEMAS = (
     "report",
     "skin_calibrate",
     "skin_check",
+    "skin_wrench",
     "study",
     "taxels",
 )

@@ -19,6 +19,7 @@ RUN_ELSEWHERE = {
     "recording.md": "tests/experiment/test_written_logs.py",
     "joint.md": "tests/analysis/test_joint_calibration.py",
     "simulation.md": "tests/examples/test_page_scripts.py",
+    "skin_layout.md": "tests/exchange/skin/test_documentation.py",
     "simulation.md, both feet": "tests/examples/test_simulation_page.py",
 }
 """Pages with a block that is not marked, each by itself, and who runs it."""

@@ -21,6 +21,7 @@ from forcetorque.analysis import (
     LearntDirection,
     Reason,
     SensorSphere,
+    SkinWrenchPicture,
     TrialGroup,
     TrialSphere,
     UseError,
@@ -43,13 +44,18 @@ from forcetorque.report.figures import (
     lambda_force_figure,
     learnt_figure,
     residual_figure,
+    skin_layout_figure,
+    skin_wrench_figure,
     space_figure,
     sphere_figure,
     taxel_figure,
     use_figure,
 )
 from forcetorque.report.figures.canvas import png_bytes
+from forcetorque.skin.surface import skin_surface, unrolled
 from forcetorque.spatial import WRENCH_COMPONENTS
+from tests.patches import cylinder_patch
+from tests.skin.skins import cylinder
 
 LAMBDAS = np.array([0, 1, 5, 10, 50, 100, 1e3, 5e3, 1e4, 5e4, 1e5, 5e5, 1e6])
 """Those of the thesis, table 5.5; counts2."""
@@ -208,6 +214,28 @@ def _taxel(rng: np.random.Generator) -> Figure:
     )
 
 
+def _skin_wrench(rng: np.random.Generator) -> Figure:
+    surface = skin_surface(cylinder())
+    pressures = 2e4 * np.exp(-0.5 * (np.linalg.norm(surface.positions - surface.positions[100], axis=1) / 0.012) ** 2)
+    seconds = np.linspace(0.0, 60.0, 300)
+    load = 9.81 * np.clip(np.sin(0.2 * seconds), 0.0, 1.0)
+    return skin_wrench_figure(
+        SkinWrenchPicture(
+            patch="lower leg",
+            seconds=seconds,
+            forces={
+                "kriging, norm of the force": load + rng.normal(0.0, 0.2, 300),
+                "simple, norm of the force": 0.8 * load,
+            },
+            places=unrolled(surface),
+            triangles=surface.triangles,
+            pressures=pressures,
+            pressed_s=7.8,
+        ),
+        load,
+    )
+
+
 def _learnt(rng: np.random.Generator) -> Figure:
     return learnt_figure({"one recording": learnt_of(rng), "all": learnt_of(rng)})
 
@@ -303,6 +331,13 @@ def _index(rng: np.random.Generator) -> Figure:
     return index_figure(trial_groups(rng, sensors=2, trials=2, caps=1))
 
 
+def _skin_layout(rng: np.random.Generator) -> Figure:
+    patch = cylinder_patch()
+    assert patch.normals is not None
+    placeholder = np.tile(rng.normal(size=3) / 3.0, (len(patch), 1))
+    return skin_layout_figure(patch.positions, {"as written": placeholder, "rebuilt": patch.normals})
+
+
 FIGURES: dict[str, Callable[[np.random.Generator], Figure]] = {
     "space": _space,
     "force space": _force_space,
@@ -317,8 +352,10 @@ FIGURES: dict[str, Callable[[np.random.Generator], Figure]] = {
     "held out": _held_out,
     "joint": _joint,
     "learnt": _learnt,
+    "skin_wrench": _skin_wrench,
     "taxel": _taxel,
     "index": _index,
+    "skin layout": _skin_layout,
     "use": _use,
 }
 """A figure of every kind that is drawn from plain arrays, of random data."""

@@ -12,15 +12,23 @@ import argparse
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Final, Self
+from typing import Final
 
 import numpy as np
 
-from forcetorque.arrays import BoolArray, FloatArray
+from forcetorque.arrays import FloatArray
 from forcetorque.exchange.skin import describe_patch
-from forcetorque.simulation.skin import REFERENCE_PA, SWING_COUNTS, ContactTruth, SkinBody, TaxelResponses, contacts
-from forcetorque.skin import SkinLayout, rebuilt_normals
-from forcetorque.skin.contact import PressureFrame, find_contacts
+from forcetorque.simulation.skin import (
+    REFERENCE_PA,
+    ContactTruth,
+    SkinBody,
+    TaxelResponses,
+    chamber_recording,
+    contacts,
+)
+from forcetorque.skin import PressureTable, SkinLayout, rebuilt_normals
+from forcetorque.skin.contact import PatchReader, PressureFrame, find_contacts
+from forcetorque.skin.taxels import CurveKind, fit_curve, pressure_cycle, taxel_response
 from forcetorque.skin.wrench import SkinPatch, WrenchMethod
 
 TUNED_SEED: Final = 1
@@ -38,8 +46,6 @@ BINS: Final = ((1, 7), (8, 15), (16, 27), (28, 999))
 """Numbers of active taxels by which errors are told: aliasing between few taxels is most of the error."""
 OFF_EDGE: Final = 0.05
 """Share of the force at the edge of the patch below which a contact is off it."""
-_WAKING: Final = 3.8
-"""Threshold over the standard deviation of a mean of counts: one idle taxel in 14 000 crosses it."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -90,6 +96,8 @@ class Chain:
     """Whether pressure is being taken off."""
     dead: float = 0.0
     """Share of taxels that are dead."""
+    both_ways: bool = False
+    """Whether curves are fitted to loading and unloading, between the two, and not to loading alone."""
 
 
 def leg_layout(data: Path) -> SkinLayout:
@@ -119,7 +127,7 @@ class Leg:
         }
         rng = np.random.default_rng([seed, 1])
         self.taxels = TaxelResponses.drawn(len(layout), rng)
-        self.curves = Curves.fitted(self.taxels, rng)
+        self.tables = {both: chamber_table(self.taxels, rng, both_ways=both) for both in (False, True)}
 
     def truths(self, number: int) -> list[ContactTruth]:
         """Rest so many objects on it."""
@@ -132,24 +140,13 @@ class Leg:
         rng = np.random.default_rng([self.seed, 2])
         live = np.ones(len(self.body.layout), dtype=np.bool_)
         live[rng.permutation(len(live))[: round(chain.dead * len(live))]] = False
-        rest = self.taxels.counts(np.zeros(len(live)), rng, frames=REST_FRAMES).mean(axis=0)
-        return [self._trial(one, self._read(one, chain, live, rest, rng)) for one in truths]
+        rest = self.taxels.counts(np.zeros(len(live)), rng, frames=REST_FRAMES).astype(np.float64)
+        reader = PatchReader.at_rest(self.tables[chain.both_ways], rest, live=live)
+        return [self._trial(one, self._read(one, chain, reader, rng)) for one in truths]
 
-    def _read(
-        self, truth: ContactTruth, chain: Chain, live: BoolArray, rest: FloatArray, rng: np.random.Generator
-    ) -> PressureFrame:
+    def _read(self, truth: ContactTruth, chain: Chain, reader: PatchReader, rng: np.random.Generator) -> PressureFrame:
         peak = truth.pressures / rng.uniform(0.3, 0.9) if chain.unloading else None
-        counts = self.taxels.counts(truth.pressures, rng, frames=chain.frames, peak=peak)
-        fall = rest - counts.mean(axis=0)
-        noise = np.hypot(self.taxels.noise, np.sqrt(1.0 / 12.0)) * np.sqrt(1.0 / chain.frames + 1.0 / REST_FRAMES)
-        pressures = self.curves.pressures(fall)
-        return PressureFrame(
-            pressures=pressures,
-            active=fall > _WAKING * noise,
-            live=live,
-            beyond_range=pressures > REFERENCE_PA,
-            sd_Pa=self.curves.slopes(fall) * noise,
-        )
+        return reader.frame(self.taxels.counts(truth.pressures, rng, frames=chain.frames, peak=peak))
 
     def _trial(self, truth: ContactTruth, frame: PressureFrame) -> ContactTrial:
         told = {method: find_contacts(patch, frame) for method, patch in self.patches.items()}
@@ -165,33 +162,28 @@ class Leg:
         )
 
 
-@dataclass(frozen=True, kw_only=True)
-class Curves:
-    """Cubic curves of taxels, fitted to one rise of pressure in a chamber."""
-
-    coefficients: FloatArray
-    """Pressure by powers 1 to 3 of the fall over the mean swing; shape (3, n); Pa."""
-
-    @classmethod
-    def fitted(cls, taxels: TaxelResponses, rng: np.random.Generator) -> Self:
-        """Calibrate taxels as a chamber does."""
-        pressure = np.linspace(0.0, REFERENCE_PA, 400)
-        number = len(taxels.rest)
-        rest = taxels.counts(np.zeros(number), rng, frames=REST_FRAMES).mean(axis=0)
-        rise = np.stack([taxels.counts(np.full(number, one), rng, frames=1)[0] for one in pressure])
-        shares = ((rest - rise) / SWING_COUNTS).T
-        powers = np.stack([shares, shares**2, shares**3], axis=2)
-        return cls(coefficients=np.stack([np.linalg.lstsq(one, pressure, rcond=None)[0] for one in powers]).T)
-
-    def pressures(self, fall: FloatArray) -> FloatArray:
-        """Pressure of every taxel; Pa."""
-        share = np.maximum(fall, 0.0) / SWING_COUNTS
-        first, second, third = self.coefficients
-        return np.maximum(share * (first + share * (second + share * third)), 0.0)
-
-    def slopes(self, fall: FloatArray) -> FloatArray:
-        """Pressure by count of every taxel; Pa."""
-        return 2.0 * (self.pressures(np.maximum(fall, 0.0) + 0.5) - self.pressures(np.maximum(fall, 0.5)))
+def chamber_table(taxels: TaxelResponses, rng: np.random.Generator, *, both_ways: bool) -> PressureTable:
+    """Calibrate taxels in a chamber, on loading alone or on both ways."""
+    log = chamber_recording(taxels, highest_pa=REFERENCE_PA, ramp_s=8.0, rng=rng)
+    counts = log.stream("counts").signal("taxel_counts").values
+    cycle = pressure_cycle(counts, log.stream("chamber").signal("pressure").values[:, 0])
+    used = np.ones(len(cycle.pressure), dtype=np.bool_) if both_ways else ~cycle.unloading
+    number = cycle.fall.shape[1]
+    curves = [
+        fit_curve(CurveKind.MONOTONE, cycle.fall[used, k], cycle.pressure[used], range_counts=float(cycle.top_fall[k]))
+        for k in range(number)
+    ]
+    worth = [taxel_response(curve, cycle.fall[:, k], cycle.pressure, cycle.unloading) for k, curve in enumerate(curves)]
+    return PressureTable(
+        patch="leg",
+        columns=number,
+        taxels=np.arange(number),
+        live=np.ones(number, dtype=np.bool_),
+        values=np.stack([curve.pressure(np.arange(256.0)) for curve in curves], axis=1),
+        range_counts=np.array([curve.range_counts for curve in curves]),
+        error=np.array([one.error_pa for one in worth]),
+        hysteresis=np.array([one.hysteresis_pa for one in worth]),
+    )
 
 
 def _ideal(truth: ContactTruth) -> PressureFrame:
@@ -239,6 +231,8 @@ CHAINS: Final[Mapping[str, Chain | None]] = {
     "chain, ten frames, loading": Chain(),
     "chain, ten frames, unloading": Chain(unloading=True),
     "chain, ten frames, loading, 15 % dead": Chain(dead=DEAD_SHARE),
+    "chain, ten frames, loading, curves of both ways": Chain(both_ways=True),
+    "chain, ten frames, unloading, curves of both ways": Chain(both_ways=True, unloading=True),
 }
 
 

@@ -18,7 +18,7 @@ from tests.skin.contact_trials import CHAINS, CONTACTS, JUDGED_SEED, ContactTria
 pytestmark = [pytest.mark.real_data, pytest.mark.long]
 
 Trials = Mapping[str, Sequence[ContactTrial]]
-IDEAL, ONE, TEN, UNLOADING, DEAD = CHAINS
+IDEAL, ONE, TEN, UNLOADING, DEAD, LOADING_BOTH, UNLOADING_BOTH = CHAINS
 POINT_DISTANCE_M = 2.5e-3
 """Distance between the points that operators sum over: six in a facet of 6.5 mm."""
 
@@ -103,6 +103,13 @@ def test_predicted_deviations_hold(trials: Trials, chain: str) -> None:
     assert 0.90 <= share <= 0.98
     # negative control: with half the deviation it would not hold
     assert within(trials[chain], 1.0)[0] < 0.85
+
+
+def test_curves_of_both_ways_lie_between(trials: Trials) -> None:
+    """Fitted to loading and unloading, as `skin calibrate` does, they read too little, then too much, by less."""
+    loading, unloading = (errors(trials[name], WrenchMethod.KRIGING) for name in (LOADING_BOTH, UNLOADING_BOTH))
+    assert -0.07 < loading.bias < 0.0 < unloading.bias < 0.05
+    assert loading.magnitude_N + unloading.magnitude_N < 1.25  # N; 1.1 to 1.2 with curves of loading alone
 
 
 def test_predicted_deviations_do_not_cover_hysteresis(trials: Trials) -> None:

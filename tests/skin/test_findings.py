@@ -50,9 +50,9 @@ def _flat(*, upside_down: bool = False) -> PatchDescription:
 
 
 def test_a_sound_layout_has_no_finding() -> None:
-    """Neither curved nor flat; of a flat one nobody but its normals can tell which side is out."""
+    """Neither curved nor flat, nor one without normals and entries."""
     assert len(SOUND) == 210
-    for patch in (SOUND, WIDE, _flat(), _flat(upside_down=True), replace(SOUND, normals=None, representatives=None)):
+    for patch in (SOUND, WIDE, _flat(), replace(SOUND, normals=None, representatives=None)):
         assert layout_findings(patch) == ()
 
 
@@ -126,6 +126,14 @@ def test_a_patch_that_is_inside_out_is_found() -> None:
     assert finding.remedy.startswith("reverse them all")
 
 
+def test_a_flat_patch_that_is_inside_out_is_found() -> None:
+    """Its boards tell; without boards nobody but the normals does."""
+    patch = _flat(upside_down=True)
+    finding = _only(patch, Defect.INWARD)
+    assert finding.remedy.startswith("reverse them all, unless its boards are mirror images")
+    assert layout_findings(replace(patch, modules=patch.modules + 100, representatives=None)) == ()
+
+
 def test_one_normal_per_module_is_found_alone() -> None:
     """The plane of each module, on a surface that turns by 3 degrees within modules."""
     assert SOUND.normals is not None
@@ -136,11 +144,11 @@ def test_one_normal_per_module_is_found_alone() -> None:
 
 
 ENTRIES = {
-    "thermal pad": (_entries(SOUND, 4, -2), [4], "thermal pads have a place"),
-    "missing": (_entries(SOUND, 4, -1), [4], "no taxel"),
-    "no row": (_entries(without_modules(WIDE, 0), 4, 3), [4], "rows are zero"),
-    "misled": (_entries(SOUND, 4, 6), [4], "a representative that is none"),
-    "beyond": (_entries(SOUND, 4, 9999), [4], "a representative that is none"),
+    "thermal pad": (_entries(SOUND, 4, -2), [4], "1 thermal pad with a place"),
+    "missing": (_entries(SOUND, 4, -1), [4], "1 row with a place, where the entry says that there is no taxel"),
+    "no row": (_entries(without_modules(WIDE, 0), 4, 3), [4], "1 row of zeros"),
+    "misled": (_entries(SOUND, 4, 6), [4], "1 taxel with a representative that is none"),
+    "beyond": (_entries(SOUND, 4, 9999), [4], "1 taxel with a representative that is none"),
 }
 
 
@@ -222,8 +230,25 @@ def test_a_hole_is_found_alone() -> None:
     assert {13, 21, 23} & set(finding.modules.tolist())
 
 
+def test_two_holes_of_one_size_are_two() -> None:
+    """Each with the length of the line around it."""
+    patch = without_modules(cylinder_patch(across=17, along=5), 38, 46)
+    finding = _only(patch, Defect.GAP)
+    first, second = finding.message.removeprefix("2 holes, ").removesuffix(" mm around").split(", ")
+    assert first == second
+
+
+def test_a_taxel_that_is_far_away_is_apart() -> None:
+    """A digit too many in one position; the rest is judged all the same."""
+    positions = SOUND.positions.copy()
+    positions[40] = [9e6, 0.0, 0.0]
+    found = {finding.defect: finding for finding in layout_findings(replace(SOUND, positions=positions))}
+    assert found[Defect.GAP].taxels.tolist() == [48]
+    assert Defect.TEMPLATE in found
+
+
 def test_a_patch_in_millimetres_is_found() -> None:
     """No taxel has a neighbour then."""
     findings = layout_findings(replace(SOUND, positions=1e3 * SOUND.positions))
     gap = next(finding for finding in findings if finding.defect is Defect.GAP)
-    assert gap.remedy == "state positions in m"
+    assert gap.remedy.startswith("look whether positions are in m")

@@ -74,6 +74,8 @@ from forcetorque.analysis.sensor_run import SensorRun
 from forcetorque.analysis.sensor_sphere import SensorSphere, sensor_spheres, sphere_intervals
 from forcetorque.analysis.skin_calibrate import SkinCalibration, calibrate_skin, read_patches
 from forcetorque.analysis.skin_check import LayoutFindingRow, SkinCheck, check_patch, check_skin
+from forcetorque.analysis.skin_contact_rows import SkinContactRow, SkinWrenchPicture
+from forcetorque.analysis.skin_wrench import SkinWrench, WrenchChoice, skin_wrench
 from forcetorque.analysis.sphere import Spheres, spheres, spheres_of_sensors
 from forcetorque.analysis.sphere_rows import FailureRow, SphereRow
 from forcetorque.analysis.static_checks import IntervalOffset, StaticChecks, check
@@ -103,6 +105,11 @@ __all__ = [
     "use_verdicts",
     "LayoutFindingRow",
     "SkinCheck",
+    "SkinContactRow",
+    "SkinWrench",
+    "SkinWrenchPicture",
+    "WrenchChoice",
+    "skin_wrench",
     "check_patch",
     "check_skin",
     "LearntDirection",

@@ -9,10 +9,12 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
+from forcetorque.array_field import ArrayField
+from forcetorque.arrays import FloatArray
 from forcetorque.exchange.skin import describe_patch
 from forcetorque.result import Result, Row, Shown, Table
-from forcetorque.skin import LayoutFinding, PatchDescription, layout_findings
-from forcetorque.skin.findings import counted
+from forcetorque.skin import LayoutFinding, PatchDescription
+from forcetorque.skin.findings import counted, shape_findings, shape_of
 
 _MOST = 6
 """Stretches of numbers that a table has; JSON and CSV have all numbers."""
@@ -67,6 +69,10 @@ class SkinCheck(Result):
     """File of the figure."""
     findings: tuple[LayoutFindingRow, ...]
     """What is wrong."""
+    positions: Annotated[FloatArray, ArrayField((None, 3))] = Field(exclude=True)
+    """Taxels; shape (n, 3); m. For the figure."""
+    normals: dict[str, Annotated[FloatArray, ArrayField((None, 3))]] = Field(exclude=True)
+    """Normals `as written` and `rebuilt`, as far as there are any; shape (n, 3) each. For the figure."""
 
     def blocks(self) -> Iterator[Table | str]:
         """Give a table of findings, and a sentence for each.
@@ -122,6 +128,8 @@ def check_patch(patch: PatchDescription) -> SkinCheck:
     Returns:
         What is wrong with it.
     """
+    shape = shape_of(patch)
+    normals = {"as written": patch.normals, "rebuilt": shape.normals}
     return SkinCheck(
         source=patch.source,
         patch=patch.name,
@@ -130,7 +138,9 @@ def check_patch(patch: PatchDescription) -> SkinCheck:
         taxels=len(patch),
         modules=len(set(patch.modules.tolist())),
         thermal_pads=len(patch.thermal_pads),
-        findings=tuple(_row(finding) for finding in layout_findings(patch)),
+        findings=tuple(_row(finding) for finding in shape_findings(shape)),
+        positions=patch.positions,
+        normals={name: values for name, values in normals.items() if values is not None},
     )
 
 

@@ -17,8 +17,8 @@ def schema(
     name: Annotated[
         str,
         typer.Argument(
-            help="experiment, acceptance, scenario, recording, calibration, joint, moments or taxels for a file; a "
-            "command for its result."
+            help="experiment, acceptance, scenario, recording, calibration, joint, moments, taxels or module_frames "
+            "for a file; a command, with _ for its space, for its result."
         ),
     ],
 ) -> None:
@@ -40,6 +40,7 @@ def _files() -> dict[str, Callable[[], dict[str, Any]]]:
     from forcetorque.analysis import AcceptanceFile
     from forcetorque.calibration import Calibration, RecordingMoments
     from forcetorque.calibration.joint import JointPosterior
+    from forcetorque.exchange.skin import ModuleFrames
     from forcetorque.experiment import ExperimentFile
     from forcetorque.recording import recording_schema
     from forcetorque.simulation.scenario import ScenarioFile
@@ -54,6 +55,7 @@ def _files() -> dict[str, Callable[[], dict[str, Any]]]:
         "joint": JointPosterior.model_json_schema,
         "moments": RecordingMoments.model_json_schema,
         "taxels": PatchCalibration.model_json_schema,
+        "module_frames": ModuleFrames.model_json_schema,
     }
 
 

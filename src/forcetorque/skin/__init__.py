@@ -4,7 +4,7 @@
 from forcetorque.skin.description import PatchDescription
 from forcetorque.skin.findings import Defect, LayoutFinding, layout_findings
 from forcetorque.skin.layout import SAME_PLACE_M, UNIT_TOLERANCE, SkinLayout
-from forcetorque.skin.modular import modular_patch
+from forcetorque.skin.modular import LARGEST_MESSAGE, modular_patch
 from forcetorque.skin.module import (
     MODULE_CENTRE,
     MODULE_COLUMNS,
@@ -14,13 +14,14 @@ from forcetorque.skin.module import (
     MODULE_THERMAL,
     placed_pads,
 )
-from forcetorque.skin.normals import rebuilt_normals
+from forcetorque.skin.normals import patch_normals, rebuilt_normals
 from forcetorque.skin.patch_calibration import PatchCalibration, read_patch_calibration
 from forcetorque.skin.plan import PlannedModule, module_poses, placed_on_paper
 from forcetorque.skin.pressure_clock import PressureClock, match_pressure
 from forcetorque.skin.pressure_table import PressureTable
 
 __all__ = [
+    "LARGEST_MESSAGE",
     "MODULE_CENTRE",
     "MODULE_COLUMNS",
     "MODULE_PADS",
@@ -33,14 +34,15 @@ __all__ = [
     "LayoutFinding",
     "PatchCalibration",
     "PatchDescription",
+    "PlannedModule",
     "PressureClock",
     "PressureTable",
     "SkinLayout",
-    "PlannedModule",
     "layout_findings",
     "match_pressure",
     "modular_patch",
     "module_poses",
+    "patch_normals",
     "placed_on_paper",
     "placed_pads",
     "read_patch_calibration",

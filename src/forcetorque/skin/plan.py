@@ -18,7 +18,7 @@ import numpy as np
 
 from forcetorque.arrays import BoolArray, FloatArray
 from forcetorque.errors import SkinError
-from forcetorque.spatial import make_pose, rotation_about_z
+from forcetorque.spatial import make_pose
 
 _FARTHEST_M: Final = 0.05
 """Distance of centres that are neighbours, on paper and on the link; m: three modules."""
@@ -115,11 +115,7 @@ def placed_on_paper(plan: Sequence[PlannedModule]) -> FloatArray:
         plan: Modules.
 
     Returns:
-        Pose of each, z towards the reader; shape (k, 4, 4); m.
+        Pose of each, z towards the reader, or away where it is drawn as seen from behind; shape (k, 4, 4); m.
     """
-    return np.array(
-        [
-            make_pose(rotation_about_z(np.array(module.angle_rad)), np.array([module.u_m, module.v_m, 0.0]))
-            for module in plan
-        ]
-    )
+    axes = np.eye(3)[:2]
+    return np.array([_pose(module, np.array([module.u_m, module.v_m, 0.0]), axes) for module in plan])

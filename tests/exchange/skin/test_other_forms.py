@@ -71,7 +71,7 @@ def _written(folder: Path, name: str, text: str) -> Path:
 
 
 def test_a_plan_has_the_template_at_every_place(tmp_path: Path) -> None:
-    """In mm, turned by degrees; a mirrored module has its x reversed."""
+    """In mm, turned by degrees; a mirrored module has its x reversed, for it is seen from behind."""
     path = _written(tmp_path, "plan.ini", PLAN)
     patch = describe_patch(path)
     assert (patch.name, patch.frame, patch.columns) == ("shank_lower", "u-v plane", 192)
@@ -79,6 +79,8 @@ def test_a_plan_has_the_template_at_every_place(tmp_path: Path) -> None:
     assert np.abs(patch.positions[:10] - template).max() < 1e-15
     assert np.abs(patch.positions[10:20] - (template * [1.0, -1.0, 1.0] + [-0.016, 0.009, 0.0])).max() < 1e-15
     assert np.abs(patch.positions[20:] - (template * [-1.0, -1.0, 1.0] + [0.016, 0.009, 0.0])).max() < 1e-15
+    assert patch.normals is not None
+    assert patch.normals[[0, 10, 20], 2].tolist() == [1.0, -1.0, 1.0]
     assert patch.lines[[0, 12, 24]].tolist() == [7, 8, 5]
     assert [module.number for module in read_plan(path)] == [2, 0, 1]
 
@@ -92,6 +94,7 @@ PLANS: dict[str, tuple[str, str, str]] = {
     "repeated": ("triangle_10pad\t1", "triangle_10pad\t0", "plan.ini:8: expected each module once, got 0 of line 7"),
     "no mirror": ("\t180\t5\t1", "\t180\t5", "plan.ini:8: expected triangle_10pad number X Y degrees gain mirror"),
     "a word": ("\t16\t9", "\tx\t9", "plan.ini:5: expected triangle_10pad number"),
+    "a module that none has": ("triangle_10pad\t1", "triangle_10pad\t999999999", "plan.ini:8: expected triangle_10pad"),
     "no part": ("robotPart", "part", "expected a line `robotPart PATCH`"),
     "no section": ("[SENSORS]", "", r"expected a section \[SENSORS\]"),
 }
@@ -124,6 +127,7 @@ TABLES: dict[str, tuple[str, str, str]] = {
     "unit of force": ("x_mm,y_mm,z_mm", "x_N,y_N,z_N", "palm.csv:4: expected columns of positions with their unit"),
     "no frame": ("# frame: r_hand\n", "", "expected a line `# frame"),
     "no columns": ("# columns: 5\n", "", "expected a line `# columns"),
+    "a message that none sends": ("columns: 5", "columns: 99999999999", "# columns: expected 1 to 1000000 numbers"),
     "beyond": ("3,1,", "5,1,", "palm.csv:6: expected a column of 0 to 4, got 5"),
     "twice": ("3,1,", "0,1,", "palm.csv:6: expected each column once, got 0 of line 5 again"),
     "a word": ("6.5,0,1", "6.5,zero,1", "palm.csv:7: y_mm of taxel 1: expected a finite number, got 'zero'"),

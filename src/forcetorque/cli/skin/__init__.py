@@ -7,6 +7,7 @@ import typer
 
 from forcetorque.cli.skin.calibrate import calibrate
 from forcetorque.cli.skin.check import check
+from forcetorque.cli.skin.wrench import wrench
 
 skin = typer.Typer(
     name="skin",
@@ -15,5 +16,5 @@ skin = typer.Typer(
     rich_markup_mode=None,
 )
 
-for _command in (calibrate, check):
+for _command in (calibrate, check, wrench):
     skin.command(_command.__name__)(_command)

@@ -14,6 +14,9 @@ from forcetorque.cli.output import Format, show, start_logging, stop_at_failures
 
 def check(
     layout: Annotated[Path, typer.Argument(help="File with the layout of a patch; see docs/skin_layout.md.")],
+    figure: Annotated[
+        Path | None, typer.Option("--figure", help="PNG of positions and normals, as written and as rebuilt.")
+    ] = None,
     output_format: FormatOption = Format.TABLE,
 ) -> None:
     """Find what is wrong with a layout; exit code 1 if anything is.
@@ -21,8 +24,17 @@ def check(
     Example: forcetorque skin check right_leg_lower.txt
     """
     from forcetorque import analysis
+    from forcetorque.cli.figure_file import refuse_figure
 
+    refuse_figure(figure)
     start_logging().info("reading %s", layout)
     answer = analysis.check_skin(layout)
+    if figure is not None:
+        from forcetorque.atomic import write_bytes_atomically
+        from forcetorque.report.figures import skin_layout_figure
+        from forcetorque.report.figures.canvas import png_bytes
+
+        write_bytes_atomically(figure, png_bytes(skin_layout_figure(answer.positions, answer.normals)))
+        answer = answer.model_copy(update={"figure": str(figure)})
     show(answer, output_format)
     stop_at_failures(answer.findings)

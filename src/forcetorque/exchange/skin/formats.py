@@ -6,8 +6,6 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Protocol
 
-import numpy as np
-
 from forcetorque.arrays import FloatArray
 from forcetorque.errors import FormatError, MissingFileError, SkinError
 from forcetorque.exchange.skin.icub_positions import IcubPositions
@@ -15,7 +13,7 @@ from forcetorque.exchange.skin.layout_table import LayoutTable
 from forcetorque.exchange.skin.skin_gui import SkinGuiPlan
 from forcetorque.exchange.skin.taxel_array import TaxelArrayMessage
 from forcetorque.exchange.skin.urdf_frames import UrdfFrames
-from forcetorque.skin import PatchDescription, SkinLayout, rebuilt_normals
+from forcetorque.skin import PatchDescription, SkinLayout, patch_normals
 
 
 class LayoutFormat(Protocol):
@@ -91,7 +89,7 @@ def read_layout(path: Path | str, *, rebuild_normals: bool = False, outward: Flo
     Args:
         path: File of any known form.
         rebuild_normals: Whether to find the normals from the positions instead of taking those of the file.
-        outward: Rough outward direction in the link, where a flat patch does not tell which side is out; shape (3,).
+        outward: Rough outward direction in the link, for a flat patch without boards; shape (3,).
 
     Returns:
         The layout.
@@ -101,9 +99,6 @@ def read_layout(path: Path | str, *, rebuild_normals: bool = False, outward: Flo
     """
     patch = describe_patch(path)
     try:
-        if not rebuild_normals:
-            return patch.layout()
-        directions = None if outward is None else np.broadcast_to(outward, (len(patch), 3))
-        return patch.layout(rebuilt_normals(patch.positions, patch.modules, outward=directions))
+        return patch.layout(patch_normals(patch, outward) if rebuild_normals else None)
     except SkinError as error:
         raise SkinError(f"{path}: {error}") from error

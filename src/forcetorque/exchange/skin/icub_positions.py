@@ -61,6 +61,9 @@ class IcubPositions:
         taxel = placed & ~np.isin(columns, np.flatnonzero(entries == _THERMAL_ENTRY))
         if not taxel.any():
             raise FormatError(f"{path}: expected rows x y z nx ny nz of taxels below {_SIGN}, got none but zeros")
+        sampling = _word(path, head, "spatial_sampling")
+        if sampling != "taxel":
+            raise FormatError(f"{path}: spatial_sampling: expected taxel, a row for each, got {sampling!r}")
         modules = columns // MODULE_COLUMNS
         thermal = ~taxel & np.isin(columns % MODULE_COLUMNS, MODULE_THERMAL) & np.isin(modules, modules[taxel])
         return PatchDescription(
@@ -81,9 +84,9 @@ class IcubPositions:
 
 
 def _word(path: Path, head: str, key: str) -> str:
-    match = re.search(rf"^{key}[ \t]+(\S+)[ \t]*$", head, re.MULTILINE)
+    match = re.search(rf"^{key}[ \t]+(\S+)[ \t\r]*$", head, re.MULTILINE)
     if match is None:
-        raise FormatError(f"{path}: expected a line `{key} LINK` above {_SIGN}, got none; write the frame of its rows")
+        raise FormatError(f"{path}: expected a line `{key} ...` above {_SIGN}, got none; see docs/skin_layout.md")
     return match[1]
 
 

@@ -5,6 +5,7 @@ from forcetorque.simulation.skin.chamber import chamber_recording
 from forcetorque.simulation.skin.contact import GRID_M, ContactTruth, SkinBody, SkinContact
 from forcetorque.simulation.skin.draw import ON_SKIN, contacts
 from forcetorque.simulation.skin.objects import ClothStrip, FlatWeight, Palm, SkinObject, Sphere
+from forcetorque.simulation.skin.recording import Loading, contact_recording
 from forcetorque.simulation.skin.response import NOISE_COUNTS, REFERENCE_PA, REST_COUNTS, SWING_COUNTS, TaxelResponses
 from forcetorque.simulation.skin.true_surface import SurfacePoints, TrueSurface
 
@@ -18,6 +19,7 @@ __all__ = [
     "ClothStrip",
     "ContactTruth",
     "FlatWeight",
+    "Loading",
     "Palm",
     "SkinBody",
     "SkinContact",
@@ -27,5 +29,6 @@ __all__ = [
     "TaxelResponses",
     "TrueSurface",
     "chamber_recording",
+    "contact_recording",
     "contacts",
 ]

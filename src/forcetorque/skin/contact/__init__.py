@@ -5,5 +5,6 @@ from forcetorque.skin.contact.clusters import NO_CONTACT, clusters
 from forcetorque.skin.contact.contacts import SkinContacts, find_contacts
 from forcetorque.skin.contact.frame import PressureFrame
 from forcetorque.skin.contact.lobes import lobes
+from forcetorque.skin.contact.reading import PatchReader
 
-__all__ = ["NO_CONTACT", "PressureFrame", "SkinContacts", "clusters", "find_contacts", "lobes"]
+__all__ = ["NO_CONTACT", "PatchReader", "PressureFrame", "SkinContacts", "clusters", "find_contacts", "lobes"]

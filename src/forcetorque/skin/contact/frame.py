@@ -34,7 +34,7 @@ class PressureFrame:
     sd_Pa: FloatArray = field(default_factory=_nothing)
     """Standard deviation of each pressure, from noise and calibration; 0 by default; shape (n,)."""
     hysteresis_Pa: FloatArray = field(default_factory=_nothing)
-    """By how much each may read too high while pressure is taken off; 0 by default; shape (n,)."""
+    """How much more each reads while pressure is taken off than while it is put on; 0 by default; shape (n,)."""
 
     def __post_init__(self) -> None:
         count = len(self.pressures)

@@ -8,7 +8,7 @@ from forcetorque.skin.findings.directions import FACETED_DEG, OBLIQUE_DEG, norma
 from forcetorque.skin.findings.finding import Defect, LayoutFinding, counted
 from forcetorque.skin.findings.gaps import gaps
 from forcetorque.skin.findings.lengths import normal_lengths
-from forcetorque.skin.findings.modules import NEAREST_CENTRES_M, TEMPLATE_M, off_template, overlaps
+from forcetorque.skin.findings.modules import NEAREST_CENTRES_M, off_template, overlaps
 from forcetorque.skin.findings.places import duplicates
 from forcetorque.skin.findings.representatives import representatives
 from forcetorque.skin.findings.shape import PatchShape, shape_of
@@ -33,7 +33,18 @@ def layout_findings(patch: PatchDescription) -> tuple[LayoutFinding, ...]:
     Returns:
         Findings; none where it is sound.
     """
-    shape = shape_of(patch)
+    return shape_findings(shape_of(patch))
+
+
+def shape_findings(shape: PatchShape) -> tuple[LayoutFinding, ...]:
+    """Look for everything that may be wrong with a layout whose shape is known.
+
+    Args:
+        shape: Patch.
+
+    Returns:
+        Findings; none where it is sound.
+    """
     return tuple(finding for look in _LOOKS for finding in look(shape))
 
 
@@ -41,11 +52,11 @@ __all__ = [
     "FACETED_DEG",
     "NEAREST_CENTRES_M",
     "OBLIQUE_DEG",
-    "TEMPLATE_M",
     "Defect",
     "LayoutFinding",
     "PatchShape",
     "counted",
     "layout_findings",
+    "shape_findings",
     "shape_of",
 ]

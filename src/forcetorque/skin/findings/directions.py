@@ -56,8 +56,8 @@ def normal_directions(shape: PatchShape) -> Iterator[LayoutFinding]:
 
 
 def _is_placeholder(unit: FloatArray, angle: FloatArray) -> bool:
-    """Whether all directions are one, and not that of the surface."""
-    return bool(np.ptp(unit, axis=0).max() < _SAME and angle.max() > OBLIQUE_DEG)
+    """Whether all directions are one, and not that of the surface or its back."""
+    return bool(np.ptp(unit, axis=0).max() < _SAME and np.minimum(angle, 180.0 - angle).max() > OBLIQUE_DEG)
 
 
 def _placeholder(patch: PatchDescription, unit: FloatArray, stated: BoolArray, angle: FloatArray) -> LayoutFinding:
@@ -79,7 +79,9 @@ def _off(patch: PatchDescription, off: BoolArray, defect: Defect, what: str, rem
 
 def _remedy_of_inward(shape: PatchShape, inward: BoolArray, stated: BoolArray) -> str:
     if inward[stated].all() and shape.side is Side.SHAPE:
-        return "reverse them all, or, if the skin lines the inside of a link, leave them and state them as outward"
+        return "reverse them all, unless the skin lines the inside of a link"
+    if inward[stated].all():
+        return "reverse them all, unless its boards are mirror images of those of iCub"
     return f"reverse them, or {REBUILD}"
 
 

@@ -33,7 +33,7 @@ def gaps(shape: PatchShape) -> Iterator[LayoutFinding]:
             patch.taxels,
             defect=Defect.GAP,
             message=f"no three taxels within {1e3 * LONGEST_EDGE_M:g} mm of each other make a surface with two sides",
-            remedy="state positions in m",
+            remedy="look whether positions are in m, and modules where they belong",
         )
         return
     piece = _pieces(surface)
@@ -48,8 +48,8 @@ def gaps(shape: PatchShape) -> Iterator[LayoutFinding]:
         yield finding_of(patch, apart, defect=Defect.GAP, message=message, remedy=_REMEDY)
     holes = _holes(surface, piece)
     if holes:
-        around = patch.taxels[np.isin(shape.place, np.concatenate(list(holes.values())))]
-        sizes = ", ".join(f"{1e3 * length:.0f}" for length in holes)
+        around = patch.taxels[np.isin(shape.place, np.concatenate(holes))]
+        sizes = ", ".join(f"{1e3 * _length(surface, hole):.0f}" for hole in holes)
         message = f"{counted(len(holes), 'hole')}, {sizes} mm around"
         yield finding_of(patch, around, defect=Defect.GAP, message=message, remedy=_REMEDY)
 
@@ -65,13 +65,11 @@ def _pieces(surface: SkinSurface) -> IntArray:
     return piece
 
 
-def _holes(surface: SkinSurface, piece: IntArray) -> dict[float, IntArray]:
-    """Taxels around each hole by the length of the line around it: loops of the boundary of a piece but its longest."""
-    loops = {_length(surface, loop): loop for loop in _loops(surface)}
-    longest = {int(piece[loops[length][0]]): length for length in sorted(loops)}
-    return {
-        length: loops[length] for length in sorted(loops) if length > LEAST_HOLE_M and length not in longest.values()
-    }
+def _holes(surface: SkinSurface, piece: IntArray) -> list[IntArray]:
+    """Taxels around each hole, the smallest first: loops of the boundary of a piece but its longest."""
+    loops = sorted(_loops(surface), key=lambda loop: _length(surface, loop))
+    longest = {int(piece[loop[0]]): k for k, loop in enumerate(loops)}
+    return [loop for k, loop in enumerate(loops) if k not in longest.values() and _length(surface, loop) > LEAST_HOLE_M]
 
 
 def _loops(surface: SkinSurface) -> list[IntArray]:

@@ -7,14 +7,11 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray
-from forcetorque.skin.description import PatchDescription
+from forcetorque.skin.boards import TEMPLATE_M, are_boards, has_ten, template_misfit
 from forcetorque.skin.findings.finding import Defect, LayoutFinding, counted, finding_of
 from forcetorque.skin.findings.shape import PatchShape
-from forcetorque.skin.module import MODULE_CENTRE, MODULE_COLUMNS, MODULE_PADS, MODULE_SIDE_M, MODULE_TAXELS
+from forcetorque.skin.module import MODULE_CENTRE, MODULE_COLUMNS, MODULE_SIDE_M
 
-TEMPLATE_M = 5e-4
-"""Root of the mean square distance to the template from which a module is none; m: a twelfth of the pitch."""
 NEAREST_CENTRES_M = 0.8 * MODULE_SIDE_M / np.sqrt(3.0)
 """Distance of the centres of two modules that share a side, with room for what covers bend; m."""
 
@@ -29,15 +26,15 @@ def off_template(shape: PatchShape) -> Iterator[LayoutFinding]:
         A finding of those with other taxels, and one of those with taxels at other places.
     """
     patch = shape.patch
-    if not _of_triangles(patch):
+    if not are_boards(patch.taxels, patch.modules):
         return
     other, bent, worst = [], [], 0.0
     for module in np.unique(patch.modules):
         own = patch.modules == module
-        if not _has_ten(patch, module):
+        if not has_ten(patch.taxels[own]):
             other.append(module)
             continue
-        distance = _misfit(patch.positions[own])
+        distance = template_misfit(patch.positions[own])
         if distance > TEMPLATE_M:
             bent.append(module)
             worst = max(worst, distance)
@@ -71,9 +68,12 @@ def overlaps(shape: PatchShape) -> Iterator[LayoutFinding]:
         One finding of them all.
     """
     patch = shape.patch
-    if not _of_triangles(patch):
+    if not are_boards(patch.taxels, patch.modules):
         return
-    modules = np.array([module for module in np.unique(patch.modules) if _has_ten(patch, module)], dtype=np.int64)
+    modules = np.array(
+        [module for module in np.unique(patch.modules) if has_ten(patch.taxels[patch.modules == module])],
+        dtype=np.int64,
+    )
     centres = patch.positions[np.isin(patch.taxels, modules * MODULE_COLUMNS + MODULE_CENTRE)]
     distance = np.linalg.norm(centres[:, None] - centres, axis=2)
     pairs = [(i, j) for i, j in np.argwhere(distance < NEAREST_CENTRES_M).tolist() if i < j]
@@ -86,20 +86,3 @@ def overlaps(shape: PatchShape) -> Iterator[LayoutFinding]:
             message=f"centres of modules are nearer than two triangles can be: {names}",
             remedy="look in the CAD file which of each two is where it says",
         )
-
-
-def _of_triangles(patch: PatchDescription) -> bool:
-    return bool((patch.modules == patch.taxels // MODULE_COLUMNS).all())
-
-
-def _has_ten(patch: PatchDescription, module: int) -> bool:
-    return np.array_equal(patch.taxels[patch.modules == module] % MODULE_COLUMNS, MODULE_TAXELS)
-
-
-def _misfit(points: FloatArray) -> float:
-    """Distance to the template, moved and mirrored as fits best; root mean square; m."""
-    template = MODULE_PADS[MODULE_TAXELS]
-    centred, wanted = points - points.mean(axis=0), template - template.mean(axis=0)
-    # the template is flat, so its mirror image is a rotation of it: every orthogonal matrix may be taken
-    left, _, right = np.linalg.svd(wanted.T @ centred)
-    return float(np.sqrt(((centred - wanted @ left @ right) ** 2).sum(axis=1).mean()))

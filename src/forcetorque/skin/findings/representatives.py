@@ -9,7 +9,7 @@ import numpy as np
 
 from forcetorque.arrays import BoolArray, IntArray
 from forcetorque.skin.description import PatchDescription
-from forcetorque.skin.findings.finding import Defect, LayoutFinding, finding_of
+from forcetorque.skin.findings.finding import Defect, LayoutFinding, counted, finding_of
 from forcetorque.skin.findings.shape import PatchShape
 
 _THERMAL = -2
@@ -29,39 +29,46 @@ def representatives(shape: PatchShape) -> Iterator[LayoutFinding]:
     if entries is None:
         return
     if len(entries) != patch.columns:
-        yield _contradiction(
+        yield _finding(
             patch,
             np.empty(0, dtype=np.int64),
             f"{len(entries)} entries for {patch.columns} rows",
             "write an entry for each row; rows are believed, entries beyond them are not used",
         )
+    for columns, noun, what, remedy in _contradictions(patch, entries):
+        if len(columns):
+            yield _finding(patch, columns, f"{counted(len(columns), noun)} {what}", remedy)
+
+
+def _contradictions(patch: PatchDescription, entries: IntArray) -> Iterator[tuple[IntArray, str, str, str]]:
+    """Columns whose row and entry differ, what they are and how, and what to do."""
     length = min(len(entries), patch.columns)
     entries = entries[:length]
     placed = np.isin(np.arange(length), patch.taxels if patch.placed is None else patch.placed)
-    for columns, message, remedy in (
-        (
-            np.flatnonzero(placed & (entries == _THERMAL)),
-            "thermal pads have a place in their rows",
-            "write rows of zeros, or other entries if they are taxels; they are read as thermal pads",
-        ),
-        (
-            np.flatnonzero(placed & (entries < 0) & (entries != _THERMAL)),
-            "rows have a place where their entries say that there is no taxel",
-            "write the representative of each, or rows of zeros; they are read as taxels",
-        ),
-        (
-            np.flatnonzero(~placed & (entries >= 0)),
-            "rows are zero where their entries name a representative",
-            "write where these taxels are, or entries of -1; they are read as none",
-        ),
-        (
-            _misled(entries, placed),
-            "taxels have a representative that is none, or that another one represents",
-            "write a taxel that represents itself",
-        ),
-    ):
-        if len(columns):
-            yield _contradiction(patch, columns, message, remedy)
+    yield (
+        np.flatnonzero(placed & (entries == _THERMAL)),
+        "thermal pad",
+        "with a place",
+        "write rows of zeros, or other entries if they are taxels; they are read as thermal pads",
+    )
+    yield (
+        np.flatnonzero(placed & (entries < 0) & (entries != _THERMAL)),
+        "row",
+        "with a place, where the entry says that there is no taxel",
+        "write the representative of each, or rows of zeros; they are read as taxels",
+    )
+    yield (
+        np.flatnonzero(~placed & (entries >= 0)),
+        "row",
+        "of zeros, where the entry names a representative",
+        "write where these taxels are, or entries of -1; they are read as none",
+    )
+    yield (
+        _misled(entries, placed),
+        "taxel",
+        "with a representative that is none, or that another one represents",
+        "write a taxel that represents itself",
+    )
 
 
 def _misled(entries: IntArray, placed: BoolArray) -> IntArray:
@@ -74,5 +81,5 @@ def _misled(entries: IntArray, placed: BoolArray) -> IntArray:
     return misled
 
 
-def _contradiction(patch: PatchDescription, columns: IntArray, message: str, remedy: str) -> LayoutFinding:
+def _finding(patch: PatchDescription, columns: IntArray, message: str, remedy: str) -> LayoutFinding:
     return finding_of(patch, columns, defect=Defect.REPRESENTATIVES, message=message, remedy=remedy)

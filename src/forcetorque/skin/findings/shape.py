@@ -10,6 +10,7 @@ import numpy as np
 
 from forcetorque.arrays import FloatArray, IntArray
 from forcetorque.errors import SkinError
+from forcetorque.skin.boards import outward_of_boards
 from forcetorque.skin.description import PatchDescription
 from forcetorque.skin.layout import SAME_PLACE_M
 from forcetorque.skin.normals import surface_normals
@@ -21,10 +22,12 @@ class Side(Enum):
 
     SHAPE = auto()
     """Skin bulges outwards."""
+    BOARDS = auto()
+    """The numbering of the taxels of its boards; the patch is flat."""
     NORMALS = auto()
-    """Most of the normals of the file; the patch is flat."""
+    """Most of the normals of the file; the patch is flat, and of no boards."""
     NOTHING = auto()
-    """Neither; either side may be the outer one."""
+    """None of these; either side may be the outer one."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -54,19 +57,21 @@ def shape_of(patch: PatchDescription) -> PatchShape:
     """
     _, first, place = np.unique(np.rint(patch.positions / SAME_PLACE_M), axis=0, return_index=True, return_inverse=True)
     place = place.ravel()
-    surface, side = _surface(patch.positions[first], patch.unit_normals()[first])
+    positions = patch.positions[first]
+    boards = outward_of_boards(patch.positions, patch.taxels, patch.modules)
+    hints: dict[Side, FloatArray | None] = {Side.SHAPE: None}
+    if boards is not None:
+        hints[Side.BOARDS] = boards[first]
+    hints[Side.NORMALS] = patch.unit_normals()[first]
+    surface, side = _surface(positions, hints)
     normals = None if surface is None else surface_normals(surface, patch.modules[first])[place]
     return PatchShape(patch=patch, place=place, surface=surface, normals=normals, side=side)
 
 
-def _surface(positions: FloatArray, normals: FloatArray) -> tuple[SkinSurface | None, Side]:
-    """The surface, and what tells its outer side."""
+def _surface(positions: FloatArray, hints: dict[Side, FloatArray | None]) -> tuple[SkinSurface | None, Side]:
+    """The surface, and the first that tells its outer side."""
     across = np.linalg.svd(positions - positions.mean(axis=0))[2][2]
-    for side, outward in (
-        (Side.SHAPE, None),
-        (Side.NORMALS, normals),
-        (Side.NOTHING, np.broadcast_to(across, positions.shape)),
-    ):
+    for side, outward in {**hints, Side.NOTHING: np.broadcast_to(across, positions.shape)}.items():
         try:
             return skin_surface(positions, outward=outward), side
         except SkinError:

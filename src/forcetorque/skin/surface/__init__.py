@@ -4,6 +4,7 @@
 from forcetorque.skin.surface.rim import HALF_PITCH_M, Rim, edge_taxels, rim_strip
 from forcetorque.skin.surface.surface import SkinSurface, skin_surface
 from forcetorque.skin.surface.triangulation import LONGEST_EDGE_M
+from forcetorque.skin.surface.unrolled import unrolled
 
 __all__ = [
     "HALF_PITCH_M",
@@ -13,4 +14,5 @@ __all__ = [
     "edge_taxels",
     "rim_strip",
     "skin_surface",
+    "unrolled",
 ]

@@ -1,0 +1,92 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A recording of a patch on which objects rest, one after the other."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from forcetorque.arrays import FloatArray
+from forcetorque.recording import Recording, Signal, Stream
+from forcetorque.simulation.skin.contact import ContactTruth
+from forcetorque.simulation.skin.response import REST_COUNTS, TaxelResponses
+from forcetorque.simulation.trace import EPOCH_NS
+from forcetorque.skin import SkinLayout
+
+RATE_HZ = 50.0
+"""Messages per second; Hz."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Loading:
+    """How objects are put on and taken off."""
+
+    rest_s: float = 3.0
+    """Time without any before the first one; s."""
+    ramp_s: float = 0.5
+    """Time in which each is put on, and taken off; s."""
+    hold_s: float = 2.0
+    """Time that each rests; s."""
+
+    @property
+    def turn_s(self) -> float:
+        """Time from one object to the next; s."""
+        return self.rest_s + 2.0 * self.ramp_s + self.hold_s
+
+    def shares(self, objects: int) -> tuple[FloatArray, FloatArray]:
+        """Give how much of its weight each object rests with.
+
+        Args:
+            objects: Their number, k.
+
+        Returns:
+            Times, shape (n,), and shares, shape (n, k); s.
+        """
+        seconds = np.arange(round((objects * self.turn_s + self.rest_s) * RATE_HZ)) / RATE_HZ
+        begin = self.rest_s + self.turn_s * np.arange(objects)
+        since = seconds[:, None] - begin
+        left = 2.0 * self.ramp_s + self.hold_s - since
+        return seconds, np.clip(np.minimum(since, left) / self.ramp_s, 0.0, 1.0)
+
+
+def contact_recording(
+    layout: SkinLayout,
+    responses: TaxelResponses,
+    truths: Sequence[ContactTruth],
+    rng: np.random.Generator,
+    *,
+    loading: Loading | None = None,
+) -> Recording:
+    """Record the counts of a patch while objects are put on it and taken off.
+
+    Args:
+        layout: The patch.
+        responses: How its taxels answer.
+        truths: What each object does when it rests.
+        rng: Source of noise.
+        loading: How they are put on; as by default if None.
+
+    Returns:
+        The stream `counts`, a column for every number of a message; thermal pads stay at rest, dummies are 0.
+    """
+    seconds, shares = (loading or Loading()).shares(len(truths))
+    pressures = np.stack([truth.pressures for truth in truths])  # (k, n)
+    counts = np.zeros((len(seconds), layout.columns))
+    counts[:, layout.thermal_pads] = REST_COUNTS
+    rests = shares == 1.0
+    was_held = np.maximum.accumulate(rests, axis=0)
+    for row in range(len(seconds)):
+        peak = was_held[row] * (shares[row] > 0.0) @ pressures
+        now = shares[row] @ pressures
+        counts[row, layout.taxels] = responses.counts(now, rng, frames=1, peak=np.maximum(peak, now))[0]
+    signal = Signal(
+        quantity="taxel_counts",
+        values=counts,
+        columns=tuple(map(str, range(layout.columns))),
+        units=("counts",) * layout.columns,
+    )
+    stamps = EPOCH_NS + np.rint(seconds * 1e9).astype(np.int64)
+    stream = Stream(name="counts", clock="board", stamp_ns=stamps, signals={"taxel_counts": signal})
+    return Recording(streams={"counts": stream})

@@ -1,0 +1,123 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""From counts to frames of pressure: which taxels feel something, and what their pressures are worth."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Final, Self
+
+import numpy as np
+
+from forcetorque.arrays import BoolArray, FloatArray, read_only, require_last_axis, require_shape
+from forcetorque.errors import SkinError
+from forcetorque.skin.contact.frame import PressureFrame
+from forcetorque.skin.layout import SkinLayout
+from forcetorque.skin.pressure_table import ROWS, PressureTable
+
+WAKING: Final = 3.8
+"""Fall over its standard deviation from which a taxel feels something: of 14 000 idle ones, one does by chance."""
+_ROUNDING: Final = 1.0 / np.sqrt(12.0)
+"""Standard deviation of what rounding to whole counts leaves; counts."""
+_FEWEST_AT_REST: Final = 10
+"""Messages that tell rest and noise."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class PatchReader:
+    """What turns the counts of one patch, since it was last switched on, into pressures; n taxels."""
+
+    table: PressureTable
+    """Pressures by counts below rest."""
+    rest: FloatArray
+    """Counts of a message at rest; shape (columns,)."""
+    noise: FloatArray
+    """Standard deviation of one message from the next at rest; shape (n,); counts."""
+    rest_messages: int
+    """Messages that `rest` is the mean of."""
+    live: BoolArray
+    """Taxels that can be trusted; shape (n,)."""
+
+    def __post_init__(self) -> None:
+        live = np.array(self.live, dtype=np.bool_) & self.table.live
+        require_shape(live, name="live", shape=(len(self.table),))
+        live.setflags(write=False)
+        object.__setattr__(self, "live", live)
+        object.__setattr__(self, "rest", read_only(self.rest, name="rest", shape=(self.table.columns,)))
+        object.__setattr__(self, "noise", read_only(self.noise, name="noise", shape=(len(self.table),)))
+
+    @classmethod
+    def at_rest(cls, table: PressureTable, counts: FloatArray, *, live: BoolArray | None = None) -> Self:
+        """Take rest and noise from messages while nothing touches the patch.
+
+        Args:
+            table: Its table.
+            counts: Messages; shape (k, columns); counts.
+            live: Taxels that can be trusted; all that have a table by default; shape (n,).
+
+        Returns:
+            The reader.
+
+        Raises:
+            SkinError: If there are too few messages to tell.
+        """
+        require_last_axis(counts, name=f"patch {table.patch!r}: counts", length=table.columns)
+        if counts.ndim != 2 or len(counts) < _FEWEST_AT_REST:
+            raise SkinError(
+                f"patch {table.patch!r}: counts at rest: expected at least {_FEWEST_AT_REST} messages, got "
+                f"{len(np.atleast_2d(counts))}; take a longer time in which nothing touches the patch"
+            )
+        spread = counts[:, table.taxels].std(axis=0, ddof=1)
+        return cls(
+            table=table,
+            rest=counts.mean(axis=0),
+            noise=np.maximum(spread, _ROUNDING),
+            rest_messages=len(counts),
+            live=table.live if live is None else live,
+        )
+
+    def require_layout(self, layout: SkinLayout) -> None:
+        """Refuse the layout of another patch.
+
+        Args:
+            layout: Layout.
+
+        Raises:
+            SkinError: If its taxels are not those of the table.
+        """
+        if layout.columns != self.table.columns or not np.array_equal(layout.taxels, self.table.taxels):
+            raise SkinError(
+                f"table of patch {self.table.patch!r}: expected the layout of its {len(self.table)} taxels in "
+                f"{self.table.columns} columns, got {layout.name!r} with {len(layout)} in {layout.columns}; every "
+                "patch has its own table"
+            )
+
+    def frame(self, counts: FloatArray) -> PressureFrame:
+        """Read one message, or the mean of several.
+
+        Args:
+            counts: A message, shape (columns,), or messages that are averaged, shape (k, columns); counts.
+
+        Returns:
+            Pressures, and which taxels feel something.
+        """
+        messages = np.atleast_2d(counts)
+        table, mean = self.table, messages.mean(axis=0)
+        fall = table.fall(mean, self.rest)
+        noise = self.noise * np.sqrt(1.0 / len(messages) + 1.0 / self.rest_messages)
+        active = (fall > WAKING * noise) & self.live
+        pressures = table.pressures(mean, self.rest)
+        return PressureFrame(
+            pressures=pressures,
+            active=active,
+            live=self.live,
+            beyond_range=table.beyond_range(mean, self.rest),
+            sd_Pa=np.hypot(self._slopes(fall) * noise, np.where(active, table.error, 0.0)),
+            hysteresis_Pa=np.where(active, np.minimum(table.hysteresis, pressures), 0.0),
+        )
+
+    def _slopes(self, fall: FloatArray) -> FloatArray:
+        """Pressure by count where each taxel is; shape (n,); Pa."""
+        row = np.clip(fall, 0.0, ROWS - 2.0).astype(np.int64)
+        taxel = np.arange(len(fall))
+        slopes: FloatArray = np.abs(self.table.values[row + 1, taxel] - self.table.values[row, taxel])
+        return slopes

@@ -1,0 +1,74 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Files of a simulated patch on a limb: its layout, a chamber log, and a recording in which objects rest on it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+from forcetorque.exchange.skin import write_layout_table
+from forcetorque.recording import write_recording
+from forcetorque.simulation.skin import (
+    REFERENCE_PA,
+    ContactTruth,
+    SkinBody,
+    TaxelResponses,
+    chamber_recording,
+    contact_recording,
+    contacts,
+)
+from forcetorque.skin import SkinLayout
+from tests.patches import cylinder_patch
+
+OBJECTS = 3
+EXPERIMENT = """schema = "forcetorque/experiment/1"
+name = "{name}"
+
+[recording]
+format = "parquet"
+path = "{name}"
+
+[[patch]]
+name = "shank"
+serial = "S1"
+counts = "counts"
+layout = "shank.csv"
+{pressure}
+[[interval]]
+label = "all"
+start_s = 0.0
+use = "calibration"
+"""
+
+
+def shank_layout() -> SkinLayout:
+    """Modules around a cylinder, every number of whose messages is a taxel."""
+    layout = cylinder_patch(across=9, along=6).layout()
+    count = np.arange(len(layout))
+    none = np.zeros(0, dtype=np.int64)
+    return replace(layout, name="shank", columns=len(count), taxels=count, thermal_pads=none, thermal_modules=none)
+
+
+def write_touched(folder: Path, *, seed: int = 6, broken: int | None = None) -> Sequence[ContactTruth]:
+    """Write `shank.csv`, `bag.toml` and `touched.toml` with their recordings; one taxel may be at its rail."""
+    layout = shank_layout()
+    rng = np.random.default_rng(seed)
+    taxels = TaxelResponses.drawn(len(layout), rng)
+    truths = list(contacts(SkinBody.of(layout), rng, OBJECTS))
+    write_layout_table(folder / "shank.csv", layout)
+    write_recording(folder / "bag", chamber_recording(taxels, highest_pa=REFERENCE_PA, ramp_s=8.0, rng=rng))
+    later = replace(taxels, rest=taxels.rest - 1.3)
+    touched = contact_recording(layout, later, truths, rng)
+    if broken is not None:
+        stream = touched.stream("counts")
+        counts = stream.signal("taxel_counts").values.copy()
+        counts[:, broken] = 255.0
+        signals = {"taxel_counts": replace(stream.signal("taxel_counts"), values=counts)}
+        touched = replace(touched, streams={"counts": replace(stream, signals=signals)})
+    write_recording(folder / "touched", touched)
+    for name, pressure in (("bag", 'pressure = "chamber"\n'), ("touched", "")):
+        (folder / f"{name}.toml").write_text(EXPERIMENT.format(name=name, pressure=pressure), encoding="utf-8")
+    return truths
