@@ -13,7 +13,7 @@ from forcetorque.recording import read_recording, write_recording
 from forcetorque.simulation.skin import ContactTruth, Loading
 from tests.cli.outcome import Run
 from tests.report.drawing import size_of
-from tests.touched import OBJECTS, write_touched
+from tests.touched import OBJECTS, write_table, write_touched
 
 BROKEN = 25
 WRENCH = ("skin", "wrench", "touched.toml", "--table", "shank.json")
@@ -23,16 +23,16 @@ WRENCH = ("skin", "wrench", "touched.toml", "--table", "shank.json")
 def made_folder(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, list[ContactTruth]]:
     """Folder with a chamber log and a recording, and what the objects in it truly do."""
     folder = tmp_path_factory.mktemp("shank")
-    return folder, list(write_touched(folder, broken=BROKEN))
+    truths = list(write_touched(folder, broken=BROKEN))
+    write_table(folder)
+    return folder, truths
 
 
 @pytest.fixture(name="truths")
-def calibrated(made: tuple[Path, list[ContactTruth]], run: Run, monkeypatch: pytest.MonkeyPatch) -> list[ContactTruth]:
+def calibrated(made: tuple[Path, list[ContactTruth]], monkeypatch: pytest.MonkeyPatch) -> list[ContactTruth]:
     """The true contacts; the calibration of the patch is beside its recordings, in the working folder."""
     folder, truths = made
     monkeypatch.chdir(folder)
-    if not (folder / "shank.json").exists():
-        assert run("skin", "calibrate", "bag.toml", "-o", "shank.json").code == 0
     return truths
 
 
