@@ -66,7 +66,9 @@ def test_rows_are_contacts(run: Run, truths: list[ContactTruth]) -> None:
 def test_a_figure_is_drawn(run: Run, truths: list[ContactTruth], tmp_path: Path) -> None:
     """Field of pressure and forces over time."""
     png = tmp_path / "contacts.png"
-    assert f"drawn to {png}" in run(*WRENCH, "--figure", str(png), "--average", "20").out.replace("\n", " ")
+    assert f"drawn to {png}" in run(
+        *WRENCH, "--figure", str(png), "--average", "20", "--taxel-area-mm2", "39"
+    ).out.replace("\n", " ")
     assert size_of(png.read_bytes())[0] == 1200
 
 
@@ -86,7 +88,7 @@ def test_methods_are_chosen_by_name(run: Run, truths: list[ContactTruth]) -> Non
     [
         (("--method", "simple"), "taxel_area_m2: expected a value for the method simple"),
         (("--method", "thesis"), "plane: expected a value for the method thesis"),
-        (("--taxel-area-mm2", "15"), "expected none for the method kriging"),
+        (("--plan", "shank.csv"), "plane: expected none for the method kriging, got one"),
         (("--average", "0"), "expected at least 1 message"),
         (("--rest-s", "0.1"), "expected at least 10 messages"),
         (("--patch", "thigh"), "no patch is called 'thigh'"),

@@ -103,7 +103,7 @@ class WrenchChoice:
     method: str = WrenchMethod.KRIGING
     """One of `WrenchMethod`."""
     taxel_area_mm2: float | None = None
-    """Area of a taxel, for the simple method."""
+    """Area of a taxel: the simple method needs it; beside another one it is drawn for comparison."""
     plan: Path | None = None
     """Drawing of the patch, for the method of the thesis."""
     written_normals: bool = False
@@ -144,7 +144,8 @@ def skin_wrench(
             raise ExperimentError("layout: expected the file that says where the taxels are, got none")
         table = curves.table()
         table.require_patch(own.name, columns=own.columns, serial=own.serial)
-        skin = _skin(own.layout, chosen)
+        layout = _layout(own.layout, chosen)
+        skin = _skin(layout, chosen)
         seconds, counts = _messages(content, own)
         reader = _reader(table, seconds, counts, chosen)
         reader.require_layout(skin.layout)
@@ -154,17 +155,17 @@ def skin_wrench(
     return _answer(content, own, skin, reader, looked, chosen)
 
 
-def _skin(layout: Path, chosen: WrenchChoice) -> SkinPatch:
-    """The patch, with what its method needs."""
-    described = describe_patch(layout)
+def _layout(file: Path, chosen: WrenchChoice) -> SkinLayout:
+    described = describe_patch(file)
     normals = None if chosen.written_normals else rebuilt_normals(described.positions, described.modules)
-    sound = described.layout(normals)
-    return SkinPatch.of(
-        sound,
-        chosen.method,
-        taxel_area_m2=None if chosen.taxel_area_mm2 is None else 1e-6 * chosen.taxel_area_mm2,
-        plane=None if chosen.plan is None else _places(chosen.plan, sound),
-    )
+    return described.layout(normals)
+
+
+def _skin(layout: SkinLayout, chosen: WrenchChoice) -> SkinPatch:
+    """The patch, with what its method needs."""
+    if chosen.method == WrenchMethod.SIMPLE and chosen.taxel_area_mm2 is not None:
+        return SkinPatch.of(layout, chosen.method, taxel_area_m2=1e-6 * chosen.taxel_area_mm2)
+    return SkinPatch.of(layout, chosen.method, plane=None if chosen.plan is None else _places(chosen.plan, layout))
 
 
 def _places(plan: Path, layout: SkinLayout) -> FloatArray:
@@ -246,7 +247,7 @@ def _answer(
         largest_force_N=float(force.max()),
         mean_force_N=float(force[touched].mean()) if touched.any() else 0.0,
         contacts=tuple(rows),
-        picture=_picture(own.name, skin, seconds, force, looked),
+        picture=_picture(own.name, skin, seconds, force, looked, chosen),
         warnings=_warnings(rows, reader.live),
     )
 
@@ -257,13 +258,19 @@ def _picture(
     seconds: FloatArray,
     force: FloatArray,
     looked: Sequence[tuple[float, PressureFrame, SkinContacts]],
+    chosen: WrenchChoice,
 ) -> SkinWrenchPicture:
     strongest = int(force.argmax())
     normal_force = np.array([contacts.normal_force_N.sum() for _, _, contacts in looked])
+    forces = {f"{skin.method}: norm of the force": force, f"{skin.method}: integral of the pressure": normal_force}
+    if chosen.taxel_area_mm2 is not None and skin.method is not WrenchMethod.SIMPLE:
+        simple = SkinPatch.of(skin.layout, WrenchMethod.SIMPLE, taxel_area_m2=1e-6 * chosen.taxel_area_mm2)
+        told = [find_contacts(simple, frame).wrench[:, :3].sum(axis=0) for _, frame, _ in looked]
+        forces[f"simple, {chosen.taxel_area_mm2:g} mm2: norm of the force"] = np.linalg.norm(told, axis=1)
     return SkinWrenchPicture(
         patch=name,
         seconds=seconds,
-        forces={f"{skin.method}, norm of the force": force, f"{skin.method}, sum of the pressure": normal_force},
+        forces=forces,
         places=unrolled(skin.surface),
         triangles=skin.surface.triangles,
         pressures=np.where(looked[strongest][2].contact >= 0, looked[strongest][1].pressures, 0.0),
