@@ -217,7 +217,7 @@ TABLES = {
     ),
     'name = "small arm"': (
         "top level",
-        "calibration, contact, estimation, interval, load, load_case, name, plan, processing, recording, robot, "
+        "calibration, contact, estimation, interval, load, load_case, name, patch, plan, processing, recording, robot, "
         "schema, sensor, support, trial",
     ),
 }
