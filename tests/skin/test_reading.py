@@ -65,7 +65,7 @@ def test_means_wake_at_less(reader: PatchReader) -> None:
 
 
 def test_pressures_and_what_they_are_worth(reader: PatchReader) -> None:
-    """Pressure by the table; noise by its slope, less in a mean; where it is active the table's error and hysteresis."""
+    """Pressure by the table, noise by its slope; where a taxel is active the table's error and hysteresis."""
     frame = reader.frame(messages(20.0, 10))
     live = reader.live
     np.testing.assert_allclose(frame.pressures[live].mean(), 20.0 * SLOPE_PA, rtol=0.01)
