@@ -9,7 +9,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from forcetorque.analysis import SkinWrench, WrenchChoice, skin_wrench
+from forcetorque import skin_wrench
+from forcetorque.analysis import SkinWrench
 from forcetorque.errors import SkinError
 from forcetorque.simulation.skin import ContactTruth, Loading
 from tests.touched import write_table, write_touched
@@ -29,11 +30,7 @@ def made_folder(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Sequenc
 
 def asked(folder: Path, **choice: object) -> SkinWrench:
     """The answer of one choice."""
-    return skin_wrench(
-        folder / "touched.toml",
-        folder / "shank.json",
-        choice=WrenchChoice(**choice),  # type: ignore[arg-type]
-    )
+    return skin_wrench(folder / "touched.toml", folder / "shank.json", **choice)
 
 
 def held_wrench(answer: SkinWrench, number: int) -> np.ndarray:
