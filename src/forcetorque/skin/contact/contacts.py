@@ -185,13 +185,12 @@ def _covariance(
     patch: SkinPatch, operator: WrenchOperator, groups: _Groups, frame: PressureFrame, wrench: FloatArray
 ) -> FloatArray:
     """Errors of taxels and of what is between them, as if each taxel erred by itself, and of the shape of the skin."""
-    if operator.method not in _INTERPOLATING:
+    if operator.method not in _INTERPOLATING or not len(wrench):
         return np.full((len(wrench), 6, 6), np.nan)
     taxels = groups.taxels
     surprise = patch.foretold(frame.live).surprise(frame.pressures, taxels)
     # where neighbours are dead a taxel stands for more skin, and tells each bit of it less well
     between = SURPRISE_SHARE * surprise * groups.areas / patch.operator().areas[taxels]
     scaled = groups.weights * np.sqrt(frame.sd_Pa[taxels] ** 2 + between**2)[:, None]
-    squares = [own.T @ own for own in np.split(scaled, groups.starts[1:])][: len(wrench)]
-    shape = SHAPE_SHARE**2 * wrench[:, :, None] * wrench[:, None]
-    return np.array(squares).reshape(-1, 6, 6) + shape
+    squares = np.stack([own.T @ own for own in np.split(scaled, groups.starts[1:])])
+    return squares + SHAPE_SHARE**2 * wrench[:, :, None] * wrench[:, None]
