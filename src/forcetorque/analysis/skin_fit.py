@@ -40,8 +40,8 @@ class FittedSamples:
             A curve per taxel; None for one that is not sound.
         """
         reach = self.fall[self.pressure >= TOP_SHARE * self.highest].mean(axis=0)
-        # long rest would outweigh the first counts of the rise, and make noise of them; what a load leaves as it goes is
-        # hysteresis, stated apart: half of it in the curve would make every load that comes read too low
+        # long rest would outweigh the first counts of the rise, and make noise of them; what a load leaves as it goes
+        # is hysteresis, stated apart: half of it in the curve would make every load that comes read too low
         loaded = (self.pressure > REST_SHARE * self.highest) & ~self.unloading
         return [
             None
