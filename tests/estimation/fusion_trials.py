@@ -342,7 +342,7 @@ def in_words(what: str, faults: Faults, some: Sequence[Trial]) -> str:
     lines += [
         f"  fused over best single source: {_pooled(told.rmse['fused']) / best_single(told.rmse):.3f}",
         f"  fused over sound sources alone: {_pooled(told.rmse['fused']) / sound:.3f}",
-        f"  conflict in {told.conflicts} of {len(some)} recordings, named {told.named}; in {told.windows:.2%} of windows",
+        f"  conflict in {told.conflicts} of {len(some)}, named {told.named}; in {told.windows:.2%} of windows",
         f"  95 % intervals hold {told.covered:.1%}; in the middle 80 % of recordings {low:.1%} to {high:.1%}",
         f"  squared normalised innovations {', '.join(f'{k} {v:.2f}' for k, v in told.innovation.items())}",
     ]

@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a drive takes between motor and joint: Coulomb and viscous friction, inertia, offset; fitted, with its
-variance.
-"""
+"""What a drive takes between motor and joint: Coulomb and viscous friction, inertia, offset; with its variance."""
 
 from __future__ import annotations
 

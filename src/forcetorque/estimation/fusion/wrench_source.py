@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from forcetorque.arrays import FloatArray, IntArray, read_only
+from forcetorque.errors import EstimationError, known_names
 from forcetorque.estimation.estimate import estimate
 from forcetorque.estimation.fusion.source import TorqueSource
 from forcetorque.estimation.question import Question
@@ -64,6 +65,9 @@ def wrench_source(
 
     Returns:
         The source.
+
+    Raises:
+        EstimationError: If an error is of a wrench that is not given.
     """
 
     def torques(changed: Wrenches | None, given: Wrenches | None) -> FloatArray:
@@ -75,8 +79,13 @@ def wrench_source(
     for wrench, error in errors.items():
         if measured is not None and wrench in measured.names:
             effects = _unit_effects(measured, wrench, lambda changed: torques(changed, known), torque)
-        elif known is not None:
+        elif known is not None and wrench in known.names:
             effects = _unit_effects(known, wrench, lambda changed: torques(measured, changed), torque)
+        else:
+            given = [one for wrenches in (measured, known) if wrenches is not None for one in wrenches.names]
+            raise EstimationError(
+                f"source {name!r}: errors: no wrench {wrench!r} is given; {known_names(wrench, given)}"
+            )
         noise += effects @ error.noise @ effects.transpose(0, 2, 1)
         lasting.append(effects @ error.lasting)
     return TorqueSource(
