@@ -31,6 +31,7 @@ from forcetorque.estimation.fusion import (
 )
 from forcetorque.robot import JointMotion, RootMotion, Wrenches, build_tree, read_urdf
 from forcetorque.simulation import ARM_URDF, SimulatedMotor, Stand, random_movement
+from tests.estimation.fusion.sources import three
 
 JOINTS: Final = ("shoulder_yaw", "shoulder_pitch", "shoulder_roll", "elbow")
 """Joints that bear the push; the torque of the wrist is that of the model, whatever FT and skin say."""
@@ -71,6 +72,9 @@ MOTOR: Final = SimulatedMotor(
 )
 OFFSET_A: Final = 0.01
 """Standard deviation of what a current reads too much; it stays from one recording to the next."""
+
+DRAWN: Final = 500
+"""Recordings of sources that are drawn and not simulated, to count false alarms."""
 
 HOT_N: Final = 10.0
 FT_BROKEN_N: Final = 5.0
@@ -327,21 +331,22 @@ def sound_rmse(some: Sequence[Trial], broken: str | None) -> FloatArray:
     return rmse
 
 
-def _pooled(rmse: FloatArray) -> float:
+def pooled(rmse: FloatArray) -> float:
+    """Put the errors of joints together."""
     return float(np.sqrt((rmse**2).mean()))
 
 
 def in_words(what: str, faults: Faults, some: Sequence[Trial]) -> str:
     """Write figures down."""
     told = figures(some)
-    sound = _pooled(sound_rmse(some, faults.source))
+    sound = pooled(sound_rmse(some, faults.source))
     low, high = np.quantile(told.covered_by_seed, [0.1, 0.9])
     lines = [f"{what}: {len(some)} seeds, joints {', '.join(JOINTS)}"]
     for name, rmse in told.rmse.items():
-        lines.append(f"  {name:8s} RMSE {' '.join(f'{v:.3f}' for v in rmse)}, all {_pooled(rmse):.3f} N m")
+        lines.append(f"  {name:8s} RMSE {' '.join(f'{v:.3f}' for v in rmse)}, all {pooled(rmse):.3f} N m")
     lines += [
-        f"  fused over best single source: {_pooled(told.rmse['fused']) / best_single(told.rmse):.3f}",
-        f"  fused over sound sources alone: {_pooled(told.rmse['fused']) / sound:.3f}",
+        f"  fused over best single source: {pooled(told.rmse['fused']) / best_single(told.rmse):.3f}",
+        f"  fused over sound sources alone: {pooled(told.rmse['fused']) / sound:.3f}",
         f"  conflict in {told.conflicts} of {len(some)}, named {told.named}; in {told.windows:.2%} of windows",
         f"  95 % intervals hold {told.covered:.1%}; in the middle 80 % of recordings {low:.1%} to {high:.1%}",
         f"  squared normalised innovations {', '.join(f'{k} {v:.2f}' for k, v in told.innovation.items())}",
@@ -351,7 +356,13 @@ def in_words(what: str, faults: Faults, some: Sequence[Trial]) -> str:
 
 def best_single(rmse: Mapping[str, FloatArray]) -> float:
     """Error of the best of the sources, all joints together; N m."""
-    return min(_pooled(error) for name, error in rmse.items() if name != "fused")
+    return min(pooled(error) for name, error in rmse.items() if name != "fused")
+
+
+def alarms(rate: float, recordings: int = DRAWN) -> tuple[int, int]:
+    """Count conflicts between sources whose errors are drawn as they state them."""
+    some = (fuse(three(seed), false_alarm=rate).conflict.is_there for seed in range(JUDGED, JUDGED + recordings))
+    return sum(some), recordings
 
 
 def main() -> None:
@@ -361,6 +372,9 @@ def main() -> None:
     seeds: int = parser.parse_args().seeds
     for what, faults in FAULTS.items():
         print(in_words(what, faults, list(trials(faults, seeds))), flush=True)  # noqa: T201
+    for rate in (0.01, 0.05):
+        count, of = alarms(rate, 10 * seeds)
+        print(f"stated rate {rate:.0%}: {count} false alarms in {of} recordings of drawn sources")  # noqa: T201
 
 
 if __name__ == "__main__":

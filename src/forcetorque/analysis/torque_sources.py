@@ -157,6 +157,7 @@ class TorqueSources:
             motion.stamp_ns,
             errors=errors,
             floor=self.table.model_deviation,
+            noise_time_s=self.table.noise_time_s,
             measured=Wrenches.of(measured),
         )
 
@@ -179,6 +180,7 @@ class TorqueSources:
             motion.stamp_ns,
             errors=errors,
             floor=self.table.model_deviation,
+            noise_time_s=self.table.noise_time_s,
             known=Wrenches.of(known),
         )
 

@@ -8,7 +8,7 @@ from typing import Annotated, Literal
 from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
-from forcetorque.toml_table import Finite, Positive, Table, Text
+from forcetorque.toml_table import Finite, NotNegative, Positive, Table, Text
 
 SixPositive = Annotated[tuple[Positive, ...], Field(min_length=6, max_length=6)]
 """Six standard deviations: of forces in N, then of moments in N m."""
@@ -56,6 +56,9 @@ class FusionTable(Table):
     model_deviation: Positive
     """Standard deviation of what masses and motion leave open in a torque that is told from wrenches, sample by sample;
     N m, N where prismatic."""
+    noise_time_s: NotNegative = 1.0
+    """Time over which errors of wrenches and model repeat themselves, as those of a matrix do that change with the
+    load; 0 where they are white noise; s."""
     false_alarm: Annotated[float, Field(gt=0.0, lt=1.0, strict=True)] = 0.01
     """Largest rate of intervals, or windows, with a conflict though all is as stated."""
     window_s: Positive = 1.0

@@ -128,7 +128,7 @@ def fit_friction(
     _require_both_ways(joint, velocity[used], standstill)
     terms = friction_terms(velocity, acceleration)[used]
     scale = np.sqrt((terms**2).mean(axis=0))
-    if np.linalg.matrix_rank(terms / scale, tol=_RANK * np.sqrt(len(terms))) < len(TERMS):
+    if np.linalg.matrix_rank(terms / np.where(scale > 0.0, scale, 1.0), tol=_RANK * np.sqrt(len(terms))) < len(TERMS):
         raise FitError(
             f"joint {joint!r}: expected motions that tell {', '.join(TERMS)} of a drive apart, got one speed or one "
             "acceleration; record faster and slower ones both ways"
