@@ -3,8 +3,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from typing import Annotated, Literal
 
 import numpy as np
@@ -13,7 +13,7 @@ from forcetorque.analysis.reading import Correction
 from forcetorque.analysis.torque_sources import TorqueSources
 from forcetorque.arrays import FloatArray
 from forcetorque.estimation.fusion import Friction, Fusion, TorqueSource, fuse
-from forcetorque.experiment.content import Experiment
+from forcetorque.experiment.content import Experiment, ExperimentContact
 from forcetorque.experiment.inputs import stated_in
 from forcetorque.recording import Interval, Use
 from forcetorque.result import Row, Shown, Table, table_of
@@ -147,13 +147,17 @@ class TorqueFusion(Row):
 
 
 def fuse_experiment(
-    experiment: Experiment, corrections: Mapping[str, Correction]
+    experiment: Experiment,
+    corrections: Mapping[str, Correction],
+    *,
+    contacts: Sequence[ExperimentContact] | None = None,
 ) -> tuple[list[IntervalFusion], tuple[Friction, ...]]:
     """Fuse the joint torques of all sources over every interval that is not to be ignored.
 
     Args:
         experiment: The experiment, with `[fusion]`.
         corrections: How its sensors are read (`corrections_of`).
+        contacts: Contacts in place of the experiment's.
 
     Returns:
         Fusions in the order of the intervals, and the friction of the motors.
@@ -161,7 +165,8 @@ def fuse_experiment(
     Raises:
         ExperimentError: If the file lacks what a source needs, or there is only one source.
     """
-    sources = TorqueSources(experiment, corrections)
+    asked = experiment if contacts is None else replace(experiment, contacts=tuple(contacts))
+    sources = TorqueSources(asked, corrections)
     fusions = []
     for interval in experiment.recording.intervals:
         if interval.use is Use.IGNORE:

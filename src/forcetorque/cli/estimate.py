@@ -99,7 +99,7 @@ def _estimated(
         spans = analysis.estimate_experiment(
             content, corrections, contacts=named, length_scale=length_scale, progress=progress.show
         )
-    fusions, frictions = analysis.fuse_experiment(content, corrections) if fuse else ([], ())
+    fusions, frictions = analysis.fuse_experiment(content, corrections, contacts=named) if fuse else ([], ())
     return analysis.summarise_estimates(content, corrections, spans, file=file, fusions=fusions, frictions=frictions)
 
 
