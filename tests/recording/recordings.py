@@ -18,7 +18,7 @@ EPOCH_NS = 1_700_000_000_000_000_000
 
 UNITS = {
     "position": "rad", "velocity": "rad/s", "acceleration": "rad/s2", "torque": "N m", "raw": "counts",
-    "scalar": "V", "taxel_counts": "counts",
+    "scalar": "V", "taxel_counts": "counts", "motor_current": "A", "pwm": "1",
 }  # fmt: skip
 """Unit of quantities whose columns are free to name."""
 

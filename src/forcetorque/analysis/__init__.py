@@ -85,6 +85,7 @@ from forcetorque.analysis.static_checks import IntervalOffset, StaticChecks, che
 from forcetorque.analysis.study import SensorStudy, study_sensor
 from forcetorque.analysis.study_data import StudyData, read_study_data
 from forcetorque.analysis.study_result import StudiedSensor, Studies, studied_sensor, study_warnings
+from forcetorque.analysis.torque_fusion import TorqueFusion, fuse_experiment
 from forcetorque.analysis.trial_group import TrialGroup, group_trials
 from forcetorque.analysis.trials import TrialSphere, read_trials
 from forcetorque.analysis.use_verdict import Reason, UseError, UseVerdict, use_sentences
@@ -92,6 +93,8 @@ from forcetorque.analysis.validate import Validation, validate
 from forcetorque.analysis.verdict import VerdictLine
 
 __all__ = [
+    "TorqueFusion",
+    "fuse_experiment",
     "write_plan",
     "refuse_full_folder",
     "plan_sentence",

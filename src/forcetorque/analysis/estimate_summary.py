@@ -12,8 +12,10 @@ from pydantic import Field
 
 from forcetorque.analysis.estimate import IntervalEstimates
 from forcetorque.analysis.reading import Correction
+from forcetorque.analysis.torque_fusion import IntervalFusion, TorqueFusion, summarise_fusion
 from forcetorque.analysis.validity import ReadingsOutside, outside_row, sentences
 from forcetorque.arrays import FloatArray, IntArray
+from forcetorque.estimation.fusion import Friction
 from forcetorque.evaluation import WrenchErrors, wrench_errors
 from forcetorque.exchange.estimates_table import EstimatedSpan, write_estimates
 from forcetorque.experiment import Experiment
@@ -80,12 +82,14 @@ class EstimatedRecording(Row):
     """What the log does not allow to estimate."""
     validity: tuple[ReadingsOutside, ...] = ()
     """One per sensor that a calibration reads: how far its readings lie outside what was fitted."""
+    fusion: TorqueFusion | None = None
+    """Joint torques of several sources; not in the JSON where they were not asked for."""
 
 
 class EstimateSummary(Result):
     """What touches the robot over the intervals of an experiment, and how well its equations determine that."""
 
-    of_several: ClassVar[tuple[str, ...]] = ("recordings",)
+    of_several: ClassVar[tuple[str, ...]] = ("recordings", "fusion")
 
     schema_name: Literal["forcetorque/estimate/1"] = Field(default="forcetorque/estimate/1", alias="schema")
     """Form of the result."""
@@ -105,6 +109,8 @@ class EstimateSummary(Result):
     """What the log does not allow to estimate."""
     validity: tuple[ReadingsOutside, ...] = ()
     """One per sensor that a calibration reads: how far its readings lie outside what was fitted."""
+    fusion: TorqueFusion | None = None
+    """Joint torques of several sources; not in the JSON where they were not asked for."""
     recordings: tuple[EstimatedRecording, ...] = ()
     """Of several recordings one each, where these things then stand; none where there is one recording."""
 
@@ -154,6 +160,8 @@ def _tables(recording: EstimateSummary | EstimatedRecording) -> Iterator[Table |
     for row in recording.parts:
         for group in row.ambiguous:
             yield f"{row.part}, {row.interval}: cannot tell apart {', '.join(group)}"
+    if recording.fusion is not None:
+        yield from recording.fusion.blocks()
 
 
 def estimates_of_recordings(summaries: Mapping[str, EstimateSummary]) -> EstimateSummary:
@@ -187,6 +195,8 @@ def summarise_estimates(
     spans: Sequence[IntervalEstimates],
     *,
     file: Path | None = None,
+    fusions: Sequence[IntervalFusion] = (),
+    frictions: tuple[Friction, ...] = (),
 ) -> EstimateSummary:
     """Say what estimates amount to, and write every sample of them to a file.
 
@@ -195,6 +205,8 @@ def summarise_estimates(
         corrections: How its sensors were read.
         spans: Its estimates, as `estimate_experiment` gives them.
         file: File for every sample, .parquet or .csv; none if left out.
+        fusions: Fused torques over the same intervals, as `fuse_experiment` gives them; none if they are not wanted.
+        frictions: Friction of the motors, likewise.
 
     Returns:
         Mean norms of contacts and residuals.
@@ -203,7 +215,10 @@ def summarise_estimates(
         FormatError: If the name of the file ends otherwise.
     """
     if file is not None:
-        write_estimates(file, [_for_table(experiment, span) for span in spans], experiment.model)
+        fused = {one.interval.label: one for one in fusions}
+        tables = [_for_table(experiment, span, fused.get(span.interval.label)) for span in spans]
+        write_estimates(file, tables, experiment.model)
+    fusion = summarise_fusion(experiment, list(fusions), frictions) if fusions else None
     left_out = tuple(dict.fromkeys(sentence for span in spans for sentence in span.left_out))
     validity = tuple(_outside(corrections, spans))
     return EstimateSummary(
@@ -215,7 +230,12 @@ def summarise_estimates(
         parts=tuple(row for span in spans for row in _parts(span)),
         left_out=left_out,
         validity=validity,
-        warnings=(*sentences(validity), *(f"left out: {sentence}" for sentence in left_out)),
+        fusion=fusion,
+        warnings=(
+            *sentences(validity),
+            *(f"left out: {sentence}" for sentence in left_out),
+            *(() if fusion is None else fusion.warnings()),
+        ),
     )
 
 
@@ -225,7 +245,7 @@ def _outside(corrections: Mapping[str, Correction], spans: Sequence[IntervalEsti
             yield outside_row(correction.source, correction.calibration, [span.applied[sensor] for span in spans])
 
 
-def _for_table(experiment: Experiment, span: IntervalEstimates) -> EstimatedSpan:
+def _for_table(experiment: Experiment, span: IntervalEstimates, fused: IntervalFusion | None) -> EstimatedSpan:
     return EstimatedSpan(
         label=span.interval.label,
         stamp_ns=span.stamp_ns,
@@ -235,6 +255,8 @@ def _for_table(experiment: Experiment, span: IntervalEstimates) -> EstimatedSpan
         outside={
             sensor: np.ma.masked_array(applied.outside, mask=~applied.known) for sensor, applied in span.applied.items()
         },
+        fused_joints=() if fused is None else fused.fusion.joints,
+        torques={} if fused is None else dict(fused.columns()),
     )
 
 

@@ -45,6 +45,12 @@ def estimate(
         float | None,
         typer.Option("--length-scale", help="Moment that weighs as much as one newton; m. For more than six unknowns."),
     ] = None,
+    fuse: Annotated[
+        bool,
+        typer.Option(
+            "--fuse", help="Joint torques of sensors, known contacts and motors too, beside each other and made one."
+        ),
+    ] = False,
     output_format: FormatOption = Format.TABLE,
 ) -> None:
     """Estimate contact wrenches, joint torques and expected readings.
@@ -66,7 +72,7 @@ def estimate(
         # a recording goes when its estimates are written: there may be more of them than memory holds
         content = read_experiment(path, log)
         with stated_in(str(path)):
-            summaries[str(path)] = _estimated(content, calibrations, contacts, length_scale, file, log)
+            summaries[str(path)] = _estimated(content, calibrations, contacts, length_scale, file, log, fuse=fuse)
     several = len(summaries) > 1
     show(analysis.estimates_of_recordings(summaries) if several else summaries[str(experiments[0])], output_format)
 
@@ -78,6 +84,8 @@ def _estimated(
     length_scale: float | None,
     file: Path,
     log: Logger,
+    *,
+    fuse: bool,
 ) -> EstimateSummary:
     """Estimate over one experiment and write every sample."""
     from forcetorque import analysis
@@ -91,7 +99,8 @@ def _estimated(
         spans = analysis.estimate_experiment(
             content, corrections, contacts=named, length_scale=length_scale, progress=progress.show
         )
-    return analysis.summarise_estimates(content, corrections, spans, file=file)
+    fusions, frictions = analysis.fuse_experiment(content, corrections, contacts=named) if fuse else ([], ())
+    return analysis.summarise_estimates(content, corrections, spans, file=file, fusions=fusions, frictions=frictions)
 
 
 def _outputs(experiments: Sequence[Path], output: Path) -> dict[Path, Path]:

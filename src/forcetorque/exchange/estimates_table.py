@@ -47,12 +47,16 @@ class EstimatedSpan:
     outside: Mapping[str, npt.NDArray[Any]] = field(default_factory=dict)
     """By sensor that a calibration reads, whether its reading lies outside what was fitted; shape (n,) each; masked in
     gaps."""
+    fused_joints: tuple[str, ...] = ()
+    """Joints of `torques`."""
+    torques: Mapping[str, npt.NDArray[np.float64]] = field(default_factory=dict)
+    """Torques by source of a fusion, or of all together; shape (n, joints) each; N m, N where prismatic."""
 
 
 def write_estimates(path: Path | str, spans: Sequence[EstimatedSpan], model: RobotModel) -> int:
     """Write estimates; on any error the file keeps what it held before.
 
-    Columns are `interval`, `stamp_ns`, `time_s`, and then `contact.NAME.fx`, `torque.JOINT`,
+    Columns are `interval`, `stamp_ns`, `time_s`, and then `contact.NAME.fx`, `torque.JOINT`, `torque_SOURCE.JOINT`,
     `expected.SENSOR.fx`, `measured.SENSOR.fx`, `outside.SENSOR`, `rank.PART`, `condition.PART` and `residual.PART.fx`.
     Their units stand in the metadata of the Parquet fields. A cell is empty where an interval lacks the column, or a
     sample has a gap.
@@ -100,8 +104,10 @@ def _columns(span: EstimatedSpan, model: RobotModel) -> Iterator[_Column]:
     layout, estimates = span.estimates.layout, span.estimates
     yield from _wrenches("contact", layout.contacts, estimates.contact_wrenches)
     for k, joint in enumerate(layout.joints):
-        unit = "N" if model.joints[joint].type is JointType.PRISMATIC else "N m"
-        yield f"torque.{joint}", unit, estimates.torques[:, k]
+        yield f"torque.{joint}", _torque_unit(model, joint), estimates.torques[:, k]
+    for source, torques in span.torques.items():
+        for k, joint in enumerate(span.fused_joints):
+            yield f"torque_{source}.{joint}", _torque_unit(model, joint), torques[:, k]
     yield from _wrenches("expected", layout.sensors, estimates.expected)
     yield from _wrenches("measured", span.measured.names, span.measured.values)
     for sensor, outside in span.outside.items():
@@ -116,3 +122,7 @@ def _wrenches(what: str, names: Iterable[str], values: npt.NDArray[np.float64]) 
     for k, name in enumerate(names):
         for j, (component, unit) in enumerate(zip(WRENCH_COMPONENTS, WRENCH_UNITS, strict=True)):
             yield f"{what}.{name}.{component}", unit, values[:, k, j]
+
+
+def _torque_unit(model: RobotModel, joint: str) -> str:
+    return "N" if model.joints[joint].type is JointType.PRISMATIC else "N m"

@@ -52,7 +52,12 @@ def read_contacts(
                 _require_wrench(entry.stream, entry.frame, recording)
         if contact.name in [earlier.contact.name for earlier in found]:
             raise ExperimentError(f"{where}: the contact {contact.name!r} is listed twice; give each its own name")
-        found.append(ExperimentContact(contact=contact, stream=entry.stream, intervals=entry.intervals))
+        noise, deviation = (None if v is None else np.array(v) for v in (entry.wrench_noise, entry.wrench_deviation))
+        found.append(
+            ExperimentContact(
+                contact=contact, stream=entry.stream, intervals=entry.intervals, noise=noise, deviation=deviation
+            )
+        )
     return (*found, *_touched_beside(parsed, found))
 
 

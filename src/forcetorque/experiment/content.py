@@ -12,6 +12,7 @@ from forcetorque.calibration import EstimationType, LinearVariable, OffsetStrate
 from forcetorque.calibration.generative import REPEATABILITY
 from forcetorque.errors import ExperimentError, known_names
 from forcetorque.estimation import Contact, Payload, Processing
+from forcetorque.experiment.fusion_schema import FusionTable, MotorTable
 from forcetorque.experiment.load_case_schema import LoadCaseTable
 from forcetorque.experiment.plan_schema import PlanTable
 from forcetorque.experiment.recording_names import path_endings, recording_name
@@ -95,6 +96,10 @@ class ExperimentSensor:
     """Largest magnitude of a raw reading; counts."""
     full_scale: FloatArray | None = None
     """Full scale per component, as the file states it; shape (6,); N, N m."""
+    reading_noise: FloatArray | None = None
+    """Standard deviation of a reading from sample to sample, as the file states it; shape (6,); N, N m."""
+    reading_deviation: FloatArray | None = None
+    """Standard deviation of what a reading is off all along, as the file states it; shape (6,); N, N m."""
     amplifier_gain: tuple[float, ...] | None = None
     """Gain of each channel's amplifier while it was recorded; None if it is not known."""
     allowed_gains: tuple[float, ...] | None = None
@@ -134,6 +139,10 @@ class ExperimentContact:
     """Stream with the wrench of a known contact."""
     intervals: tuple[str, ...] | None = None
     """Labels of the intervals in which it may touch; None for all."""
+    noise: FloatArray | None = None
+    """Standard deviation of a known wrench from sample to sample, as the file states it; shape (6,); N, N m."""
+    deviation: FloatArray | None = None
+    """Standard deviation of what a known wrench is off all along, as the file states it; shape (6,); N, N m."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False, repr=False)
@@ -174,6 +183,10 @@ class Experiment:
     """What was done to the sensors, in the user's words; None if the file does not say."""
     trial: int | None = None
     """Which trial of its condition it is; None for the order of the files."""
+    motors: tuple[MotorTable, ...] = ()
+    """Motors whose current or PWM tells joint torques, as the file states them."""
+    fusion: FusionTable | None = None
+    """How joint torques of several sources are made one, as the file states it."""
     load_cases: tuple[LoadCaseTable, ...] = ()
     """What the sensors are to be used for, as the file states it."""
     supports: tuple[Support, ...] = ()

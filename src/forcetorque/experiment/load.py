@@ -16,6 +16,7 @@ from forcetorque.experiment.content import Experiment, FitOptions, Role
 from forcetorque.experiment.inputs import Inputs, stated_in
 from forcetorque.experiment.intervals import read_intervals, read_supports
 from forcetorque.experiment.load_cases import read_load_cases
+from forcetorque.experiment.motors import require_motors
 from forcetorque.experiment.parse import parse_experiment
 from forcetorque.experiment.plan_limits import read_plan
 from forcetorque.experiment.sensors import declare_sensors, read_sensors
@@ -84,6 +85,8 @@ def _of_robot(parsed: schema.ExperimentFile, file: Path) -> Experiment:
         trial=parsed.trial.number,
         load_cases=read_load_cases(parsed.load_case, file, model),
         supports=tuple(support for support in supports.values() if isinstance(support, Support)),
+        motors=require_motors(parsed.motor, file, model, recording),
+        fusion=parsed.fusion,
         plan=read_plan(parsed.plan, file, model, supports.values()),
     )
 

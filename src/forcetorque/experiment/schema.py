@@ -25,6 +25,7 @@ from forcetorque.constants import STANDARD_GRAVITY
 from forcetorque.errors import known_names
 from forcetorque.estimation import ContactType
 from forcetorque.exchange.formats import AnyLog
+from forcetorque.experiment.fusion_schema import FusionTable, MotorTable, SixPositive
 from forcetorque.experiment.load_case_schema import LoadCaseTable
 from forcetorque.experiment.plan_schema import PlanTable
 from forcetorque.recording import Use
@@ -99,6 +100,10 @@ class Sensor(Table):
     """Largest magnitude of a raw reading; counts."""
     full_scale: Annotated[tuple[Positive, ...], Field(min_length=6, max_length=6)] | None = None
     """Full scale of fx, fy, fz, tx, ty, tz; N, N m; needed with the prior `identity`, which says nothing of sizes."""
+    reading_noise: SixPositive | None = None
+    """Standard deviation by which a reading differs from sample to sample; N, N m; for `estimate --fuse`."""
+    reading_deviation: SixPositive | None = None
+    """Standard deviation of what a reading is off all along, such as by its offset; N, N m; for `estimate --fuse`."""
     amplifier_gain: Annotated[tuple[Positive, ...], Field(min_length=1)] | None = None
     """Gain of the amplifier of each channel while it was recorded, for `forcetorque gains`."""
     allowed_gains: Annotated[tuple[Positive, ...], Field(min_length=1)] | None = None
@@ -195,6 +200,11 @@ class Contact(Table):
     """Unit vector of a `force_along`, in the axes of the frame."""
     stream: Text | None = None
     """Stream with the wrench of a `known` contact, in this frame."""
+    wrench_noise: SixPositive | None = None
+    """Of a `known` contact, standard deviation by which the wrench differs from sample to sample; N, N m; for
+    `estimate --fuse`."""
+    wrench_deviation: SixPositive | None = None
+    """Of a `known` contact, standard deviation of what the wrench is off all along; N, N m; for `estimate --fuse`."""
     intervals: Annotated[tuple[Text, ...], Field(min_length=1)] | None = None
     """Labels of the intervals in which it may touch; all if left out."""
 
@@ -373,6 +383,10 @@ class ExperimentFile(Table):
     """Intervals."""
     contact: tuple[Contact, ...] = ()
     """Contacts beside the support; without any, whatever touches a sub-model is given at its sensor."""
+    motor: tuple[MotorTable, ...] = ()
+    """Motors whose current or PWM tells joint torques, for `estimate --fuse`."""
+    fusion: FusionTable | None = None
+    """How joint torques of several sources are made one; needed for `estimate --fuse`."""
     estimation: EstimationTable = EstimationTable()
     """How contacts are told apart."""
     processing: ProcessingTable = ProcessingTable()

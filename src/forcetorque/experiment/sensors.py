@@ -108,6 +108,8 @@ def _sensor(
         prior_source=None if entry.prior is None else Path(entry.prior).as_posix(),
         limit_counts=entry.limit_counts,
         full_scale=None if entry.full_scale is None else np.array(entry.full_scale),
+        reading_noise=None if entry.reading_noise is None else np.array(entry.reading_noise),
+        reading_deviation=None if entry.reading_deviation is None else np.array(entry.reading_deviation),
         amplifier_gain=entry.amplifier_gain,
         allowed_gains=entry.allowed_gains,
         variables=tuple(

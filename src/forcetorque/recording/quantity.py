@@ -85,6 +85,18 @@ QUANTITIES = {
             description="Joint torques along +q as the robot has them: N m for rotary joints, N for prismatic ones.",
         ),
         Quantity(
+            name="motor_current",
+            labels=Labels.JOINTS,
+            units=("A",),
+            description="Current of the motor of every joint, positive where it drives along +q times the gear ratio.",
+        ),
+        Quantity(
+            name="pwm",
+            labels=Labels.JOINTS,
+            units=("1",),
+            description="PWM duty of the motor of every joint, from -1 to 1, with the sign of the current.",
+        ),
+        Quantity(
             name="temperature",
             labels=Labels.FIXED,
             columns=("temperature",),

@@ -24,6 +24,7 @@ from forcetorque.simulation.motions import (
     sway_movement,
     z_torque_movement,
 )
+from forcetorque.simulation.motor import SimulatedMotor
 from forcetorque.simulation.network import (
     fail_groups,
     jitter_stamps,
@@ -47,6 +48,7 @@ __all__ = [
     "RobotErrors",
     "SensorFamily",
     "SimulatedImu",
+    "SimulatedMotor",
     "SimulatedSensor",
     "Stance",
     "Stand",

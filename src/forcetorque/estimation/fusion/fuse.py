@@ -1,0 +1,117 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Joint torques of several sources made one, without the source that contradicts the others."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from forcetorque.arrays import FloatArray, IntArray
+from forcetorque.errors import EstimationError
+from forcetorque.estimation.fusion.combination import combined
+from forcetorque.estimation.fusion.conflict import Conflict, conflict_between
+from forcetorque.estimation.fusion.source import TorqueSource
+from forcetorque.estimation.fusion.windows import means_in_windows
+
+FALSE_ALARM = 0.01
+"""Rate of intervals, or of windows, that have a conflict though every covariance is right."""
+
+WINDOW_S = 1.0
+"""Length of the windows in which sources are compared: noise averages out, and motions are still seen; s."""
+
+_NORMAL_95 = 1.959963984540054
+"""Half a 95 % interval over the standard deviation of what is normal."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Fusion:
+    """Joint torques of all sources together over one interval."""
+
+    joints: tuple[str, ...]
+    """Names of j joints."""
+    stamp_ns: IntArray
+    """Instants; shape (n,); ns."""
+    torque: FloatArray
+    """Fused torques along +q, NaN where no source knows one; shape (n, j); N m, N where prismatic."""
+    covariance: FloatArray
+    """Their covariance; shape (n, j, j); (N m)^2. Where sources contradict each other and none alone explains that, it
+    is larger by the mean of their squared normalised innovations."""
+    used: tuple[str, ...]
+    """Sources that were combined."""
+    conflict: Conflict
+    """Over the whole interval."""
+    windows: tuple[Conflict, ...]
+    """In each window by itself."""
+
+    @property
+    def half_width(self) -> FloatArray:
+        """Half of the 95 % intervals; shape (n, j); N m."""
+        half: FloatArray = _NORMAL_95 * np.sqrt(np.einsum("njj->nj", self.covariance))
+        return half
+
+
+def fuse(sources: Sequence[TorqueSource], *, false_alarm: float = FALSE_ALARM, window_s: float = WINDOW_S) -> Fusion:
+    """Combine sources of joint torques by least squares weighted by their covariances.
+
+    Errors of different sources are taken to be independent. A source that alone contradicts the others over the
+    interval is left out of all of it.
+
+    Args:
+        sources: Sources with the same joints and instants, at least one.
+        false_alarm: Rate of false alarms of the test for conflicts, per interval and per window.
+        window_s: Length of the windows in which means are compared; s.
+
+    Returns:
+        Torques with their covariance, and the conflicts.
+
+    Raises:
+        EstimationError: If names are not unique, joints or instants differ, or rate and window are none.
+    """
+    _require_comparable(sources)
+    if not (0.0 < false_alarm < 1.0 and 0.0 < window_s < np.inf):
+        raise EstimationError(
+            f"fuse: expected 0 < false_alarm < 1 and a positive window_s, got {false_alarm} and {window_s} s"
+        )
+    means = dict(zip((source.name for source in sources), means_in_windows(sources, window_s), strict=True))
+    conflict = conflict_between(means, false_alarm)
+    used = [source for source in sources if source.name != conflict.source]
+    torque, covariance = combined([source.torque for source in used], [source.covariance for source in used])
+    if conflict.is_there and conflict.source is None:
+        covariance = covariance * max(1.0, conflict.everyone.total.ratio)
+    first = sources[0]
+    return Fusion(
+        joints=first.joints,
+        stamp_ns=first.stamp_ns,
+        torque=torque,
+        covariance=covariance,
+        used=tuple(source.name for source in used),
+        conflict=conflict,
+        windows=tuple(
+            conflict_between({name: one.window(k) for name, one in means.items()}, false_alarm)
+            for k in range(len(means[first.name].torque))
+        ),
+    )
+
+
+def _require_comparable(sources: Sequence[TorqueSource]) -> None:
+    names = [source.name for source in sources]
+    if not names or len(set(names)) < len(names):
+        raise EstimationError(f"fuse: expected sources of different names, at least one, got {names}")
+    first = sources[0]
+    for other in sources[1:]:
+        pair = f"sources {first.name!r} and {other.name!r}"
+        if other.joints != first.joints:
+            raise EstimationError(f"{pair}: expected the same joints, got {first.joints} and {other.joints}")
+        if len(other) != len(first):
+            raise EstimationError(
+                f"{pair}: expected the same instants, got {len(first)} and {len(other)}; interpolate them before"
+            )
+        apart = np.abs(other.stamp_ns - first.stamp_ns)
+        if apart.any():
+            row = int(apart.argmax())
+            raise EstimationError(
+                f"{pair}, sample {row}: expected the same instants, they are {apart[row] * 1e-9:.6f} s apart; "
+                "interpolate one to those of the other before"
+            )

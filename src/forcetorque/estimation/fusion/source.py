@@ -1,0 +1,126 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A source of joint torques: what it says, and how far that may be off."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Self
+
+import numpy as np
+
+from forcetorque.arrays import FloatArray, IntArray, read_only, read_only_integers
+from forcetorque.errors import EstimationError
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class TorqueSource:
+    """Torques of one source over one interval: `torque = truth + lasting @ z + noise`, with z normal of variance 1.
+
+    Noise averages out, what lasts does not: an offset, a motor constant, a friction that was fitted. A source that
+    lumps both together makes conflicts look surer, or less sure, than they are.
+    """
+
+    name: str
+    """What it is called, such as `ft`."""
+    joints: tuple[str, ...]
+    """Names of j joints."""
+    stamp_ns: IntArray
+    """Instants; increasing; shape (n,); ns."""
+    torque: FloatArray
+    """Torques along +q, NaN where it says nothing; shape (n, j); N m, N where prismatic."""
+    noise: FloatArray
+    """Covariance of what differs from sample to sample; shape (n, j, j); (N m)^2."""
+    lasting: FloatArray
+    """What one standard deviation of each of p independent errors that last the interval adds; shape (n, j, p); N m."""
+    noise_time_s: float = 0.0
+    """Time over which the noise repeats itself, the integral of its autocorrelation for times above 0; s."""
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "joints", tuple(self.joints))
+        j = len(self.joints)
+        torque = read_only(self.torque, name=f"{self.name}: torque", shape=(None, j))
+        n = len(torque)
+        object.__setattr__(self, "torque", torque)
+        stamps = read_only_integers(self.stamp_ns, name=f"{self.name}: stamp_ns", shape=(n,))
+        object.__setattr__(self, "stamp_ns", stamps)
+        for field, shape in (("noise", (n, j, j)), ("lasting", (n, j, None))):
+            object.__setattr__(self, field, read_only(getattr(self, field), name=f"{self.name}: {field}", shape=shape))
+        if not n or (np.diff(stamps) <= 0).any():
+            raise EstimationError(f"source {self.name!r}: expected instants that increase, got {n} that do not")
+        if not 0.0 <= self.noise_time_s < np.inf:
+            raise EstimationError(
+                f"source {self.name!r}: noise_time_s: expected at least 0 s, got {self.noise_time_s}; "
+                "what repeats itself all along is lasting"
+            )
+        self._require_variance()
+
+    def _require_variance(self) -> None:
+        """Wherever it says something, its noise has a variance, and what lasts is a number."""
+        known = np.isfinite(self.torque)
+        pairs = known[:, :, None] & known[:, None, :]
+        # outside what is known a unit matrix: a source need not say how far off nothing is
+        noise = np.where(pairs, self.noise, np.eye(len(self.joints)))
+        scale = np.abs(np.einsum("njj->nj", noise)).max(axis=1)
+        odd = ~np.isfinite(noise).all(axis=(1, 2))
+        odd |= np.abs(noise - noise.transpose(0, 2, 1)).max(axis=(1, 2)) > _ROUNDING * scale
+        odd |= ~np.where(known[:, :, None], np.isfinite(self.lasting), True).all(axis=(1, 2))
+        smallest = np.full(len(noise), np.nan)
+        smallest[~odd] = np.linalg.eigvalsh(noise[~odd])[:, 0]
+        odd |= ~(smallest > 0.0)
+        if odd.any():
+            row = int(np.flatnonzero(odd)[0])
+            raise EstimationError(
+                f"source {self.name!r}, sample {row}: noise: expected a symmetric covariance with positive variances, "
+                f"and lasting errors that are numbers, got the variances {np.diag(self.noise[row])} and the smallest "
+                f"eigenvalue {smallest[row]:.3g}; give NaN as torque where the source says nothing"
+            )
+
+    @classmethod
+    def of_covariance(
+        cls,
+        name: str,
+        joints: Sequence[str],
+        stamp_ns: IntArray,
+        torque: FloatArray,
+        covariance: FloatArray,
+        *,
+        noise_share: float,
+    ) -> Self:
+        """Take a covariance that does not say which of the errors last.
+
+        Args:
+            name: What the source is called.
+            joints: Names of j joints.
+            stamp_ns: Instants; increasing; shape (n,); ns.
+            torque: Torques along +q, NaN where it says nothing; shape (n, j); N m.
+            covariance: Covariance of the torques of each sample; shape (n, j, j); (N m)^2.
+            noise_share: Share of it that differs from sample to sample; the rest lasts; above 0, at most 1.
+
+        Returns:
+            The source.
+
+        Raises:
+            EstimationError: If the share is none, or the covariance is none where a torque is known.
+        """
+        if not 0.0 < noise_share <= 1.0:
+            raise EstimationError(f"source {name!r}: noise_share: expected above 0 and at most 1, got {noise_share}")
+        values, vectors = np.linalg.eigh(np.nan_to_num(covariance))
+        # the symmetric root: it changes no faster than the covariance
+        scale = np.sqrt((1.0 - noise_share) * np.maximum(values, 0.0))
+        lasting = (vectors * scale[:, None, :]) @ vectors.transpose(0, 2, 1)
+        noise = noise_share * covariance
+        return cls(name=name, joints=tuple(joints), stamp_ns=stamp_ns, torque=torque, noise=noise, lasting=lasting)
+
+    def __len__(self) -> int:
+        return len(self.stamp_ns)
+
+    @property
+    def covariance(self) -> FloatArray:
+        """Covariance of one sample, of all that may be off together; shape (n, j, j); (N m)^2."""
+        total: FloatArray = self.noise + self.lasting @ self.lasting.transpose(0, 2, 1)
+        return total
+
+
+_ROUNDING = 1e-9
+"""Share of the largest variance by which rounding may make a covariance unsymmetric."""
