@@ -61,6 +61,8 @@ class ExperimentPatch:
     """File with its layout."""
     link: str | None
     """Link that it is mounted on, where the file says so."""
+    table: Path | None = None
+    """File with the calibration of its taxels, where the file says so."""
     columns: int
     """Numbers in one message of counts."""
     taxels: IntArray
@@ -170,6 +172,7 @@ def _patch(where: str, entry: schema.Patch, recording: Recording, inputs: Inputs
         pressure=entry.pressure,
         layout=None if entry.layout is None else inputs.folder / entry.layout,
         link=entry.link,
+        table=None if entry.table is None else inputs.folder / entry.table,
         columns=columns,
         taxels=taxels,
     )

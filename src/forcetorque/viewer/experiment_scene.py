@@ -9,7 +9,7 @@ from pathlib import Path
 
 from forcetorque.calibration import Calibration
 from forcetorque.errors import MissingFileError
-from forcetorque.experiment import Experiment, parse_experiment
+from forcetorque.experiment import Experiment, load_patches, parse_experiment
 from forcetorque.viewer.build import BuiltScene, build_scene
 
 
@@ -39,7 +39,8 @@ def scene_of(
     for folder in mesh_folders or ():
         if not folder.is_dir():
             raise MissingFileError(f"--mesh-dir {folder}: expected a folder, there is none")
-    robot = parse_experiment(path).robot
+    stated = parse_experiment(path)
+    robot = stated.robot
     return build_scene(
         experiment,
         calibrations,
@@ -47,4 +48,5 @@ def scene_of(
         sensors=sensors,
         mesh_folders=mesh_folders or (),
         provenance=[f"{file} sha256 {hashlib.sha256(Path(file).read_bytes()).hexdigest()}" for file in calibrations],
+        patches=load_patches(path) if stated.patch else None,
     )
