@@ -111,6 +111,18 @@ class PatchExperiment:
         raise ExperimentError(f"{self.file}: no patch is called {name!r}; {known_names(name or '', known)}")
 
 
+def patches_of(path: Path) -> PatchExperiment | None:
+    """Read the patches of an experiment file that may have none.
+
+    Args:
+        path: TOML file.
+
+    Returns:
+        The patches; None without any.
+    """
+    return load_patches(path) if parse_experiment(path).patch else None
+
+
 def load_patches(path: Path | str) -> PatchExperiment:
     """Read the patches of an experiment file, and their recording.
 

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from forcetorque.calibration import Calibration
 from forcetorque.errors import MissingFileError
-from forcetorque.experiment import Experiment, load_patches, parse_experiment
+from forcetorque.experiment import Experiment, parse_experiment, patches_of
 from forcetorque.viewer.build import BuiltScene, build_scene
 
 
@@ -39,8 +39,7 @@ def scene_of(
     for folder in mesh_folders or ():
         if not folder.is_dir():
             raise MissingFileError(f"--mesh-dir {folder}: expected a folder, there is none")
-    stated = parse_experiment(path)
-    robot = stated.robot
+    robot = parse_experiment(path).robot
     return build_scene(
         experiment,
         calibrations,
@@ -48,5 +47,5 @@ def scene_of(
         sensors=sensors,
         mesh_folders=mesh_folders or (),
         provenance=[f"{file} sha256 {hashlib.sha256(Path(file).read_bytes()).hexdigest()}" for file in calibrations],
-        patches=load_patches(path) if stated.patch else None,
+        patches=patches_of(path),
     )
