@@ -11,9 +11,14 @@ import numpy as np
 import pytest
 
 from forcetorque.analysis import skin_wrench
+from forcetorque.analysis.skin_event_rows import skin_event_rows
 from forcetorque.arrays import FloatArray
+from forcetorque.exchange.yarp import SkinPart, read_skin_events
 from forcetorque.experiment import load_experiment
 from forcetorque.recording import Recording
+from forcetorque.recording.alignment import usable_samples
+from forcetorque.report.figures import skin_event_figure
+from forcetorque.report.figures.canvas import png_bytes
 from forcetorque.simulation.skin import ContactTruth, Loading
 from forcetorque.viewer import BuiltScene, scene_of
 from forcetorque.viewer import skin as viewer_skin
@@ -160,3 +165,26 @@ def test_contacts_on_another_clock_are_noted(skin_arm: tuple[Path, Sequence[Cont
     assert "their clock is" in notes[0]
     assert scene_skin_events(recording, streams[EVENTS].clock, ("forearm",), Block(), notes) == ()
     assert "no link 'hand'" in notes[1]
+
+
+@pytest.mark.real_data
+@pytest.mark.parametrize(("name", "parts"), [("left", {2: 597, 5: 9}), ("rightleftforearmshands", {2: 1045, 5: 924})])
+def test_contacts_of_a_real_robot(data_dir: Path, tmp_path: Path, name: str, parts: dict[int, int]) -> None:
+    """All that the log has are drawn and reported, on the one clock of their sender, in no newtons."""
+    for kind in ("data", "info"):
+        (tmp_path / f"{kind}.log").symlink_to(data_dir / "icub_skin_events_pps" / f"{name}_{kind}.log")
+    wanted = [SkinPart(number=number, stream=f"part {number}", frame=f"frame_{number}") for number in parts]
+    streams = [reading.stream for reading in read_skin_events(tmp_path, parts=wanted)]
+    recording, block, notes = Recording(streams={one.name: one for one in streams}), Block(), list[str]()
+    frames = [part.frame for part in wanted]
+    shown = scene_skin_events(recording, streams[0].clock, frames, block, notes)
+    rows, pictures = skin_event_rows(recording)
+    # a contact of a message whose stamp repeats the one before has no instant of its own
+    repeated = len(streams[0]) - len(usable_samples(streams[0].stamp_ns))
+    assert 0 < repeated < 40
+    for number, one, row in zip(parts, shown, rows, strict=True):
+        assert parts[number] - 3 * repeated <= row.contacts == one.contacts.force.shape[0] <= parts[number]
+        assert one.contacts.spread is None
+    assert all("not newtons" in note for note in notes)
+    assert len(png_bytes(skin_event_figure(pictures))) > 10_000
+    assert scene_skin_events(recording, "another", frames, block, notes) == ()

@@ -44,7 +44,7 @@ class SkinEventPicture:
 
 
 def skin_event_rows(recording: Recording) -> tuple[tuple[SkinEventRow, ...], tuple[SkinEventPicture, ...]]:
-    """Sum up every stream of skin events on the clock of the recording's first stream.
+    """Sum up every stream of skin events on a clock that other streams have too, or of a recording of nothing else.
 
     Args:
         recording: The recording.
@@ -52,7 +52,8 @@ def skin_event_rows(recording: Recording) -> tuple[tuple[SkinEventRow, ...], tup
     Returns:
         A row per stream, and what is drawn of it.
     """
-    clocks = [stream.clock for stream in recording.streams.values() if "skin_event" not in stream.signals]
+    others = [stream.clock for stream in recording.streams.values() if "skin_event" not in stream.signals]
+    clocks = others or [stream.clock for stream in recording.streams.values()]
     told = [
         _told(stream, recording.start_ns)
         for stream in recording.streams.values()

@@ -13,7 +13,7 @@ from forcetorque.analysis import inspect_log
 from forcetorque.errors import FormatError, RecordingError
 from forcetorque.exchange.yarp import PortKind, SkinPart, discover_ports, read_port, read_skin_events
 from forcetorque.recording import QUANTITIES, Signal, Stream
-from tests.exchange.yarp.port_logs import INFO_TWO_STAMPS, write_port
+from tests.exchange.yarp.port_logs import INFO, INFO_TWO_STAMPS, write_port
 
 _CONTACT = "((7 4 4 5) (0.1 0.2 0.3) (-0.5 0.25 -0.125) (0.0 0.0 0.0) (0.11 0.21 0.31) (1.0 0.0 0.0) (43 44) 10.5)"
 _NAMED = _CONTACT[:-1] + ' ("r_forearm" "r_forearm_dh_frame") 3)'
@@ -133,6 +133,26 @@ def test_the_clocks_of_sender_and_dumper_are_never_mixed(tmp_path: Path) -> None
     assert reading.stream.clock == "yarp sender"
     sizes = {finding.kind: finding.size for finding in reading.findings}
     assert sizes == {"left_out": None, "two_clocks": 1373891463 - 1204508983, "heuristic": None}
+
+
+def test_messages_without_an_envelope_are_left_out(tmp_path: Path) -> None:
+    """Where the sender's stamp was asked for they carry both, and the only good one is the dumper's."""
+    lines = [f"1 {_STAMP} {_CONTACT}", f"-1 0 1457614037.5 {_CONTACT}", "2 1457614037.9 "]
+    folder = write_port(tmp_path, "\n".join(lines) + "\n")
+    (reading,) = read_skin_events(folder, parts=[_PART])
+    assert reading.stream.sequence is not None
+    assert reading.stream.sequence.tolist() == [1, 2]
+    assert [(finding.kind, finding.count) for finding in reading.findings] == [("left_out", 1), ("heuristic", 2)]
+
+
+@pytest.mark.parametrize(("info", "kinds"), [("rx;", ["heuristic"]), (None, ["unknown_stamp", "heuristic"])])
+def test_stamps_of_the_dumper_and_of_nobody_knows_whom(tmp_path: Path, info: str | None, kinds: list[str]) -> None:
+    """Every message is kept with its one stamp."""
+    text = None if info is None else INFO.replace("tx;", info)
+    folder = write_port(tmp_path, f"1 {_STAMP} {_CONTACT}\n2 1457614037.5 \n", info=text)
+    (reading,) = read_skin_events(folder, parts=[_PART])
+    assert reading.stream.stamp_ns.tolist() == [1457614036_921366000, 1457614037_500000000]
+    assert [finding.kind for finding in reading.findings] == kinds
 
 
 def test_without_any_stamp_of_the_sender_all_are_the_dumpers(tmp_path: Path) -> None:

@@ -9,14 +9,13 @@ only where no message has the sender's.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-from forcetorque.arrays import IntArray
+from forcetorque.arrays import BoolArray, IntArray
 from forcetorque.errors import FormatError
-from forcetorque.exchange.yarp.bottle import Bottle
 from forcetorque.exchange.yarp.port_folder import LINE_LIMIT, PortFolder, read_blocks
 from forcetorque.exchange.yarp.skin_event import SkinEvent, parse_events_line
 
@@ -63,18 +62,24 @@ def read_skin_event_log(port: PortFolder) -> SkinEventLog:
         MissingFileError: If the log vanished.
         FormatError: If the log is empty, cut off, or a line is not of contacts.
     """
-    n_stamps, stamps, heads, events = len(port.stamps), [], [], []
+    sequence, stamps, events = [], [], []
     for place, line in enumerate(_lines(port), start=1):
+        names = _stamp_names(port, line)
         try:
-            head, contacts = parse_events_line(line, n_stamps=n_stamps)
+            head, contacts = parse_events_line(line, n_stamps=len(names))
         except FormatError as error:
             raise FormatError(f"{port.data}:{place}: {error}") from error
-        heads.append(head)
-        stamps.append([_nanoseconds(token) for token in line.split()[1 : 1 + n_stamps]])
+        sequence.append(head[0])
+        stamps.append(dict(zip(names, map(_nanoseconds, line.split()[1:]), strict=False)))
         events.append(contacts)
     if not events:
         raise FormatError(f"{port.data}: expected at least one message, got an empty log")
-    return _of_one_clock(port, heads, np.array(stamps, dtype=np.int64), events)
+    return _of_one_clock(port, np.array(sequence, dtype=np.int64), stamps, events)
+
+
+def _stamp_names(port: PortFolder, line: bytes) -> tuple[str, ...]:
+    """Stamps that a line carries: messages without an envelope, whose number is negative, have both."""
+    return ("tx", "rx") if port.stamps == ("tx",) and line.startswith(b"-") else port.stamps
 
 
 def _lines(port: PortFolder) -> Iterator[bytes]:
@@ -98,30 +103,33 @@ def _nanoseconds(token: bytes) -> int:
 
 
 def _of_one_clock(
-    port: PortFolder, heads: list[Bottle], stamps: IntArray, events: list[tuple[SkinEvent, ...]]
+    port: PortFolder,
+    sequence: IntArray,
+    stamps: Sequence[Mapping[str, int]],
+    events: Sequence[tuple[SkinEvent, ...]],
 ) -> SkinEventLog:
-    sender = port.stamps.index("tx") if "tx" in port.stamps else 0
-    sent = stamps[:, sender] > 0  # a sender without a clock stamps zero
-    two = len(port.stamps) == 2
-    by_dumper = port.stamps == ("rx",) or (two and not sent.any())
-    column = 1 - sender if two and by_dumper else sender
-    rows = np.flatnonzero(sent) if two and not by_dumper else np.arange(len(stamps))
+    # a stamp of unknown kind is one clock too; a sender without a clock stamps zero where the dumper's is there
+    tx = np.array([by.get("tx", by.get("unknown", 0)) for by in stamps], dtype=np.int64)
+    rx = np.array([by.get("rx", 0) for by in stamps], dtype=np.int64)
+    has_rx = np.array(["rx" in by for by in stamps])
+    sent = ~has_rx | (tx > 0)
+    by_dumper = not sent.any()
+    rows = np.flatnonzero(sent != by_dumper)
+    both = sent & has_rx
     return SkinEventLog(
-        sequence=np.array([heads[row][0] for row in rows], dtype=np.int64),
-        stamp_ns=stamps[rows, column],
-        events=tuple(events[row] for row in rows),
+        sequence=sequence[rows],
+        stamp_ns=(rx if by_dumper else tx)[rows],
+        events=tuple(events[row] for row in rows.tolist()),
         by_dumper=by_dumper,
         left_out=len(stamps) - len(rows),
-        dumper_ahead_s=None if by_dumper else _dumper_ahead_s(port, stamps[rows], sender),
+        dumper_ahead_s=float(np.median((rx - tx)[both])) * 1e-9 if both.any() else _connected_after_s(port, tx, sent),
     )
 
 
-def _dumper_ahead_s(port: PortFolder, stamps: IntArray, sender: int) -> float | None:
-    """Told by messages with both stamps, else by when the dumper connected."""
-    if stamps.shape[1] == 2:
-        return float(np.median(stamps[:, 1 - sender] - stamps[:, sender])) * 1e-9
-    if not port.has_info:
+def _connected_after_s(port: PortFolder, tx: IntArray, sent: BoolArray) -> float | None:
+    """When the dumper connected, after the first stamp of the sender."""
+    if not port.has_info or not sent.any():
         return None
     with (port.data.parent / "info.log").open("rb") as file:
         connected = _INFO_STAMP.search(file.read(_INFO_SIZE))
-    return None if connected is None else (_nanoseconds(connected[1]) - int(stamps[0, 0])) * 1e-9
+    return None if connected is None else (_nanoseconds(connected[1]) - int(tx[sent][0])) * 1e-9

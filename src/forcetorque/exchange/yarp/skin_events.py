@@ -156,7 +156,7 @@ def _findings(part: SkinPart, port: PortFolder, log: SkinEventLog) -> list[Findi
     if not port.has_info:
         text = "there is no info.log; the sender or the dumper may have stamped the messages"
         told.append(("unknown_stamp", text, count, None))
-    if len(port.stamps) == 2 and log.by_dumper:
+    if log.by_dumper and port.stamps != ("rx",):
         told.append(("dumper_stamp", "no message has a stamp of the sender; the dumper's are used", count, None))
     if log.left_out:
         text = f"{log.left_out} messages have no stamp of the sender; the dumper's clock is another: they are left out"
