@@ -18,7 +18,7 @@ EPOCH_NS = 1_700_000_000_000_000_000
 
 UNITS = {
     "position": "rad", "velocity": "rad/s", "acceleration": "rad/s2", "torque": "N m", "raw": "counts",
-    "scalar": "V", "taxel_counts": "counts", "motor_current": "A", "pwm": "1",
+    "scalar": "V", "taxel_counts": "counts", "motor_current": "A", "pwm": "1", "skin_event": "1",
 }  # fmt: skip
 """Unit of quantities whose columns are free to name."""
 
@@ -27,11 +27,11 @@ def signal(quantity: str, values: Any, columns: tuple[str, ...] | None = None) -
     """A valid signal; columns that are free to name are a, b, c unless given."""
     array = np.asarray(values, dtype=np.float64)
     known = QUANTITIES[quantity]
+    frame = "frame" if known.has_frame else None
     if known.labels is Labels.FIXED:
-        frame = "frame" if known.has_frame else None
         return Signal(quantity=quantity, values=array, columns=known.columns, units=known.units, frame=frame)
     names = columns or tuple("abcdefgh"[: array.shape[1]])
-    return Signal(quantity=quantity, values=array, columns=names, units=(UNITS[quantity],) * len(names))
+    return Signal(quantity=quantity, values=array, columns=names, units=(UNITS[quantity],) * len(names), frame=frame)
 
 
 def stream(stamp_ns: Any, *signals: Signal, name: str = "s", clock: str = "robot", sequence: Any = None) -> Stream:

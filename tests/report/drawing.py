@@ -28,6 +28,7 @@ from forcetorque.analysis import (
     UseVerdict,
     group_trials,
 )
+from forcetorque.analysis.skin_event_rows import SkinEventPicture
 from forcetorque.analysis.skin_picture import TaxelPicture
 from forcetorque.calibration.joint import PartResidual
 from forcetorque.evaluation.sphere import analyse_sphere
@@ -44,11 +45,13 @@ from forcetorque.report.figures import (
     lambda_force_figure,
     learnt_figure,
     residual_figure,
+    skin_event_figure,
     skin_layout_figure,
     skin_wrench_figure,
     space_figure,
     sphere_figure,
     taxel_figure,
+    torque_figure,
     use_figure,
 )
 from forcetorque.report.figures.canvas import png_bytes
@@ -214,6 +217,28 @@ def _taxel(rng: np.random.Generator) -> Figure:
     )
 
 
+def _skin_event(rng: np.random.Generator) -> Figure:
+    seconds = np.linspace(0.0, 60.0, 300)
+    pictures = [
+        SkinEventPicture(stream=name, seconds=seconds, heuristic=np.maximum(0.0, rng.normal(size=300).cumsum()))
+        for name in ("r_forearm_events", "r_hand_events")
+    ]
+    return skin_event_figure(pictures)
+
+
+def _torque(rng: np.random.Generator) -> Figure:
+    seconds = np.linspace(0.0, 60.0, 300)
+    truth = rng.normal(size=(300, 2)).cumsum(axis=0)
+    estimates = {"skin": truth + rng.normal(0.0, 0.3, (300, 2)), "force-torque sensor": truth + 0.4}
+    return torque_figure(
+        seconds,
+        ("r_knee", "r_hip_pitch"),
+        estimates,
+        deviations={"skin": np.full((300, 2), 0.3)},
+        reference=("truth", truth),
+    )
+
+
 def _skin_wrench(rng: np.random.Generator) -> Figure:
     surface = skin_surface(cylinder())
     pressures = 2e4 * np.exp(-0.5 * (np.linalg.norm(surface.positions - surface.positions[100], axis=1) / 0.012) ** 2)
@@ -352,8 +377,10 @@ FIGURES: dict[str, Callable[[np.random.Generator], Figure]] = {
     "held out": _held_out,
     "joint": _joint,
     "learnt": _learnt,
+    "skin event": _skin_event,
     "skin_wrench": _skin_wrench,
     "taxel": _taxel,
+    "torque": _torque,
     "index": _index,
     "skin layout": _skin_layout,
     "use": _use,

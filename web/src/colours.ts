@@ -15,6 +15,12 @@ export const ALARM = "#D55E00";
 export const AXES = ["#D55E00", "#009E73", "#0072B2"] as const;
 /** Wrenches of the world on the robot. */
 export const CONTACT = "#7a4a00";
+/** Contacts on skin, and their uncertainty. */
+export const SKIN = "#882255";
+/** Contacts whose force is a heuristic. */
+export const HEURISTIC = "#5b6472";
+/** Pressure from none to the largest: lightness alone tells it. */
+export const PRESSURES = ["#f3efe6", "#f2c14e", "#d1495b", "#3b0f70"] as const;
 /** Tints of intervals by their use. */
 export const USES = { calibration: "#56B4E9", validation: "#009E73", ignore: "#8a8f98" } as const;
 

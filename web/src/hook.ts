@@ -3,6 +3,7 @@
 
 import { linkPoses } from "./kinematics";
 import type { PlaneView } from "./planes";
+import type { SkinShown } from "./skin_view";
 import type { SpaceView } from "./space_view";
 import { makeVideo, type Stage, type VideoOptions } from "./video";
 
@@ -24,6 +25,8 @@ export interface Hook {
   planePoint(plane: number, series: number, sample: number): { x: number; y: number } | null;
   /** Samples whose points are in the clouds. */
   cloudSamples(): number[];
+  /** What is drawn of skin: pressed taxels of each patch, and arrows of contacts, tip by tip in the world. */
+  skin(): SkinShown;
   /** Make a film; base64 of an MP4 file. */
   video(options?: VideoOptions): Promise<string>;
 }
@@ -58,6 +61,7 @@ export function openHook(stage: Stage, space: SpaceView, planes: readonly PlaneV
     },
     planePoint: (plane, series, sample) => planes[plane]?.sampleOnScreen(series, sample) ?? null,
     cloudSamples: () => [...space.samples()],
+    skin: () => stage.robot.skin.shown(),
     video: async (options = {}) => base64(await makeVideo(stage, options, () => undefined)),
   };
 }

@@ -19,6 +19,7 @@ import { AxisPlot } from "./plots";
 import { RobotView } from "./robot_view";
 import { SceneData } from "./scene_data";
 import { seriesPanel, switchPanel } from "./series_panel";
+import { skinPanel } from "./skin_panel";
 import { SpaceView } from "./space_view";
 import { Store } from "./store";
 import { TimeStrip } from "./time_strip";
@@ -63,6 +64,8 @@ function build(data: SceneData): void {
     momentArrows: true,
     allSensors: true,
     contacts: true,
+    skin: true,
+    skinEvents: true,
     wireframes: true,
     hideIgnored: false,
     marks: [],
@@ -87,7 +90,7 @@ function build(data: SceneData): void {
   panels.spaceTitle.prepend(
     button("⟲", () => space.reset(), { "aria-label": "Reset the space's view", title: "Reset the view" }),
   );
-  store.on(["sample", "sensor", "hidden", "forceArrows", "momentArrows", "allSensors", "contacts"], () =>
+  store.on(["sample", "sensor", "hidden", "forceArrows", "momentArrows", "allSensors", "contacts", "skin", "skinEvents"], () =>
     robot.update(store.state),
   );
   store.on(["sample", "sensor", "quantity", "hidden", "wireframes", "hideIgnored", "marks"], () =>
@@ -148,6 +151,7 @@ function fillSide(panels: Panels, frames: Frames, stage: Stage, say: (text: stri
     ...notes(data),
     section("Series", seriesPanel(data, store), values.root),
     section("Shown", switchPanel(data, store)),
+    ...skinPanel(data, store, frames, stage.robot.skin.metresPer),
     section("Saved samples", marksPanel(data, store, say), panels.status),
     joints.root,
     findingsPanel(data, store),

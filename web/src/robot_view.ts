@@ -7,6 +7,7 @@ import type { Frames } from "./frames";
 import { linkPoses, type Pose } from "./kinematics";
 import { origin, RobotModel } from "./robot_model";
 import type { SceneData } from "./scene_data";
+import { SkinView } from "./skin_view";
 import type { State } from "./store";
 import { View3D } from "./view3d";
 import { WrenchArrows } from "./wrench_arrows";
@@ -16,6 +17,7 @@ const POSTURES = 24;
 /** The view of the robot. */
 export class RobotView extends View3D {
   readonly wrenches: WrenchArrows;
+  readonly skin: SkinView;
   private readonly model: RobotModel;
 
   constructor(
@@ -33,6 +35,8 @@ export class RobotView extends View3D {
     const size = Math.max(room.getSize(new Vector3()).length(), 1e-3);
     this.wrenches = new WrenchArrows(data, size);
     this.scene.add(this.wrenches);
+    this.skin = new SkinView(data, size);
+    this.scene.add(this.skin);
     this.floor(room, size);
     const middle = room.getCenter(new Vector3());
     this.lookFrom(middle.clone().add(new Vector3(0.82, -0.95, 0.45).multiplyScalar(size)), middle);
@@ -43,6 +47,7 @@ export class RobotView extends View3D {
     const poses = linkPoses(this.data, state.sample);
     this.model.place(poses);
     this.wrenches.update(state, poses);
+    this.skin.update(state, poses);
     this.frames.later(this);
   }
 

@@ -141,6 +141,50 @@ export interface ContactSeries {
   readonly values: ArrayRef;
 }
 
+/** Contacts on skin, frame by frame: k frames with m contacts together. */
+export interface SkinContactFrames {
+  /** Start of each frame, increasing; s; shape (k,) float64. */
+  readonly time_s: ArrayRef;
+  /** How long a frame is shown, unless the next one comes first; s. */
+  readonly hold_s: number;
+  /** Where the contacts of each frame begin, and their number at the end; shape (k + 1,) uint32. */
+  readonly first: ArrayRef;
+  /** Centres of pressure, in the frame of the link; m; shape (m, 3) float32. */
+  readonly place: ArrayRef;
+  /** What each does to the link, along its axes; shape (m, 3) float32; N, but for contacts of a heuristic. */
+  readonly force: ArrayRef;
+  /** Half axes of one standard deviation of the force, as the columns of matrices; N; shape (m, 9) float32. */
+  readonly spread: ArrayRef | null;
+}
+
+/** A patch of artificial skin with its pressures; its v taxels are the corners of its facets. */
+export interface SkinPatch {
+  /** Name of the patch. */
+  readonly name: string;
+  /** Link that it is mounted on, in whose frame its vectors are. */
+  readonly link: string;
+  /** Taxels; m; shape (v, 3) float32. */
+  readonly vertices: ArrayRef;
+  /** Indices of vertices; shape (f, 3) uint32. */
+  readonly faces: ArrayRef;
+  /** Pressure of contacts in each frame, 0 beside them; Pa; shape (k, v) float32. */
+  readonly pressure: ArrayRef;
+  /** Largest of them; Pa. */
+  readonly largest_Pa: number;
+  /** Contacts, with their uncertainty. */
+  readonly contacts: SkinContactFrames;
+}
+
+/** Contacts that a skinManager sees; what it calls force is a heuristic, not newtons. */
+export interface SkinEventSeries {
+  /** Name of the stream. */
+  readonly name: string;
+  /** Frame that the contacts are given in. */
+  readonly link: string;
+  /** Contacts; their force is the heuristic and has no spread. */
+  readonly contacts: SkinContactFrames;
+}
+
 /** An interval of the experiment. */
 export interface SceneInterval {
   /** Label. */
@@ -199,6 +243,10 @@ export interface Scene {
   readonly sensors: readonly Sensor[];
   /** Contacts that were estimated. */
   readonly contacts: readonly ContactSeries[];
+  /** Patches of skin with a calibration. */
+  readonly skin: readonly SkinPatch[];
+  /** Contacts that a skinManager sees. */
+  readonly skin_events: readonly SkinEventSeries[];
   /** Intervals in the order of the experiment. */
   readonly intervals: readonly SceneInterval[];
   /** Findings in the order of time. */

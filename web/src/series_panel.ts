@@ -6,13 +6,15 @@ import { checkBox, el } from "./dom";
 import type { SceneData } from "./scene_data";
 import type { State, Store } from "./store";
 
-type Switch = "forceArrows" | "momentArrows" | "allSensors" | "contacts" | "wireframes" | "hideIgnored";
+type Switch = "forceArrows" | "momentArrows" | "allSensors" | "contacts" | "skin" | "skinEvents" | "wireframes" | "hideIgnored";
 
 const SWITCHES: readonly (readonly [key: Switch, text: string])[] = [
   ["forceArrows", "Force arrows"],
   ["momentArrows", "Moment arrows (two heads)"],
   ["allSensors", "Arrows of all sensors"],
   ["contacts", "Contact wrenches (world on robot)"],
+  ["skin", "Pressure and contacts on skin"],
+  ["skinEvents", "Contacts of the skinManager (heuristic, not newtons)"],
   ["wireframes", "Ellipsoids and reference sphere"],
   ["hideIgnored", "Hide ignored intervals in the clouds"],
 ];
@@ -50,7 +52,7 @@ export function seriesPanel(data: SceneData, store: Store): HTMLElement {
 export function switchPanel(data: SceneData, store: Store): HTMLElement {
   const group = el("div", { role: "group", "aria-label": "Shown" });
   for (const [key, text] of SWITCHES) {
-    if (key === "contacts" && data.scene.contacts.length === 0) continue;
+    if (absent(data, key)) continue;
     const { row, box } = checkBox([text], store.state[key], (on) => store.set({ [key]: on } as Partial<State>));
     store.on([key], () => {
       box.checked = store.state[key];
@@ -58,4 +60,10 @@ export function switchPanel(data: SceneData, store: Store): HTMLElement {
     group.append(row);
   }
   return group;
+}
+
+/** Whether a scene has nothing that a switch would show. */
+function absent({ scene }: SceneData, key: Switch): boolean {
+  const parts = { contacts: scene.contacts, skin: scene.skin, skinEvents: scene.skin_events };
+  return key in parts && parts[key as keyof typeof parts].length === 0;
 }

@@ -16,6 +16,10 @@ export interface State {
   readonly momentArrows: boolean;
   readonly allSensors: boolean;
   readonly contacts: boolean;
+  /** Whether pressures and contacts on skin are drawn. */
+  readonly skin: boolean;
+  /** Whether contacts of a skinManager are drawn, whose force is a heuristic. */
+  readonly skinEvents: boolean;
   readonly wireframes: boolean;
   /** Whether samples of ignored intervals are left out of the clouds. */
   readonly hideIgnored: boolean;

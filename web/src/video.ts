@@ -6,6 +6,7 @@
 import { ArrayBufferTarget, Muxer } from "mp4-muxer";
 
 import { INK, seriesColour } from "./colours";
+import type { RobotView } from "./robot_view";
 import type { SceneData } from "./scene_data";
 import type { Store } from "./store";
 import { clearDates } from "./mp4_dates";
@@ -54,7 +55,7 @@ type EncodeOptions = VideoEncoderEncodeOptions & { vp9?: { quantizer: number } }
 export interface Stage {
   readonly data: SceneData;
   readonly store: Store;
-  readonly robot: View3D;
+  readonly robot: RobotView;
   readonly space: View3D;
   /** Draws everything that waits. */
   readonly flush: () => void;

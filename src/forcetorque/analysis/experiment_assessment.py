@@ -14,9 +14,12 @@ from forcetorque.analysis.joint_rows import PartRow
 from forcetorque.analysis.overview import IntervalOverview, StreamOverview, interval_overviews, stream_overviews
 from forcetorque.analysis.part_residuals import part_residuals
 from forcetorque.analysis.sensor_run import SensorRun
+from forcetorque.analysis.skin_assessment import assess_skin
+from forcetorque.analysis.skin_event_rows import SkinEventPicture, SkinEventRow, skin_event_rows
+from forcetorque.analysis.skin_wrench import SkinWrench
 from forcetorque.calibration import Calibration
 from forcetorque.calibration.joint import PartResidual
-from forcetorque.experiment import Experiment
+from forcetorque.experiment import Experiment, PatchExperiment
 from forcetorque.recording import Use
 from forcetorque.result import Row
 
@@ -44,6 +47,14 @@ class ExperimentAssessment(Row):
     """What the first calibration of every sensor leaves of parts that nothing touches, on data that was not fitted."""
     part_residuals: tuple[PartResidual, ...] = Field(default=(), exclude=True, repr=False)
     """The same window by window."""
+    skin: tuple[SkinWrench, ...] = ()
+    """Contacts on every patch of skin that states a table."""
+    skin_left_out: tuple[str, ...] = ()
+    """Why there are none of the other patches."""
+    skin_events: tuple[SkinEventRow, ...] = ()
+    """Contacts that a skinManager saw."""
+    skin_event_pictures: tuple[SkinEventPicture, ...] = Field(default=(), exclude=True, repr=False)
+    """The same over time."""
     inputs_sha256: dict[str, str]
     """SHA-256 of every input file."""
 
@@ -55,6 +66,7 @@ def assess_experiment(
     file: str,
     demands: Demands,
     runs: Mapping[str, SensorRun] | None = None,
+    patches: PatchExperiment | None = None,
     progress: Callable[[str], None] | None = None,
 ) -> ExperimentAssessment:
     """Ask every question about the sensors of an experiment.
@@ -66,6 +78,7 @@ def assess_experiment(
         file: Name of its file.
         demands: Limits and other sensors.
         runs: The sensors to judge by name, where other questions share what they have computed; made if left out.
+        patches: Its patches of skin; None without any.
         progress: Called with what is done next.
 
     Returns:
@@ -87,6 +100,8 @@ def assess_experiment(
         sensors.append(assess(run, calibrations.get(sensor.name, {}), others=others, demands=demands))
     first = {name: next(iter(group.values())) for name, group in calibrations.items() if group}
     residuals = part_residuals(experiment, first, Use.VALIDATION)
+    skin, skin_left_out = assess_skin(patches)
+    skin_events, skin_event_pictures = skin_event_rows(experiment.recording)
     start, end = experiment.recording.span_ns
     return ExperimentAssessment(
         experiment=experiment.name,
@@ -99,5 +114,9 @@ def assess_experiment(
         sensors=tuple(sensors),
         parts=tuple(map(PartRow.of, residuals)),
         part_residuals=tuple(residuals),
+        skin=skin,
+        skin_left_out=skin_left_out,
+        skin_events=skin_events,
+        skin_event_pictures=skin_event_pictures,
         inputs_sha256=dict(experiment.inputs_sha256),
     )

@@ -61,6 +61,8 @@ class ExperimentPatch:
     """File with its layout."""
     link: str | None
     """Link that it is mounted on, where the file says so."""
+    table: Path | None = None
+    """File with the calibration of its taxels, where the file says so."""
     columns: int
     """Numbers in one message of counts."""
     taxels: IntArray
@@ -107,6 +109,18 @@ class PatchExperiment:
             if name in (None, patch.name):
                 return patch
         raise ExperimentError(f"{self.file}: no patch is called {name!r}; {known_names(name or '', known)}")
+
+
+def patches_of(path: Path) -> PatchExperiment | None:
+    """Read the patches of an experiment file that may have none.
+
+    Args:
+        path: TOML file.
+
+    Returns:
+        The patches; None without any.
+    """
+    return load_patches(path) if parse_experiment(path).patch else None
 
 
 def load_patches(path: Path | str) -> PatchExperiment:
@@ -170,6 +184,7 @@ def _patch(where: str, entry: schema.Patch, recording: Recording, inputs: Inputs
         pressure=entry.pressure,
         layout=None if entry.layout is None else inputs.folder / entry.layout,
         link=entry.link,
+        table=None if entry.table is None else inputs.folder / entry.table,
         columns=columns,
         taxels=taxels,
     )

@@ -155,6 +155,8 @@ class Patch(Table):
     """File that says where its taxels are; every column of the counts is one if left out."""
     link: Text | None = None
     """Link that it is mounted on; that of the layout if left out."""
+    table: Path | None = None
+    """Calibration of its taxels, as `forcetorque skin calibrate` writes it; where it is stated, contacts are shown."""
 
 
 class Trial(Table):

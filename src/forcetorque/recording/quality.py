@@ -17,6 +17,8 @@ SATURATION_SHARE = 0.005
 
 _NOISY = ("wrench", "raw", "proper_acceleration", "angular_velocity")
 """Quantities whose noise changes them at every sample; encoders and thermometers may rest."""
+_SPARSE = ("skin_event",)
+"""Quantities that have nothing to say at most times."""
 _WRAPS = (1 << 15, 1 << 16, 1 << 31, 1 << 32)
 """Sizes of counters that start again at zero."""
 
@@ -34,7 +36,8 @@ def stream_findings(stream: Stream) -> tuple[Finding, ...]:
         return (Finding(stream=stream.name, kind="empty", message="the stream holds no sample", count=0),)
     found = [*_gaps(stream), *_bad_stamps(stream), *_lost_messages(stream), *_reported_saturation(stream)]
     for signal in stream.signals.values():
-        found += _missing_values(stream, signal)
+        if signal.quantity not in _SPARSE:
+            found += _missing_values(stream, signal)
         if signal.quantity in _NOISY:
             found += _stuck_channels(stream, signal)
     return tuple(found)

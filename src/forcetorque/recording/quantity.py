@@ -149,6 +149,13 @@ QUANTITIES = {
             description="Reading of every taxel of a patch of skin as its electronics deliver it; pressure lowers it.",
         ),
         Quantity(
+            name="skin_event",
+            labels=Labels.CHANNELS,
+            units=("m", "1", "counts", "heuristic"),
+            has_frame=True,
+            description="Contacts that a skinManager sees on a patch; its force is a heuristic, not newtons.",
+        ),
+        Quantity(
             name="pressure",
             labels=Labels.FIXED,
             columns=("pressure",),

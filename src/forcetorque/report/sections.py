@@ -15,6 +15,7 @@ from forcetorque.report.document import Block, Document, Figure, List, Picture, 
 from forcetorque.report.figures import joint_figure
 from forcetorque.report.judgements import judgement_section
 from forcetorque.report.questions import ERRORS, QUESTIONS
+from forcetorque.report.skin_section import skin_section
 from forcetorque.result import Table, table_of
 
 
@@ -45,6 +46,7 @@ def report_document(
     parts = [_question(*ERRORS, experiments), judgement_section(experiments)]
     parts += [_question(name, make, experiments) for name, make in QUESTIONS]
     parts += [_parts(experiment) for experiment in experiments]
+    parts += [skin_section(experiment) for experiment in experiments]
     parts += [_recording(experiment) for experiment in experiments]
     parts += [*viewers, *(_findings(experiment) for experiment in experiments)]
     for file, content in results.items():

@@ -11,7 +11,7 @@ from pathlib import Path
 from forcetorque.analysis import inspect_experiment
 from forcetorque.analysis.applicability import by_sensor
 from forcetorque.calibration import Calibration
-from forcetorque.experiment import Experiment, ExperimentSensor
+from forcetorque.experiment import Experiment, ExperimentSensor, PatchExperiment
 from forcetorque.experiment.wrist_load import is_wrist_load
 from forcetorque.recording import Finding, Interval
 from forcetorque.recording.alignment import seconds_since
@@ -24,6 +24,8 @@ from forcetorque.viewer.parts import scene_parts
 from forcetorque.viewer.root_pose import root_poses
 from forcetorque.viewer.scene import Block, Robot, Scene, SceneFinding, SceneInterval
 from forcetorque.viewer.series import scene_sensor
+from forcetorque.viewer.skin import scene_skin
+from forcetorque.viewer.skin_events import scene_skin_events
 from forcetorque.viewer.tree import scene_joints
 
 
@@ -45,6 +47,7 @@ def build_scene(
     sensors: Sequence[str] | None = None,
     mesh_folders: Sequence[Path] = (),
     provenance: Sequence[str] = (),
+    patches: PatchExperiment | None = None,
 ) -> BuiltScene:
     """Collect everything that the viewer shows of an experiment.
 
@@ -58,6 +61,7 @@ def build_scene(
         sensors: Sensors to show; all of the experiment if None.
         mesh_folders: Folders with packages of meshes that are looked at first.
         provenance: Lines to add to the list of inputs.
+        patches: Skin of the experiment; None without any.
 
     Returns:
         The scene.
@@ -88,6 +92,8 @@ def build_scene(
         for one in shown
     ]
     contacts = scene_contacts(computed, groups, posture, priors, block, notes, sources)
+    skin = () if patches is None else scene_skin(patches, model.links, block, notes, sources)
+    events = scene_skin_events(recording, posture.stream.clock, model.links, block, notes)
     robot, missing = _robot(experiment, posture, urdf, block, mesh_folders)
     scene = Scene(
         title=experiment.name,
@@ -101,6 +107,8 @@ def build_scene(
         robot=robot,
         sensors=(*series, *scene_parts(computed, groups, posture, block, sources)),
         contacts=contacts,
+        skin=skin,
+        skin_events=events,
         intervals=tuple(
             _interval(interval, recording.start_ns, states_support=not is_wrist_load(model))
             for interval in recording.intervals

@@ -178,6 +178,56 @@ class ContactSeries:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class SkinContactFrames:
+    """Contacts on skin, frame by frame: k frames with m contacts together."""
+
+    time_s: ArrayRef
+    """Start of each frame, increasing; s; shape (k,) float64."""
+    hold_s: float
+    """How long a frame is shown, unless the next one comes first; s."""
+    first: ArrayRef
+    """Where the contacts of each frame begin, and their number at the end; shape (k + 1,) uint32."""
+    place: ArrayRef
+    """Centres of pressure, in the frame of the link; m; shape (m, 3) float32."""
+    force: ArrayRef
+    """What each does to the link, along its axes; shape (m, 3) float32; N, but for contacts of a heuristic."""
+    spread: ArrayRef | None
+    """Half axes of one standard deviation of the force, as the columns of matrices; N; shape (m, 9) float32."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SkinPatch:
+    """A patch of artificial skin with its pressures; its v taxels are the corners of its facets."""
+
+    name: str
+    """Name of the patch."""
+    link: str
+    """Link that it is mounted on, in whose frame its vectors are."""
+    vertices: ArrayRef
+    """Taxels; m; shape (v, 3) float32."""
+    faces: ArrayRef
+    """Indices of vertices; shape (f, 3) uint32."""
+    pressure: ArrayRef
+    """Pressure of contacts in each frame, 0 beside them; Pa; shape (k, v) float32."""
+    largest_Pa: float
+    """Largest of them; Pa."""
+    contacts: SkinContactFrames
+    """Contacts, with their uncertainty."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SkinEventSeries:
+    """Contacts that a skinManager sees; what it calls force is a heuristic, not newtons."""
+
+    name: str
+    """Name of the stream."""
+    link: str
+    """Frame that the contacts are given in."""
+    contacts: SkinContactFrames
+    """Contacts; their force is the heuristic and has no spread."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class SceneInterval:
     """An interval of the experiment."""
 
@@ -241,6 +291,10 @@ class Scene:
     """Sensors."""
     contacts: tuple[ContactSeries, ...]
     """Contacts that were estimated."""
+    skin: tuple[SkinPatch, ...] = ()
+    """Patches of skin with a calibration."""
+    skin_events: tuple[SkinEventSeries, ...] = ()
+    """Contacts that a skinManager sees."""
     intervals: tuple[SceneInterval, ...]
     """Intervals in the order of the experiment."""
     findings: tuple[SceneFinding, ...]

@@ -24,6 +24,7 @@ from forcetorque.exchange.yarp.message_line import is_number
 from forcetorque.exchange.yarp.port_folder import LOG_NAMES, find_port
 from forcetorque.exchange.yarp.port_log import read_first_message
 from forcetorque.exchange.yarp.reading import PortReading
+from forcetorque.exchange.yarp.skin_events import SkinPart, holds_skin_events, read_skin_events, skin_parts
 from forcetorque.exchange.yarp.state import read_state
 from forcetorque.exchange.yarp.state_ext import count_joints, read_state_ext
 from forcetorque.recording import QUANTITIES
@@ -42,6 +43,8 @@ class PortKind(StrEnum):
     """An inertial sensor, see `read_inertial`."""
     STATE = "state"
     """Positions of joints, see `read_state`."""
+    SKIN_EVENTS = "skin_events"
+    """Contacts on skin, see `read_skin_events`."""
     UNKNOWN = "unknown"
     """Something that is not read."""
 
@@ -62,6 +65,8 @@ class FoundPort:
     """Joints of a board."""
     sensors: tuple[MeasuresSensor, ...] = ()
     """Sensors of a device that can be read."""
+    skin_parts: tuple[SkinPart, ...] = ()
+    """Patches of skin that are touched."""
 
 
 _SENSORS = {6: PortKind.ANALOG, 12: PortKind.INERTIAL}
@@ -71,7 +76,8 @@ _SENSORS = {6: PortKind.ANALOG, 12: PortKind.INERTIAL}
 def discover_ports(folder: str | Path) -> tuple[FoundPort, ...]:
     """Find all ports in a folder of logs and tell from the first message what each of them holds.
 
-    Only the first line of each log is read. Links to folders are not followed.
+    Only the first line of each log is read, of one with contacts on skin all: any may be the
+    first of a patch. Links to folders are not followed.
 
     Args:
         folder: Folder with the folders of ports at any depth, or one of them.
@@ -107,13 +113,14 @@ def read_port(found: FoundPort) -> tuple[PortReading, ...]:
 
     The stream is called as the path of the port, and so is the frame; joints are called `joint_0`,
     `joint_1` and so on, and taken for rotary ones. A device gives one stream for each sensor in the
-    lists that are read, called `path#list[index]`.
+    lists that are read, called `path#list[index]`, and a skinManager one for each patch, called
+    `path#skin_part[number]`.
 
     Args:
         found: The port.
 
     Returns:
-        One reading, or one for each sensor of a device.
+        One reading, or one for each sensor of a device or patch of skin.
 
     Raises:
         MissingFileError: If the port is not there any more.
@@ -131,6 +138,8 @@ def read_port(found: FoundPort) -> tuple[PortReading, ...]:
             return (read_state_ext(found.folder, stream=found.path, joints=joints),)
         case PortKind.MEASURES:
             return read_measures(found.folder, sensors=found.sensors)
+        case PortKind.SKIN_EVENTS:
+            return read_skin_events(found.folder, parts=found.skin_parts)
         case PortKind.UNKNOWN:
             raise FormatError(f"{found.folder}: expected a port whose messages are known; {found.reason}")
 
@@ -158,6 +167,8 @@ def _port_folders(root: Path) -> Iterator[Path]:
 def _look_at(folder: Path, path: str) -> FoundPort:
     try:
         port = find_port(folder)
+        if holds_skin_events(port):
+            return _skin_events(folder, path)
         line = read_first_message(port)
         *others, last = (line[1 + len(stamps) :] for stamps in port.possible_stamps(line))
         for message in others:
@@ -187,6 +198,14 @@ def _classify(message: Bottle, folder: Path, path: str) -> FoundPort:
             f"got {', '.join(name for name, count in counts.items() if count) or 'no sensor'}"
         )
     return FoundPort(folder=folder, path=path, kind=PortKind.MEASURES, sensors=sensors)
+
+
+def _skin_events(folder: Path, path: str) -> FoundPort:
+    streams = {number: f"{path}#skin_part[{number}]" for number in skin_parts(folder)}
+    if not streams:
+        raise FormatError(f"{folder}: expected contacts on skin, got messages without any")
+    parts = tuple(SkinPart(number=number, stream=stream, frame=stream) for number, stream in streams.items())
+    return FoundPort(folder=folder, path=path, kind=PortKind.SKIN_EVENTS, skin_parts=parts)
 
 
 def _classify_numbers(count: int, folder: Path, path: str) -> FoundPort:

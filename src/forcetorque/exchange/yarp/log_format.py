@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 
 from forcetorque.errors import ExperimentError
@@ -17,11 +18,13 @@ from forcetorque.exchange.yarp.log_tables import (
     MeasuresEntry,
     MeasuresPort,
     Port,
+    SkinEventsPort,
     StatePort,
     YarpLog,
 )
 from forcetorque.exchange.yarp.measures import MeasuresSensor, read_measures
 from forcetorque.exchange.yarp.reading import PortReading
+from forcetorque.exchange.yarp.skin_events import SkinPart, read_skin_events
 from forcetorque.exchange.yarp.state import read_state
 from forcetorque.exchange.yarp.state_ext import read_state_ext
 from forcetorque.exchange.yarp.stated_port import stated_port
@@ -57,6 +60,7 @@ class YarpFormat:
             for k, port in enumerate(stated.stream)
             for reading in _read_port(f"stream[{k}]", port, stated.path, context)
         ]
+        _require_one_clock(readings)
         return LogReading(
             streams=tuple(reading.stream for reading in readings),
             findings=tuple(finding for reading in readings for finding in reading.findings),
@@ -69,6 +73,9 @@ def _read_port(where: str, port: Port, log: Path, context: LogContext) -> tuple[
     with context.stated_in(where):
         if isinstance(port, MeasuresPort):
             return read_measures(folder, sensors=[_measures_sensor(entry, context) for entry in port.sensor])
+        if isinstance(port, SkinEventsPort):
+            parts = [SkinPart(number=entry.number, stream=entry.name, frame=entry.frame) for entry in port.part]
+            return read_skin_events(folder, parts=parts)
         if isinstance(port, InertialPort):
             return (read_inertial(folder, stream=port.name, frame=port.frame),)
         if isinstance(port, AnalogPort):
@@ -78,6 +85,16 @@ def _read_port(where: str, port: Port, log: Path, context: LogContext) -> tuple[
         units = {name: context.joint_units[name] for name in port.joints if name in context.joint_units}
         read = read_state if isinstance(port, StatePort) else read_state_ext
         return (read(folder, stream=port.name, joints=port.joints, joint_units=units),)
+
+
+def _require_one_clock(readings: Sequence[PortReading]) -> None:
+    """Second 0 is the earliest stamp of all streams: a clock that is years behind would move every interval."""
+    other = [reading.stream.name for reading in readings if reading.stream.clock != readings[0].stream.clock]
+    if other:
+        raise ExperimentError(
+            f"expected streams of one clock, got {readings[0].stream.name!r} and {other[0]!r} of two: the sender of "
+            "the contacts on skin did not have the time of the network; read that port in an experiment of its own"
+        )
 
 
 def _measures_sensor(entry: MeasuresEntry, context: LogContext) -> MeasuresSensor:

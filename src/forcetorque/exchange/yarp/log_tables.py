@@ -87,7 +87,31 @@ class MeasuresPort(Table):
     """Sensors to read."""
 
 
-Port = Annotated[AnalogPort | StateExtPort | InertialPort | StatePort | MeasuresPort, Field(discriminator="kind")]
+class SkinPartEntry(Table):
+    """One patch of skin of a YARP port `skin_events:o`."""
+
+    name: Text
+    """Name of the stream in the recording."""
+    number: Annotated[int, Field(ge=0, strict=True)]
+    """Its skin part in the messages, such as 12 for the right lower leg."""
+    frame: Text
+    """Link of the URDF in whose frame the messages give its contacts, such as `r_forearm_dh_frame`."""
+
+
+class SkinEventsPort(Table):
+    """A YARP port of a skinManager: contacts with a heuristic force, which is no newtons."""
+
+    kind: Literal["skin_events"]
+    """Kind of the port."""
+    port: Text
+    """Folder of the port below the log's folder."""
+    part: Annotated[tuple[SkinPartEntry, ...], Field(min_length=1)]
+    """Patches to read."""
+
+
+Port = Annotated[
+    AnalogPort | StateExtPort | InertialPort | StatePort | MeasuresPort | SkinEventsPort, Field(discriminator="kind")
+]
 
 
 class YarpLog(LogTable):

@@ -13,6 +13,8 @@ from forcetorque.exchange.yarp.log_tables import (
     MeasuresEntry,
     MeasuresPort,
     Port,
+    SkinEventsPort,
+    SkinPartEntry,
     StateExtPort,
     StatePort,
 )
@@ -46,6 +48,12 @@ def stated_port(found: FoundPort, log: Path) -> Port:
         case PortKind.MEASURES:
             entries = tuple(_stated_sensor(sensor) for sensor in found.sensors)
             return MeasuresPort.model_construct(kind="measures", port=port, sensor=entries)
+        case PortKind.SKIN_EVENTS:
+            parts = tuple(
+                SkinPartEntry.model_construct(name=part.stream, number=part.number, frame=part.frame)
+                for part in found.skin_parts
+            )
+            return SkinEventsPort.model_construct(kind="skin_events", port=port, part=parts)
         case PortKind.UNKNOWN:
             raise FormatError(f"{found.folder}: expected a port whose messages are known; {found.reason}")
 

@@ -14,10 +14,12 @@ from forcetorque.report.figures.lambda_difference import lambda_difference_figur
 from forcetorque.report.figures.lambda_force import lambda_force_figure
 from forcetorque.report.figures.learnt import learnt_figure
 from forcetorque.report.figures.residuals import residual_figure
+from forcetorque.report.figures.skin_events import skin_event_figure
 from forcetorque.report.figures.skin_layout import skin_layout_figure
 from forcetorque.report.figures.skin_wrench import skin_wrench_figure
 from forcetorque.report.figures.sphere import sphere_figure
 from forcetorque.report.figures.taxels import taxel_figure
+from forcetorque.report.figures.torques import torque_figure
 from forcetorque.report.figures.uses import use_figure
 from forcetorque.report.figures.wrench_space import space_figure
 
@@ -35,10 +37,12 @@ __all__ = [
     "lambda_force_figure",
     "learnt_figure",
     "residual_figure",
+    "skin_event_figure",
     "skin_wrench_figure",
     "skin_layout_figure",
     "space_figure",
     "sphere_figure",
     "taxel_figure",
+    "torque_figure",
     "use_figure",
 ]

@@ -1,0 +1,138 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Skin in a real browser: what is drawn at a sample is what the scene holds at its instant."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import pytest
+
+from forcetorque.viewer import BuiltScene
+from forcetorque.viewer.scene import Block, SkinEventSeries, SkinPatch, read_array
+from forcetorque.viewer.skin_contacts import contact_frames
+from tests.browser import Visit
+from tests.viewer.browser.arm_scene import Arm, arm_scene
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Page
+
+pytestmark = pytest.mark.browser
+
+VERTICES = np.array([[0.0, -0.03, 0.026], [0.1, -0.03, 0.026], [0.1, 0.03, 0.026], [0.0, 0.03, 0.026]])
+PRESSURE = np.array([[0.0, 0, 0, 0], [4e3, 0, 2e3, 0], [1e4, 8e3, 2e3, 1e3]])
+"""Pressures of three frames, of 2 s each from 1 s on; Pa."""
+STARTS, HOLD_S = np.array([1.0, 3.0, 5.0]), 2.0
+PLACES = [np.zeros((0, 3)), VERTICES[:1], VERTICES[[0, 2]]]
+FORCES = [np.zeros((0, 3)), np.array([[0.0, 0.0, -10.0]]), np.array([[0.0, 0.0, -20.0], [3.0, 0.0, -4.0]])]
+SD_N = 0.5
+METRES_TOLERANCE = 1e-5
+"""Of tips: coordinates are float32."""
+
+
+@pytest.fixture(scope="module", name="skinned")
+def skinned_scene(tmp_path_factory: pytest.TempPathFactory) -> tuple[Arm, BuiltScene]:
+    """The arm with a patch on its forearm and the contacts of a skinManager in its hand."""
+    arm = arm_scene(tmp_path_factory.mktemp("skinned"))
+    block = Block()
+    block.add(np.frombuffer(arm.built.block, dtype=np.float32), "float32")
+    covariances = [np.tile(SD_N**2 * np.eye(3), (len(force), 1, 1)) for force in FORCES]
+    patch = SkinPatch(
+        name="forearm_skin",
+        link="fore",
+        vertices=block.add(VERTICES, "float32"),
+        faces=block.add(np.array([[0, 1, 2], [0, 2, 3]]), "uint32"),
+        pressure=block.add(PRESSURE, "float32"),
+        largest_Pa=float(PRESSURE.max()),
+        contacts=contact_frames(
+            block, time_s=STARTS, hold_s=HOLD_S, places=PLACES, forces=FORCES, covariances=covariances
+        ),
+    )
+    events = SkinEventSeries(
+        name="hand_events",
+        link="hand",
+        contacts=contact_frames(
+            block,
+            time_s=np.array([6.0]),
+            hold_s=1.0,
+            places=[np.array([[0.1, 0.0, 0.0]])],
+            forces=[np.array([[-0.5, 0.0, 0.0]])],
+        ),
+    )
+    scene = replace(arm.built.scene, skin=(patch,), skin_events=(events,))
+    return arm, BuiltScene(scene=scene, block=block.bytes())
+
+
+@pytest.fixture(name="skin_page")
+def opened(visit: Visit, skinned: tuple[Arm, BuiltScene]) -> Page:
+    """The page of it."""
+    return visit.open(skinned[1])
+
+
+def _shown(page: Page, time_s: Any, seconds: float) -> tuple[int, dict[str, Any]]:
+    sample = int(np.searchsorted(time_s, seconds))
+    page.evaluate(f"window.ft.show({sample})")
+    return sample, page.evaluate("window.ft.skin()")
+
+
+def test_skin_is_linked_to_time(skin_page: Page, skinned: tuple[Arm, BuiltScene]) -> None:
+    """Pressed taxels, arrows and ellipsoids are those of the frame, on their link in its posture."""
+    arm, built = skinned
+    time_s = read_array(built.block, built.scene.time_s)
+    frames = ((0.5, 0, []), (1.5, 0, []), (4.0, 2, FORCES[1]), (6.5, 4, FORCES[2]), (8.0, 0, []))
+    for seconds, pressed, forces in frames:
+        sample, shown = _shown(skin_page, time_s, seconds)
+        assert shown["pressed"] == {"forearm_skin": pressed}
+        tips = np.array(shown["contacts"]["forearm_skin"]).reshape(-1, 3)
+        assert len(tips) == len(forces) == shown["ellipsoids"]
+        if len(forces):
+            pose = arm.link_pose("fore", sample)
+            places = PLACES[len(forces)] @ pose[:3, :3].T + pose[:3, 3]
+            length = np.linalg.norm(tips - places, axis=1) / np.linalg.norm(forces, axis=1)
+            np.testing.assert_allclose(length, length[0], rtol=1e-4)  # one scale for all
+            np.testing.assert_allclose(
+                tips, places + length[0] * (np.array(forces) @ pose[:3, :3].T), atol=METRES_TOLERANCE
+            )
+
+
+def test_the_numbers_say_what_is_heuristic(skin_page: Page, skinned: tuple[Arm, BuiltScene]) -> None:
+    """Newtons have their standard deviation; the skinManager's contacts have no newtons."""
+    time_s = read_array(skinned[1].block, skinned[1].scene.time_s)
+    region = skin_page.get_by_role("region", name="Skin")
+    _shown(skin_page, time_s, 0.5)
+    assert region.get_by_text("No contact on skin at this sample.").is_visible()
+    _, shown = _shown(skin_page, time_s, 6.5)
+    assert len(shown["contacts"]["hand_events"]) == 1
+    texts = region.get_by_role("row").all_text_contents()
+    assert texts == ["forearm_skin20.00 ± 0.50 N", "forearm_skin5.00 ± 0.50 N", "hand_events0.50 heuristic"]
+    assert region.get_by_text("10.0 kPa").is_visible()
+
+
+def test_skin_is_switched_off(skin_page: Page, skinned: tuple[Arm, BuiltScene]) -> None:
+    """Each of both by itself."""
+    time_s = read_array(skinned[1].block, skinned[1].scene.time_s)
+    _shown(skin_page, time_s, 6.5)
+    skin_page.get_by_label("Pressure and contacts on skin").uncheck()
+    skin_page.get_by_label("Contacts of the skinManager (heuristic, not newtons)").uncheck()
+    off = skin_page.evaluate("window.ft.skin()")
+    assert off == {"pressed": {"forearm_skin": 0}, "contacts": {"forearm_skin": [], "hand_events": []}, "ellipsoids": 0}
+
+
+def test_a_robot_without_skin_has_no_such_section(visit: Visit, tmp_path: Path) -> None:
+    """Neither section nor switch."""
+    page = visit.open(arm_scene(tmp_path).built)
+    assert page.get_by_role("region", name="Skin").count() == 0
+    assert page.get_by_label("Pressure and contacts on skin").count() == 0
+
+
+def test_pressure_is_seen(skin_page: Page, skinned: tuple[Arm, BuiltScene]) -> None:
+    """The picture of the robot changes with the pressure alone: the control, the same sample without skin, differs."""
+    time_s = read_array(skinned[1].block, skinned[1].scene.time_s)
+    _shown(skin_page, time_s, 6.5)
+    canvas = skin_page.get_by_role("img", name="Robot")
+    pressed = canvas.screenshot()
+    skin_page.get_by_label("Pressure and contacts on skin").uncheck()
+    skin_page.evaluate("window.ft.show(window.ft.sample())")
+    assert canvas.screenshot() != pressed

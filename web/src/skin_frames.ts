@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Contacts on skin at an instant.
+
+import type { SceneData } from "./scene_data";
+import type { SkinContactFrames } from "./scene_types";
+
+/** One contact. */
+export interface SkinContact {
+  readonly place: readonly number[];
+  readonly force: readonly number[];
+  /** Half axes of one standard deviation as the columns of a matrix, row by row; null where unknown. */
+  readonly spread: readonly number[] | null;
+}
+
+/** Frame that is shown at an instant; null before the first, and after the hold of one without a next. */
+export function frameAt(data: SceneData, frames: SkinContactFrames, seconds: number): number | null {
+  const times = data.doubles(frames.time_s);
+  let low = 0;
+  let high = times.length;
+  while (low < high) {
+    const middle = (low + high) >> 1;
+    if ((times[middle] ?? 0) <= seconds) low = middle + 1;
+    else high = middle;
+  }
+  const start = times[low - 1];
+  return start !== undefined && seconds < start + frames.hold_s ? low - 1 : null;
+}
+
+/** Contacts of a frame; none without a frame. */
+export function contactsOf(data: SceneData, frames: SkinContactFrames, frame: number | null): SkinContact[] {
+  if (frame === null) return [];
+  const first = data.integers(frames.first);
+  const [places, forces] = [data.floats(frames.place), data.floats(frames.force)];
+  const spreads = frames.spread ? data.floats(frames.spread) : null;
+  const [start, end] = [first[frame] ?? 0, first[frame + 1] ?? 0];
+  return Array.from({ length: end - start }, (_, k) => {
+    const at = start + k;
+    const spread = spreads ? [...spreads.subarray(9 * at, 9 * at + 9)] : null;
+    return {
+      place: [...places.subarray(3 * at, 3 * at + 3)],
+      force: [...forces.subarray(3 * at, 3 * at + 3)],
+      spread: spread?.every(Number.isFinite) ? spread : null,
+    };
+  });
+}
+
+/** Standard deviation of the norm of a force: what its ellipsoid is long along it; NaN where unknown. */
+export function deviation({ force, spread }: SkinContact): number {
+  const norm = Math.hypot(...force);
+  if (!spread || norm === 0) return Number.NaN;
+  const along = [0, 1, 2].map((axis) =>
+    force.reduce((sum, component, row) => sum + (component / norm) * (spread[3 * row + axis] ?? 0), 0),
+  );
+  return Math.hypot(...along);
+}
+
+/** Largest force of contacts; 0 without any. */
+export function largestForce(data: SceneData, frames: SkinContactFrames): number {
+  const forces = data.floats(frames.force);
+  let largest = 0;
+  for (let k = 0; k + 2 < forces.length; k += 3) {
+    const norm = Math.hypot(forces[k] ?? 0, forces[k + 1] ?? 0, forces[k + 2] ?? 0);
+    if (norm > largest) largest = norm;
+  }
+  return largest;
+}
