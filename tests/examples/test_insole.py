@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import pytest
@@ -11,6 +12,7 @@ from forcetorque.analysis import SkinCalibration
 from forcetorque.analysis.skin_rows import CandidateRow
 from forcetorque.interactive import calibrate_skin
 
+PAGE = (Path(__file__).resolve().parents[2] / "docs" / "taxel_calibration.md").read_text(encoding="utf-8")
 EXAMPLES = sorted((Path(__file__).resolve().parents[2] / "examples").glob("1[678]_insole_*.toml"))
 HIGHEST_PA = 1.5e5
 ABOVE_KPA, INSIDE_KPA, PRINTED_ABOVE_KPA = 25.0, 13.0, 1000.0
@@ -68,3 +70,15 @@ def test_health_is_needed_in_every_recording(insole: SkinCalibration) -> None:
     assert row.above_any_kPa > 37.0
     jumps = {row.recording: row.jumps for row in insole.recordings}
     assert jumps["insole held out 1: cycle"] > 2 * jumps["insole fit: cycle"]
+
+
+def test_the_page_has_these_figures(insole: SkinCalibration) -> None:
+    """Every line of its table, to its last digit; 1 bar is 100 kPa."""
+    lines = re.findall(r"^\| `(\w+)` \| ([\d.]+) \| ([\d.]+) \| (\d+) \|$", PAGE, re.MULTILINE)
+    assert [curve for curve, *_ in lines] == ["monotone", "line", "polynomial", "capacitor"]
+    for curve, inside, above, falling in lines:
+        row = _rows(insole, curve)["all"]
+        assert row.falling == int(falling)
+        for figure, value in ((inside, row.inside_kPa), (above, row.above_kPa)):
+            assert value is not None
+            assert f"{value / 100.0:.{len(figure.partition('.')[2])}f}" == figure

@@ -95,12 +95,24 @@ class PressureTable:
         Returns:
             Pressures; shape (..., n); Pa; 0 above rest, and where a taxel is not live.
         """
-        place = np.clip(self.fall(counts, rest), 0.0, ROWS - 1.0)
+        return self.look_up(self.fall(counts, rest))[0]
+
+    def look_up(self, fall: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Give the pressures of taxels, and how steeply they rise there.
+
+        Args:
+            fall: Counts below rest; shape (..., n).
+
+        Returns:
+            Pressures, and pressures by count; shape (..., n) each; Pa.
+        """
+        place = np.clip(fall, 0.0, ROWS - 1.0)
         row = np.minimum(place.astype(np.int64), ROWS - 2)
         column = np.arange(len(self.taxels))
         below = self.values[row, column]
-        pressure: FloatArray = below + (place - row) * (self.values[row + 1, column] - below)
-        return pressure
+        slope: FloatArray = self.values[row + 1, column] - below
+        pressure: FloatArray = below + (place - row) * slope
+        return pressure, slope
 
     def beyond_range(self, counts: Any, rest: Any) -> BoolArray:
         """Tell which taxels read more than was fitted, so that their pressure is extrapolated.

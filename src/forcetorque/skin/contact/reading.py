@@ -12,7 +12,7 @@ from forcetorque.arrays import BoolArray, FloatArray, read_only, require_last_ax
 from forcetorque.errors import SkinError
 from forcetorque.skin.contact.frame import PressureFrame
 from forcetorque.skin.layout import SkinLayout
-from forcetorque.skin.pressure_table import ROWS, PressureTable
+from forcetorque.skin.pressure_table import PressureTable
 
 WAKING: Final = 3.8
 """Fall over its standard deviation from which a taxel feels something: of 14 000 idle ones, one does by chance."""
@@ -100,24 +100,17 @@ class PatchReader:
         Returns:
             Pressures, and which taxels feel something.
         """
-        messages = np.atleast_2d(counts)
-        table, mean = self.table, messages.mean(axis=0)
-        fall = table.fall(mean, self.rest)
-        noise = self.noise * np.sqrt(1.0 / len(messages) + 1.0 / self.rest_messages)
+        number = len(counts) if counts.ndim == 2 else 1
+        table = self.table
+        fall = table.fall(counts if counts.ndim == 1 else counts.mean(axis=0), self.rest)
+        noise = self.noise * np.sqrt(1.0 / number + 1.0 / self.rest_messages)
         active = (fall > WAKING * noise) & self.live
-        pressures = table.pressures(mean, self.rest)
+        pressures, slopes = table.look_up(fall)
         return PressureFrame(
             pressures=pressures,
             active=active,
             live=self.live,
-            beyond_range=table.beyond_range(mean, self.rest),
-            sd_Pa=np.hypot(self._slopes(fall) * noise, np.where(active, table.error, 0.0)),
-            hysteresis_Pa=np.where(active, np.minimum(table.hysteresis, pressures), 0.0),
+            beyond_range=active & (fall > table.range_counts),
+            sd_Pa=np.sqrt((slopes * noise) ** 2 + (active * table.error) ** 2),
+            hysteresis_Pa=active * np.minimum(table.hysteresis, pressures),
         )
-
-    def _slopes(self, fall: FloatArray) -> FloatArray:
-        """Pressure by count where each taxel is; shape (n,); Pa."""
-        row = np.clip(fall, 0.0, ROWS - 2.0).astype(np.int64)
-        taxel = np.arange(len(fall))
-        slopes: FloatArray = np.abs(self.table.values[row + 1, taxel] - self.table.values[row, taxel])
-        return slopes
