@@ -238,6 +238,15 @@ def test_two_holes_of_one_size_are_two() -> None:
     assert first == second
 
 
+def test_a_taxel_that_is_far_away_is_apart() -> None:
+    """A digit too many in one position; the rest is judged all the same."""
+    positions = SOUND.positions.copy()
+    positions[40] = [9e6, 0.0, 0.0]
+    found = {finding.defect: finding for finding in layout_findings(replace(SOUND, positions=positions))}
+    assert found[Defect.GAP].taxels.tolist() == [48]
+    assert Defect.TEMPLATE in found
+
+
 def test_a_patch_in_millimetres_is_found() -> None:
     """No taxel has a neighbour then."""
     findings = layout_findings(replace(SOUND, positions=1e3 * SOUND.positions))

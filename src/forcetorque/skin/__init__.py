@@ -4,7 +4,7 @@
 from forcetorque.skin.description import PatchDescription
 from forcetorque.skin.findings import Defect, LayoutFinding, layout_findings
 from forcetorque.skin.layout import SAME_PLACE_M, UNIT_TOLERANCE, SkinLayout
-from forcetorque.skin.modular import modular_patch
+from forcetorque.skin.modular import LARGEST_MESSAGE, modular_patch
 from forcetorque.skin.module import (
     MODULE_CENTRE,
     MODULE_COLUMNS,
@@ -21,6 +21,7 @@ from forcetorque.skin.pressure_clock import PressureClock, match_pressure
 from forcetorque.skin.pressure_table import PressureTable
 
 __all__ = [
+    "LARGEST_MESSAGE",
     "MODULE_CENTRE",
     "MODULE_COLUMNS",
     "MODULE_PADS",

@@ -12,6 +12,8 @@ from forcetorque.arrays import FloatArray, IntArray
 from forcetorque.skin.description import PatchDescription
 from forcetorque.skin.module import MODULE_COLUMNS, MODULE_TAXELS, MODULE_THERMAL, placed_pads
 
+LARGEST_MESSAGE = 1_000_000
+"""Numbers that a message of a patch may have; more are a mistake of the file, not a skin."""
 BOARD_MODULES = 16
 """Modules of a message of one micro-controller; a patch sends whole ones."""
 

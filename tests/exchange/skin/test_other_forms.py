@@ -94,6 +94,7 @@ PLANS: dict[str, tuple[str, str, str]] = {
     "repeated": ("triangle_10pad\t1", "triangle_10pad\t0", "plan.ini:8: expected each module once, got 0 of line 7"),
     "no mirror": ("\t180\t5\t1", "\t180\t5", "plan.ini:8: expected triangle_10pad number X Y degrees gain mirror"),
     "a word": ("\t16\t9", "\tx\t9", "plan.ini:5: expected triangle_10pad number"),
+    "a module that none has": ("triangle_10pad\t1", "triangle_10pad\t999999999", "plan.ini:8: expected triangle_10pad"),
     "no part": ("robotPart", "part", "expected a line `robotPart PATCH`"),
     "no section": ("[SENSORS]", "", r"expected a section \[SENSORS\]"),
 }
@@ -126,6 +127,7 @@ TABLES: dict[str, tuple[str, str, str]] = {
     "unit of force": ("x_mm,y_mm,z_mm", "x_N,y_N,z_N", "palm.csv:4: expected columns of positions with their unit"),
     "no frame": ("# frame: r_hand\n", "", "expected a line `# frame"),
     "no columns": ("# columns: 5\n", "", "expected a line `# columns"),
+    "a message that none sends": ("columns: 5", "columns: 99999999999", "# columns: expected 1 to 1000000 numbers"),
     "beyond": ("3,1,", "5,1,", "palm.csv:6: expected a column of 0 to 4, got 5"),
     "twice": ("3,1,", "0,1,", "palm.csv:6: expected each column once, got 0 of line 5 again"),
     "a word": ("6.5,0,1", "6.5,zero,1", "palm.csv:7: y_mm of taxel 1: expected a finite number, got 'zero'"),

@@ -11,7 +11,7 @@ import pytest
 from forcetorque.arrays import FloatArray
 from forcetorque.errors import FormatError, RobotError, SkinError
 from forcetorque.exchange.skin import describe_patch, read_plan
-from forcetorque.skin import MODULE_TAXELS, module_poses, placed_pads
+from forcetorque.skin import MODULE_TAXELS, layout_findings, module_poses, placed_pads
 from forcetorque.spatial import rotation_from_rpy
 from tests.patches import cylinder_modules
 from tests.robots import robot_xml
@@ -25,6 +25,8 @@ link = "shank"
 frames = "shank_skin_{module}"
 columns = 252
 """
+NEAR_DEG = 1.0
+"""Mean angle of their normals; degrees. Measured: 0.75, at most 4.1."""
 NEAR_M = 3e-4
 """Mean distance of taxels that a plan and centres place on a cylinder of 60 mm; m. Measured: 0.15 mm."""
 
@@ -71,7 +73,7 @@ def test_a_frame_with_axes_places_the_template(folder: Path) -> None:
     assert patch.taxels.tolist() == (36 + MODULE_TAXELS).tolist()
     assert np.abs(patch.positions - placed_pads(pose)[MODULE_TAXELS]).max() < 1e-15
     assert patch.normals is not None
-    assert np.abs(patch.normals - TURNED[:, 2]).max() < 1e-15
+    assert np.abs(patch.normals - TURNED[:, 2]).max() < 1e-12
     (folder / "patch.toml").write_text(STATED + "mirrored = [3]\n", encoding="utf-8")
     mirrored = describe_patch(folder / "patch.toml")
     assert np.abs(mirrored.positions - placed_pads(pose, mirrored=True)[MODULE_TAXELS]).max() < 1e-15
@@ -98,7 +100,9 @@ def test_a_plan_is_bent_over_places(bent: Path) -> None:
     distance = np.linalg.norm(patch.positions - truth, axis=1)
     assert distance.mean() < NEAR_M
     assert patch.normals is not None
-    assert ((patch.normals * truth * [1.0, 1.0, 0.0]).sum(axis=1) > 0.0).all()
+    out = truth * [1.0, 1.0, 0.0] / np.linalg.norm(truth[:, :2], axis=1, keepdims=True)
+    assert np.degrees(np.arccos((patch.normals * out).sum(axis=1))).mean() < NEAR_DEG
+    assert layout_findings(patch) == ()
 
 
 def test_a_piece_that_is_drawn_from_behind_is_the_same_on_the_link(bent: Path) -> None:

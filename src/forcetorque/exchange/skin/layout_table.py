@@ -14,7 +14,7 @@ import numpy as np
 from forcetorque.arrays import FloatArray, IntArray
 from forcetorque.atomic import write_bytes_atomically
 from forcetorque.errors import FormatError, UnitError
-from forcetorque.skin import PatchDescription, SkinLayout
+from forcetorque.skin import LARGEST_MESSAGE, PatchDescription, SkinLayout
 from forcetorque.spatial import si_factor
 
 _PRESSURE, _THERMAL = "pressure", "thermal"
@@ -59,6 +59,8 @@ class LayoutTable:
         """
         head = {key: _stated(path, text, key) for key in _HEAD}
         columns = _whole(f"{path}: # columns", head["columns"])
+        if not 0 < columns <= LARGEST_MESSAGE:
+            raise FormatError(f"{path}: # columns: expected 1 to {LARGEST_MESSAGE} numbers of a message, got {columns}")
         rows = _Rows(path, text)
         pressure = rows.kinds == _PRESSURE
         if not pressure.any():

@@ -10,7 +10,14 @@ from pathlib import Path
 import numpy as np
 
 from forcetorque.errors import FormatError, MissingFileError
-from forcetorque.skin import PatchDescription, PlannedModule, modular_patch, placed_on_paper
+from forcetorque.skin import (
+    LARGEST_MESSAGE,
+    MODULE_COLUMNS,
+    PatchDescription,
+    PlannedModule,
+    modular_patch,
+    placed_on_paper,
+)
 
 PAPER = "u-v plane"
 """Frame of a patch that is only drawn."""
@@ -121,7 +128,11 @@ def _planned(where: str, line: int, words: list[str]) -> PlannedModule:
         u, v, degrees = (float(word) for word in words[2:5])
     except (ValueError, IndexError):
         number, mirror, u, v, degrees = -1, None, 0.0, 0.0, 0.0
-    if number < 0 or mirror not in (0, 1) or not np.isfinite([u, v, degrees]).all():
+    if (
+        not 0 <= number < LARGEST_MESSAGE // MODULE_COLUMNS
+        or mirror not in (0, 1)
+        or not np.isfinite([u, v, degrees]).all()
+    ):
         raise FormatError(f"{where}: expected {_MODULE} number X Y degrees gain mirror, got {' '.join(words)!r}")
     return PlannedModule(
         number=number, u_m=_MM * u, v_m=_MM * v, angle_rad=math.radians(degrees), mirrored=mirror == 1, line=line

@@ -7,6 +7,7 @@ A file says what the URDF cannot: which frames are modules, of which link, and h
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 from pathlib import Path
 from typing import Literal
 
@@ -17,7 +18,14 @@ from forcetorque.arrays import FloatArray
 from forcetorque.errors import FormatError, SkinError
 from forcetorque.exchange.skin.skin_gui import read_plan
 from forcetorque.robot import RobotModel, build_tree, read_urdf
-from forcetorque.skin import MODULE_COLUMNS, PatchDescription, modular_patch, module_poses
+from forcetorque.skin import (
+    LARGEST_MESSAGE,
+    MODULE_COLUMNS,
+    PatchDescription,
+    modular_patch,
+    module_poses,
+    rebuilt_normals,
+)
 from forcetorque.toml_table import Table, read_toml
 
 _SCHEMA = "forcetorque/module_frames/1"
@@ -37,7 +45,7 @@ class ModuleFrames(Table):
     """Link that the patch is on."""
     frames: str
     """Names of the links whose origins are the centres of modules, with `{module}` where the number of each stands."""
-    columns: int = Field(gt=0)
+    columns: int = Field(gt=0, le=LARGEST_MESSAGE)
     """Numbers in one message of counts."""
     plan: Path | None = None
     """Plan of skinGui, which says how modules are turned where the frames are only places; relative to this file."""
@@ -71,7 +79,7 @@ class UrdfFrames:
             text: Its content.
 
         Returns:
-            The patch, with the normals of its modules.
+            The patch, with the normals of the smooth surface below its modules.
 
         Raises:
             FormatError: If the frames are not those of the plan, or not fixed to the link.
@@ -87,7 +95,7 @@ class UrdfFrames:
             raise FormatError(
                 f"{path}: columns: expected {MODULE_COLUMNS} for each module up to {max(modules)}, got {stated.columns}"
             )
-        return modular_patch(
+        patch = modular_patch(
             source=str(path),
             name=stated.patch,
             frame=stated.link,
@@ -97,6 +105,7 @@ class UrdfFrames:
             mirrored=[module in stated.mirrored for module in modules],
             columns=stated.columns,
         )
+        return replace(patch, normals=rebuilt_normals(patch.positions, patch.modules, outward=patch.normals))
 
 
 def _frames(path: Path, stated: ModuleFrames, robot: RobotModel) -> dict[int, FloatArray]:
