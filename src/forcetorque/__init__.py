@@ -14,7 +14,13 @@ if TYPE_CHECKING:
     from forcetorque.calibration import Calibration, DataSet, calibrate, read_calibration, write_calibration
     from forcetorque.errors import ForceTorqueError
     from forcetorque.evaluation.wrench_errors import wrench_errors  # of the package, mypy may take it for the module
-    from forcetorque.interactive import Experiment, calibrate_jointly, experiment_of_arrays, load_experiment
+    from forcetorque.interactive import (
+        Experiment,
+        calibrate_jointly,
+        calibrate_skin,
+        experiment_of_arrays,
+        load_experiment,
+    )
     from forcetorque.recording import Recording, read_recording, write_recording
     from forcetorque.robot import RobotModel, expected_wrenches, read_urdf
 
@@ -23,7 +29,7 @@ _HOMES = {
     "calibration": ("Calibration", "DataSet", "calibrate", "read_calibration", "write_calibration"),
     "errors": ("ForceTorqueError",),
     "evaluation": ("wrench_errors",),
-    "interactive": ("Experiment", "calibrate_jointly", "experiment_of_arrays", "load_experiment"),
+    "interactive": ("Experiment", "calibrate_jointly", "calibrate_skin", "experiment_of_arrays", "load_experiment"),
     "recording": ("Recording", "read_recording", "write_recording"),
     "robot": ("RobotModel", "expected_wrenches", "read_urdf"),
 }
@@ -39,6 +45,7 @@ __all__ = [
     "calibrate",
     "calibrate_jointly",
     "calibrate_sensor",
+    "calibrate_skin",
     "evaluate",
     "experiment_of_arrays",
     "expected_wrenches",

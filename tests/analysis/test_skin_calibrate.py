@@ -120,7 +120,7 @@ def test_the_file_holds_what_was_fitted(answer: SkinCalibration) -> None:
     made = answer.calibration
     assert (made.patch, made.serial, made.columns) == ("palm", "P7", TAXELS)
     assert made.highest_pa == pytest.approx(REFERENCE_PA, rel=0.01)
-    assert set(made.provenance.inputs_sha256) >= {"fit.toml", "kept.toml"}
+    assert set(made.provenance.inputs_sha256) >= {"fit: fit.toml", "kept: kept.toml"}
     table = made.table()
     assert not table.falls().any()
     assert int(table.live.sum()) == answer.sound

@@ -46,7 +46,7 @@ def test_it_writes_curves_tables_and_a_figure(run: Run, palm: Path) -> None:
 
 def test_the_curve_is_chosen_by_name(run: Run, palm: Path) -> None:
     """Another form is kept; the comparison has all four all the same."""
-    result = run(*CALIBRATE, "--curve", "polynomial", "--highest-kPa", "50", "--format", "json").result()
+    result = run(*CALIBRATE, "--curve", "polynomial", "--highest-kpa", "50", "--format", "json").result()
     assert result["curve"] == "polynomial"
     assert result["highest_kPa"] == pytest.approx(50.0, rel=0.01)
     assert {row["curve"] for row in result["candidates"]} == {"monotone", "line", "polynomial", "capacitor"}

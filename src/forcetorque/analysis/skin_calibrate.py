@@ -7,18 +7,17 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Literal
 
-import numpy as np
 from pydantic import Field
 
 from forcetorque.analysis.campaign_recording import refuse_a_file_twice
-from forcetorque.analysis.skin_fit import FittedSamples, HeldOutErrors, fitted_samples, held_out_errors
+from forcetorque.analysis.skin_comparison import compare_curves
+from forcetorque.analysis.skin_fit import FittedSamples, fitted_samples
 from forcetorque.analysis.skin_picture import TaxelPicture, taxel_picture
 from forcetorque.analysis.skin_recording import PatchRecording, of_use, patch_recordings, same_patch
 from forcetorque.analysis.skin_rows import (
     CandidateRow,
     SkinRecordingRow,
     TaxelRow,
-    in_kPa,
     recording_name,
     recording_row,
     taxel_row,
@@ -30,7 +29,6 @@ from forcetorque.result import Result, Table, table_of
 from forcetorque.skin.patch_calibration import CalibratedTaxel, PatchCalibration, PatchProvenance
 from forcetorque.skin.taxels import CurveKind, TaxelCurve, taxel_response
 
-_ALL = "all"
 _SHOWN = 12
 """Taxels of the table; JSON and CSV have all."""
 
@@ -179,7 +177,11 @@ def _artefact(
             experiments=tuple(content.name for content in contents),
             intervals=tuple(recording_name(log) for log in fitted),
             samples=len(samples.pressure),
-            inputs_sha256={name: digest for content in contents for name, digest in content.inputs_sha256.items()},
+            inputs_sha256={
+                f"{content.name}: {name}": digest
+                for content in contents
+                for name, digest in content.inputs_sha256.items()
+            },
         ),
     )
 
@@ -206,73 +208,23 @@ def _answer(
     curves: dict[CurveKind, list[TaxelCurve | None]],
 ) -> SkinCalibration:
     held_out, fitted = of_use(logs, Use.VALIDATION), of_use(logs, Use.CALIBRATION)[0]
-    candidates: list[CandidateRow] = []
-    pooled: dict[CurveKind, HeldOutErrors] = {}
-    for kind, own in curves.items():
-        falling = _falling(own)
-        errors = [held_out_errors(own, log, samples.highest) for log in held_out]
-        sound = [error.of(log.sound) for error, log in zip(errors, held_out, strict=True)]
-        for log, error, kept in zip(held_out, errors, sound, strict=True):
-            candidates.append(_candidate(kind, recording_name(log), kept, error, falling))
-        if held_out:
-            pooled[kind] = _sum(sound)
-            candidates.append(_candidate(kind, _ALL, pooled[kind], _sum(errors), falling))
-    own_errors = pooled[artefact.curve].rmse if pooled else np.full((2, len(artefact.taxels)), np.nan)
-    total = [row for row in candidates if row.recording == _ALL]
+    comparison = compare_curves(curves, held_out, samples.highest)
+    inside, above = comparison.rmse(artefact.curve)
+    columns = [taxel.taxel for taxel in artefact.taxels]
     left_out = sum(taxel.coefficients is None for taxel in artefact.taxels)
     return SkinCalibration(
         patch=artefact.patch,
         serial=artefact.serial,
         curve=artefact.curve.value,
         highest_kPa=1e-3 * artefact.highest_pa,
-        sound=len(artefact.taxels) - left_out,
+        sound=len(columns) - left_out,
         left_out=left_out,
-        least_inside=_least({row.curve: row.inside_kPa for row in total}),
-        least_above=_least({row.curve: row.above_kPa for row in total if not row.falling}),
-        taxels=tuple(taxel_row(taxel, *map(float, own_errors[:, k])) for k, taxel in enumerate(artefact.taxels)),
-        candidates=tuple(candidates),
+        least_inside=comparison.least_inside,
+        least_above=comparison.least_above,
+        taxels=tuple(taxel_row(*taxel) for taxel in zip(artefact.taxels, inside, above, strict=True)),
+        candidates=comparison.rows,
         recordings=tuple(recording_row(log) for log in logs),
         calibration=artefact,
-        picture=taxel_picture(
-            fitted,
-            recording_name(fitted),
-            [taxel.taxel for taxel in artefact.taxels],
-            {kind.value: own for kind, own in curves.items()},
-            samples.highest,
-        ),
+        picture=taxel_picture(fitted, recording_name(fitted), columns, curves, samples.highest),
         warnings=() if held_out else ("no interval for validation: nothing says how good the curves are elsewhere",),
     )
-
-
-def _sum(errors: Sequence[HeldOutErrors]) -> HeldOutErrors:
-    first, *more = errors
-    for error in more:
-        first += error
-    return first
-
-
-def _falling(curves: Sequence[TaxelCurve | None]) -> int:
-    fall = np.arange(256.0)
-    return sum(bool((np.diff(curve.pressure(fall)) < 0.0).any()) for curve in curves if curve is not None)
-
-
-def _candidate(kind: CurveKind, name: str, kept: HeldOutErrors, errors: HeldOutErrors, falling: int) -> CandidateRow:
-    taxels = int(np.count_nonzero(np.isfinite(kept.rmse).any(axis=0)))
-    inside, above = kept.median()
-    inside_any, above_any = errors.median()
-    return CandidateRow(
-        curve=kind.value,
-        recording=name,
-        taxels=taxels,
-        left_out=kept.squares.shape[1] - taxels,
-        inside_kPa=in_kPa(inside),
-        above_kPa=in_kPa(above),
-        inside_any_kPa=in_kPa(inside_any),
-        above_any_kPa=in_kPa(above_any),
-        falling=falling,
-    )
-
-
-def _least(errors: dict[str, float | None]) -> str | None:
-    known = {name: error for name, error in errors.items() if error is not None}
-    return min(known, key=known.__getitem__) if known else None

@@ -63,10 +63,10 @@ def fitted_samples(recordings: Sequence[PatchRecording], highest: float | None) 
     used = np.ones(len(pressure), dtype=bool) if highest is None else pressure <= highest
     if not used.any() or pressure[used].max() <= 0.0:
         raise FitError(f"highest pressure to fit: expected one of up to {pressure.max():.0f} Pa, got {highest} Pa")
-    each = zip(*(recording.ailments for recording in recordings), strict=True)
-    ailments = tuple(tuple(reason for reason in Ailment if any(reason in one for one in told)) for told in each)
+    by_taxel = zip(*(recording.ailments for recording in recordings), strict=True)
+    ailments = tuple(tuple(name for name in Ailment if any(name in log for log in logs)) for logs in by_taxel)
     if all(ailments):
-        reasons = ", ".join(reason for reason in Ailment if any(reason in one for one in ailments))
+        reasons = ", ".join(name for name in Ailment if any(name in taxel for taxel in ailments))
         raise FitError(f"expected a sound taxel to fit, got none of {len(ailments)}: they are {reasons}")
     return FittedSamples(
         fall=np.concatenate([recording.cycle.fall for recording in recordings])[used],

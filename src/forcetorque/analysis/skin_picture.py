@@ -10,7 +10,7 @@ import numpy as np
 
 from forcetorque.analysis.skin_recording import PatchRecording
 from forcetorque.arrays import FloatArray, read_only
-from forcetorque.skin.taxels import TaxelCurve
+from forcetorque.skin.taxels import CurveKind, TaxelCurve
 
 _DRAWN = 10
 """Taxels whose samples are drawn: more would hide each other."""
@@ -50,7 +50,7 @@ def taxel_picture(
     recording: PatchRecording,
     name: str,
     columns: Sequence[int],
-    curves: Mapping[str, Sequence[TaxelCurve | None]],
+    curves: Mapping[CurveKind, Sequence[TaxelCurve | None]],
     highest: float,
 ) -> TaxelPicture:
     """Choose what is drawn of a recording that was fitted.
@@ -72,7 +72,7 @@ def taxel_picture(
     drawn = list(dict.fromkeys([middle, *spread]))
     fall = recording.cycle.fall
     levels = np.linspace(0.0, float(fall[:, middle].max()) + 3.0, 200)
-    chosen = {form: own[middle] for form, own in curves.items()}
+    chosen = {kind: own[middle] for kind, own in curves.items()}
     return TaxelPicture(
         recording=name,
         seconds=recording.seconds,
@@ -80,7 +80,7 @@ def taxel_picture(
         fall=fall[:, drawn],
         mean_fall=fall[:, ranked].mean(axis=1),
         names=tuple(f"taxel {columns[k]}" for k in drawn),
-        curves={form: curve.pressure(levels) for form, curve in chosen.items() if curve is not None},
+        curves={kind.value: curve.pressure(levels) for kind, curve in chosen.items() if curve is not None},
         levels=levels,
         highest=highest,
     )

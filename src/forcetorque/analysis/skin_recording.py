@@ -117,13 +117,13 @@ def same_patch(experiments: Sequence[PatchExperiment], name: str | None) -> list
         same = (patch.name, patch.serial, patch.columns) == (first.name, first.serial, first.columns)
         if not same or not np.array_equal(patch.taxels, first.taxels):
             raise ExperimentError(
-                f"{experiment.file}: expected the patch {_told(first)} of {experiments[0].file}, got {_told(patch)}; "
+                f"{experiment.file}: expected the patch {_words(first)} of {experiments[0].file}, got {_words(patch)}; "
                 "every patch has its own curves"
             )
     return patches
 
 
-def _told(patch: ExperimentPatch) -> str:
+def _words(patch: ExperimentPatch) -> str:
     serial = "" if patch.serial is None else f" ({patch.serial})"
     return f"{patch.name!r}{serial} with {len(patch.taxels)} taxels in {patch.columns} columns"
 

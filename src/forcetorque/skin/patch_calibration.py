@@ -66,7 +66,7 @@ class PatchProvenance(Part):
     samples: int = Field(ge=0)
     """Number of fitted messages."""
     inputs_sha256: dict[str, str]
-    """SHA-256 of every input file, by its path as the experiment file names it."""
+    """SHA-256 of every input file, by its experiment and its path as the experiment file names it."""
 
 
 class PatchCalibration(Part):

@@ -44,7 +44,7 @@ def calibrate(
     ] = CurveChoice.MONOTONE,
     highest: Annotated[
         float | None,
-        typer.Option("--highest-kPa", help="Highest pressure above rest to fit; higher ones only judge. Default: all."),
+        typer.Option("--highest-kpa", help="Highest pressure above rest to fit; higher ones only judge. Default: all."),
     ] = None,
     table: Annotated[
         Path | None, typer.Option("--table", help="CSV of the pressure of every taxel at 0 to 255 counts below rest.")
