@@ -180,7 +180,9 @@ def main() -> None:
             if rule == "learned":
                 for minutes in MINUTES:
                     limit = np.median([trial.at(minutes)[1] for trial in trials])
-                    line += f"; {minutes} min: within {limit:.1f} N (median limit) in {share_within(trials, minutes):.0%}"
+                    line += (
+                        f"; {minutes} min: within {limit:.1f} N (median limit) in {share_within(trials, minutes):.0%}"
+                    )
             print(line, flush=True)  # noqa: T201
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from typing import Final
 
 import numpy as np
 
@@ -16,6 +17,11 @@ from forcetorque.skin.contact import PatchFollower, PatchReader, PressureFrame, 
 from forcetorque.skin.temperature import HeatGains, HeatRule, TaxelDrift, stuck_pads
 from forcetorque.skin.wrench import SkinPatch
 
+REST_S: Final = 2.0
+"""Time at the beginning in which nothing touches the patch."""
+AVERAGED: Final = 10
+"""Messages that are averaged to one frame."""
+
 Told = tuple[PressureFrame, SkinContacts]
 
 
@@ -23,9 +29,9 @@ Told = tuple[PressureFrame, SkinContacts]
 class FrameChoice:
     """How messages become frames."""
 
-    rest_s: float
+    rest_s: float = REST_S
     """Time at the beginning in which nothing touches the patch."""
-    averaged: int
+    averaged: int = AVERAGED
     """Messages that are averaged to one frame."""
     temperature: str | None = None
     """One of `HeatRule`; by what was learned, where it was, if None."""
@@ -100,16 +106,18 @@ def _rule(calibration: PatchCalibration, chosen: FrameChoice) -> HeatRule:
     elif chosen.temperature in list(HeatRule):
         rule = HeatRule(chosen.temperature)
     else:
-        raise SkinError(f"temperature: no rule is called {chosen.temperature!r}; {known_names(chosen.temperature, HeatRule)}")
+        raise SkinError(
+            f"temperature: no rule is called {chosen.temperature!r}; {known_names(chosen.temperature, HeatRule)}"
+        )
     if rule is HeatRule.LEARNED and calibration.warm_up is None:
         raise SkinError(
-            "temperature: expected a calibration with a warm-up for the rule 'learned', got one without; calibrate with "
-            "`forcetorque skin calibrate --warm-up`, or choose another rule"
+            "temperature: expected a calibration with a warm-up for the rule 'learned', got one without; calibrate "
+            "with `forcetorque skin calibrate --warm-up`, or choose another rule"
         )
     if chosen.re_tare and rule is not HeatRule.LEARNED:
         raise SkinError(
-            f"re-tare: expected the rule 'learned', got {rule.value!r}: what heat may have added is known from a warm-up "
-            "only; calibrate with `forcetorque skin calibrate --warm-up`, or leave it out"
+            f"re-tare: expected the rule 'learned', got {rule.value!r}: what heat may have added is known from a "
+            "warm-up only; calibrate with `forcetorque skin calibrate --warm-up`, or leave it out"
         )
     return rule
 

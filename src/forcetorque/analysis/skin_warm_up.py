@@ -66,8 +66,8 @@ def learn_warm_up(
         same = (own.serial, own.columns) == (patch.serial, patch.columns)
         if not same or not np.array_equal(own.taxels, patch.taxels):
             raise ExperimentError(
-                f"expected the patch that is calibrated, with serial {patch.serial!r} and {len(patch.taxels)} taxels in "
-                f"{patch.columns} columns, got {own.serial!r} with {len(own.taxels)} in {own.columns}"
+                f"expected the patch that is calibrated, with serial {patch.serial!r} and {len(patch.taxels)} taxels "
+                f"in {patch.columns} columns, got {own.serial!r} with {len(own.taxels)} in {own.columns}"
             )
         if own.layout is None:
             raise ExperimentError("layout: expected the file that says which columns are thermal pads, got none")
@@ -98,13 +98,13 @@ def _doubts(learned: WarmUp, patch: ExperimentPatch) -> tuple[str, ...]:
     sentences = []
     if learned.dead_pads:
         sentences.append(
-            f"{len(learned.dead_pads)} thermal pads are dead ({_listed(learned.dead_pads)}): their taxels follow the other "
-            "pad of the module, or those of the nearest module with one"
+            f"{len(learned.dead_pads)} thermal pads are dead ({_listed(learned.dead_pads)}): their taxels follow the "
+            "other pad of the module, or those of the nearest module with one"
         )
     if without:
         sentences.append(
-            f"{len(without)} taxels were not sound in the warm-up ({_listed(without)}): they have no gain, and are left "
-            "out where heat is taken out by gains"
+            f"{len(without)} taxels were not sound in the warm-up ({_listed(without)}): they have no gain, and are "
+            "left out where heat is taken out by gains"
         )
     return tuple(sentences)
 

@@ -9,10 +9,10 @@ from typing import Final, Self
 import numpy as np
 
 from forcetorque.arrays import FloatArray, read_only
+from forcetorque.recording import Recording
 from forcetorque.simulation.skin.contact import ContactTruth
 from forcetorque.simulation.skin.recording import counts_recording
 from forcetorque.simulation.skin.response import NOISE_COUNTS, REST_COUNTS, TaxelResponses
-from forcetorque.recording import Recording
 from forcetorque.skin import SkinLayout
 
 COUNTS_PER_K: Final = 1.2

@@ -106,15 +106,12 @@ class HeatGains:
         Returns:
             The gains of the others.
         """
-        return HeatGains(
-            pads=self.pads, follows=self.follows & ~dead, gains=self.gains, sd=self.sd, rates=self.rates
-        )
+        return HeatGains(pads=self.pads, follows=self.follows & ~dead, gains=self.gains, sd=self.sd, rates=self.rates)
 
     @property
     def told(self) -> BoolArray:
         """Taxels that follow a pad; shape (n,)."""
-        told: BoolArray = self.follows.any(axis=1)
-        return told
+        return np.asarray(self.follows.any(axis=1))
 
     def fall(self, pad_fall: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Give what taxels read of heat: the mean of what their pads tell.
@@ -128,7 +125,7 @@ class HeatGains:
         number = np.maximum(self.follows.sum(axis=1), 1)
         change = np.where(self.follows, pad_fall, 0.0)
         fall: FloatArray = (self.gains * change).sum(axis=1) / number
-        # pads of one module err together where a taxel does not follow them, so deviations are not lowered by their number
+        # where a taxel does not follow its pads, those of one module err together: their number lowers nothing
         sd: FloatArray = (self.sd * np.abs(change)).sum(axis=1) / number
         return fall, sd
 

@@ -48,8 +48,8 @@ def fit_warm_up(experiment: str, seconds: FloatArray, counts: FloatArray, layout
     require_shape(counts, name="counts", shape=(len(seconds), layout.columns))
     if seconds[-1] - seconds[0] < SHORTEST_S:
         raise SkinError(
-            f"expected a warm-up of at least {SHORTEST_S:g} s, got {seconds[-1] - seconds[0]:.0f} s; record from a cold "
-            "start until the motors are warm"
+            f"expected a warm-up of at least {SHORTEST_S:g} s, got {seconds[-1] - seconds[0]:.0f} s; record from a "
+            "cold start until the motors are warm"
         )
     instants, means = _block_means(seconds, counts)
     alive = _living_pads(layout, counts, means)
@@ -99,8 +99,8 @@ def _living_pads(layout: SkinLayout, counts: FloatArray, means: FloatArray) -> B
     sound = sound_columns(counts[:, layout.thermal_pads])
     if not sound.any():
         raise SkinError(
-            f"thermal pads: expected one that is alive, got none of {len(sound)}: all are at a rail, jump or are noisy; "
-            "look at the columns of the pads, and at the cable of the board"
+            f"thermal pads: expected one that is alive, got none of {len(sound)}: all are at a rail, jump or are "
+            "noisy; look at the columns of the pads, and at the cable of the board"
         )
     change = _change(means[:, layout.thermal_pads])
     usual = float(np.median(change[sound]))
@@ -122,9 +122,9 @@ def _refuse_steps(columns: IntArray, instants: FloatArray, taxels: FloatArray) -
         row = rows[0]
         worst = int(np.abs(step[row]).argmax())
         raise SkinError(
-            f"expected a warm-up without contact, got {int(steep[row].sum())} taxels that change by over {STEP_COUNTS:g} "
-            f"counts within {_STEP_BLOCKS} s at {instants[row]:.0f} s, taxel {columns[worst]} by {step[row, worst]:.1f}: "
-            "something touches the patch; let the interval end before, or record again"
+            f"expected a warm-up without contact, got {int(steep[row].sum())} taxels that change by over "
+            f"{STEP_COUNTS:g} counts within {_STEP_BLOCKS} s at {instants[row]:.0f} s, taxel {columns[worst]} by "
+            f"{step[row, worst]:.1f}: something touches the patch; let the interval end before, or record again"
         )
 
 
@@ -133,13 +133,14 @@ def _refuse_unexplained(columns: IntArray, instants: FloatArray, residuals: list
     left = np.column_stack([np.zeros(len(instants)) if one is None else one for one in residuals])
     smooth = np.abs(_smooth(left))
     worst = smooth.max(axis=0)
-    if np.count_nonzero(worst > UNEXPLAINED_COUNTS) >= _FEWEST:
+    unexplained = int(np.count_nonzero(worst > UNEXPLAINED_COUNTS))
+    if unexplained >= _FEWEST:
         taxel = int(worst.argmax())
         when = instants[int(smooth[:, taxel].argmax()) + _SMOOTH_BLOCKS // 2]
         raise SkinError(
-            f"expected taxels that follow the thermal pads, got {np.count_nonzero(worst > UNEXPLAINED_COUNTS)} that "
-            f"differ by over {UNEXPLAINED_COUNTS:g} counts, taxel {columns[taxel]} by {worst[taxel]:.1f} at {when:.0f} s: "
-            "something touches the patch, or it was heated from outside; record again without"
+            f"expected taxels that follow the thermal pads, got {unexplained} that differ by over "
+            f"{UNEXPLAINED_COUNTS:g} counts, taxel {columns[taxel]} by {worst[taxel]:.1f} at {when:.0f} s: something "
+            "touches the patch, or it was heated from outside; record again without"
         )
 
 
