@@ -38,7 +38,10 @@ AVERAGED: Final = 10
 """Messages of a frame: one second."""
 HIGH_PASS_S: Final = 30.0
 """Time constant of a high-pass that moves the baseline of every taxel, touched or not."""
-DRAWS: Final = 60
+LAST_S: Final = 10.0
+"""Time over which errors are averaged; rules without a memory are asked for twice that at the end only."""
+DRAWS: Final = 40
+"""Patches with own taxels, gains, object and noise."""
 WARM_UP: Final = Warmth(hold_s=1200.0)
 """The recording without contact that gains are learned in."""
 INSIDE: Final = Warmth()
@@ -68,8 +71,8 @@ class HeldContact:
         return np.abs(self.forces_N - self.true_N)
 
     def at(self, minutes: float) -> tuple[float, float]:
-        """Mean error and limit over the last ten seconds before so many minutes in contact."""
-        rows = (self.seconds > 60.0 * minutes - 11.0) & (self.seconds < 60.0 * minutes)
+        """Mean error and limit over the last seconds before so many minutes in contact."""
+        rows = (self.seconds > 60.0 * minutes - LAST_S) & (self.seconds < 60.0 * minutes)
         return float(self.errors_N[rows].mean()), float(self.limits_N[rows].mean())
 
 
@@ -93,9 +96,12 @@ class WarmPatch:
             warm_recording(self.patch.layout, self.taxels, self.heat, rng, warmth=warmth, truth=self.truth)
         )
 
-    def follow(self, rule: str, warmth: Warmth) -> HeldContact:
-        """Tell the contact by a rule, frame by frame."""
-        seconds, counts = self.messages(warmth)
+    def follow(self, warmth: Warmth) -> dict[str, HeldContact]:
+        """Tell the contact by every rule, frame by frame."""
+        messages = self.messages(warmth)
+        return {rule: self._told(rule, warmth, *messages) for rule in RULES}
+
+    def _told(self, rule: str, warmth: Warmth, seconds: FloatArray, counts: FloatArray) -> HeldContact:
         reader = PatchReader.at_rest(self.table, counts[seconds < warmth.rest_s])
         forces, limits, times = [], [], []
         for second, found in self._contacts(rule, reader, seconds, counts):
@@ -129,6 +135,8 @@ class WarmPatch:
                 fall = passed
                 left = reader.table.fall(counts[rows].mean(axis=0), reader.rest) - passed
                 passed = passed + left * (seconds[AVERAGED] - seconds[0]) / HIGH_PASS_S
+            if second < seconds[-1] - 2.0 * LAST_S:
+                continue
             none = np.zeros(len(fall))
             drift = TaxelDrift(fall=fall, sd=none, limit=none)
             yield second, find_contacts(self.patch, reader.frame(counts[rows], drift=drift))
@@ -173,8 +181,9 @@ def main() -> None:
     patch, body = SkinPatch.of(layout), SkinBody.of(layout)
     draws = [WarmPatch(patch, body, options.seed + k) for k in range(options.draws)]
     for name, warmth in (("inside", INSIDE), ("outside", OUTSIDE), ("both", BOTH)):
+        told = [draw.follow(warmth) for draw in draws]
         for rule in RULES:
-            trials = [draw.follow(rule, warmth) for draw in draws]
+            trials = [draw[rule] for draw in told]
             errors = [trial.at(16)[0] for trial in trials]
             line = f"{name}, {rule}: mean error after 16 minutes {np.mean(errors):.2f} N"
             if rule == "learned":

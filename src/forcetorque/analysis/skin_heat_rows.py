@@ -8,7 +8,7 @@ from typing import Annotated, Final
 
 from forcetorque.analysis.skin_contact_rows import SkinContactRow
 from forcetorque.analysis.skin_frames import SkinFrames
-from forcetorque.result import FloatOrNull, Row, Shown
+from forcetorque.result import Row, Shown, finite_or_none
 from forcetorque.skin.contact import Release
 from forcetorque.skin.temperature import HeatRule
 
@@ -27,7 +27,7 @@ class ReleaseRow(Row):
     """Force before."""
     left_N: Annotated[float, Shown("left", "N", digits=2)]
     """Force that its taxels read after."""
-    drift_limit_N: Annotated[FloatOrNull, Shown("drift limit", "N", digits=1)]
+    drift_limit_N: Annotated[float | None, Shown("drift limit", "N", digits=1)]
     """How much of that heat may be."""
     re_tare: Annotated[str, Shown("re-tare")]
     """`offered` where heat explains all that is left, `done` where that was taken as rest, else `no`."""
@@ -48,7 +48,7 @@ def release_row(release: Release) -> ReleaseRow:
         held_s=release.held_s,
         force_N=release.force_N,
         left_N=release.left_N,
-        drift_limit_N=release.drift_limit_N,
+        drift_limit_N=finite_or_none(release.drift_limit_N),
         re_tare="done" if release.re_tared else offered,
     )
 

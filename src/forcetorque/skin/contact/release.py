@@ -23,6 +23,12 @@ SETTLED_SHARE: Final = 0.1
 """Share of the force before by which it may still change in that time."""
 
 
+_FEWEST: Final = 5
+"""Frames that tell a release, where they are longer than a second."""
+_JUST: Final = 1e-9
+"""Less than the time between frames; s."""
+
+
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Release:
     """A contact that was let go."""
@@ -69,13 +75,13 @@ class _Touch:
         own = np.unique(contacts.contact[self.touched & (contacts.contact >= 0)])
         force = float(np.linalg.norm(contacts.wrench[own, :3].sum(axis=0)))
         self.course.append((seconds, force, float(contacts.drift_limit_N[own].sum())))
-        while self.course[0][0] < seconds - WITHIN_S:
+        while len(self.course) > _FEWEST and self.course[0][0] < seconds - WITHIN_S:
             self.course.popleft()
 
     def release(self) -> Release | None:
         """Tell whether it was let go and has settled."""
         times, forces, limits = np.array(self.course).T
-        settled = times > times[-1] - SETTLED_S
+        settled = times > min(times[-1] - SETTLED_S, times[-2:][0] - _JUST)
         before = float(np.median(forces[: max(1, len(forces) // 4)]))
         now = forces[settled]
         steady = len(now) < len(forces) and np.ptp(now) <= SETTLED_SHARE * before

@@ -25,7 +25,7 @@ class TaxelHeat(Part):
     gains: tuple[ThermalGain, ...] = ()
     """One for each pad that it follows; what they tell is averaged."""
     misfit_counts: float | None = Field(default=None, ge=0.0)
-    """What the pads leave of its change, root mean square of means of a second."""
+    """What the pads leave of its change, root mean square of means of ten seconds."""
     rate_counts_per_s: float | None = Field(default=None, ge=0.0)
     """Its steepest change over a minute."""
 

@@ -19,12 +19,15 @@ BLOCK_S: Final = 1.0
 SHORTEST_S: Final = 180.0
 """Shortest warm-up: three of the minutes over which rates are taken."""
 STEP_COUNTS: Final = 1.5
-"""Change within 2 s that is no heat, which brings 0.1, but a contact."""
+"""Change within 2 s that is no heat, which brings 0.1, but a contact; of a noisy taxel `STEP_SD` of its deviations."""
+STEP_SD: Final = 6.0
 UNEXPLAINED_COUNTS: Final = 2.5
 """What the pads may leave of a taxel: more, in two of them, is a contact that came slowly."""
 _STEP_BLOCKS: Final = 2
-_RATE_BLOCKS: Final = 60
+_RATE_TENS: Final = 6
 _SMOOTH_BLOCKS: Final = 10
+_MEDIAN_OF_NORMAL: Final = 0.6745
+"""Median of the size of a normal deviate of standard deviation 1."""
 _FEWEST: Final = 2
 """Taxels that make a contact, as elsewhere."""
 
@@ -54,8 +57,9 @@ def fit_warm_up(experiment: str, seconds: FloatArray, counts: FloatArray, layout
     instants, means = _block_means(seconds, counts)
     alive = _living_pads(layout, counts, means)
     sound = sound_columns(counts[:, layout.taxels])
+    _refuse_steps(layout.taxels, instants, np.where(sound, means[:, layout.taxels], 0.0))
+    instants, means = _tens(instants), _tens(means)
     taxels, pads = means[:, layout.taxels], means[:, layout.thermal_pads]
-    _refuse_steps(layout.taxels, instants, np.where(sound, taxels, 0.0))
     follows = followed_pads(layout, alive)
     heat = [
         _taxel_heat(instants, taxels[:, k], pads[:, own], layout.thermal_pads[own]) if sound[k] else None
@@ -65,7 +69,7 @@ def fit_warm_up(experiment: str, seconds: FloatArray, counts: FloatArray, layout
     return WarmUp(
         experiment=experiment,
         seconds=float(seconds[-1] - seconds[0]),
-        pad_change_counts=float(np.median(_change(pads[:, alive]))),
+        pad_change_counts=float(np.median(np.ptp(pads[:, alive], axis=0))),
         dead_pads=tuple(layout.thermal_pads[~alive].tolist()),
         taxels=tuple(TaxelHeat() if one is None else one[0] for one in heat),
     )
@@ -80,18 +84,17 @@ def _block_means(seconds: FloatArray, counts: FloatArray) -> tuple[FloatArray, F
     return np.add.reduceat(seconds, starts) / number, means
 
 
+def _tens(means: FloatArray) -> FloatArray:
+    """Means of ten blocks, in which noise of the pads no longer lowers gains; shape (b // 10, ...)."""
+    whole = len(means) // _SMOOTH_BLOCKS * _SMOOTH_BLOCKS
+    tens: FloatArray = means[:whole].reshape(-1, _SMOOTH_BLOCKS, *means.shape[1:]).mean(axis=1)
+    return tens
+
+
 def _change(means: FloatArray) -> FloatArray:
     """How far each column goes, by means of ten seconds; shape (c,); counts."""
-    smooth = _smooth(means)
-    change: FloatArray = smooth.max(axis=0) - smooth.min(axis=0)
+    change: FloatArray = np.ptp(_tens(means), axis=0)
     return change
-
-
-def _smooth(means: FloatArray) -> FloatArray:
-    """Means over ten blocks; shape (b - 9, c)."""
-    sums = np.cumsum(np.concatenate([np.zeros((1, means.shape[1])), means]), axis=0)
-    smooth: FloatArray = (sums[_SMOOTH_BLOCKS:] - sums[:-_SMOOTH_BLOCKS]) / _SMOOTH_BLOCKS
-    return smooth
 
 
 def _living_pads(layout: SkinLayout, counts: FloatArray, means: FloatArray) -> BoolArray:
@@ -116,11 +119,12 @@ def _living_pads(layout: SkinLayout, counts: FloatArray, means: FloatArray) -> B
 def _refuse_steps(columns: IntArray, instants: FloatArray, taxels: FloatArray) -> None:
     """Heat comes slowly; what comes within two seconds on two taxels is a contact."""
     step = taxels[_STEP_BLOCKS:] - taxels[:-_STEP_BLOCKS]
-    steep = np.abs(step) > STEP_COUNTS
+    usual = np.median(np.abs(step), axis=0) / _MEDIAN_OF_NORMAL
+    steep = np.abs(step) > np.maximum(STEP_COUNTS, STEP_SD * usual)
     rows = np.flatnonzero(steep.sum(axis=1) >= _FEWEST)
     if len(rows):
         row = rows[0]
-        worst = int(np.abs(step[row]).argmax())
+        worst = int(np.where(steep[row], np.abs(step[row]), 0.0).argmax())
         raise SkinError(
             f"expected a warm-up without contact, got {int(steep[row].sum())} taxels that change by over "
             f"{STEP_COUNTS:g} counts within {_STEP_BLOCKS} s at {instants[row]:.0f} s, taxel {columns[worst]} by "
@@ -131,12 +135,11 @@ def _refuse_steps(columns: IntArray, instants: FloatArray, taxels: FloatArray) -
 def _refuse_unexplained(columns: IntArray, instants: FloatArray, residuals: list[FloatArray | None]) -> None:
     """A contact that comes slowly is what the pads do not explain."""
     left = np.column_stack([np.zeros(len(instants)) if one is None else one for one in residuals])
-    smooth = np.abs(_smooth(left))
-    worst = smooth.max(axis=0)
+    worst = np.abs(left).max(axis=0)
     unexplained = int(np.count_nonzero(worst > UNEXPLAINED_COUNTS))
     if unexplained >= _FEWEST:
         taxel = int(worst.argmax())
-        when = instants[int(smooth[:, taxel].argmax()) + _SMOOTH_BLOCKS // 2]
+        when = instants[int(np.abs(left[:, taxel]).argmax())]
         raise SkinError(
             f"expected taxels that follow the thermal pads, got {unexplained} that differ by over "
             f"{UNEXPLAINED_COUNTS:g} counts, taxel {columns[taxel]} by {worst[taxel]:.1f} at {when:.0f} s: something "
@@ -157,8 +160,7 @@ def _taxel_heat(
     # what is left is slow, so that fewer of its means are independent
     likeness = float(np.clip(left[1:] @ left[:-1] / (left @ left), 0.0, 0.99))
     sd = misfit * np.sqrt((1.0 + likeness) / (1.0 - likeness) / squares)
-    minutes = _smooth(np.column_stack([instants, taxel]))
-    duration, change = (minutes[_RATE_BLOCKS:] - minutes[:-_RATE_BLOCKS]).T
+    duration, change = (values[_RATE_TENS:] - values[:-_RATE_TENS] for values in (instants, taxel))
     return TaxelHeat(
         gains=tuple(
             ThermalGain(pad=int(column), gain=float(gain), sd=float(error))
