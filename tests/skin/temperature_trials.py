@@ -185,7 +185,7 @@ def main() -> None:
         for rule in RULES:
             trials = [draw[rule] for draw in told]
             errors = [trial.at(16)[0] for trial in trials]
-            line = f"{name}, {rule}: mean error after 16 minutes {np.mean(errors):.2f} N"
+            line = f"{name}, {rule}: error after 16 minutes {np.mean(errors):.2f} N, at most {np.max(errors):.2f} N"
             if rule == "learned":
                 for minutes in MINUTES:
                     limit = np.median([trial.at(minutes)[1] for trial in trials])

@@ -125,4 +125,5 @@ class TouchLog:
             release = touch.release()
             if release is not None:
                 self._touches.remove(touch)
-                yield release
+                if release.force_N > 0.0:
+                    yield release
