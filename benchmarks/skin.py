@@ -31,8 +31,9 @@ def main() -> None:
     options = arguments(__doc__ or "")
     rounds = 3 if options.quick else 30
     few, many = _Skin(FEW), _Skin(MANY)
+    operator = few.patch.operator()
     tasks: dict[str, Callable[[], object]] = {
-        "product, 380 taxels": lambda: _repeated(lambda: few.patch.operator().wrench(few.pressures)),
+        "product, 380 taxels": lambda: _repeated(lambda: operator.wrench(few.pressures)),
         "frame, 380 taxels": lambda: _repeated(few.frame),
         "frame, 4000 taxels": lambda: _repeated(many.frame),
         "interpolated anew, 380 taxels": few.interpolated,

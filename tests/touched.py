@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
+from forcetorque.analysis import calibrate_skin
 from forcetorque.exchange.skin import write_layout_table
 from forcetorque.recording import write_recording
 from forcetorque.simulation.skin import (
@@ -50,6 +51,12 @@ def shank_layout() -> SkinLayout:
     count = np.arange(len(layout))
     none = np.zeros(0, dtype=np.int64)
     return replace(layout, name="shank", columns=len(count), taxels=count, thermal_pads=none, thermal_modules=none)
+
+
+def write_table(folder: Path) -> None:
+    """Calibrate the taxels on `bag.toml` to `shank.json`."""
+    answer = calibrate_skin([folder / "bag.toml"], code_version="1", created="2020-01-01")
+    answer.calibration.save(folder / "shank.json")
 
 
 def write_touched(folder: Path, *, seed: int = 6, broken: int | None = None) -> Sequence[ContactTruth]:

@@ -20,6 +20,7 @@ if TYPE_CHECKING:
         calibrate_skin,
         experiment_of_arrays,
         load_experiment,
+        skin_wrench,
     )
     from forcetorque.recording import Recording, read_recording, write_recording
     from forcetorque.robot import RobotModel, expected_wrenches, read_urdf
@@ -29,7 +30,14 @@ _HOMES = {
     "calibration": ("Calibration", "DataSet", "calibrate", "read_calibration", "write_calibration"),
     "errors": ("ForceTorqueError",),
     "evaluation": ("wrench_errors",),
-    "interactive": ("Experiment", "calibrate_jointly", "calibrate_skin", "experiment_of_arrays", "load_experiment"),
+    "interactive": (
+        "Experiment",
+        "calibrate_jointly",
+        "calibrate_skin",
+        "experiment_of_arrays",
+        "load_experiment",
+        "skin_wrench",
+    ),
     "recording": ("Recording", "read_recording", "write_recording"),
     "robot": ("RobotModel", "expected_wrenches", "read_urdf"),
 }
@@ -54,6 +62,7 @@ __all__ = [
     "read_calibration",
     "read_recording",
     "read_urdf",
+    "skin_wrench",
     "wrench_errors",
     "write_calibration",
     "write_recording",

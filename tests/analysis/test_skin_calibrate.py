@@ -127,8 +127,8 @@ def test_the_file_holds_what_was_fitted(answer: SkinCalibration) -> None:
     taxels = responses()
     pressure = np.full(TAXELS, 3e4)
     read = table.pressures(taxels.rest - taxels.fall(pressure), taxels.rest)[table.live]
-    # a table between loading and unloading, which are up to 7 % of the swing apart
-    assert np.abs(read / 3e4 - 1.0).max() < 0.1
+    # of loading: a curve between it and unloading reads 5 % too little here, the worst 7 %
+    assert np.abs(read / 3e4 - 1.0).max() < 0.02
 
 
 def test_what_cannot_be_calibrated_is_refused(tmp_path: Path) -> None:

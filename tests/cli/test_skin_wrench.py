@@ -13,7 +13,7 @@ from forcetorque.recording import read_recording, write_recording
 from forcetorque.simulation.skin import ContactTruth, Loading
 from tests.cli.outcome import Run
 from tests.report.drawing import size_of
-from tests.touched import OBJECTS, write_touched
+from tests.touched import OBJECTS, write_table, write_touched
 
 BROKEN = 25
 WRENCH = ("skin", "wrench", "touched.toml", "--table", "shank.json")
@@ -23,16 +23,16 @@ WRENCH = ("skin", "wrench", "touched.toml", "--table", "shank.json")
 def made_folder(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, list[ContactTruth]]:
     """Folder with a chamber log and a recording, and what the objects in it truly do."""
     folder = tmp_path_factory.mktemp("shank")
-    return folder, list(write_touched(folder, broken=BROKEN))
+    truths = list(write_touched(folder, broken=BROKEN))
+    write_table(folder)
+    return folder, truths
 
 
 @pytest.fixture(name="truths")
-def calibrated(made: tuple[Path, list[ContactTruth]], run: Run, monkeypatch: pytest.MonkeyPatch) -> list[ContactTruth]:
+def calibrated(made: tuple[Path, list[ContactTruth]], monkeypatch: pytest.MonkeyPatch) -> list[ContactTruth]:
     """The true contacts; the calibration of the patch is beside its recordings, in the working folder."""
     folder, truths = made
     monkeypatch.chdir(folder)
-    if not (folder / "shank.json").exists():
-        assert run("skin", "calibrate", "bag.toml", "-o", "shank.json").code == 0
     return truths
 
 
@@ -66,7 +66,9 @@ def test_rows_are_contacts(run: Run, truths: list[ContactTruth]) -> None:
 def test_a_figure_is_drawn(run: Run, truths: list[ContactTruth], tmp_path: Path) -> None:
     """Field of pressure and forces over time."""
     png = tmp_path / "contacts.png"
-    assert f"drawn to {png}" in run(*WRENCH, "--figure", str(png), "--average", "20").out.replace("\n", " ")
+    assert f"drawn to {png}" in run(
+        *WRENCH, "--figure", str(png), "--average", "20", "--taxel-area-mm2", "39"
+    ).out.replace("\n", " ")
     assert size_of(png.read_bytes())[0] == 1200
 
 
@@ -86,7 +88,7 @@ def test_methods_are_chosen_by_name(run: Run, truths: list[ContactTruth]) -> Non
     [
         (("--method", "simple"), "taxel_area_m2: expected a value for the method simple"),
         (("--method", "thesis"), "plane: expected a value for the method thesis"),
-        (("--taxel-area-mm2", "15"), "expected none for the method kriging"),
+        (("--plan", "shank.csv"), "plane: expected none for the method kriging, got one"),
         (("--average", "0"), "expected at least 1 message"),
         (("--rest-s", "0.1"), "expected at least 10 messages"),
         (("--patch", "thigh"), "no patch is called 'thigh'"),

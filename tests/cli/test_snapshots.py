@@ -19,6 +19,7 @@ from tests.cli.commands import question_of, typed_commands
 from tests.cli.outcome import Run
 from tests.experiments import PARQUET, TWO
 from tests.patches import collapsed, cylinder_patch, position_text
+from tests.touched import write_table, write_touched
 
 WIDTHS = (60, 80, 100, 120)
 FOLDER = Path(__file__).parent / "snapshots"
@@ -39,6 +40,7 @@ COMMANDS = {
     "report": ("report", PARQUET, "fitted.json", "-o", "report.html"),
     "skin calibrate": ("skin", "calibrate", "fit.toml", "kept.toml", "-o", "palm.json"),
     "skin check": ("skin", "check", "patch.txt"),
+    "skin wrench": ("skin", "wrench", "touched.toml", "--table", "shank.json"),
     "sphere": ("sphere", PARQUET, "-c", "fitted.json"),
     "study": ("study", PARQUET, "-o", "study", *SHORT),
     "validate": ("validate", TWO, "-c", "fitted.json"),
@@ -76,6 +78,8 @@ def test_the_layout_is_that_which_was_looked_at(arm: Path, run: Run, name: str, 
     )
     (arm / "faulty.toml").write_text(faulty, encoding="utf-8")
     write_chambers(arm)
+    write_touched(arm, broken=25)
+    write_table(arm)
     (arm / "patch.txt").write_text(position_text(collapsed(cylinder_patch(), 4)), encoding="utf-8")
     ended = run(*COMMANDS[name])
     assert ended.code in (0, 1), ended.err

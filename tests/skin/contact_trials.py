@@ -29,6 +29,7 @@ from forcetorque.simulation.skin import (
 from forcetorque.skin import PressureTable, SkinLayout, rebuilt_normals
 from forcetorque.skin.contact import PatchReader, PressureFrame, find_contacts
 from forcetorque.skin.taxels import CurveKind, fit_curve, pressure_cycle, taxel_response
+from forcetorque.skin.taxels.cycle import REST_SHARE
 from forcetorque.skin.wrench import SkinPatch, WrenchMethod
 
 TUNED_SEED: Final = 1
@@ -167,7 +168,9 @@ def chamber_table(taxels: TaxelResponses, rng: np.random.Generator, *, both_ways
     log = chamber_recording(taxels, highest_pa=REFERENCE_PA, ramp_s=8.0, rng=rng)
     counts = log.stream("counts").signal("taxel_counts").values
     cycle = pressure_cycle(counts, log.stream("chamber").signal("pressure").values[:, 0])
-    used = np.ones(len(cycle.pressure), dtype=np.bool_) if both_ways else ~cycle.unloading
+    # long rest would outweigh the first counts of the rise: noise there is no pressure
+    pressed = cycle.pressure > REST_SHARE * cycle.highest
+    used = pressed if both_ways else pressed & ~cycle.unloading
     number = cycle.fall.shape[1]
     curves = [
         fit_curve(CurveKind.MONOTONE, cycle.fall[used, k], cycle.pressure[used], range_counts=float(cycle.top_fall[k]))

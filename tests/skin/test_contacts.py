@@ -101,6 +101,8 @@ def test_a_single_taxel_is_no_contact() -> None:
     alone = np.zeros(len(PLATE))
     alone[100] = 1e4
     assert len(find_contacts(PATCH, frame_of(alone))) == 0
+    last = np.arange(len(PLATE)) == 100
+    assert len(find_contacts(PATCH, PressureFrame(pressures=alone, active=last, live=last))) == 0
     nothing = find_contacts(PATCH, frame_of(np.zeros(len(PLATE))))
     assert nothing.wrench.shape == (0, 6)
     assert lobes(PATCH.surface, nothing, np.zeros(len(PLATE))).shape == (0,)

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from forcetorque.errors import SkinError
-from forcetorque.skin.surface import HALF_PITCH_M, LONGEST_EDGE_M, rim_strip, skin_surface
+from forcetorque.skin.surface import HALF_PITCH_M, LONGEST_EDGE_M, edge_taxels, rim_strip, skin_surface, unrolled
 from forcetorque.spatial import rotation_from_rpy
 from tests.skin.skins import PITCH_M, cylinder, plane_lattice
 
@@ -124,3 +124,42 @@ def test_what_is_no_surface_is_refused(positions: np.ndarray, message: str) -> N
     """Taxels on each other, in millimetres, on a line, or none."""
     with pytest.raises(SkinError, match=message):
         skin_surface(positions)
+
+
+def test_a_cylinder_is_unrolled_to_its_length() -> None:
+    """Distances between neighbours stay, around as along, but for the corners of facets."""
+    positions = cylinder()
+    surface = skin_surface(positions)
+    flat = unrolled(surface)
+    start, end = surface.edges.T
+    true = np.linalg.norm(positions[end] - positions[start], axis=1)
+    np.testing.assert_allclose(np.linalg.norm(flat[end] - flat[start], axis=1), true, rtol=0.12)
+    assert np.ptp(flat, axis=0).max() > np.ptp(positions, axis=0).max()
+
+
+def test_a_plane_stays_as_it_is() -> None:
+    """Distances between all taxels."""
+    positions = plane_lattice()
+    flat = unrolled(skin_surface(positions, outward=np.tile([0.0, 0.0, 1.0], (len(positions), 1))))
+    for before, after in zip(positions, flat, strict=True):
+        np.testing.assert_allclose(
+            np.linalg.norm(flat - after, axis=1), np.linalg.norm(positions - before, axis=1), atol=1e-9
+        )
+
+
+def test_a_small_hole_is_no_edge() -> None:
+    """Four taxels whose diagonals are too long are joined by the strip; a hole of six is an edge like any other."""
+    turn = np.pi / 4.0 + np.pi / 2.0 * np.arange(4)
+    square = 0.0078 * np.column_stack([np.cos(turn), np.sin(turn)])  # sides of 11 mm
+    step = 0.007 * np.array([[0.0, 1.0], [0.0, -1.0], [1.0, 0.0], [-1.0, 0.0]])
+    beside = (square[:, None] + step).reshape(-1, 2)
+    outside = np.abs(beside).max(axis=1) > 0.006
+    flat = np.concatenate([square, beside[outside], square + 0.007 * np.sign(square)])
+    points = np.column_stack([flat, np.zeros(len(flat))])
+    surface = skin_surface(points, outward=np.tile([0.0, 0.0, 1.0], (len(points), 1)))
+    assert len(surface.boundary) == 4 + len(points) - 4
+    np.testing.assert_array_equal(edge_taxels(surface), np.arange(len(points)) >= 4)
+    lattice = np.delete(plane_lattice(), 34, axis=0)
+    holed = skin_surface(lattice, outward=np.tile([0.0, 0.0, 1.0], (len(lattice), 1)), longest_edge_m=0.011)
+    around = np.linalg.norm(lattice - plane_lattice()[34], axis=1) < 1.1 * PITCH_M
+    assert edge_taxels(holed)[around].all()

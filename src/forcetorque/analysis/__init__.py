@@ -77,7 +77,8 @@ from forcetorque.analysis.sensor_sphere import SensorSphere, sensor_spheres, sph
 from forcetorque.analysis.skin_calibrate import SkinCalibration, calibrate_skin, read_patches
 from forcetorque.analysis.skin_check import LayoutFindingRow, SkinCheck, check_patch, check_skin
 from forcetorque.analysis.skin_contact_rows import SkinContactRow, SkinWrenchPicture
-from forcetorque.analysis.skin_wrench import SkinWrench, WrenchChoice, skin_wrench
+from forcetorque.analysis.skin_wrench import SkinWrench, skin_wrench
+from forcetorque.analysis.skin_wrench_choice import WrenchChoice
 from forcetorque.analysis.sphere import Spheres, spheres, spheres_of_sensors
 from forcetorque.analysis.sphere_rows import FailureRow, SphereRow
 from forcetorque.analysis.static_checks import IntervalOffset, StaticChecks, check

@@ -12,7 +12,7 @@ from forcetorque.analysis.skin_recording import PatchRecording
 from forcetorque.arrays import BoolArray, FloatArray
 from forcetorque.errors import FitError
 from forcetorque.skin.taxels import Ailment, CurveKind, TaxelCurve, fit_curve
-from forcetorque.skin.taxels.cycle import TOP_SHARE
+from forcetorque.skin.taxels.cycle import REST_SHARE, TOP_SHARE
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -40,8 +40,13 @@ class FittedSamples:
             A curve per taxel; None for one that is not sound.
         """
         reach = self.fall[self.pressure >= TOP_SHARE * self.highest].mean(axis=0)
+        # long rest would outweigh the first counts of the rise, and make noise of them; what a load leaves when it goes
+        # is hysteresis, stated apart: half of it in the curve would make every load that comes read too low
+        loaded = (self.pressure > REST_SHARE * self.highest) & ~self.unloading
         return [
-            None if reasons else fit_curve(kind, self.fall[:, k], self.pressure, range_counts=float(reach[k]))
+            None
+            if reasons
+            else fit_curve(kind, self.fall[loaded, k], self.pressure[loaded], range_counts=float(reach[k]))
             for k, reasons in enumerate(self.ailments)
         ]
 

@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Final, Literal
 
@@ -12,17 +11,17 @@ import numpy as np
 from pydantic import Field
 
 from forcetorque.analysis.skin_contact_rows import SkinContactRow, SkinWrenchPicture, contact_rows
-from forcetorque.analysis.skin_frames import FrameChoice, SkinFrames, skin_frames
+from forcetorque.analysis.skin_frames import SkinFrames, skin_frames
 from forcetorque.analysis.skin_heat_rows import OFFERED, ReleaseRow, heat_warnings, release_row
 from forcetorque.analysis.skin_messages import patch_messages
+from forcetorque.analysis.skin_wrench_choice import WrenchChoice, chosen_layout, chosen_patch
 from forcetorque.arrays import BoolArray, FloatArray
 from forcetorque.errors import ExperimentError, SkinError
-from forcetorque.exchange.skin import describe_patch
 from forcetorque.experiment import ExperimentPatch, PatchExperiment, load_patches
 from forcetorque.experiment.inputs import stated_in
 from forcetorque.result import Result, Table, table_of
-from forcetorque.skin import PatchCalibration, SkinLayout, read_patch_calibration, rebuilt_normals
-from forcetorque.skin.contact import PressureFrame, SkinContacts
+from forcetorque.skin import PatchCalibration, read_patch_calibration
+from forcetorque.skin.contact import PressureFrame, SkinContacts, find_contacts
 from forcetorque.skin.surface import unrolled
 from forcetorque.skin.wrench import SkinPatch, WrenchMethod
 
@@ -99,20 +98,6 @@ class SkinWrench(Result):
         return super().columns() or list(SkinContactRow.model_fields)
 
 
-@dataclass(frozen=True, kw_only=True)
-class WrenchChoice(FrameChoice):
-    """How the wrench is told, and of which messages."""
-
-    method: str = WrenchMethod.KRIGING
-    """One of `WrenchMethod`."""
-    taxel_area_mm2: float | None = None
-    """Area of a taxel, for the simple method."""
-    plan: Path | None = None
-    """Drawing of the patch, for the method of the thesis."""
-    written_normals: bool = False
-    """Whether to take the normals that the layout has, and not those of the surface through its taxels."""
-
-
 def skin_wrench(
     experiment: Path | str | PatchExperiment,
     calibration: Path | str | PatchCalibration,
@@ -142,36 +127,10 @@ def skin_wrench(
         if own.layout is None:
             raise ExperimentError("layout: expected the file that says where the taxels are, got none")
         curves.table().require_patch(own.name, columns=own.columns, serial=own.serial)
-        skin = _skin(own.layout, chosen)
+        skin = chosen_patch(chosen_layout(own.layout, chosen), chosen)
         seconds, counts = patch_messages(content, own)
         looked = skin_frames(skin, curves, seconds, counts, chosen)
     return _answer(content, own, skin, looked, chosen)
-
-
-def _skin(layout: Path, chosen: WrenchChoice) -> SkinPatch:
-    """The patch, with what its method needs."""
-    described = describe_patch(layout)
-    normals = None if chosen.written_normals else rebuilt_normals(described.positions, described.modules)
-    sound = described.layout(normals)
-    return SkinPatch.of(
-        sound,
-        chosen.method,
-        taxel_area_m2=None if chosen.taxel_area_mm2 is None else 1e-6 * chosen.taxel_area_mm2,
-        plane=None if chosen.plan is None else _places(chosen.plan, sound),
-    )
-
-
-def _places(plan: Path, layout: SkinLayout) -> FloatArray:
-    """Places of the taxels in a drawing; m."""
-    drawn = describe_patch(plan)
-    missing = np.setdiff1d(layout.taxels, drawn.taxels)
-    if len(missing):
-        raise SkinError(
-            f"{plan}: expected a drawing of all {len(layout)} taxels of {layout.name!r}, got none of taxel "
-            f"{missing[0]} ({len(missing)} such); it is of another patch"
-        )
-    order = np.argsort(drawn.taxels)
-    return drawn.positions[order[np.searchsorted(drawn.taxels, layout.taxels, sorter=order)], :2]
 
 
 def _answer(
@@ -203,7 +162,7 @@ def _answer(
         mean_force_N=float(force[touched].mean()) if touched.any() else 0.0,
         contacts=tuple(rows),
         releases=releases,
-        picture=_picture(own.name, skin, seconds, force, looked.frames),
+        picture=_picture(own.name, skin, seconds, force, looked.frames, chosen),
         warnings=(
             *_warnings(rows, looked.reader.live),
             *heat_warnings(looked, rows, has_pads=len(skin.layout.thermal_pads) > 0),
@@ -217,13 +176,19 @@ def _picture(
     seconds: FloatArray,
     force: FloatArray,
     looked: Sequence[tuple[float, PressureFrame, SkinContacts]],
+    chosen: WrenchChoice,
 ) -> SkinWrenchPicture:
     strongest = int(force.argmax())
     normal_force = np.array([contacts.normal_force_N.sum() for _, _, contacts in looked])
+    forces = {f"{skin.method}: norm of the force": force, f"{skin.method}: integral of the pressure": normal_force}
+    if chosen.taxel_area_mm2 is not None and skin.method is not WrenchMethod.SIMPLE:
+        simple = SkinPatch.of(skin.layout, WrenchMethod.SIMPLE, taxel_area_m2=1e-6 * chosen.taxel_area_mm2)
+        told = [find_contacts(simple, frame).wrench[:, :3].sum(axis=0) for _, frame, _ in looked]
+        forces[f"simple, {chosen.taxel_area_mm2:g} mm2: norm of the force"] = np.linalg.norm(told, axis=1)
     return SkinWrenchPicture(
         patch=name,
         seconds=seconds,
-        forces={f"{skin.method}, norm of the force": force, f"{skin.method}, sum of the pressure": normal_force},
+        forces=forces,
         places=unrolled(skin.surface),
         triangles=skin.surface.triangles,
         pressures=np.where(looked[strongest][2].contact >= 0, looked[strongest][1].pressures, 0.0),

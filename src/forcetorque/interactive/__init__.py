@@ -4,6 +4,14 @@
 from forcetorque.interactive.arrays import experiment_of_arrays
 from forcetorque.interactive.experiment import Experiment, calibrate_jointly, load_experiment
 from forcetorque.interactive.run import Run
-from forcetorque.interactive.skin import calibrate_skin
+from forcetorque.interactive.skin import calibrate_skin, skin_wrench
 
-__all__ = ["Experiment", "Run", "calibrate_jointly", "calibrate_skin", "experiment_of_arrays", "load_experiment"]
+__all__ = [
+    "Experiment",
+    "Run",
+    "calibrate_jointly",
+    "calibrate_skin",
+    "experiment_of_arrays",
+    "load_experiment",
+    "skin_wrench",
+]

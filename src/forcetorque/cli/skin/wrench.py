@@ -41,7 +41,10 @@ def wrench(
         MethodChoice, typer.Option("--method", help="How pressures between taxels are told.")
     ] = MethodChoice.KRIGING,
     taxel_area: Annotated[
-        float | None, typer.Option("--taxel-area-mm2", help="Area of a taxel, for --method simple.")
+        float | None,
+        typer.Option(
+            "--taxel-area-mm2", help="Area of a taxel, for --method simple; with others the figure has it beside them."
+        ),
     ] = None,
     plan: Annotated[
         Path | None, typer.Option("--plan", help="Drawing of the patch (skinGui .ini), for --method thesis.")

@@ -117,4 +117,6 @@ class ClothStrip:
 
 
 RigidObject = FlatWeight | Sphere | Palm
+"""What has a lower side of its own."""
 SkinObject = RigidObject | ClothStrip
+"""Anything that rests on skin."""

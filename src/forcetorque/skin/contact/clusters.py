@@ -41,12 +41,12 @@ def _joined(surface: SkinSurface, inside: BoolArray, active: BoolArray) -> IntAr
     taxels = np.flatnonzero(inside)
     number = np.full(len(inside), NO_CONTACT)
     number[taxels] = np.arange(len(taxels))
-    beside = number[surface.neighbours[taxels]]
-    beside = np.where(beside == NO_CONTACT, np.arange(len(taxels))[:, None], beside)
+    beside = number[surface.neighbours[taxels].T]  # (d, m): minima over the first axis are quick
+    beside = np.where(beside == NO_CONTACT, np.arange(len(taxels)), beside)
     label = np.arange(len(taxels))
     while True:
         # the smallest number around, then that of the taxel which has it: distances double in each turn
-        smaller = label[beside].min(axis=1, initial=len(taxels))
+        smaller = label[beside].min(axis=0, initial=len(taxels))
         smaller = smaller[smaller]
         if np.array_equal(smaller, label):
             break

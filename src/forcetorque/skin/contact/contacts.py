@@ -102,13 +102,13 @@ def find_contacts(patch: SkinPatch, frame: PressureFrame) -> SkinContacts:
     require_shape(frame.pressures, name="frame.pressures", shape=(len(patch.layout),))
     operator = patch.operator(frame.live)
     contact = clusters(patch.surface, frame.active, frame.live)
-    groups = _Groups.of(contact)
-    area = _areas(patch, operator, groups, frame)
-    push = _pushes(patch, operator, groups, frame)
+    groups = _Groups.of(contact, operator)
+    area = _areas(patch, groups, frame)
+    push = _pushes(patch, groups, frame)
     wrench, normal_force, moment = push[:, :6], push[:, 6], push[:, 8:11]
     divisor = np.where(normal_force > 0.0, normal_force, np.inf)[:, None]
-    common = np.stack([frame.hysteresis_Pa, frame.drift_Pa])[:, None, groups.taxels]
-    lag, drift = (groups.sums(push.T) for push in operator.weights[:3, groups.taxels] * common)
+    common = (frame.hysteresis_Pa, frame.drift_Pa)
+    lag, drift = (groups.sums(groups.weights[:, :3] * excess[groups.taxels, None]) for excess in common)
     return SkinContacts(
         contact=contact,
         active=frame.active,
@@ -121,9 +121,9 @@ def find_contacts(patch: SkinPatch, frame: PressureFrame) -> SkinContacts:
         centroid=area[:, 1:4],
         centre_of_pressure=np.where(normal_force[:, None] > 0.0, moment / divisor, area[:, 1:4]),
         normal=area[:, 4:7],
-        peak_Pa=groups.largest(frame.pressures),
+        peak_Pa=groups.largest(frame.pressures[groups.taxels]),
         edge_share=push[:, 7] / divisor[:, 0],
-        beyond_range=groups.largest(np.where(frame.beyond_range & frame.active, 1.0, 0.0)) > 0.0,
+        beyond_range=groups.largest(np.where(frame.beyond_range & frame.active, 1.0, 0.0)[groups.taxels]) > 0.0,
     )
 
 
@@ -135,12 +135,21 @@ class _Groups:
     """Taxels of the first contact, then of the next; shape (t,)."""
     starts: IntArray
     """Where each contact begins among them; shape (c,)."""
+    weights: FloatArray
+    """Their wrenches by pressure; shape (t, 6); N/Pa, N m/Pa."""
+    areas: FloatArray
+    """Their areas; shape (t,); m²."""
 
     @classmethod
-    def of(cls, contact: IntArray) -> Self:
+    def of(cls, contact: IntArray, operator: WrenchOperator) -> Self:
         taxels = np.flatnonzero(contact != NO_CONTACT)
         taxels = taxels[np.argsort(contact[taxels], kind="stable")]
-        return cls(taxels=taxels, starts=np.flatnonzero(np.diff(contact[taxels], prepend=NO_CONTACT)))
+        return cls(
+            taxels=taxels,
+            starts=np.flatnonzero(np.diff(contact[taxels], prepend=NO_CONTACT)),
+            weights=np.ascontiguousarray(operator.weights[:, taxels].T),
+            areas=operator.areas[taxels],
+        )
 
     def sums(self, columns: FloatArray) -> FloatArray:
         """Sums over the taxels of each contact, of rows by taxel; shape (c, k)."""
@@ -150,42 +159,42 @@ class _Groups:
         return sums
 
     def largest(self, values: FloatArray) -> FloatArray:
-        """Largest value in each contact, of values by taxel of the patch; shape (c,)."""
+        """Largest value in each contact, of values by taxel; shape (c,)."""
         if not len(self.starts):
             return np.zeros(0)
-        largest: FloatArray = np.maximum.reduceat(values[self.taxels], self.starts)
+        largest: FloatArray = np.maximum.reduceat(values, self.starts)
         return largest
 
 
-def _areas(patch: SkinPatch, operator: WrenchOperator, groups: _Groups, frame: PressureFrame) -> FloatArray:
+def _areas(patch: SkinPatch, groups: _Groups, frame: PressureFrame) -> FloatArray:
     """Area, middle and mean unit normal of the active taxels; shape (c, 7)."""
     taxels, layout = groups.taxels, patch.layout
-    area = (operator.areas[taxels] * frame.active[taxels])[:, None]
+    area = (groups.areas * frame.active[taxels])[:, None]
     sums = groups.sums(np.concatenate([area, area * layout.positions[taxels], area * layout.normals[taxels]], axis=1))
     sums[:, 1:4] /= sums[:, :1]
     sums[:, 4:] /= np.linalg.norm(sums[:, 4:], axis=1, keepdims=True)
     return sums
 
 
-def _pushes(patch: SkinPatch, operator: WrenchOperator, groups: _Groups, frame: PressureFrame) -> FloatArray:
+def _pushes(patch: SkinPatch, groups: _Groups, frame: PressureFrame) -> FloatArray:
     """Wrench, normal force, that of it at the edge, and its first moment; shape (c, 11)."""
     taxels = groups.taxels
     pressure = frame.pressures[taxels, None]
-    force = operator.areas[taxels, None] * pressure
+    force = groups.areas[:, None] * pressure
     at_edge, first_moment = force * patch.at_edge[taxels, None], force * patch.layout.positions[taxels]
-    return groups.sums(np.concatenate([operator.weights[:, taxels].T * pressure, force, at_edge, first_moment], axis=1))
+    return groups.sums(np.concatenate([groups.weights * pressure, force, at_edge, first_moment], axis=1))
 
 
 def _covariance(
     patch: SkinPatch, operator: WrenchOperator, groups: _Groups, frame: PressureFrame, wrench: FloatArray
 ) -> FloatArray:
     """Errors of taxels and of what is between them, as if each taxel erred by itself, and of the shape of the skin."""
-    if operator.method not in _INTERPOLATING:
+    if operator.method not in _INTERPOLATING or not len(wrench):
         return np.full((len(wrench), 6, 6), np.nan)
     taxels = groups.taxels
     surprise = patch.foretold(frame.live).surprise(frame.pressures, taxels)
     # where neighbours are dead a taxel stands for more skin, and tells each bit of it less well
-    between = SURPRISE_SHARE * surprise * operator.areas[taxels] / patch.operator().areas[taxels]
-    scaled = operator.weights[:, taxels].T * np.hypot(frame.sd_Pa[taxels], between)[:, None]
-    squares = groups.sums((scaled[:, :, None] * scaled[:, None]).reshape(len(taxels), 36))
-    return squares.reshape(-1, 6, 6) + SHAPE_SHARE**2 * wrench[:, :, None] * wrench[:, None]
+    between = SURPRISE_SHARE * surprise * groups.areas / patch.operator().areas[taxels]
+    scaled = groups.weights * np.sqrt(frame.sd_Pa[taxels] ** 2 + between**2)[:, None]
+    squares = np.stack([own.T @ own for own in np.split(scaled, groups.starts[1:])])
+    return squares + SHAPE_SHARE**2 * wrench[:, :, None] * wrench[:, None]
