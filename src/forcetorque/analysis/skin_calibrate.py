@@ -22,6 +22,7 @@ from forcetorque.analysis.skin_rows import (
     recording_row,
     taxel_row,
 )
+from forcetorque.analysis.skin_warm_up import WarmUpRow, learn_warm_up, warm_up_row
 from forcetorque.errors import ExperimentError, FitError, known_names
 from forcetorque.experiment import ExperimentPatch, PatchExperiment, load_patches
 from forcetorque.recording import Use
@@ -64,6 +65,8 @@ class SkinCalibration(Result):
     """Forms of curves on each recording that was not fitted, and on all."""
     recordings: tuple[SkinRecordingRow, ...]
     """Recordings, and how many taxels are sound in each."""
+    warm_up: WarmUpRow | None = None
+    """What was learned of heat; None without a warm-up."""
     calibration: PatchCalibration = Field(exclude=True, repr=False)
     """The curves."""
     picture: TaxelPicture = Field(exclude=True, repr=False)
@@ -85,6 +88,8 @@ class SkinCalibration(Result):
             f"{self.sound} of {len(self.taxels)} taxels have a curve ({self.curve}, fitted up to "
             f"{self.highest_kPa:.0f} kPa); {self.left_out} were left out"
         )
+        if self.warm_up is not None:
+            yield table_of([self.warm_up], "heat: gains from thermal pads to taxels")
         if self.least_inside is not None:
             above = "" if self.least_above is None else f"; above them, of those that nowhere fall, {self.least_above}"
             yield f"least error at fitted pressures: {self.least_inside}{above}"
@@ -101,6 +106,7 @@ def calibrate_skin(
     patch: str | None = None,
     curve: str = CurveKind.MONOTONE,
     highest_pa: float | None = None,
+    warm_up: Path | str | PatchExperiment | None = None,
 ) -> SkinCalibration:
     """Fit a curve to every sound taxel of a patch.
 
@@ -113,6 +119,8 @@ def calibrate_skin(
         patch: Name of the patch; None for the only one.
         curve: Form to keep: one of `CurveKind`.
         highest_pa: Highest pressure above rest to fit; Pa; None for all.
+        warm_up: Experiment file of a recording without contact while the robot warms up, or what was read of it; heat
+            is not told from pressure without one.
 
     Returns:
         The curves, and what they are worth.
@@ -132,7 +140,25 @@ def calibrate_skin(
     curves = {kind: samples.fit(kind) for kind in CurveKind}
     kept = CurveKind(curve)
     artefact = _artefact(contents, patches[0], logs, samples, curves[kept], kept, code_version, created)
-    return _answer(artefact, logs, samples, curves)
+    answer = _answer(artefact, logs, samples, curves)
+    return answer if warm_up is None else _with_warm_up(answer, warm_up, patches[0])
+
+
+def _with_warm_up(
+    answer: SkinCalibration, warm_up: Path | str | PatchExperiment, patch: ExperimentPatch
+) -> SkinCalibration:
+    """Add what a warm-up tells of the same patch."""
+    learned, doubts, inputs = learn_warm_up(warm_up, patch)
+    provenance = answer.calibration.provenance
+    both = {**provenance.inputs_sha256, **inputs}
+    changed = {"warm_up": learned, "provenance": provenance.model_copy(update={"inputs_sha256": both})}
+    return answer.model_copy(
+        update={
+            "warm_up": warm_up_row(learned),
+            "calibration": answer.calibration.model_copy(update=changed),
+            "warnings": (*answer.warnings, *doubts),
+        }
+    )
 
 
 def read_patches(experiments: Sequence[Path | str | PatchExperiment]) -> list[PatchExperiment]:

@@ -10,7 +10,7 @@ from typing import Annotated
 import numpy as np
 
 from forcetorque.arrays import FloatArray, IntArray
-from forcetorque.result import AxisValues, FloatOrNull, Row, Shown, WrenchValues
+from forcetorque.result import AxisValues, FloatOrNull, Row, Shown, WrenchValues, finite_or_none
 from forcetorque.skin.contact import PressureFrame, SkinContacts, lobes
 from forcetorque.skin.wrench import SkinPatch
 
@@ -28,6 +28,8 @@ class SkinContactRow(Row):
     """Its standard deviation, from noise, calibration and what is between taxels; none for methods that have none."""
     hysteresis_N: Annotated[float, Shown("hysteresis", "N", digits=2)]
     """How much more the same load reads while it is taken off than while it is put on."""
+    drift_limit_N: Annotated[float | None, Shown("drift limit", "N", digits=1)]
+    """Heat that may have come through it: time in contact times the rate of the warm-up; none without one."""
     normal_force_N: Annotated[float, Shown("normal force", "N", digits=2)]
     """Integral of the pressure, (7.12); on a bent patch it is larger than the norm of the force."""
     wrench: WrenchValues
@@ -86,6 +88,7 @@ def contact_rows(
             force_N=float(contacts.force_N[number]),
             force_sd_N=float(contacts.force_sd_N[number]),
             hysteresis_N=float(contacts.hysteresis_N[number]),
+            drift_limit_N=finite_or_none(contacts.drift_limit_N[number]),
             normal_force_N=float(contacts.normal_force_N[number]),
             wrench=contacts.wrench[number],
             centre_of_pressure_m=contacts.centre_of_pressure[number],

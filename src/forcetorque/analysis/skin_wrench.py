@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Final, Literal
 
@@ -11,23 +12,22 @@ import numpy as np
 from pydantic import Field
 
 from forcetorque.analysis.skin_contact_rows import SkinContactRow, SkinWrenchPicture, contact_rows
+from forcetorque.analysis.skin_frames import SkinFrames, skin_frames
+from forcetorque.analysis.skin_heat_rows import OFFERED, ReleaseRow, heat_warnings, release_row
+from forcetorque.analysis.skin_messages import patch_messages
 from forcetorque.analysis.skin_wrench_choice import WrenchChoice, chosen_layout, chosen_patch
 from forcetorque.arrays import BoolArray, FloatArray
 from forcetorque.errors import ExperimentError, SkinError
 from forcetorque.experiment import ExperimentPatch, PatchExperiment, load_patches
 from forcetorque.experiment.inputs import stated_in
-from forcetorque.recording.alignment import seconds_since, usable_samples
 from forcetorque.result import Result, Table, table_of
-from forcetorque.skin import PatchCalibration, PressureTable, read_patch_calibration
-from forcetorque.skin.contact import PatchReader, PressureFrame, SkinContacts, find_contacts
+from forcetorque.skin import PatchCalibration, read_patch_calibration
+from forcetorque.skin.contact import PressureFrame, SkinContacts, find_contacts
 from forcetorque.skin.surface import unrolled
-from forcetorque.skin.taxels import Ailment, taxel_ailments
 from forcetorque.skin.wrench import SkinPatch, WrenchMethod
 
 _SHOWN: Final = 12
 """Contacts of the table; JSON and CSV have all."""
-_SICK: Final = (Ailment.WRAPS, Ailment.RAILS, Ailment.NOISE)
-"""What makes a taxel useless in a recording of contacts; jumps may be blows, and many are never touched."""
 
 
 class SkinWrench(Result):
@@ -43,6 +43,8 @@ class SkinWrench(Result):
     """Frame of the wrenches: they are about its origin."""
     method: str
     """How pressures between taxels are told."""
+    temperature: str
+    """How heat was taken out of readings."""
     taxels: int
     """Pressure taxels."""
     left_out: tuple[int, ...]
@@ -61,6 +63,8 @@ class SkinWrench(Result):
     """File of the figure."""
     contacts: tuple[SkinContactRow, ...]
     """Contacts, in time."""
+    releases: tuple[ReleaseRow, ...]
+    """Contacts that were let go, and what their taxels still read; none where heat was not followed."""
     picture: SkinWrenchPicture = Field(exclude=True, repr=False)
     """Forces over time and a field of pressure, for figures."""
 
@@ -77,8 +81,12 @@ class SkinWrench(Result):
         yield (
             f"{self.patch} on {self.link}, method {self.method}: {self.taxels - len(self.left_out)} of {self.taxels} "
             f"taxels; touched in {self.touched} of {self.frames} means of {self.averaged} messages, with "
-            f"{self.mean_force_N:.2f} N on average and {self.largest_force_N:.2f} N at most"
+            f"{self.mean_force_N:.2f} N on average and {self.largest_force_N:.2f} N at most; heat: {self.temperature}"
         )
+        if self.releases:
+            yield table_of(self.releases[:_SHOWN], "released, and what was left")
+        if any(row.re_tare == OFFERED for row in self.releases):
+            yield "where nothing touched the patch after a release, --re-tare takes what was left as rest"
         if self.figure is not None:
             yield f"drawn to {self.figure}"
 
@@ -122,10 +130,13 @@ class PatchFrames:
     """The patch in the experiment."""
     skin: SkinPatch
     """Its surface and wrenches."""
-    reader: PatchReader
-    """What turned its counts into pressures."""
-    looked: tuple[tuple[float, PressureFrame, SkinContacts], ...]
-    """Time in the middle of each mean of messages, s since the start of the recording; its pressures and contacts."""
+    read: SkinFrames
+    """Its frames, and what they were read by."""
+
+    @property
+    def looked(self) -> tuple[tuple[float, PressureFrame, SkinContacts], ...]:
+        """Time in the middle of each mean of messages, s since the start of the recording; pressures and contacts."""
+        return self.read.frames
 
 
 def patch_frames(
@@ -155,80 +166,42 @@ def patch_frames(
     with stated_in(f"{content.file}: patch {own.name!r}"):
         if own.layout is None:
             raise ExperimentError("layout: expected the file that says where the taxels are, got none")
-        table = curves.table()
-        table.require_patch(own.name, columns=own.columns, serial=own.serial)
+        curves.table().require_patch(own.name, columns=own.columns, serial=own.serial)
         skin = chosen_patch(chosen_layout(own.layout, chosen), chosen)
-        seconds, counts = _messages(content, own)
-        reader = _reader(table, seconds, counts, chosen)
-        reader.require_layout(skin.layout)
-        looked = [
-            (middle, frame, find_contacts(skin, frame)) for middle, frame in _frames(reader, seconds, counts, chosen)
-        ]
-    return PatchFrames(patch=own, skin=skin, reader=reader, looked=tuple(looked))
-
-
-def _messages(content: PatchExperiment, patch: ExperimentPatch) -> tuple[FloatArray, FloatArray]:
-    """Times and counts of all messages."""
-    stream = content.recording.stream(patch.counts)
-    rows = usable_samples(stream.stamp_ns)
-    counts = stream.signal("taxel_counts").values[rows]
-    empty = np.flatnonzero(~(np.nan_to_num(counts).any(axis=1) & np.isfinite(counts).all(axis=1)))
-    if len(empty):
-        raise SkinError(
-            f"row {rows[empty[0]]} of {patch.counts!r}: expected counts, got a message of zeros or with gaps "
-            f"({len(empty)} such of {len(counts)}): the board had no power or the message was lost; leave it out"
-        )
-    return seconds_since(stream.stamp_ns[rows], content.recording.start_ns), counts
-
-
-def _reader(table: PressureTable, seconds: FloatArray, counts: FloatArray, chosen: WrenchChoice) -> PatchReader:
-    """Rest and noise from the beginning, and which taxels are useless in this recording."""
-    resting = seconds < seconds[0] + chosen.rest_s
-    own = counts[:, table.taxels]
-    never_judged = np.full(len(table), np.inf)
-    # noise is judged at rest: under a hand that moves every taxel is noisy
-    told = zip(taxel_ailments(own, never_judged), taxel_ailments(own[resting], never_judged), strict=True)
-    sick = np.array([_is_sick(whole, rest) for whole, rest in told])
-    return PatchReader.at_rest(table, counts[resting], live=table.live & ~sick)
-
-
-def _is_sick(whole: Sequence[Ailment], resting: Sequence[Ailment]) -> bool:
-    return any(one in _SICK for one in resting) or any(one in _SICK for one in whole if one is not Ailment.NOISE)
-
-
-def _frames(
-    reader: PatchReader, seconds: FloatArray, counts: FloatArray, chosen: WrenchChoice
-) -> Iterator[tuple[float, PressureFrame]]:
-    if chosen.averaged < 1:
-        raise SkinError(f"averaged: expected at least 1 message for a frame, got {chosen.averaged}")
-    for start in range(0, len(counts) - chosen.averaged + 1, chosen.averaged):
-        rows = slice(start, start + chosen.averaged)
-        yield float(seconds[rows].mean()), reader.frame(counts[rows])
+        seconds, counts = patch_messages(content, own)
+        frames = skin_frames(skin, curves, seconds, counts, chosen)
+    return PatchFrames(patch=own, skin=skin, read=frames)
 
 
 def _answer(content: PatchExperiment, frames: PatchFrames, chosen: WrenchChoice) -> SkinWrench:
-    own, skin, reader, looked = frames.patch, frames.skin, frames.reader, frames.looked
-    if not looked:
+    own, skin, looked = frames.patch, frames.skin, frames.read
+    if not looked.frames:
         raise SkinError(f"{content.file}: patch {own.name!r}: expected {chosen.averaged} messages or more, got fewer")
-    seconds = np.array([middle for middle, _, _ in looked])
-    force = np.array([np.linalg.norm(contacts.wrench[:, :3].sum(axis=0)) for _, _, contacts in looked])
-    touched = np.array([len(contacts) > 0 for _, _, contacts in looked])
-    rows = [row for middle, frame, contacts in looked for row in contact_rows(skin, frame, contacts, middle)]
+    seconds = np.array([middle for middle, _, _ in looked.frames])
+    force = np.array([np.linalg.norm(contacts.wrench[:, :3].sum(axis=0)) for _, _, contacts in looked.frames])
+    touched = np.array([len(contacts) > 0 for _, _, contacts in looked.frames])
+    rows = [row for middle, frame, contacts in looked.frames for row in contact_rows(skin, frame, contacts, middle)]
+    releases = tuple(map(release_row, looked.releases))
     return SkinWrench(
         experiment=content.name,
         patch=own.name,
         link=own.link or skin.layout.frame,
         method=skin.method.value,
+        temperature=looked.rule.value,
         taxels=len(skin.layout),
-        left_out=tuple(skin.layout.taxels[~reader.live].tolist()),
-        frames=len(looked),
+        left_out=tuple(skin.layout.taxels[~looked.reader.live].tolist()),
+        frames=len(looked.frames),
         touched=int(touched.sum()),
         averaged=chosen.averaged,
         largest_force_N=float(force.max()),
         mean_force_N=float(force[touched].mean()) if touched.any() else 0.0,
         contacts=tuple(rows),
-        picture=_picture(own.name, skin, seconds, force, looked, chosen),
-        warnings=_warnings(rows, reader.live),
+        releases=releases,
+        picture=_picture(own.name, skin, seconds, force, looked.frames, chosen),
+        warnings=(
+            *_warnings(rows, looked.reader.live),
+            *heat_warnings(looked, rows, has_pads=len(skin.layout.thermal_pads) > 0),
+        ),
     )
 
 

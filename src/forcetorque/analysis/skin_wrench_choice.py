@@ -5,24 +5,19 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Final
 
 import numpy as np
 
+from forcetorque.analysis.skin_frames import FrameChoice
 from forcetorque.arrays import FloatArray
 from forcetorque.errors import SkinError
 from forcetorque.exchange.skin import describe_patch
 from forcetorque.skin import SkinLayout, rebuilt_normals
 from forcetorque.skin.wrench import SkinPatch, WrenchMethod
 
-REST_S: Final = 2.0
-"""Time at the beginning in which nothing touches the patch."""
-AVERAGED: Final = 10
-"""Messages that are averaged to one frame."""
-
 
 @dataclass(frozen=True, kw_only=True)
-class WrenchChoice:
+class WrenchChoice(FrameChoice):
     """How the wrench is told, and of which messages."""
 
     method: str = WrenchMethod.KRIGING
@@ -33,10 +28,6 @@ class WrenchChoice:
     """Drawing of the patch, for the method of the thesis."""
     written_normals: bool = False
     """Whether to take the normals that the layout has, and not those of the surface through its taxels."""
-    rest_s: float = REST_S
-    """Time at the beginning in which nothing touches the patch."""
-    averaged: int = AVERAGED
-    """Messages that are averaged to one frame."""
 
 
 def chosen_layout(file: Path, choice: WrenchChoice) -> SkinLayout:

@@ -18,6 +18,7 @@ from forcetorque.errors import FormatError
 from forcetorque.part import Part, checked_part, read_json
 from forcetorque.skin.pressure_table import ROWS, PressureTable
 from forcetorque.skin.taxels import CurveKind, TaxelCurve
+from forcetorque.skin.temperature import WarmUp
 
 SCHEMA: Final = "forcetorque/taxels/1"
 """Name and version of the file's form."""
@@ -92,6 +93,14 @@ class PatchCalibration(Part):
     """Taxels in the order of their columns."""
     provenance: PatchProvenance
     """What the curves were fitted to."""
+    warm_up: WarmUp | None = None
+    """How its taxels follow its thermal pads; None if that was not learned."""
+
+    @model_validator(mode="after")
+    def _warm_up_of_its_taxels(self) -> PatchCalibration:
+        if self.warm_up is not None and len(self.warm_up.taxels) != len(self.taxels):
+            raise PydanticCustomError("warm_up_taxels", "expected as many taxels in warm_up as in taxels")
+        return self
 
     def __repr__(self) -> str:
         sound = sum(taxel.coefficients is not None for taxel in self.taxels)

@@ -46,6 +46,10 @@ def calibrate(
         float | None,
         typer.Option("--highest-kpa", help="Highest pressure above rest to fit; higher ones only judge. Default: all."),
     ] = None,
+    warm_up: Annotated[
+        Path | None,
+        typer.Option("--warm-up", help="Experiment file of a warm-up without contact, to tell heat from pressure."),
+    ] = None,
     table: Annotated[
         Path | None, typer.Option("--table", help="CSV of the pressure of every taxel at 0 to 255 counts below rest.")
     ] = None,
@@ -72,7 +76,7 @@ def calibrate(
     refuse_standard_output("--table", table)
     refuse_figure(figure)
     written = [path for path in (output, table) if path is not None]
-    refuse_inputs(written, experiments)
+    refuse_inputs(written, [*experiments, *([] if warm_up is None else [warm_up])])
     for path in written:
         refuse_unwritable(path)
     contents = analysis.read_patches(experiments)
@@ -86,6 +90,7 @@ def calibrate(
         patch=patch,
         curve=curve.value,
         highest_pa=None if highest is None else 1e3 * highest,
+        warm_up=warm_up,
     )
     answer.calibration.save(output)
     if table is not None:

@@ -16,6 +16,14 @@ if TYPE_CHECKING:
     from forcetorque.analysis import SkinWrench
 
 
+class HeatChoice(StrEnum):
+    """How heat is taken out of readings."""
+
+    LEARNED = "learned"
+    FIRMWARE = "firmware"
+    NONE = "none"
+
+
 class MethodChoice(StrEnum):
     """How pressures between taxels are told."""
 
@@ -49,6 +57,13 @@ def wrench(
         float, typer.Option("--rest-s", help="Time at the beginning in which nothing touches the patch.")
     ] = 2.0,
     average: Annotated[int, typer.Option("--average", help="Messages that are averaged to one frame.")] = 10,
+    temperature: Annotated[
+        HeatChoice | None,
+        typer.Option("--temperature", help="How heat is taken out. Default: as learned, if the table has a warm-up."),
+    ] = None,
+    re_tare: Annotated[
+        bool, typer.Option("--re-tare", help="Take what is left after a release as rest, where heat explains it.")
+    ] = False,
     figure: Annotated[
         Path | None, typer.Option("--figure", help="PNG of the field of pressure and of forces over time.")
     ] = None,
@@ -70,6 +85,8 @@ def wrench(
         written_normals=written_normals,
         rest_s=rest,
         averaged=average,
+        temperature=None if temperature is None else temperature.value,
+        re_tare=re_tare,
     )
     answer = analysis.skin_wrench(experiment, table, patch=patch, choice=choice)
     show(answer if figure is None else _drawn(answer, figure), output_format)

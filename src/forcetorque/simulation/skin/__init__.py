@@ -8,6 +8,7 @@ from forcetorque.simulation.skin.objects import ClothStrip, FlatWeight, Palm, Sk
 from forcetorque.simulation.skin.recording import Loading, contact_recording
 from forcetorque.simulation.skin.response import NOISE_COUNTS, REFERENCE_PA, REST_COUNTS, SWING_COUNTS, TaxelResponses
 from forcetorque.simulation.skin.true_surface import SurfacePoints, TrueSurface
+from forcetorque.simulation.skin.warmth import HeatResponses, Warmth, warm_recording
 
 __all__ = [
     "GRID_M",
@@ -19,6 +20,7 @@ __all__ = [
     "ClothStrip",
     "ContactTruth",
     "FlatWeight",
+    "HeatResponses",
     "Loading",
     "Palm",
     "SkinBody",
@@ -28,7 +30,9 @@ __all__ = [
     "SurfacePoints",
     "TaxelResponses",
     "TrueSurface",
+    "Warmth",
     "chamber_recording",
     "contact_recording",
     "contacts",
+    "warm_recording",
 ]

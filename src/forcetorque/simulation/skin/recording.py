@@ -81,11 +81,25 @@ def contact_recording(
         peak = was_held[row] * (shares[row] > 0.0) @ pressures
         now = shares[row] @ pressures
         counts[row, layout.taxels] = responses.counts(now, rng, frames=1, peak=np.maximum(peak, now))[0]
+    return counts_recording(seconds, counts)
+
+
+def counts_recording(seconds: FloatArray, counts: FloatArray) -> Recording:
+    """Make a recording of messages.
+
+    Args:
+        seconds: Their times; shape (k,); s.
+        counts: Messages; shape (k, columns); counts.
+
+    Returns:
+        The stream `counts`.
+    """
+    columns = counts.shape[1]
     signal = Signal(
         quantity="taxel_counts",
         values=counts,
-        columns=tuple(map(str, range(layout.columns))),
-        units=("counts",) * layout.columns,
+        columns=tuple(map(str, range(columns))),
+        units=("counts",) * columns,
     )
     stamps = EPOCH_NS + np.rint(seconds * 1e9).astype(np.int64)
     stream = Stream(name="counts", clock="board", stamp_ns=stamps, signals={"taxel_counts": signal})

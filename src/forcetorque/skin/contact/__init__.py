@@ -3,8 +3,20 @@
 
 from forcetorque.skin.contact.clusters import NO_CONTACT, clusters
 from forcetorque.skin.contact.contacts import SkinContacts, find_contacts
+from forcetorque.skin.contact.following import PatchFollower
 from forcetorque.skin.contact.frame import PressureFrame
 from forcetorque.skin.contact.lobes import lobes
 from forcetorque.skin.contact.reading import PatchReader
+from forcetorque.skin.contact.release import Release
 
-__all__ = ["NO_CONTACT", "PatchReader", "PressureFrame", "SkinContacts", "clusters", "find_contacts", "lobes"]
+__all__ = [
+    "NO_CONTACT",
+    "PatchFollower",
+    "PatchReader",
+    "PressureFrame",
+    "Release",
+    "SkinContacts",
+    "clusters",
+    "find_contacts",
+    "lobes",
+]

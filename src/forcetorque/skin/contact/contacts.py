@@ -39,6 +39,8 @@ class SkinContacts:
     """Covariance of its error; NaN for methods whose error is not known; shape (c, 6, 6)."""
     hysteresis_N: FloatArray
     """How much more the same load reads while it is taken off than while it is put on; shape (c,)."""
+    drift_limit_N: FloatArray
+    """How much heat through the contact may add, which no thermal pad tells; NaN if not known; shape (c,)."""
     normal_force_N: FloatArray
     """Integral of the pressure, (7.12); shape (c,)."""
     area_m2: FloatArray
@@ -105,13 +107,15 @@ def find_contacts(patch: SkinPatch, frame: PressureFrame) -> SkinContacts:
     push = _pushes(patch, groups, frame)
     wrench, normal_force, moment = push[:, :6], push[:, 6], push[:, 8:11]
     divisor = np.where(normal_force > 0.0, normal_force, np.inf)[:, None]
-    lag = groups.sums(groups.weights[:, :3] * frame.hysteresis_Pa[groups.taxels, None])
+    common = (frame.hysteresis_Pa, frame.drift_Pa)
+    lag, drift = (groups.sums(groups.weights[:, :3] * excess[groups.taxels, None]) for excess in common)
     return SkinContacts(
         contact=contact,
         active=frame.active,
         wrench=wrench,
         covariance=_covariance(patch, operator, groups, frame, wrench),
         hysteresis_N=np.linalg.norm(lag, axis=1),
+        drift_limit_N=np.linalg.norm(drift, axis=1),
         normal_force_N=normal_force,
         area_m2=area[:, 0],
         centroid=area[:, 1:4],

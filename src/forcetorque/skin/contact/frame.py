@@ -35,6 +35,8 @@ class PressureFrame:
     """Standard deviation of each pressure, from noise and calibration; 0 by default; shape (n,)."""
     hysteresis_Pa: FloatArray = field(default_factory=_nothing)
     """How much more each reads while pressure is taken off than while it is put on; 0 by default; shape (n,)."""
+    drift_Pa: FloatArray = field(default_factory=_nothing)
+    """How much heat through a contact may add to each; NaN, not known, by default; shape (n,)."""
 
     def __post_init__(self) -> None:
         count = len(self.pressures)
@@ -45,7 +47,9 @@ class PressureFrame:
         for name in ("sd_Pa", "hysteresis_Pa"):
             if not len(getattr(self, name)):
                 object.__setattr__(self, name, np.zeros(count))
-        for name in ("pressures", "active", "live", "beyond_range", "sd_Pa", "hysteresis_Pa"):
+        if not len(self.drift_Pa):
+            object.__setattr__(self, "drift_Pa", np.full(count, np.nan))
+        for name in ("pressures", "active", "live", "beyond_range", "sd_Pa", "hysteresis_Pa", "drift_Pa"):
             require_shape(getattr(self, name), name=name, shape=(count,))
         felt = np.where(self.live, self.pressures, 0.0)
         if not np.isfinite(felt).all():

@@ -13,6 +13,7 @@ from forcetorque.errors import SkinError
 from forcetorque.skin.contact.frame import PressureFrame
 from forcetorque.skin.layout import SkinLayout
 from forcetorque.skin.pressure_table import PressureTable
+from forcetorque.skin.temperature import TaxelDrift
 
 WAKING: Final = 3.8
 """Fall over its standard deviation from which a taxel feels something: of 14 000 idle ones, one does by chance."""
@@ -91,11 +92,12 @@ class PatchReader:
                 "patch has its own table"
             )
 
-    def frame(self, counts: FloatArray) -> PressureFrame:
+    def frame(self, counts: FloatArray, *, drift: TaxelDrift | None = None) -> PressureFrame:
         """Read one message, or the mean of several.
 
         Args:
             counts: A message, shape (columns,), or messages that are averaged, shape (k, columns); counts.
+            drift: What of that is no pressure; nothing if None.
 
         Returns:
             Pressures, and which taxels feel something.
@@ -104,6 +106,8 @@ class PatchReader:
         table = self.table
         fall = table.fall(counts if counts.ndim == 1 else counts.mean(axis=0), self.rest)
         noise = self.noise * np.sqrt(1.0 / number + 1.0 / self.rest_messages)
+        if drift is not None:
+            fall, noise = fall - drift.fall, np.hypot(noise, drift.sd)
         active = (fall > WAKING * noise) & self.live
         pressures, slopes = table.look_up(fall)
         return PressureFrame(
@@ -113,4 +117,5 @@ class PatchReader:
             beyond_range=active & (fall > table.range_counts),
             sd_Pa=np.sqrt((slopes * noise) ** 2 + (active * table.error) ** 2),
             hysteresis_Pa=active * np.minimum(table.hysteresis, pressures),
+            drift_Pa=np.full(len(fall), np.nan) if drift is None else slopes * drift.limit,
         )

@@ -1,0 +1,146 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""From the change of thermal pads to what taxels read of heat."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from enum import StrEnum
+from typing import Self
+
+import numpy as np
+
+from forcetorque.arrays import BoolArray, FloatArray, IntArray, read_only, read_only_integers, require_shape
+from forcetorque.errors import SkinError
+from forcetorque.skin.layout import SkinLayout
+from forcetorque.skin.temperature.learned import TaxelHeat
+from forcetorque.skin.temperature.pads import followed_pads
+
+
+class HeatRule(StrEnum):
+    """How heat is taken out of readings."""
+
+    LEARNED = "learned"
+    """By a gain for every taxel from a warm-up, and a baseline of idle taxels."""
+    FIRMWARE = "firmware"
+    """The mean change of the pads of a module is subtracted from its taxels, thesis A.2.3."""
+    NONE = "none"
+    """Not at all."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class HeatGains:
+    """How n taxels follow t thermal pads."""
+
+    pads: IntArray
+    """Columns of the pads; shape (t,)."""
+    follows: BoolArray
+    """Whether each taxel follows each pad; shape (n, t)."""
+    gains: FloatArray
+    """Counts of the taxel by count of the pad; shape (n, t)."""
+    sd: FloatArray
+    """Standard deviations of the gains; shape (n, t)."""
+    rates: FloatArray
+    """Steepest change by heat that was learned; NaN where none was; shape (n,); counts/s."""
+
+    def __post_init__(self) -> None:
+        follows = np.array(self.follows, dtype=np.bool_)
+        require_shape(follows, name="follows", shape=(None, len(self.pads)))
+        follows.setflags(write=False)
+        object.__setattr__(self, "follows", follows)
+        object.__setattr__(self, "pads", read_only_integers(self.pads, name="pads", shape=(None,)))
+        for name in ("gains", "sd"):
+            object.__setattr__(self, name, read_only(getattr(self, name), name=name, shape=follows.shape))
+        object.__setattr__(self, "rates", read_only(self.rates, name="rates", shape=follows.shape[:1]))
+
+    @classmethod
+    def of_firmware(cls, layout: SkinLayout) -> Self:
+        """Give the rule of the firmware: every taxel changes as the pads of its module do, gain 1.
+
+        Args:
+            layout: The patch.
+
+        Returns:
+            The gains.
+
+        Raises:
+            SkinError: If the patch has no thermal pads.
+        """
+        require_pads(layout)
+        follows = followed_pads(layout, np.ones(len(layout.thermal_pads), dtype=np.bool_))
+        return cls(
+            pads=layout.thermal_pads,
+            follows=follows,
+            gains=follows.astype(np.float64),
+            sd=np.zeros(follows.shape),
+            rates=np.full(len(layout), np.nan),
+        )
+
+    @classmethod
+    def learned(cls, taxels: Sequence[TaxelHeat]) -> Self:
+        """Take the gains of a warm-up.
+
+        Args:
+            taxels: What was learned of each taxel, in their order.
+
+        Returns:
+            The gains.
+        """
+        pads = np.unique(np.array([gain.pad for taxel in taxels for gain in taxel.gains], dtype=np.int64))
+        gains, sd = np.zeros((2, len(taxels), len(pads)))
+        follows = np.zeros(gains.shape, dtype=np.bool_)
+        for k, taxel in enumerate(taxels):
+            columns = np.searchsorted(pads, [gain.pad for gain in taxel.gains])
+            follows[k, columns] = True
+            gains[k, columns] = [gain.gain for gain in taxel.gains]
+            sd[k, columns] = [gain.sd for gain in taxel.gains]
+        rates = [np.nan if taxel.rate_counts_per_s is None else taxel.rate_counts_per_s for taxel in taxels]
+        return cls(pads=pads, follows=follows, gains=gains, sd=sd, rates=np.array(rates))
+
+    def without(self, dead: BoolArray) -> HeatGains:
+        """Leave pads out that are dead in a recording.
+
+        Args:
+            dead: Which ones; shape (t,).
+
+        Returns:
+            The gains of the others.
+        """
+        return HeatGains(pads=self.pads, follows=self.follows & ~dead, gains=self.gains, sd=self.sd, rates=self.rates)
+
+    @property
+    def told(self) -> BoolArray:
+        """Taxels that follow a pad; shape (n,)."""
+        return np.asarray(self.follows.any(axis=1))
+
+    def fall(self, pad_fall: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Give what taxels read of heat: the mean of what their pads tell.
+
+        Args:
+            pad_fall: Counts of the pads below their rest; shape (t,).
+
+        Returns:
+            Counts below rest, 0 where a taxel follows no pad, and their standard deviation; shape (n,) each.
+        """
+        number = np.maximum(self.follows.sum(axis=1), 1)
+        change = np.where(self.follows, pad_fall, 0.0)
+        fall: FloatArray = (self.gains * change).sum(axis=1) / number
+        # where a taxel does not follow its pads, those of one module err together: their number lowers nothing
+        sd: FloatArray = (self.sd * np.abs(change)).sum(axis=1) / number
+        return fall, sd
+
+
+def require_pads(layout: SkinLayout) -> None:
+    """Refuse a patch without thermal pads.
+
+    Args:
+        layout: The patch.
+
+    Raises:
+        SkinError: If it has none.
+    """
+    if not len(layout.thermal_pads):
+        raise SkinError(
+            f"patch {layout.name!r}: thermal_pads: expected at least one, got none in its layout; without them heat "
+            "cannot be told from pressure"
+        )

@@ -1,0 +1,139 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Gains of a warm-up are those of the simulation, and what is no warm-up without contact is refused by name."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from forcetorque.arrays import FloatArray
+from forcetorque.errors import SkinError
+from forcetorque.skin.temperature import HeatGains, WarmUp, fit_warm_up
+from tests.warmed import WARM_UP, WarmShank, counts_of
+
+SHANK = WarmShank.drawn()
+LAYOUT = SHANK.layout
+SECONDS, COUNTS = counts_of(SHANK.recorded(WARM_UP))
+PADS = LAYOUT.thermal_pads
+RATE_TOLERANCE = 5.0 * 0.071 * np.sqrt(2.0) / 60.0
+"""Five deviations of a difference of two means of a hundred messages over a minute; noise and rounding; counts/s."""
+
+
+def _learned(counts: FloatArray) -> WarmUp:
+    return fit_warm_up("warm", SECONDS, counts, LAYOUT)
+
+
+def _true_gains() -> FloatArray:
+    """Counts of each taxel by count of each pad of its module; shape (n, 2)."""
+    own = np.stack([np.flatnonzero(LAYOUT.thermal_modules == module) for module in LAYOUT.modules])
+    gains: FloatArray = SHANK.heat.taxels[:, None] / SHANK.heat.pads[own]
+    return gains
+
+
+def test_gains_are_the_true_ones() -> None:
+    """Both pads of each taxel, within what is predicted of them; the mean is far from the firmware's 1."""
+    heat = _learned(COUNTS).taxels
+    gains = np.array([[gain.gain for gain in one.gains] for one in heat])
+    sd = np.array([[gain.sd for gain in one.gains] for one in heat])
+    off = np.abs(gains - _true_gains()) / sd
+    assert gains.shape == (len(LAYOUT), 2)
+    assert 0.90 <= np.mean(off <= 2.0) <= 0.99
+    assert np.mean(off <= 1.0) < 0.80  # negative control: half the deviation does not hold
+    assert np.abs(gains - 1.0).mean() > 10.0 * np.abs(gains - _true_gains()).mean()
+
+
+def test_rates_are_those_of_the_first_minute() -> None:
+    """Ten degrees with a time constant of 150 s go 3.3 degrees in a minute; means of ten seconds blur that a little."""
+    rates = np.array([one.rate_counts_per_s for one in _learned(COUNTS).taxels])
+    in_a_minute = 10.0 * SHANK.heat.taxels * (1.0 - np.exp(-60.0 / 150.0))
+    over_tens = (1.0 - np.exp(-10.0 / 150.0)) / (10.0 / 150.0)
+    steepest = in_a_minute * over_tens / 60.0
+    np.testing.assert_allclose(rates, steepest, atol=RATE_TOLERANCE)
+    assert steepest.max() > 5.0 * RATE_TOLERANCE
+
+
+def _railed(counts: FloatArray, pads: slice) -> None:
+    counts[:, PADS[pads]] = 255.0
+
+
+def _stuck(counts: FloatArray, pads: slice) -> None:
+    counts[:, PADS[pads]] = 240.0
+
+
+@pytest.mark.parametrize("kill", [_railed, _stuck])
+def test_a_dead_pad_is_named_and_not_followed(kill: Callable[[FloatArray, slice], None]) -> None:
+    """With one dead the other is followed; with both, those of a neighbouring module, whose gains are learned anew."""
+    counts = COUNTS.copy()
+    kill(counts, slice(0, 3))
+    learned = _learned(counts)
+    assert learned.dead_pads == tuple(PADS[:3].tolist())
+    followed = [{gain.pad for gain in heat.gains} for heat in learned.taxels]
+    assert all(not pads & set(PADS[:3].tolist()) for pads in followed)
+    module, alone = LAYOUT.thermal_modules[0], LAYOUT.thermal_modules[2]
+    for taxel in np.flatnonzero(LAYOUT.modules == alone):
+        assert followed[taxel] == {PADS[3]}
+    heat = HeatGains.learned(learned.taxels)
+    fall, _ = heat.fall(10.0 * SHANK.heat.pads[np.searchsorted(PADS, heat.pads)])
+    lent = LAYOUT.modules == module
+    np.testing.assert_allclose(fall[lent], 10.0 * SHANK.heat.taxels[lent], rtol=0.05)
+
+
+def test_a_sick_taxel_has_no_gain() -> None:
+    """One at its rail is no contact either."""
+    counts = COUNTS.copy()
+    counts[3000:, LAYOUT.taxels[8]] = 255.0
+    learned = _learned(counts)
+    assert learned.taxels[8].gains == ()
+    assert not HeatGains.learned(learned.taxels).told[8]
+    assert HeatGains.learned(learned.taxels).told.sum() == len(LAYOUT) - 1
+
+
+def test_a_contact_is_refused_with_taxel_and_time() -> None:
+    """An object is put on at 200 s and taken off at 260 s."""
+    counts = COUNTS.copy()
+    pressed = np.rint(SHANK.taxels.fall(SHANK.truth.pressures))
+    counts[np.ix_((SECONDS >= 200.0) & (SECONDS < 260.0), LAYOUT.taxels)] -= pressed
+    hit = r"without contact, got \d+ taxels .* at (198|199|200) s, taxel \d+ by -\d+\.\d: something touches the patch"
+    with pytest.raises(SkinError, match=hit):
+        _learned(counts)
+
+
+def test_a_contact_that_comes_slowly_is_refused() -> None:
+    """Within two minutes, so that no step is seen; what the pads leave tells it."""
+    counts = COUNTS.copy()
+    share = np.clip(np.minimum(SECONDS - 200.0, 450.0 - SECONDS) / 120.0, 0.0, 1.0)
+    pressed = SHANK.taxels.fall(SHANK.truth.pressures)
+    counts[:, LAYOUT.taxels] -= np.rint(0.25 * share[:, None] * pressed)
+    with pytest.raises(SkinError, match=r"follow the thermal pads, got \d+ that differ by over 2.5 counts, taxel"):
+        _learned(counts)
+
+
+def test_pads_that_never_warm_are_refused() -> None:
+    """The robot was warm already, or its motors were off."""
+    cold = counts_of(SHANK.recorded(replace(WARM_UP, inside_K=1.0)))[1]
+    with pytest.raises(SkinError, match=r"change by at least 4 counts, got 1\.\d .*never warm; record from"):
+        _learned(cold)
+
+
+def test_all_pads_dead_is_refused() -> None:
+    """There is nothing to learn from."""
+    counts = COUNTS.copy()
+    counts[:, PADS] = 0.0
+    with pytest.raises(SkinError, match=r"expected one that is alive, got none of 56"):
+        _learned(counts)
+
+
+def test_a_patch_without_pads_is_refused() -> None:
+    """Its layout says so."""
+    none = np.zeros(0, dtype=np.int64)
+    with pytest.raises(SkinError, match="thermal_pads: expected at least one, got none in its layout"):
+        fit_warm_up("warm", SECONDS, COUNTS, replace(LAYOUT, thermal_pads=none, thermal_modules=none))
+
+
+def test_a_short_warm_up_is_refused() -> None:
+    """Two minutes tell no rate of a minute."""
+    with pytest.raises(SkinError, match="at least 180 s, got 120 s"):
+        fit_warm_up("warm", SECONDS[:1201], COUNTS[:1201], LAYOUT)

@@ -1,0 +1,121 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A patch is followed through heat: contacts stay, idle taxels are followed, and what no pad tells is bounded."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from forcetorque.arrays import FloatArray
+from forcetorque.simulation.skin import Warmth
+from forcetorque.skin import PressureTable
+from forcetorque.skin.contact import PatchFollower, PatchReader, SkinContacts
+from forcetorque.skin.temperature import HeatGains, fit_warm_up
+from forcetorque.skin.wrench import SkinPatch
+from tests.skin.contact_trials import chamber_table
+from tests.warmed import HAND, HELD, WARM_UP, WarmShank, counts_of
+
+SHANK = WarmShank.drawn()
+PATCH = SkinPatch.of(SHANK.layout)
+TRUE_N = float(np.linalg.norm(SHANK.truth.wrench[:3]))
+LEAST_N = 0.7
+"""Error that heat from inside may leave; the object has 9.8 N."""
+
+
+@pytest.fixture(scope="module", name="table")
+def calibrated_table() -> PressureTable:
+    """Pressures by counts, fitted in a chamber."""
+    table = chamber_table(SHANK.taxels, np.random.default_rng(1), both_ways=False)
+    return replace(table, columns=SHANK.layout.columns, taxels=SHANK.layout.taxels)
+
+
+@pytest.fixture(scope="module", name="learned")
+def learned_gains() -> HeatGains:
+    """Gains of a warm-up."""
+    return HeatGains.learned(fit_warm_up("warm", *counts_of(SHANK.recorded(WARM_UP)), SHANK.layout).taxels)
+
+
+def _followed(
+    table: PressureTable, heat: HeatGains, warmth: Warmth, *, re_tare: bool = False, touched: bool = True
+) -> tuple[PatchFollower, dict[float, SkinContacts]]:
+    """Contacts by time, in frames of a second."""
+    seconds, counts = counts_of(SHANK.recorded(warmth, touched=touched))
+    reader = PatchReader.at_rest(table, counts[seconds < warmth.rest_s])
+    follower = PatchFollower(PATCH, reader, heat, re_tare=re_tare)
+    starts = range(0, len(seconds) - 9, 10)
+    told = {float(seconds[k]): follower.frame(float(seconds[k]), counts[k : k + 10])[1] for k in starts}
+    return follower, told
+
+
+def _forces(told: dict[float, SkinContacts], begin_s: float, end_s: float) -> FloatArray:
+    """Norm of the force of all contacts of the frames of a time."""
+    forces = [np.linalg.norm(c.wrench[:, :3].sum(axis=0)) for time, c in told.items() if begin_s <= time < end_s]
+    assert forces
+    return np.array(forces)
+
+
+def _without_gains(heat: HeatGains) -> HeatGains:
+    return replace(heat, gains=np.zeros(heat.gains.shape))
+
+
+def test_heat_from_inside_is_no_force(table: PressureTable, learned: HeatGains) -> None:
+    """The object stays as heavy as it is, for five minutes; without gains it weighs many times that."""
+    _, told = _followed(table, learned, HELD)
+    np.testing.assert_allclose(_forces(told, 12.0, 309.0), TRUE_N, atol=LEAST_N)
+    _, wrong = _followed(table, _without_gains(learned), HELD)
+    assert _forces(wrong, 300.0, 309.0).min() > 2.0 * TRUE_N
+
+
+def test_nothing_is_felt_where_nothing_touches(table: PressureTable, learned: HeatGains) -> None:
+    """No contact in five minutes of warming; the firmware's rule sees some."""
+    _, told = _followed(table, learned, HELD, touched=False)
+    assert sum(len(contacts) > 0 for contacts in told.values()) <= 0.01 * len(told)
+    firmware = replace(HeatGains.of_firmware(SHANK.layout), rates=learned.rates)
+    _, wrong = _followed(table, firmware, HELD, touched=False)
+    assert sum(len(contacts) > 0 for contacts in wrong.values()) > 0.5 * len(wrong)
+
+
+def test_the_limit_is_time_times_rate(table: PressureTable, learned: HeatGains) -> None:
+    """It grows evenly while the object lies there, in proportion to the rate, and falls as evenly afterwards."""
+    follower, told = _followed(table, learned, HELD)
+    limits = {time: float(contacts.drift_limit_N.sum()) for time, contacts in told.items()}
+    assert limits[110.0] == pytest.approx(0.5 * limits[210.0], rel=0.1)
+    double = replace(learned, rates=2.0 * learned.rates)
+    _, other = _followed(table, double, HELD)
+    assert float(other[210.0].drift_limit_N.sum()) == pytest.approx(2.0 * limits[210.0], rel=0.01)
+    # thirty seconds after five minutes
+    assert follower.touched_s.max() == pytest.approx(270.0, abs=3.0)
+
+
+def test_heat_through_the_contact_is_bounded_and_not_hidden(table: PressureTable, learned: HeatGains) -> None:
+    """Half its weight again is told after five minutes, inside the limit from the first minute on."""
+    follower, told = _followed(table, learned, HAND)
+    errors = {time: abs(float(_forces(told, time, time + 0.5)[0]) - TRUE_N) for time in (70.0, 130.0, 305.0)}
+    assert errors[305.0] > 0.5 * TRUE_N
+    for time, error in errors.items():
+        assert error < told[time].drift_limit_N.sum()
+    (release,) = follower.releases
+    assert release.time_s == pytest.approx(311.0, abs=2.0)
+    assert release.held_s == pytest.approx(300.0, abs=3.0)
+    assert release.left_N == pytest.approx(errors[305.0], rel=0.2)
+    assert release.may_be_heat
+    assert not release.re_tared
+    assert _forces(told, 315.0, 325.0).min() > 0.3 * TRUE_N
+
+
+def test_rest_is_taken_anew_where_that_is_asked_for(table: PressureTable, learned: HeatGains) -> None:
+    """Nothing is left after the release, and the limit begins anew."""
+    follower, told = _followed(table, learned, HAND, re_tare=True)
+    assert [release.re_tared for release in follower.releases] == [True]
+    assert _forces(told, 315.0, 325.0).max() < 0.1 * TRUE_N
+    assert follower.touched_s.max() < 30.0
+
+
+def test_what_heat_cannot_explain_is_not_taken_as_rest(table: PressureTable, learned: HeatGains) -> None:
+    """With a rate near nothing, what is left must be something that touches."""
+    slow = replace(learned, rates=1e-3 * learned.rates)
+    follower, told = _followed(table, slow, HAND, re_tare=True)
+    assert [release.may_be_heat for release in follower.releases] == [False]
+    assert _forces(told, 315.0, 325.0).min() > 0.3 * TRUE_N
