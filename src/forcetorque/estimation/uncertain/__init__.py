@@ -1,0 +1,19 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Estimation with covariances: of readings, of known wrenches, and of the tangential force that skin does not feel."""
+
+from forcetorque.estimation.uncertain.covariance import wrench_covariances
+from forcetorque.estimation.uncertain.estimate import estimate_with_covariance
+from forcetorque.estimation.uncertain.estimates import UncertainEstimates
+from forcetorque.estimation.uncertain.uncertainty import SLIPPING, Tangents, Uncertainty, tangent_maps
+from forcetorque.estimation.uncertain.undetermined import Undetermined
+
+__all__ = [
+    "SLIPPING",
+    "Tangents",
+    "UncertainEstimates",
+    "Uncertainty",
+    "Undetermined",
+    "estimate_with_covariance",
+    "tangent_maps",
+    "wrench_covariances",
+]
