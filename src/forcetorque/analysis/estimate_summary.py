@@ -12,6 +12,7 @@ from pydantic import Field
 
 from forcetorque.analysis.estimate import IntervalEstimates
 from forcetorque.analysis.reading import Correction
+from forcetorque.analysis.skin_summary import SkinContactSummary, skin_doubts, skin_rows
 from forcetorque.analysis.validity import ReadingsOutside, outside_row, sentences
 from forcetorque.arrays import FloatArray, IntArray
 from forcetorque.evaluation import WrenchErrors, wrench_errors
@@ -80,6 +81,8 @@ class EstimatedRecording(Row):
     """What the log does not allow to estimate."""
     validity: tuple[ReadingsOutside, ...] = ()
     """One per sensor that a calibration reads: how far its readings lie outside what was fitted."""
+    skin: tuple[SkinContactSummary, ...] = ()
+    """One per interval and contact on skin."""
 
 
 class EstimateSummary(Result):
@@ -105,6 +108,8 @@ class EstimateSummary(Result):
     """What the log does not allow to estimate."""
     validity: tuple[ReadingsOutside, ...] = ()
     """One per sensor that a calibration reads: how far its readings lie outside what was fitted."""
+    skin: tuple[SkinContactSummary, ...] = ()
+    """One per interval and contact on skin."""
     recordings: tuple[EstimatedRecording, ...] = ()
     """Of several recordings one each, where these things then stand; none where there is one recording."""
 
@@ -149,6 +154,8 @@ class EstimateSummary(Result):
 def _tables(recording: EstimateSummary | EstimatedRecording) -> Iterator[Table | str]:
     if recording.contacts:
         yield table_of(recording.contacts, recording.experiment)
+    if recording.skin:
+        yield table_of(recording.skin, f"{recording.experiment}: contacts on skin")
     if recording.parts:
         yield table_of(recording.parts, "")
     for row in recording.parts:
@@ -215,7 +222,12 @@ def summarise_estimates(
         parts=tuple(row for span in spans for row in _parts(span)),
         left_out=left_out,
         validity=validity,
-        warnings=(*sentences(validity), *(f"left out: {sentence}" for sentence in left_out)),
+        skin=tuple(row for span in spans for row in skin_rows(span)),
+        warnings=(
+            *sentences(validity),
+            *_doubts(corrections, spans),
+            *(f"left out: {sentence}" for sentence in left_out),
+        ),
     )
 
 
@@ -223,6 +235,14 @@ def _outside(corrections: Mapping[str, Correction], spans: Sequence[IntervalEsti
     for sensor, correction in corrections.items():
         if correction.calibration is not None:
             yield outside_row(correction.source, correction.calibration, [span.applied[sensor] for span in spans])
+
+
+def _doubts(corrections: Mapping[str, Correction], spans: Sequence[IntervalEstimates]) -> Iterator[str]:
+    exact = tuple(
+        name for name, one in corrections.items() if one.calibration is None or one.calibration.posterior is None
+    )
+    for span in spans:
+        yield from skin_doubts(span, exact)
 
 
 def _for_table(experiment: Experiment, span: IntervalEstimates) -> EstimatedSpan:
@@ -235,6 +255,8 @@ def _for_table(experiment: Experiment, span: IntervalEstimates) -> EstimatedSpan
         outside={
             sensor: np.ma.masked_array(applied.outside, mask=~applied.known) for sensor, applied in span.applied.items()
         },
+        uncertain=span.uncertain,
+        centres={source.contact.name: source.centre for source in span.skin},
     )
 
 

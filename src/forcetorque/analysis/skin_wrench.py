@@ -131,11 +131,47 @@ def skin_wrench(
 
     Returns:
         Every contact of every frame.
+    """
+    content = load_patches(experiment) if isinstance(experiment, (Path, str)) else experiment
+    chosen = WrenchChoice() if choice is None else choice
+    return _answer(content, patch_frames(content, calibration, patch=patch, choice=chosen), chosen)
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class PatchFrames:
+    """A patch, and what its taxels say over a recording."""
+
+    patch: ExperimentPatch
+    """The patch in the experiment."""
+    skin: SkinPatch
+    """Its surface and wrenches."""
+    reader: PatchReader
+    """What turned its counts into pressures."""
+    looked: tuple[tuple[float, PressureFrame, SkinContacts], ...]
+    """Time in the middle of each mean of messages, s since the start of the recording; its pressures and contacts."""
+
+
+def patch_frames(
+    content: PatchExperiment,
+    calibration: Path | str | PatchCalibration,
+    *,
+    patch: str | None = None,
+    choice: WrenchChoice | None = None,
+) -> PatchFrames:
+    """Turn the counts of a patch into pressures and contacts, over a recording.
+
+    Args:
+        content: Experiment with the patch.
+        calibration: Calibration of its taxels, or its file.
+        patch: Name of the patch; None for the only one.
+        choice: How the wrench is told; by kriging if None.
+
+    Returns:
+        Pressures and contacts of every mean of messages.
 
     Raises:
         ExperimentError: If the file does not say where the taxels are.
     """
-    content = load_patches(experiment) if isinstance(experiment, (Path, str)) else experiment
     chosen = WrenchChoice() if choice is None else choice
     own = content.patch(patch)
     curves = read_patch_calibration(calibration) if isinstance(calibration, (Path, str)) else calibration
@@ -151,7 +187,7 @@ def skin_wrench(
         looked = [
             (middle, frame, find_contacts(skin, frame)) for middle, frame in _frames(reader, seconds, counts, chosen)
         ]
-    return _answer(content, own, skin, reader, looked, chosen)
+    return PatchFrames(patch=own, skin=skin, reader=reader, looked=tuple(looked))
 
 
 def _skin(layout: Path, chosen: WrenchChoice) -> SkinPatch:
@@ -219,14 +255,8 @@ def _frames(
         yield float(seconds[rows].mean()), reader.frame(counts[rows])
 
 
-def _answer(
-    content: PatchExperiment,
-    own: ExperimentPatch,
-    skin: SkinPatch,
-    reader: PatchReader,
-    looked: Sequence[tuple[float, PressureFrame, SkinContacts]],
-    chosen: WrenchChoice,
-) -> SkinWrench:
+def _answer(content: PatchExperiment, frames: PatchFrames, chosen: WrenchChoice) -> SkinWrench:
+    own, skin, reader, looked = frames.patch, frames.skin, frames.reader, frames.looked
     if not looked:
         raise SkinError(f"{content.file}: patch {own.name!r}: expected {chosen.averaged} messages or more, got fewer")
     seconds = np.array([middle for middle, _, _ in looked])

@@ -93,6 +93,10 @@ def planned_sensor(experiment: Experiment, wanted: str | None, calibration: Cali
     if name is None and len(experiment.sensors) > 1:
         known = ", ".join(sensor.name for sensor in experiment.sensors)
         raise ExperimentError(f"expected --sensor, as the experiment has several: {known}")
+    if not experiment.sensors:
+        raise ExperimentError(
+            f"{experiment.file}: expected [[sensor]], a force-torque sensor, got patches of skin only"
+        )
     sensor = experiment.sensors[0] if name is None else experiment.sensor(name)
     if calibration is not None:
         refuse_left_out(experiment, [sensor], {"--calibration": calibration})

@@ -14,10 +14,11 @@ import pyarrow as pa
 import pyarrow.csv as pacsv
 import pyarrow.parquet as pq
 
-from forcetorque.arrays import IntArray
+from forcetorque.arrays import FloatArray, IntArray
 from forcetorque.atomic import write_bytes_atomically
 from forcetorque.errors import FormatError
 from forcetorque.estimation import Estimates
+from forcetorque.estimation.uncertain import UncertainEstimates
 from forcetorque.robot import JointType, RobotModel, Wrenches
 from forcetorque.spatial import WRENCH_COMPONENTS, WRENCH_UNITS
 
@@ -47,13 +48,18 @@ class EstimatedSpan:
     outside: Mapping[str, npt.NDArray[Any]] = field(default_factory=dict)
     """By sensor that a calibration reads, whether its reading lies outside what was fitted; shape (n,) each; masked in
     gaps."""
+    uncertain: UncertainEstimates | None = None
+    """Contacts and torques with covariances, where there is skin."""
+    centres: Mapping[str, FloatArray] = field(default_factory=dict)
+    """By contact on skin its centre of pressure, NaN where it does not touch; shape (n, 3) each; m."""
 
 
 def write_estimates(path: Path | str, spans: Sequence[EstimatedSpan], model: RobotModel) -> int:
     """Write estimates; on any error the file keeps what it held before.
 
     Columns are `interval`, `stamp_ns`, `time_s`, and then `contact.NAME.fx`, `torque.JOINT`,
-    `expected.SENSOR.fx`, `measured.SENSOR.fx`, `outside.SENSOR`, `rank.PART`, `condition.PART` and `residual.PART.fx`.
+    `expected.SENSOR.fx`, `measured.SENSOR.fx`, `outside.SENSOR`, `rank.PART`, `condition.PART` and `residual.PART.fx`;
+    where there is skin `centre.PATCH 1.x`, and standard deviations `sd.contact.NAME.fx` and `sd.torque.JOINT`.
     Their units stand in the metadata of the Parquet fields. A cell is empty where an interval lacks the column, or a
     sample has a gap.
 
@@ -110,6 +116,21 @@ def _columns(span: EstimatedSpan, model: RobotModel) -> Iterator[_Column]:
         yield f"rank.{part}", "1", estimates.rank[:, k]
         yield f"condition.{part}", "1", estimates.condition[:, k]
     yield from _wrenches("residual", layout.parts, estimates.residual)
+    if span.uncertain is not None:
+        yield from _of_skin(span.centres, span.uncertain, model)
+
+
+def _of_skin(centres: Mapping[str, FloatArray], answer: UncertainEstimates, model: RobotModel) -> Iterator[_Column]:
+    """Contacts on skin, which other columns do not have, and standard deviations of everything."""
+    for name, centre in centres.items():
+        yield from _wrenches("contact", [name], answer.contact(name)[:, None])
+        for axis, values in zip("xyz", centre.T, strict=True):
+            yield f"centre.{name}.{axis}", "m", values
+    for name in answer.contacts:
+        yield from _wrenches("sd.contact", [name], answer.contact_sd(name)[:, None])
+    for k, joint in enumerate(answer.joints):
+        unit = "N" if model.joints[joint].type is JointType.PRISMATIC else "N m"
+        yield f"sd.torque.{joint}", unit, answer.torque_sd[:, k]
 
 
 def _wrenches(what: str, names: Iterable[str], values: npt.NDArray[np.float64]) -> Iterator[_Column]:

@@ -17,6 +17,7 @@ from forcetorque.experiment.inputs import Inputs, stated_in
 from forcetorque.experiment.intervals import read_intervals, read_supports
 from forcetorque.experiment.load_cases import read_load_cases
 from forcetorque.experiment.parse import parse_experiment
+from forcetorque.experiment.patches import skin_of_robot
 from forcetorque.experiment.plan_limits import read_plan
 from forcetorque.experiment.sensors import declare_sensors, read_sensors
 from forcetorque.experiment.streams import read_streams
@@ -42,10 +43,10 @@ def load_experiment(path: Path | str) -> Experiment:
     """
     file = Path(path)
     parsed = parse_experiment(file)
-    if not parsed.sensor:
+    if not parsed.sensor and (parsed.robot is None or not any(patch.table for patch in parsed.patch)):
         raise ExperimentError(
             f"{file}: expected [[sensor]], a force-torque sensor, got patches of skin only; `forcetorque skin` and "
-            "`forcetorque inspect` read such a file"
+            "`forcetorque inspect` read such a file; `forcetorque estimate` does with [robot] and a patch's table"
         )
     return _of_wrist(parsed, file) if parsed.load is not None else _of_robot(parsed, file)
 
@@ -63,7 +64,9 @@ def _of_robot(parsed: schema.ExperimentFile, file: Path) -> Experiment:
     intervals = read_intervals(parsed, file, streams, supports, model, default=None)
     with stated_in(str(file)):
         recording = streams.with_intervals(intervals)
-    sensors, hashes = read_sensors(parsed, file, model, recording, inputs), inputs.sha256()
+    sensors = read_sensors(parsed, file, model, recording, inputs)
+    skin = skin_of_robot(parsed, file, model, recording, inputs)
+    hashes = inputs.sha256()
     return Experiment(
         name=parsed.name,
         file=file,
@@ -85,6 +88,7 @@ def _of_robot(parsed: schema.ExperimentFile, file: Path) -> Experiment:
         load_cases=read_load_cases(parsed.load_case, file, model),
         supports=tuple(support for support in supports.values() if isinstance(support, Support)),
         plan=read_plan(parsed.plan, file, model, supports.values()),
+        skin=skin,
     )
 
 

@@ -16,9 +16,9 @@ from forcetorque.estimation.reference import Block, body_states
 from forcetorque.estimation.uncertain.actions import actions_of, actors_of
 from forcetorque.estimation.uncertain.covariance import wrench_covariances
 from forcetorque.estimation.uncertain.equations import Scene
-from forcetorque.estimation.uncertain.estimates import UncertainEstimates
+from forcetorque.estimation.uncertain.estimates import BY_SAMPLE, UncertainEstimates
 from forcetorque.estimation.uncertain.posterior import posterior_of
-from forcetorque.estimation.uncertain.uncertainty import Tangents, Uncertainty
+from forcetorque.estimation.uncertain.uncertainty import Uncertainty
 from forcetorque.estimation.uncertain.undetermined import Undetermined, undetermined_of
 from forcetorque.robot import JointMotion, RootMotion
 from forcetorque.robot.kinematics import BodyState
@@ -162,10 +162,7 @@ def _checked(question: Question, uncertainty: Uncertainty, n: int) -> Uncertaint
 
 
 def _cut(uncertainty: Uncertainty, block: slice) -> Uncertainty:
-    tangents = {
-        name: Tangents(maps=one.maps[block], sd_N=None if one.sd_N is None else one.sd_N[block])
-        for name, one in uncertainty.tangents.items()
-    }
+    tangents = {name: one.of_samples(block) for name, one in uncertainty.tangents.items()}
     measured, known = (
         {name: values[block] for name, values in given.items()} for given in (uncertainty.measured, uncertainty.known)
     )
@@ -179,18 +176,7 @@ def _blocks(n: int) -> Iterator[slice]:
 
 def _joined(blocks: list[UncertainEstimates]) -> UncertainEstimates:
     """One after the other."""
-    arrays: dict[str, Any] = {
-        name: np.concatenate([getattr(block, name) for block in blocks])
-        for name in (
-            "contact_wrenches",
-            "contact_covariance",
-            "torques",
-            "torque_covariance",
-            "residual",
-            "rank",
-            "condition",
-        )
-    }
+    arrays: dict[str, Any] = {name: np.concatenate([getattr(block, name) for block in blocks]) for name in BY_SAMPLE}
     first = blocks[0]
     return UncertainEstimates(
         contacts=first.contacts,

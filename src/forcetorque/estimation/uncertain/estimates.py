@@ -3,13 +3,25 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Any, Final
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray, IntArray
+from forcetorque.arrays import BoolArray, FloatArray, IntArray
 from forcetorque.errors import EstimationError, known_names
 from forcetorque.estimation.uncertain.undetermined import Undetermined
+
+BY_SAMPLE: Final = (
+    "contact_wrenches",
+    "contact_covariance",
+    "torques",
+    "torque_covariance",
+    "residual",
+    "rank",
+    "condition",
+)
+"""Fields with a row for each sample."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -42,6 +54,19 @@ class UncertainEstimates:
 
     def __len__(self) -> int:
         return len(self.torques)
+
+    def of_samples(self, kept: BoolArray) -> UncertainEstimates:
+        """Keep some samples.
+
+        Args:
+            kept: Which; shape (n,).
+
+        Returns:
+            Their estimates.
+        """
+        arrays: dict[str, Any] = {name: getattr(self, name)[kept] for name in BY_SAMPLE}
+        hidden = [replace(one, samples=one.samples[kept]) for one in self.undetermined if one.samples[kept].any()]
+        return replace(self, **arrays, undetermined=tuple(hidden))
 
     @property
     def torque_sd(self) -> FloatArray:

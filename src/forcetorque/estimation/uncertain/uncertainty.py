@@ -37,6 +37,17 @@ class Tangents:
                 )
             object.__setattr__(self, "sd_N", sd)
 
+    def of_samples(self, kept: slice | BoolArray) -> Tangents:
+        """Keep some samples.
+
+        Args:
+            kept: Which.
+
+        Returns:
+            The same in those.
+        """
+        return Tangents(maps=self.maps[kept], sd_N=None if self.sd_N is None else self.sd_N[kept])
+
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Uncertainty:
