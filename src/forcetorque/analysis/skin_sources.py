@@ -20,7 +20,6 @@ from forcetorque.estimation.uncertain import (
     skin_sources,
 )
 from forcetorque.experiment import Experiment
-from forcetorque.experiment.inputs import stated_in
 from forcetorque.robot import Wrenches
 
 
@@ -57,11 +56,10 @@ def _sources(experiment: Experiment, frames: PatchFrames, at_ns: IntArray) -> It
     patch, start_ns = frames.patch, experiment.recording.start_ns
     frame_ns = start_ns + np.array([np.rint(1e9 * middle) for middle, _, _ in frames.looked], dtype=np.int64)
     oldest_s = OLDEST_S if patch.oldest_s is None else patch.oldest_s
-    with stated_in(str(experiment.file)):
-        rows = frames_before(frame_ns, at_ns, patch=patch.name, oldest_s=oldest_s)
-        link = frames.skin.layout.frame if patch.link is None else patch.link
-        contacts = [contacts for _, _, contacts in frames.looked]
-        yield from skin_sources(patch.name, link, contacts, rows, friction=patch.friction)
+    rows = frames_before(frame_ns, at_ns, patch=patch.name, oldest_s=oldest_s)
+    link = frames.skin.layout.frame if patch.link is None else patch.link
+    contacts = [contacts for _, _, contacts in frames.looked]
+    yield from skin_sources(patch.name, link, contacts, rows, friction=patch.friction)
 
 
 def uncertainty_of(

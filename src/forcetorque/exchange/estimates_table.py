@@ -59,7 +59,8 @@ def write_estimates(path: Path | str, spans: Sequence[EstimatedSpan], model: Rob
 
     Columns are `interval`, `stamp_ns`, `time_s`, and then `contact.NAME.fx`, `torque.JOINT`,
     `expected.SENSOR.fx`, `measured.SENSOR.fx`, `outside.SENSOR`, `rank.PART`, `condition.PART` and `residual.PART.fx`;
-    where there is skin `centre.PATCH 1.x`, and standard deviations `sd.contact.NAME.fx` and `sd.torque.JOINT`.
+    where there is skin `centre.PATCH 1.x`, and standard deviations `sd.contact.NAME.fx` and `sd.torque.JOINT`, and
+    `determined`, whether nothing is hidden from all readings.
     Their units stand in the metadata of the Parquet fields. A cell is empty where an interval lacks the column, or a
     sample has a gap.
 
@@ -131,6 +132,7 @@ def _of_skin(centres: Mapping[str, FloatArray], answer: UncertainEstimates, mode
     for k, joint in enumerate(answer.joints):
         unit = "N" if model.joints[joint].type is JointType.PRISMATIC else "N m"
         yield f"sd.torque.{joint}", unit, answer.torque_sd[:, k]
+    yield "determined", "1", answer.determined
 
 
 def _wrenches(what: str, names: Iterable[str], values: npt.NDArray[np.float64]) -> Iterator[_Column]:

@@ -153,6 +153,10 @@ class Draws:
     """What happens on the skin, friction included; shape (n, k, 6)."""
     centres: FloatArray
     """Where; shape (n, k, 3); m."""
+    pushes: FloatArray
+    """What happens on the skin without friction; shape (n, k, 6)."""
+    normals: FloatArray
+    """Which way is out there; shape (n, k, 3)."""
     foot: FloatArray
     """What happens at the foot; shape (n, 6)."""
 
@@ -219,5 +223,7 @@ def draw(
         sources=sources,
         skin_truth=truth,
         centres=np.array([[one.centre for one in truths] for truths, _ in drawn]),
+        pushes=np.array([[one.wrench for one in truths] for truths, _ in drawn]),
+        normals=np.array([[_normal(one) for one in truths] for truths, _ in drawn]),
         foot=at_foot,
     )

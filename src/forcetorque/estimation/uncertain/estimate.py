@@ -200,10 +200,7 @@ def _hidden_over(blocks: list[UncertainEstimates]) -> Iterator[Undetermined]:
 
 def _refuse_undetermined(answer: UncertainEstimates) -> None:
     """Refuse where no sample is determined; where some are, the others are NaN."""
-    hidden = np.zeros(len(answer), dtype=np.bool_)
-    for one in answer.undetermined:
-        hidden |= one.samples
-    if len(hidden) and hidden.all():
+    if len(answer) and not answer.determined.any():
         words = "; ".join(one.sentence for one in answer.undetermined)
         raise EstimationError(
             f"{words}; take a contact away or make it a pure force, state the friction of skin contacts, or measure "

@@ -69,6 +69,14 @@ class UncertainEstimates:
         return replace(self, **arrays, undetermined=tuple(hidden))
 
     @property
+    def determined(self) -> BoolArray:
+        """Whether everything is determined in a sample; shape (n,)."""
+        hidden = np.zeros(len(self), dtype=np.bool_)
+        for one in self.undetermined:
+            hidden |= one.samples
+        return ~hidden
+
+    @property
     def torque_sd(self) -> FloatArray:
         """Standard deviation of each torque; shape (n, joints)."""
         return _deviations(self.torque_covariance)

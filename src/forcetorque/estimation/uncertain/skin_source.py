@@ -19,6 +19,8 @@ from forcetorque.skin.contact import SkinContacts
 TILT_RAD: Final = 0.011
 """Standard deviation of the direction of a skin's force about either tangent: root mean square of 157 simulated
 contacts on a lower leg, in range and off its edge; the covariance of pressures does not hold it."""
+PLACE_M: Final = 0.0006
+"""The same of the place of a contact along either tangent, of the same contacts; m."""
 OLDEST_S: Final = 0.5
 """How much older than a pose the frame of pressures that belongs to it may be; s."""
 
@@ -78,13 +80,14 @@ def frames_before(frame_ns: IntArray, at_ns: IntArray, *, patch: str, oldest_s: 
             f"patch {patch!r}: expected a frame of pressures before sample {early[0]}, the first one comes later "
             f"({len(early)} of {len(at_ns)} samples are before it); start the interval later"
         )
-    age_s = 1e-9 * (at_ns - frame_ns[newest])
-    old = np.flatnonzero(age_s > oldest_s)
+    age_ns = at_ns - frame_ns[newest]
+    old = np.flatnonzero(age_ns > round(1e9 * oldest_s))
     if len(old):
         raise EstimationError(
             f"patch {patch!r}: expected a frame of pressures at most {oldest_s:g} s older than the pose, got "
-            f"{age_s[old].max():.3g} s ({len(old)} of {len(at_ns)} samples, the first is {old[0]}); the patch did not "
-            "send, so leave these samples out of the interval, or state a larger oldest_s in [[patch]] if nothing moved"
+            f"{1e-9 * age_ns[old].max():.3g} s ({len(old)} of {len(at_ns)} samples, the first is {old[0]}); the patch "
+            "did not send: leave these samples out of the interval, or state a larger oldest_s in [[patch]] if nothing "
+            "moved"
         )
     return np.asarray(newest, dtype=np.int64)
 
@@ -143,10 +146,13 @@ def _source(
     elif friction > 0.0:
         tangents = Tangents(maps=maps, sd_N=SLIPPING * friction * force[rows])
     tilted = TILT_RAD * force[rows, None, None] * maps
+    # a push that acts elsewhere has another moment, by the way along the skin times the force
+    shifted = PLACE_M * np.cross(maps[:, :3], wrench[rows, :3, None], axis=1)
+    moved = np.concatenate([np.zeros_like(shifted), shifted], axis=1)
     return SkinSource(
         contact=Contact(link=link, name=name, type=ContactType.KNOWN),
         wrench=wrench[rows],
-        covariance=covariance[rows] + tilted @ tilted.transpose(0, 2, 1),
+        covariance=covariance[rows] + tilted @ tilted.transpose(0, 2, 1) + moved @ moved.transpose(0, 2, 1),
         tangents=tangents,
         centre=centre[rows],
         beyond_range=beyond[rows],
