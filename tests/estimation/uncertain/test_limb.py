@@ -43,6 +43,9 @@ DRAWS = 60
 LEAST, MOST = 0.90, 0.98
 """Shares of numbers that 95 % intervals may hold."""
 NEARLY_ALL = 0.90
+FREE = 0.85
+"""The same with free tangents, whose points and directions are taken as exact: measured 0.89 with two contacts, 0.92
+with three, where the least seen direction makes errors of newtons out of tenths of a millimetre."""
 WORSE = 3.0
 """By how much more the smallest solution without skin is off than skin is; measured 7 to 13 times without friction."""
 HIDDEN = 0.5
@@ -250,6 +253,8 @@ def test_a_leg_of_real_taxels(name: str, leg: Shin) -> None:
             assert LEAST <= one.inside <= MOST, what
         elif case.friction == case.believed:
             assert one.inside >= NEARLY_ALL, what
+        elif case.believed is None:
+            assert one.inside >= FREE, what
     if case.foot and case.friction == 0.0:
         assert smallest_error(touched, foot=True) > WORSE * told["foot force"].rmse
 
