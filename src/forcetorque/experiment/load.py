@@ -39,16 +39,37 @@ def load_experiment(path: Path | str) -> Experiment:
     Raises:
         MissingFileError: If a file is not there.
         FormatError: If a file does not have its form.
-        ExperimentError: If the file contradicts itself, the robot or the recording.
+        ExperimentError: If it has no sensor, or contradicts itself, the robot or the recording.
     """
     file = Path(path)
     parsed = parse_experiment(file)
-    if not parsed.sensor and (parsed.robot is None or not any(patch.table for patch in parsed.patch)):
+    if not parsed.sensor:
         raise ExperimentError(
             f"{file}: expected [[sensor]], a force-torque sensor, got patches of skin only; `forcetorque skin` and "
             "`forcetorque inspect` read such a file; `forcetorque estimate` does with [robot] and a patch's table"
         )
     return _of_wrist(parsed, file) if parsed.load is not None else _of_robot(parsed, file)
+
+
+def load_touched_robot(path: Path | str) -> Experiment:
+    """Read an experiment file whose robot may have skin in place of force-torque sensors.
+
+    Args:
+        path: TOML file; the paths in it are relative to its folder.
+
+    Returns:
+        The experiment, without sensors where the file has none.
+
+    Raises:
+        MissingFileError: If a file is not there.
+        FormatError: If a file does not have its form.
+        ExperimentError: If it has neither a sensor nor a patch with a table, or contradicts itself, the robot or the
+            recording.
+    """
+    file = Path(path)
+    parsed = parse_experiment(file)
+    alone = not parsed.sensor and parsed.robot is not None and any(patch.table for patch in parsed.patch)
+    return _of_robot(parsed, file) if alone else load_experiment(file)
 
 
 def _of_robot(parsed: schema.ExperimentFile, file: Path) -> Experiment:
