@@ -10,6 +10,8 @@ import numpy as np
 
 from forcetorque.analysis.answerable import narrowed
 from forcetorque.analysis.reading import Correction, Readings, readings_at, wrench_at
+from forcetorque.analysis.skin_sources import frames_of_patches, sources_at, uncertainty_of, with_skin
+from forcetorque.analysis.skin_wrench import PatchFrames
 from forcetorque.analysis.validity import AppliedReadings, applied_readings
 from forcetorque.arrays import FloatArray, IntArray
 from forcetorque.errors import ExperimentError
@@ -19,6 +21,7 @@ from forcetorque.estimation import (
     Estimates,
     MinimumNorm,
     Question,
+    TorqueSum,
     estimate,
     indistinguishable,
     moving_joints,
@@ -26,9 +29,10 @@ from forcetorque.estimation import (
 )
 from forcetorque.estimation.picked import PaddedSamples, padded_samples
 from forcetorque.estimation.samples import robot_motion_at
+from forcetorque.estimation.uncertain import SkinSource, UncertainEstimates, estimate_with_covariance
 from forcetorque.experiment.contacts import contacts_at_sensors, contacts_in, touched_otherwise
 from forcetorque.experiment.content import Experiment, ExperimentContact
-from forcetorque.recording import Interval, MovingSupport, Support, Use
+from forcetorque.recording import Interval, MovingSupport, Stream, Support, Use
 from forcetorque.recording.alignment import interpolate, require_overlap
 from forcetorque.robot import JointMotion, Wrenches, build_tree
 
@@ -51,6 +55,10 @@ class IntervalEstimates:
     """Unknowns that cannot be told apart, by sub-model."""
     applied: Mapping[str, AppliedReadings]
     """Of every sensor that a calibration reads, which readings lie outside what was fitted; n samples, smoothed."""
+    skin: tuple[SkinSource, ...] = ()
+    """Contacts on skin; n samples, as they were felt."""
+    uncertain: UncertainEstimates | None = None
+    """Contacts and torques with covariances, before any filter; None without skin."""
 
 
 def estimate_experiment(
@@ -84,7 +92,8 @@ def estimate_experiment(
         raise ExperimentError(f"experiment {experiment.name!r}: expected an interval that is not to be ignored")
     named = experiment.contacts if contacts is None else tuple(contacts)
     scale = experiment.length_scale if length_scale is None else length_scale
-    source = experiment.recording.stream(experiment.sensors[0].stream)
+    source = _clock(experiment)
+    patches = frames_of_patches(experiment)
     recording, smoothing = experiment.recording, experiment.processing.smoothing
     taken = [
         padded_samples(recording, source, each, smoothing, apart=touched_otherwise(each, recording, named))
@@ -95,7 +104,7 @@ def estimate_experiment(
     for interval, samples in zip(intervals, taken, strict=True):
         before = done
         report = None if progress is None else lambda count, start=before: progress(start + count, total)
-        results.append(_over(experiment, corrections, interval, samples, named, scale, report))
+        results.append(_over(experiment, corrections, interval, samples, named, scale, report, patches))
         done += len(samples.rows)
     return results
 
@@ -108,16 +117,18 @@ def _over(
     named: Sequence[ExperimentContact],
     length_scale: float | None,
     progress: Callable[[int], None] | None,
+    patches: Sequence[PatchFrames],
 ) -> IntervalEstimates:
     support = interval.support
     if support is None:
         raise ExperimentError(f"interval {interval.label!r}: expected a support frame")
     present, at_ns, inside = contacts_in(interval, named), samples.stamp_ns, samples.inside
-    question = _question(experiment, support, present, asked=bool(named), length_scale=length_scale)
+    skin = sources_at(experiment, patches, at_ns)
+    question = _question(experiment, support, present, skin, asked=bool(named), length_scale=length_scale)
     available = set(experiment.recording.joint_signals("position"))
     question, left_out = narrowed(question, available, required={entry.contact.name for entry in present})
     processing = experiment.processing
-    source = experiment.recording.stream(experiment.sensors[0].stream)
+    source = _clock(experiment)
     joints, root = robot_motion_at(
         experiment.recording,
         experiment.model,
@@ -129,15 +140,16 @@ def _over(
     )
     for stream in (*_reading_streams(experiment, corrections), *(e.stream for e in present if e.stream)):
         require_overlap(source, experiment.recording.stream(stream))
-    measured = Wrenches.of(
-        {
-            sensor.name: wrench_at(experiment, sensor, corrections[sensor.name], at_ns, interval=interval)
-            for sensor in experiment.sensors
-        }
-    )
-    estimates = estimate(
-        question, joints, root, measured=measured, known=_known(experiment, question, present, at_ns), progress=progress
-    )
+    measured = _measured(experiment, corrections, interval, at_ns)
+    known = _known(experiment, question, present, skin, at_ns)
+    estimates = estimate(question, joints, root, measured=measured, known=known, progress=progress)
+    answer = None
+    if patches:
+        uncertainty = uncertainty_of(experiment, corrections, skin, measured, label=interval.label)
+        answer = estimate_with_covariance(
+            question, joints, root, measured=measured, known=known, uncertainty=uncertainty
+        )
+        estimates = with_skin(estimates, answer)
     return IntervalEstimates(
         interval=interval,
         stamp_ns=at_ns[inside],
@@ -146,7 +158,29 @@ def _over(
         left_out=tuple(left_out),
         ambiguous=indistinguishable(question, JointMotion.at_rest(joints.names, joints.position[inside])),
         applied=dict(_applied(experiment, corrections, interval, samples)),
+        skin=tuple(source.of_samples(inside) for source in skin),
+        uncertain=None if answer is None else answer.of_samples(inside),
     )
+
+
+def _clock(experiment: Experiment) -> Stream:
+    """The stream at whose instants is estimated: of the first sensor, or of the first patch where there is none."""
+    recording = experiment.recording
+    if experiment.sensors:
+        return recording.stream(experiment.sensors[0].stream)
+    if experiment.skin is None:
+        raise ExperimentError(f"experiment {experiment.name!r}: expected a sensor or a patch with a table, got neither")
+    return recording.stream(experiment.skin.patches[0].counts)
+
+
+def _measured(
+    experiment: Experiment, corrections: Mapping[str, Correction], interval: Interval, at_ns: IntArray
+) -> Wrenches:
+    readings = {
+        sensor.name: wrench_at(experiment, sensor, corrections[sensor.name], at_ns, interval=interval)
+        for sensor in experiment.sensors
+    }
+    return Wrenches.of(readings) if readings else Wrenches(names=(), values=np.empty((len(at_ns), 0, 6)))
 
 
 def _applied(
@@ -180,6 +214,7 @@ def _question(
     experiment: Experiment,
     support: Support | MovingSupport,
     present: Sequence[ExperimentContact],
+    skin: Sequence[SkinSource],
     *,
     asked: bool,
     length_scale: float | None,
@@ -194,20 +229,26 @@ def _question(
     return Question(
         tree=tree,
         measured=sensors,
-        contacts=tuple(contacts),
+        contacts=(*contacts, *(source.contact for source in skin)),
         torques=moving_joints(tree),
+        # errors leave nothing in a sub-model that its neighbours' torques would need
+        torque_sum=TorqueSum.WHOLE_TREE if experiment.skin is None else TorqueSum.SUB_MODEL,
         expected=sensors,
         minimum_norm=None if length_scale is None else MinimumNorm(length_scale=length_scale),
     )
 
 
 def _known(
-    experiment: Experiment, question: Question, present: Sequence[ExperimentContact], at_ns: IntArray
+    experiment: Experiment,
+    question: Question,
+    present: Sequence[ExperimentContact],
+    skin: Sequence[SkinSource],
+    at_ns: IntArray,
 ) -> Wrenches | None:
     streams = {e.contact.name: e.stream for e in present if e.stream is not None}
-    wrenches: dict[str, FloatArray] = {}
+    wrenches = {source.contact.name: source.wrench for source in skin}
     for contact in question.contacts:
-        if contact.type is ContactType.KNOWN:
+        if contact.type is ContactType.KNOWN and contact.name in streams:
             stream = experiment.recording.stream(streams[contact.name])
             wrenches[contact.name] = interpolate(stream, stream.signal("wrench").values, at_ns)
     return Wrenches.of(wrenches) if wrenches else None

@@ -12,6 +12,7 @@ from pydantic import Field
 
 from forcetorque.analysis.estimate import IntervalEstimates
 from forcetorque.analysis.reading import Correction
+from forcetorque.analysis.skin_summary import SkinContactSummary, skin_doubts, skin_rows
 from forcetorque.analysis.torque_fusion import IntervalFusion, TorqueFusion, summarise_fusion
 from forcetorque.analysis.validity import ReadingsOutside, outside_row, sentences
 from forcetorque.arrays import FloatArray, IntArray
@@ -84,6 +85,8 @@ class EstimatedRecording(Row):
     """One per sensor that a calibration reads: how far its readings lie outside what was fitted."""
     fusion: TorqueFusion | None = None
     """Joint torques of several sources; not in the JSON where they were not asked for."""
+    skin: tuple[SkinContactSummary, ...] = ()
+    """One per interval and contact on skin."""
 
 
 class EstimateSummary(Result):
@@ -111,6 +114,8 @@ class EstimateSummary(Result):
     """One per sensor that a calibration reads: how far its readings lie outside what was fitted."""
     fusion: TorqueFusion | None = None
     """Joint torques of several sources; not in the JSON where they were not asked for."""
+    skin: tuple[SkinContactSummary, ...] = ()
+    """One per interval and contact on skin."""
     recordings: tuple[EstimatedRecording, ...] = ()
     """Of several recordings one each, where these things then stand; none where there is one recording."""
 
@@ -155,6 +160,8 @@ class EstimateSummary(Result):
 def _tables(recording: EstimateSummary | EstimatedRecording) -> Iterator[Table | str]:
     if recording.contacts:
         yield table_of(recording.contacts, recording.experiment)
+    if recording.skin:
+        yield table_of(recording.skin, f"{recording.experiment}: contacts on skin")
     if recording.parts:
         yield table_of(recording.parts, "")
     for row in recording.parts:
@@ -231,8 +238,10 @@ def summarise_estimates(
         left_out=left_out,
         validity=validity,
         fusion=fusion,
+        skin=tuple(row for span in spans for row in skin_rows(span)),
         warnings=(
             *sentences(validity),
+            *_doubts(corrections, spans),
             *(f"left out: {sentence}" for sentence in left_out),
             *(() if fusion is None else fusion.warnings()),
         ),
@@ -243,6 +252,14 @@ def _outside(corrections: Mapping[str, Correction], spans: Sequence[IntervalEsti
     for sensor, correction in corrections.items():
         if correction.calibration is not None:
             yield outside_row(correction.source, correction.calibration, [span.applied[sensor] for span in spans])
+
+
+def _doubts(corrections: Mapping[str, Correction], spans: Sequence[IntervalEstimates]) -> Iterator[str]:
+    exact = tuple(
+        name for name, one in corrections.items() if one.calibration is None or one.calibration.posterior is None
+    )
+    for span in spans:
+        yield from skin_doubts(span, exact)
 
 
 def _for_table(experiment: Experiment, span: IntervalEstimates, fused: IntervalFusion | None) -> EstimatedSpan:
@@ -257,6 +274,8 @@ def _for_table(experiment: Experiment, span: IntervalEstimates, fused: IntervalF
         },
         fused_joints=() if fused is None else fused.fusion.joints,
         torques={} if fused is None else dict(fused.columns()),
+        uncertain=span.uncertain,
+        centres={source.contact.name: source.centre for source in span.skin},
     )
 
 

@@ -59,7 +59,7 @@ def estimate(
     """
     from forcetorque import analysis
     from forcetorque.analysis.campaign_recording import refuse_a_file_twice
-    from forcetorque.cli.reading import read_calibrations, read_experiment
+    from forcetorque.cli.reading import read_calibrations, read_touched_robot
     from forcetorque.exchange.estimates_table import SUFFIXES
     from forcetorque.experiment.inputs import stated_in
 
@@ -70,7 +70,7 @@ def estimate(
     summaries = {}
     for path, file in _outputs(experiments, output).items():
         # a recording goes when its estimates are written: there may be more of them than memory holds
-        content = read_experiment(path, log)
+        content = read_touched_robot(path, log)
         with stated_in(str(path)):
             summaries[str(path)] = _estimated(content, calibrations, contacts, length_scale, file, log, fuse=fuse)
     several = len(summaries) > 1

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import logging
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Callable, Collection, Iterable, Mapping
 from contextlib import nullcontext
 from pathlib import Path
 
@@ -12,7 +12,7 @@ from forcetorque.analysis import Campaign, SensorRun
 from forcetorque.analysis.campaign_recording import refuse_a_file_twice
 from forcetorque.calibration import Calibration, RecordingMoments, read_calibration, read_moments
 from forcetorque.errors import ExperimentError, ForceTorqueError
-from forcetorque.experiment import Experiment, ExperimentSensor, load_experiment
+from forcetorque.experiment import Experiment, ExperimentSensor, load_experiment, load_touched_robot
 from forcetorque.experiment.inputs import stated_in
 from forcetorque.experiment.planned import load_planned
 from forcetorque.paths import real_path
@@ -28,8 +28,25 @@ def read_experiment(path: Path, log: logging.Logger) -> Experiment:
     Returns:
         The experiment.
     """
+    return _with_findings(load_experiment, path, log)
+
+
+def read_touched_robot(path: Path, log: logging.Logger) -> Experiment:
+    """Read an experiment whose robot may have skin in place of sensors, and warn as `read_experiment` does.
+
+    Args:
+        path: Experiment file.
+        log: Where messages go.
+
+    Returns:
+        The experiment.
+    """
+    return _with_findings(load_touched_robot, path, log)
+
+
+def _with_findings(load: Callable[[Path], Experiment], path: Path, log: logging.Logger) -> Experiment:
     log.info("reading %s", path)
-    experiment = load_experiment(path)
+    experiment = load(path)
     for finding in experiment.recording.findings:
         log.warning("%s: %s", finding.stream, finding.message)
     return experiment

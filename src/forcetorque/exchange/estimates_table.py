@@ -14,10 +14,11 @@ import pyarrow as pa
 import pyarrow.csv as pacsv
 import pyarrow.parquet as pq
 
-from forcetorque.arrays import IntArray
+from forcetorque.arrays import FloatArray, IntArray
 from forcetorque.atomic import write_bytes_atomically
 from forcetorque.errors import FormatError
 from forcetorque.estimation import Estimates
+from forcetorque.estimation.uncertain import UncertainEstimates
 from forcetorque.robot import JointType, RobotModel, Wrenches
 from forcetorque.spatial import WRENCH_COMPONENTS, WRENCH_UNITS
 
@@ -51,13 +52,19 @@ class EstimatedSpan:
     """Joints of `torques`."""
     torques: Mapping[str, npt.NDArray[np.float64]] = field(default_factory=dict)
     """Torques by source of a fusion, or of all together; shape (n, joints) each; N m, N where prismatic."""
+    uncertain: UncertainEstimates | None = None
+    """Contacts and torques with covariances, where there is skin."""
+    centres: Mapping[str, FloatArray] = field(default_factory=dict)
+    """By contact on skin its centre of pressure, NaN where it does not touch; shape (n, 3) each; m."""
 
 
 def write_estimates(path: Path | str, spans: Sequence[EstimatedSpan], model: RobotModel) -> int:
     """Write estimates; on any error the file keeps what it held before.
 
     Columns are `interval`, `stamp_ns`, `time_s`, and then `contact.NAME.fx`, `torque.JOINT`, `torque_SOURCE.JOINT`,
-    `expected.SENSOR.fx`, `measured.SENSOR.fx`, `outside.SENSOR`, `rank.PART`, `condition.PART` and `residual.PART.fx`.
+    `expected.SENSOR.fx`, `measured.SENSOR.fx`, `outside.SENSOR`, `rank.PART`, `condition.PART` and `residual.PART.fx`;
+    where there is skin `centre.PATCH 1.x`, and standard deviations `sd.contact.NAME.fx` and `sd.torque.JOINT`, and
+    `determined`, whether nothing is hidden from all readings.
     Their units stand in the metadata of the Parquet fields. A cell is empty where an interval lacks the column, or a
     sample has a gap.
 
@@ -116,6 +123,22 @@ def _columns(span: EstimatedSpan, model: RobotModel) -> Iterator[_Column]:
         yield f"rank.{part}", "1", estimates.rank[:, k]
         yield f"condition.{part}", "1", estimates.condition[:, k]
     yield from _wrenches("residual", layout.parts, estimates.residual)
+    if span.uncertain is not None:
+        yield from _of_skin(span.centres, span.uncertain, model)
+
+
+def _of_skin(centres: Mapping[str, FloatArray], answer: UncertainEstimates, model: RobotModel) -> Iterator[_Column]:
+    """Contacts on skin, which other columns do not have, and standard deviations of everything."""
+    for name, centre in centres.items():
+        yield from _wrenches("contact", [name], answer.contact(name)[:, None])
+        for axis, values in zip("xyz", centre.T, strict=True):
+            yield f"centre.{name}.{axis}", "m", values
+    for name in answer.contacts:
+        yield from _wrenches("sd.contact", [name], answer.contact_sd(name)[:, None])
+    for k, joint in enumerate(answer.joints):
+        unit = "N" if model.joints[joint].type is JointType.PRISMATIC else "N m"
+        yield f"sd.torque.{joint}", unit, answer.torque_sd[:, k]
+    yield "determined", "1", answer.determined
 
 
 def _wrenches(what: str, names: Iterable[str], values: npt.NDArray[np.float64]) -> Iterator[_Column]:

@@ -2,7 +2,7 @@
 """The experiment file: from TOML to robot, recording, intervals and sensors."""
 
 from forcetorque.experiment.content import Experiment, ExperimentSensor
-from forcetorque.experiment.load import load_experiment
+from forcetorque.experiment.load import load_experiment, load_touched_robot
 from forcetorque.experiment.parse import parse_experiment
 from forcetorque.experiment.patches import ExperimentPatch, PatchExperiment, PatchInterval, load_patches, patches_of
 from forcetorque.experiment.schema import ExperimentFile
@@ -17,5 +17,6 @@ __all__ = [
     "load_experiment",
     "load_patches",
     "patches_of",
+    "load_touched_robot",
     "parse_experiment",
 ]

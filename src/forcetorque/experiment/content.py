@@ -14,6 +14,7 @@ from forcetorque.errors import ExperimentError, known_names
 from forcetorque.estimation import Contact, Payload, Processing
 from forcetorque.experiment.fusion_schema import FusionTable, MotorTable
 from forcetorque.experiment.load_case_schema import LoadCaseTable
+from forcetorque.experiment.patches import PatchExperiment
 from forcetorque.experiment.plan_schema import PlanTable
 from forcetorque.experiment.recording_names import path_endings, recording_name
 from forcetorque.recording import Interval, Recording, ScalarSource, Support, Use
@@ -193,6 +194,8 @@ class Experiment:
     """Supports at rest that the file states, used or not."""
     plan: PlanTable | None = None
     """What can be recorded next, as the file states it."""
+    skin: PatchExperiment | None = None
+    """Patches of skin whose contacts are sources of force; None where no patch states its table."""
 
     def __repr__(self) -> str:
         sensors = ", ".join(f"{sensor.name} ({sensor.serial})" for sensor in self.sensors)

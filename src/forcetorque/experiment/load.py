@@ -18,6 +18,7 @@ from forcetorque.experiment.intervals import read_intervals, read_supports
 from forcetorque.experiment.load_cases import read_load_cases
 from forcetorque.experiment.motors import require_motors
 from forcetorque.experiment.parse import parse_experiment
+from forcetorque.experiment.patches import skin_of_robot
 from forcetorque.experiment.plan_limits import read_plan
 from forcetorque.experiment.sensors import declare_sensors, read_sensors
 from forcetorque.experiment.streams import read_streams
@@ -39,16 +40,37 @@ def load_experiment(path: Path | str) -> Experiment:
     Raises:
         MissingFileError: If a file is not there.
         FormatError: If a file does not have its form.
-        ExperimentError: If the file contradicts itself, the robot or the recording.
+        ExperimentError: If it has no sensor, or contradicts itself, the robot or the recording.
     """
     file = Path(path)
     parsed = parse_experiment(file)
     if not parsed.sensor:
         raise ExperimentError(
             f"{file}: expected [[sensor]], a force-torque sensor, got patches of skin only; `forcetorque skin` and "
-            "`forcetorque inspect` read such a file"
+            "`forcetorque inspect` read such a file; `forcetorque estimate` does with [robot] and a patch's table"
         )
     return _of_wrist(parsed, file) if parsed.load is not None else _of_robot(parsed, file)
+
+
+def load_touched_robot(path: Path | str) -> Experiment:
+    """Read an experiment file whose robot may have skin in place of force-torque sensors.
+
+    Args:
+        path: TOML file; the paths in it are relative to its folder.
+
+    Returns:
+        The experiment, without sensors where the file has none.
+
+    Raises:
+        MissingFileError: If a file is not there.
+        FormatError: If a file does not have its form.
+        ExperimentError: If it has neither a sensor nor a patch with a table, or contradicts itself, the robot or the
+            recording.
+    """
+    file = Path(path)
+    parsed = parse_experiment(file)
+    alone = not parsed.sensor and parsed.robot is not None and any(patch.table for patch in parsed.patch)
+    return _of_robot(parsed, file) if alone else load_experiment(file)
 
 
 def _of_robot(parsed: schema.ExperimentFile, file: Path) -> Experiment:
@@ -64,7 +86,9 @@ def _of_robot(parsed: schema.ExperimentFile, file: Path) -> Experiment:
     intervals = read_intervals(parsed, file, streams, supports, model, default=None)
     with stated_in(str(file)):
         recording = streams.with_intervals(intervals)
-    sensors, hashes = read_sensors(parsed, file, model, recording, inputs), inputs.sha256()
+    sensors = read_sensors(parsed, file, model, recording, inputs)
+    skin = skin_of_robot(parsed, file, model, recording, inputs)
+    hashes = inputs.sha256()
     return Experiment(
         name=parsed.name,
         file=file,
@@ -88,6 +112,7 @@ def _of_robot(parsed: schema.ExperimentFile, file: Path) -> Experiment:
         motors=require_motors(parsed.motor, file, model, recording),
         fusion=parsed.fusion,
         plan=read_plan(parsed.plan, file, model, supports.values()),
+        skin=skin,
     )
 
 

@@ -3,13 +3,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
 
 from forcetorque.arrays import BoolArray, IntArray
-from forcetorque.errors import ExperimentError, known_names
+from forcetorque.errors import ExperimentError, MissingFileError, known_names
 from forcetorque.experiment import schema
 from forcetorque.experiment.inputs import Inputs, stated_in
 from forcetorque.experiment.intervals import refuse_overlap, span_ns
@@ -17,6 +17,7 @@ from forcetorque.experiment.parse import parse_experiment
 from forcetorque.experiment.streams import read_streams
 from forcetorque.recording import Recording, Use
 from forcetorque.recording.alignment import require_overlap
+from forcetorque.robot import RobotModel
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -63,6 +64,10 @@ class ExperimentPatch:
     """Link that it is mounted on, where the file says so."""
     table: Path | None = None
     """File with the calibration of its taxels, where the file says so."""
+    friction: float | None = None
+    """Coefficient that bounds the tangential force; None where nothing is known of it."""
+    oldest_s: float | None = None
+    """How much older than a pose its frame may be, where the file says so; s."""
     columns: int
     """Numbers in one message of counts."""
     taxels: IntArray
@@ -144,18 +149,92 @@ def load_patches(path: Path | str) -> PatchExperiment:
     inputs = Inputs(file.parent)
     inputs.file(Path(file.name))
     recording = read_streams(parsed, file, None, inputs)
-    names = [entry.name for entry in parsed.patch]
-    for index, name in enumerate(names):
-        if name in names[:index]:
-            raise ExperimentError(f"{file}: patch[{index}]: {name!r} is listed twice; keep one")
     return PatchExperiment(
         name=parsed.name,
         file=file,
         recording=recording,
-        patches=tuple(_patch(f"{file}: patch[{k}]", entry, recording, inputs) for k, entry in enumerate(parsed.patch)),
+        patches=read_patches(parsed, file, recording, inputs),
         intervals=_intervals(parsed, file, recording),
         inputs_sha256=inputs.sha256(),
     )
+
+
+def read_patches(
+    parsed: schema.ExperimentFile, file: Path, recording: Recording, inputs: Inputs
+) -> tuple[ExperimentPatch, ...]:
+    """Match the patches of a file to their streams.
+
+    Args:
+        parsed: Content of the experiment file.
+        file: The experiment file, for messages.
+        recording: The recording.
+        inputs: Keeps track of the files that are read.
+
+    Returns:
+        The patches in the order of the file.
+
+    Raises:
+        ExperimentError: If a name comes twice, or a patch contradicts its stream.
+    """
+    names = [entry.name for entry in parsed.patch]
+    for index, name in enumerate(names):
+        if name in names[:index]:
+            raise ExperimentError(f"{file}: patch[{index}]: {name!r} is listed twice; keep one")
+    return tuple(_patch(f"{file}: patch[{k}]", entry, recording, inputs) for k, entry in enumerate(parsed.patch))
+
+
+def skin_of_robot(
+    parsed: schema.ExperimentFile, file: Path, model: RobotModel, recording: Recording, inputs: Inputs
+) -> PatchExperiment | None:
+    """Give the patches that are sources of force: those with a calibration of their taxels, each on a link.
+
+    Args:
+        parsed: Content of the experiment file.
+        file: The experiment file, for messages.
+        model: The robot.
+        recording: The recording.
+        inputs: Keeps track of the files that are read.
+
+    Returns:
+        The patches; None where no patch states its table.
+
+    Raises:
+        MissingFileError: If a table is not there.
+        ExperimentError: If a patch is on no link of the robot, or the file does not say which.
+    """
+    tables = [entry.table for entry in parsed.patch if entry.table is not None]
+    if not tables:
+        return None
+    for table in tables:
+        if not inputs.file(table).is_file():
+            raise MissingFileError(
+                f"{inputs.folder / table}: expected a calibration of taxels, there is none; `forcetorque skin "
+                "calibrate` makes one"
+            )
+    patches = [_on_link(file, patch, model) for patch in read_patches(parsed, file, recording, inputs) if patch.table]
+    return PatchExperiment(
+        name=parsed.name,
+        file=file,
+        recording=recording,
+        patches=tuple(patches),
+        intervals=_intervals(parsed, file, recording),
+        inputs_sha256=inputs.sha256(),
+    )
+
+
+def _on_link(file: Path, patch: ExperimentPatch, model: RobotModel) -> ExperimentPatch:
+    """The patch with its link, that of the layout where the file does not say."""
+    from forcetorque.exchange.skin import describe_patch
+
+    link = patch.link
+    if link is None and patch.layout is not None:
+        link = describe_patch(patch.layout).frame
+    if link not in model.links:
+        raise ExperimentError(
+            f"{file}: patch {patch.name!r}: expected the link that it is mounted on, got {link!r}, and robot "
+            f"{model.name!r} has none such; {known_names(link or '', model.links)}; state link in [[patch]]"
+        )
+    return replace(patch, link=link)
 
 
 def _patch(where: str, entry: schema.Patch, recording: Recording, inputs: Inputs) -> ExperimentPatch:
@@ -185,6 +264,8 @@ def _patch(where: str, entry: schema.Patch, recording: Recording, inputs: Inputs
         layout=None if entry.layout is None else inputs.folder / entry.layout,
         link=entry.link,
         table=None if entry.table is None else inputs.folder / entry.table,
+        friction=entry.friction,
+        oldest_s=entry.oldest_s,
         columns=columns,
         taxels=taxels,
     )

@@ -157,6 +157,10 @@ class Patch(Table):
     """Link that it is mounted on; that of the layout if left out."""
     table: Path | None = None
     """Calibration of its taxels, as `forcetorque skin calibrate` writes it; where it is stated, contacts are shown."""
+    friction: Annotated[float, Field(ge=0.0)] | None = None
+    """Coefficient that bounds the tangential force, which skin does not feel; without one nothing is known of it."""
+    oldest_s: Positive | None = None
+    """How much older than a pose the frame of pressures that belongs to it may be; s."""
 
 
 class Trial(Table):

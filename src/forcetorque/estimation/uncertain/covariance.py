@@ -1,0 +1,70 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Covariances of wrenches: what can be one, and its square root."""
+
+from __future__ import annotations
+
+from typing import Any, Final
+
+import numpy as np
+
+from forcetorque.arrays import BoolArray, FloatArray, require_shape
+from forcetorque.errors import EstimationError
+
+_ROUNDING: Final = 1e-9
+"""Asymmetry and negative eigenvalues up to this share of the largest element are rounding: sums of products of doubles
+err by some 1e-15."""
+
+
+def wrench_covariances(values: Any, *, name: str, samples: int) -> FloatArray:
+    """Check covariances of wrenches.
+
+    Args:
+        values: One for all samples, shape (6, 6), or one each, shape (n, 6, 6); NaN for a gap; N², N² m, N² m².
+        name: What they are of, for messages.
+        samples: Number of samples, n.
+
+    Returns:
+        One for each sample; shape (n, 6, 6).
+
+    Raises:
+        EstimationError: If one is infinite, not symmetric, or has a negative eigenvalue: then no error has it.
+    """
+    given = np.asarray(values, dtype=np.float64)
+    if given.ndim == 2:
+        given = given[None]
+    if len(given) == 1:
+        given = np.broadcast_to(given, (samples, *given.shape[1:]))
+    require_shape(given, name=f"covariance of {name!r}", shape=(samples, 6, 6))
+    largest = np.abs(given).max(axis=(1, 2), initial=0.0)
+    _refuse(np.isinf(largest), name, "finite numbers, or NaN for a gap", largest)
+    whole: BoolArray = np.all(np.isfinite(given), axis=(1, 2))
+    safe = np.where(whole[:, None, None], given, 0.0)
+    asymmetry = np.abs(safe - safe.transpose(0, 2, 1)).max(axis=(1, 2))
+    _refuse(asymmetry > _ROUNDING * largest, name, "a symmetric matrix", asymmetry)
+    smallest = np.linalg.eigvalsh(safe)[:, 0]
+    _refuse(smallest < -_ROUNDING * largest, name, "no negative eigenvalue", smallest)
+    return given
+
+
+def square_root(covariance: FloatArray) -> FloatArray:
+    """Give a matrix whose product with its transpose is a covariance; also of one that has no inverse.
+
+    Args:
+        covariance: Covariances; NaN for a gap; shape (n, 6, 6).
+
+    Returns:
+        Square roots, NaN where the covariance has one; shape (n, 6, 6).
+    """
+    whole: BoolArray = np.all(np.isfinite(covariance), axis=(1, 2))
+    values, vectors = np.linalg.eigh(np.where(whole[:, None, None], covariance, 0.0))
+    root: FloatArray = vectors * np.sqrt(np.maximum(values, 0.0))[:, None, :]
+    return np.where(whole[:, None, None], root, np.nan)
+
+
+def _refuse(bad: BoolArray, name: str, expected: str, values: FloatArray) -> None:
+    if bad.any():
+        sample = int(np.flatnonzero(bad)[0])
+        raise EstimationError(
+            f"covariance of {name!r}, sample {sample}: expected {expected}, got {values[sample]:.3g} "
+            f"({np.count_nonzero(bad)} such samples); a covariance is the mean of products of errors with each other"
+        )

@@ -1,0 +1,208 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Answer a question with covariances: what is wrong with readings and known wrenches goes linearly to the answers."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Any, Final
+
+import numpy as np
+
+from forcetorque.arrays import FloatArray
+from forcetorque.errors import EstimationError, ShapeError, known_names
+from forcetorque.estimation.inputs import Inputs, checked_inputs, refuse_infinite
+from forcetorque.estimation.question import Question, TorqueSum
+from forcetorque.estimation.reference import Block, body_states
+from forcetorque.estimation.uncertain.actions import actions_of, actors_of
+from forcetorque.estimation.uncertain.covariance import wrench_covariances
+from forcetorque.estimation.uncertain.equations import Scene
+from forcetorque.estimation.uncertain.estimates import BY_SAMPLE, UncertainEstimates
+from forcetorque.estimation.uncertain.posterior import posterior_of
+from forcetorque.estimation.uncertain.uncertainty import Uncertainty
+from forcetorque.estimation.uncertain.undetermined import Undetermined, undetermined_of
+from forcetorque.robot import JointMotion, RootMotion
+from forcetorque.robot.kinematics import BodyState
+from forcetorque.robot.newton_euler import net_wrench
+from forcetorque.robot.wrenches import Wrenches
+from forcetorque.spatial import make_pose, transform_wrench
+
+_BLOCK: Final = 256
+"""Samples at once: matrices of all sub-models, for each of them, stay in the processor's cache."""
+
+
+def estimate_with_covariance(
+    question: Question,
+    joints: JointMotion,
+    root: RootMotion,
+    *,
+    measured: Wrenches | None = None,
+    known: Wrenches | None = None,
+    active: Mapping[str, Any] | None = None,
+    uncertainty: Uncertainty | None = None,
+) -> UncertainEstimates:
+    """Estimate contact wrenches and torques, and how far off they may be.
+
+    Readings and known wrenches are as uncertain as is said; model and motion are exact. Where there are more equations
+    than unknowns, what is surplus corrects readings and known wrenches, each as far as its covariance allows.
+
+    Args:
+        question: What is asked; its torques are summed up inside sub-models (`TorqueSum.SUB_MODEL`).
+        joints: Motion of at least the joints that it depends on (`required_joints_of`); n samples.
+        root: Motion of the root link's frame; one sample or n.
+        measured: Readings of at least the sensors that the tree is cut at, in their frames and directions.
+        known: Wrenches of at least the known contacts, in their contact frames.
+        active: By the name of an unknown contact, whether it is there; shape (n,), bool; others always are.
+        uncertainty: What is not known of these; all is exact if None.
+
+    Returns:
+        The answer.
+
+    Raises:
+        EstimationError: If a covariance is not one, inputs are missing, the question sums torques up otherwise, or
+            something is determined in no sample; the message says along which forces.
+    """
+    if question.torques and question.torque_sum is not TorqueSum.SUB_MODEL:
+        raise EstimationError(
+            f"torque_sum: expected {TorqueSum.SUB_MODEL}, got {question.torque_sum}; sums over the whole tree would "
+            "need the motion of joints beyond sensors for nothing, as errors explain what sub-models leave"
+        )
+    inputs = checked_inputs(question, joints, root, measured, known, active)
+    checked = _checked(question, uncertainty or Uncertainty(), len(joints))
+    answer = _joined([_answer(question, inputs, checked, block) for block in _blocks(len(joints))])
+    _refuse_undetermined(answer)
+    return answer
+
+
+def _answer(question: Question, inputs: Inputs, uncertainty: Uncertainty, block: slice) -> UncertainEstimates:
+    refuse_infinite(inputs, block)
+    scene = _scene(question, inputs, uncertainty, block)
+    parts = inputs.needs.solved
+    posterior = posterior_of(scene.equations(parts))
+    n = len(posterior.rank)
+    wrenches, covariance = posterior.answers(scene.contact_rows())
+    torques, torque_covariance = posterior.answers(scene.torque_rows())
+    contacts = tuple(contact.name for contact in (*question.unknown, *question.known))
+    own = np.arange(len(contacts))
+    squares = covariance.reshape(n, len(contacts), 6, len(contacts), 6)
+    return UncertainEstimates(
+        contacts=contacts,
+        contact_wrenches=wrenches.reshape(n, len(contacts), 6),
+        contact_covariance=np.moveaxis(squares[:, own, :, own], 0, 1),
+        joints=question.torques,
+        torques=torques,
+        torque_covariance=torque_covariance,
+        parts=tuple(part.name for part in parts),
+        residual=posterior.residual.reshape(n, len(parts), 6),
+        rank=posterior.rank,
+        condition=posterior.condition,
+        undetermined=undetermined_of(scene.actors, posterior.hidden),
+    )
+
+
+def _scene(question: Question, inputs: Inputs, uncertainty: Uncertainty, block: slice) -> Scene:
+    n, samples = block.stop - block.start, inputs.joints.samples(block)
+    measured = inputs.measured.values[block][:, inputs.measured_columns]
+    known = inputs.known.values[block][:, inputs.known_columns]
+    root = np.stack([np.broadcast_to(v if len(v) == 1 else v[block], (n, 3)) for v in inputs.root])
+    active = np.array(inputs.active[block])
+    given = Block(joints=samples, root=root, measured=measured, known=known, active=active.astype(np.float64))
+    states = body_states(question, inputs.needs, given)
+    poses = _poses(question, states, n)
+    tree = question.tree
+    return Scene(
+        question=question,
+        actors=actors_of(question, measured, known, active, _cut(uncertainty, block)),
+        actions=list(actions_of(question, poses)),
+        needs={
+            index: transform_wrench(pose, net_wrench(tree.bodies[index].inertia, states[index]))
+            for index, pose in poses.items()
+            if inputs.needs.carrying[index] and not tree.bodies[index].inertia.is_zero
+        },
+        poses=poses,
+    )
+
+
+def _poses(question: Question, states: Mapping[int, BodyState], n: int) -> dict[int, FloatArray]:
+    """`root_H_body` of all bodies whose motion is needed."""
+    poses: dict[int, FloatArray] = {}
+    for index, state in states.items():
+        parent = question.tree.bodies[index].parent
+        if parent < 0:
+            poses[index] = np.broadcast_to(np.eye(4), (n, 4, 4))
+            continue
+        rotation, position = (
+            np.broadcast_to(state.parent_R_body, (n, 3, 3)),
+            np.broadcast_to(state.parent_p_body, (n, 3)),
+        )
+        poses[index] = poses[parent] @ make_pose(rotation, position)
+    return poses
+
+
+def _checked(question: Question, uncertainty: Uncertainty, n: int) -> Uncertainty:
+    """Covariances of what the question names, one for each sample."""
+    known = [contact.name for contact in question.known]
+    for what, given, names in (
+        ("measured", uncertainty.measured, question.measured),
+        ("known", uncertainty.known, known),
+        ("tangents", uncertainty.tangents, known),
+    ):
+        for name in given:
+            if name not in names:
+                raise EstimationError(
+                    f"uncertainty.{what}: the question has none of {name!r}; {known_names(name, names)}"
+                )
+    for name, tangents in uncertainty.tangents.items():
+        if len(tangents.maps) != n:
+            raise ShapeError(f"tangents of {name!r}: expected {n} samples, got {len(tangents.maps)}")
+    return Uncertainty(
+        measured={k: wrench_covariances(v, name=k, samples=n) for k, v in uncertainty.measured.items()},
+        known={k: wrench_covariances(v, name=k, samples=n) for k, v in uncertainty.known.items()},
+        tangents=dict(uncertainty.tangents),
+    )
+
+
+def _cut(uncertainty: Uncertainty, block: slice) -> Uncertainty:
+    tangents = {name: one.of_samples(block) for name, one in uncertainty.tangents.items()}
+    measured, known = (
+        {name: values[block] for name, values in given.items()} for given in (uncertainty.measured, uncertainty.known)
+    )
+    return Uncertainty(measured=measured, known=known, tangents=tangents)
+
+
+def _blocks(n: int) -> Iterator[slice]:
+    for start in range(0, max(n, 1), _BLOCK):
+        yield slice(start, min(start + _BLOCK, n))
+
+
+def _joined(blocks: list[UncertainEstimates]) -> UncertainEstimates:
+    """One after the other."""
+    arrays: dict[str, Any] = {name: np.concatenate([getattr(block, name) for block in blocks]) for name in BY_SAMPLE}
+    first = blocks[0]
+    return UncertainEstimates(
+        contacts=first.contacts,
+        joints=first.joints,
+        parts=first.parts,
+        undetermined=tuple(_hidden_over(blocks)),
+        **arrays,
+    )
+
+
+def _hidden_over(blocks: list[UncertainEstimates]) -> Iterator[Undetermined]:
+    sets = dict.fromkeys(one.contacts for block in blocks for one in block.undetermined)
+    for contacts in sets:
+        marks, directions = [], None
+        for block in blocks:
+            here = next((one for one in block.undetermined if one.contacts == contacts), None)
+            marks.append(np.zeros(len(block), dtype=np.bool_) if here is None else here.samples)
+            directions = directions or (None if here is None else here.directions)
+        yield Undetermined(contacts=contacts, samples=np.concatenate(marks), directions=directions or ())
+
+
+def _refuse_undetermined(answer: UncertainEstimates) -> None:
+    """Refuse where no sample is determined; where some are, the others are NaN."""
+    if len(answer) and not answer.determined.any():
+        words = "; ".join(one.sentence for one in answer.undetermined)
+        raise EstimationError(
+            f"{words}; take a contact away or make it a pure force, state the friction of skin contacts, or measure "
+            "with one more sensor in between"
+        )

@@ -1,0 +1,159 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Contacts on skin as known wrenches: the push is felt, with its point; the tangential force is not (thesis 7.3)."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Final
+
+import numpy as np
+
+from forcetorque.arrays import BoolArray, FloatArray, IntArray
+from forcetorque.errors import EstimationError
+from forcetorque.estimation.contact import Contact, ContactType
+from forcetorque.estimation.uncertain.uncertainty import SLIPPING, Tangents, tangent_maps
+from forcetorque.skin.contact import SkinContacts
+
+TILT_RAD: Final = 0.011
+"""Standard deviation of the direction of a skin's force about either tangent: root mean square of 157 simulated
+contacts on a lower leg, in range and off its edge; the covariance of pressures does not hold it."""
+PLACE_M: Final = 0.0006
+"""The same of the place of a contact along either tangent, of the same contacts; m."""
+OLDEST_S: Final = 0.5
+"""How much older than a pose the frame of pressures that belongs to it may be; s."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class SkinSource:
+    """One contact on a patch, sample by sample; all is 0 where there is none."""
+
+    contact: Contact
+    """Known contact in the frame of the link."""
+    wrench: FloatArray
+    """What the pressure does to the link; shape (n, 6); N, N m."""
+    covariance: FloatArray
+    """Covariance of its error; shape (n, 6, 6)."""
+    tangents: Tangents | None
+    """The tangential force that skin does not feel; None for skin without friction."""
+    centre: FloatArray
+    """Centre of pressure; NaN where there is no contact; shape (n, 3); m."""
+    beyond_range: BoolArray
+    """Whether a taxel reads more than it was calibrated for; shape (n,)."""
+
+    def of_samples(self, kept: BoolArray) -> SkinSource:
+        """Keep some samples.
+
+        Args:
+            kept: Which; shape (n,).
+
+        Returns:
+            The same contact in those.
+        """
+        tangents = None if self.tangents is None else self.tangents.of_samples(kept)
+        names = ("wrench", "covariance", "centre", "beyond_range")
+        return SkinSource(
+            contact=self.contact, tangents=tangents, **{name: getattr(self, name)[kept] for name in names}
+        )
+
+
+def frames_before(frame_ns: IntArray, at_ns: IntArray, *, patch: str, oldest_s: float = OLDEST_S) -> IntArray:
+    """Give the newest frame of a patch at each instant.
+
+    Args:
+        frame_ns: Stamps of frames, increasing; shape (f,); ns.
+        at_ns: Instants; shape (n,); ns.
+        patch: Name of the patch, for messages.
+        oldest_s: How old a frame may be; s.
+
+    Returns:
+        Index of a frame for each; shape (n,).
+
+    Raises:
+        EstimationError: If the newest frame is older at an instant, or there is none yet.
+    """
+    newest = np.searchsorted(frame_ns, at_ns, side="right") - 1
+    early = np.flatnonzero(newest < 0)
+    if len(early):
+        raise EstimationError(
+            f"patch {patch!r}: expected a frame of pressures before sample {early[0]}, the first one comes later "
+            f"({len(early)} of {len(at_ns)} samples are before it); start the interval later"
+        )
+    age_ns = at_ns - frame_ns[newest]
+    old = np.flatnonzero(age_ns > round(1e9 * oldest_s))
+    if len(old):
+        raise EstimationError(
+            f"patch {patch!r}: expected a frame of pressures at most {oldest_s:g} s older than the pose, got "
+            f"{1e-9 * age_ns[old].max():.3g} s ({len(old)} of {len(at_ns)} samples, the first is {old[0]}); the patch "
+            "did not send: leave these samples out of the interval, or state a larger oldest_s in [[patch]] if nothing "
+            "moved"
+        )
+    return np.asarray(newest, dtype=np.int64)
+
+
+def skin_sources(
+    patch: str,
+    link: str,
+    frames: Sequence[SkinContacts],
+    rows: IntArray,
+    *,
+    friction: float | None = None,
+) -> tuple[SkinSource, ...]:
+    """Make known wrenches of the contacts on a patch: the first of every frame, the second, and so on.
+
+    Friction may also turn a contact about its normal; that is left out, as it is small where contacts are.
+
+    Args:
+        patch: Name of the patch.
+        link: Link that it is on, in whose frame its contacts are.
+        frames: Contacts of each frame.
+        rows: Frame of each sample; shape (n,).
+        friction: Coefficient that bounds the tangential force; 0 for none; None where nothing is known of it.
+
+    Returns:
+        As many as the most contacts in one frame, named `PATCH 1`, `PATCH 2` and so on.
+
+    Raises:
+        EstimationError: If the coefficient is negative, or the covariance of a contact is not known.
+    """
+    if friction is not None and not 0.0 <= friction < math.inf:
+        raise EstimationError(f"patch {patch!r}: friction: expected a coefficient of at least 0, got {friction}")
+    most = max((len(frames[row]) for row in np.unique(rows)), default=0)
+    return tuple(_source(f"{patch} {k + 1}", link, frames, rows, k, friction) for k in range(most))
+
+
+def _source(
+    name: str, link: str, frames: Sequence[SkinContacts], rows: IntArray, number: int, friction: float | None
+) -> SkinSource:
+    wrench, covariance = np.zeros((len(frames), 6)), np.zeros((len(frames), 6, 6))
+    centre, normal = np.full((len(frames), 3), np.nan), np.full((len(frames), 3), np.nan)
+    force, beyond = np.zeros(len(frames)), np.zeros(len(frames), dtype=np.bool_)
+    for k in np.unique(rows).tolist():
+        if number < len(frames[k]):
+            contacts = frames[k]
+            wrench[k], covariance[k] = contacts.wrench[number], contacts.covariance[number]
+            centre[k], normal[k] = contacts.centre_of_pressure[number], contacts.normal[number]
+            force[k], beyond[k] = contacts.normal_force_N[number], contacts.beyond_range[number]
+    if np.isnan(covariance).any():
+        raise EstimationError(
+            f"{name!r}: expected the covariance of its wrench, which only the methods kriging and linear tell"
+        )
+    maps = tangent_maps(centre[rows], normal[rows])
+    tangents = None
+    if friction is None:
+        tangents = Tangents(maps=maps)
+    elif friction > 0.0:
+        tangents = Tangents(maps=maps, sd_N=SLIPPING * friction * force[rows])
+    tilted = TILT_RAD * force[rows, None, None] * maps
+    # a push that acts elsewhere has another moment, by the way along the skin times the force
+    shifted = PLACE_M * np.cross(maps[:, :3], wrench[rows, :3, None], axis=1)
+    moved = np.concatenate([np.zeros_like(shifted), shifted], axis=1)
+    return SkinSource(
+        contact=Contact(link=link, name=name, type=ContactType.KNOWN),
+        wrench=wrench[rows],
+        covariance=covariance[rows] + tilted @ tilted.transpose(0, 2, 1) + moved @ moved.transpose(0, 2, 1),
+        tangents=tangents,
+        centre=centre[rows],
+        beyond_range=beyond[rows],
+    )

@@ -1,0 +1,82 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What is not known of the inputs of an estimation: errors of wrenches, and the force that skin is blind to."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Final
+
+import numpy as np
+
+from forcetorque.arrays import BoolArray, FloatArray, read_only
+from forcetorque.errors import ShapeError
+
+SLIPPING: Final = 1.0 / np.sqrt(2.0)
+"""Standard deviation of each tangential component, over friction coefficient times normal force, of a contact that
+slips in a direction that nobody knows: the most that friction allows, so a contact that holds is covered too."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Tangents:
+    """The tangential force at a known contact, which is not part of its wrench."""
+
+    maps: FloatArray
+    """Wrench in the contact frame of 1 N along either tangent, 0 where nothing touches; shape (n, 6, 2); N/N, N m/N."""
+    sd_N: FloatArray | None = None
+    """Standard deviation about zero of each component; None where nothing is known of it; shape (n,); N."""
+
+    def __post_init__(self) -> None:
+        maps = read_only(self.maps, name="tangents: maps", shape=(None, 6, 2))
+        object.__setattr__(self, "maps", maps)
+        if self.sd_N is not None:
+            sd = read_only(self.sd_N, name="tangents: sd_N", shape=(len(maps),))
+            if (sd < 0.0).any() or np.isinf(sd).any():
+                raise ShapeError(
+                    "tangents: sd_N: expected finite numbers of at least 0, or None where nothing is known"
+                )
+            object.__setattr__(self, "sd_N", sd)
+
+    def of_samples(self, kept: slice | BoolArray) -> Tangents:
+        """Keep some samples.
+
+        Args:
+            kept: Which.
+
+        Returns:
+            The same in those.
+        """
+        return Tangents(maps=self.maps[kept], sd_N=None if self.sd_N is None else self.sd_N[kept])
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Uncertainty:
+    """What is not known of inputs; what is not named is exact."""
+
+    measured: Mapping[str, FloatArray] = field(default_factory=dict)
+    """Covariance of readings, by sensor; shape (6, 6) or (n, 6, 6); N², N² m, N² m²."""
+    known: Mapping[str, FloatArray] = field(default_factory=dict)
+    """Covariance of known wrenches, by contact; shape (6, 6) or (n, 6, 6)."""
+    tangents: Mapping[str, Tangents] = field(default_factory=dict)
+    """Tangential forces, by known contact; without it there is none."""
+
+
+def tangent_maps(points: FloatArray, normals: FloatArray) -> FloatArray:
+    """Say what tangential forces at points do.
+
+    Args:
+        points: Where they act; NaN where nothing touches; shape (n, 3); m.
+        normals: Unit normals there; shape (n, 3).
+
+    Returns:
+        Wrench of 1 N along two tangents at right angles, about the origin; 0 where nothing touches; shape (n, 6, 2).
+    """
+    there: BoolArray = np.all(np.isfinite(np.concatenate([points, normals], axis=1)), axis=1)
+    unit = np.where(there[:, None], normals, [0.0, 0.0, 1.0])
+    # the axis that is furthest from the normal
+    axis = np.eye(3)[np.abs(unit).argmin(axis=1)]
+    first = np.cross(unit, axis)
+    first /= np.linalg.norm(first, axis=1, keepdims=True)
+    forces = np.stack([first, np.cross(unit, first)], axis=2)  # (n, 3, 2)
+    moments = np.cross(np.where(there[:, None], points, 0.0)[:, :, None], forces, axis=1)
+    return np.where(there[:, None, None], np.concatenate([forces, moments], axis=1), 0.0)

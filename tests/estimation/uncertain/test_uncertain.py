@@ -1,0 +1,245 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Covariances go linearly to contacts and torques: against the plain estimator, by hand, and by drawing."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from forcetorque.arrays import FloatArray
+from forcetorque.errors import EstimationError
+from forcetorque.estimation import Contact, ContactType, Question, TorqueSum, estimate, moving_joints
+from forcetorque.estimation.uncertain import Uncertainty, estimate_with_covariance, wrench_covariances
+from forcetorque.robot import Wrenches
+from tests.estimation.simulated import random_pose
+from tests.estimation.touched import Touched, touched
+
+ROUNDING = 1e-7
+"""N, N m: wrenches of some 1e3 by 1e-13 each, through matrices of condition 1e3."""
+DRAWS = 4000
+SPREAD = 0.12
+"""A standard deviation of 4000 draws is off by 1.1 %, the largest of hundreds by 4 %; correlations a little more."""
+VISIBLE = 0.5
+"""Relative; what a negative control must exceed."""
+
+
+def _covariance(seed: int, size: float) -> FloatArray:
+    half = np.random.default_rng(seed).normal(size=(6, 6)) * size
+    return half @ half.T
+
+
+ALONE = ("l_leg_ft", "r_arm_ft")
+"""Sensors with an unknown wrench beyond each, so that no equation is surplus."""
+
+
+def _pushed(cut: tuple[str, ...] | None = None) -> tuple[Touched, Question, Wrenches]:
+    """A humanoid held at its root link, with unknown wrenches and a known one on limbs, cut at all sensors or some."""
+    rng = np.random.default_rng(4)
+    contacts = (
+        Contact(link="l_lower_leg", name="skin", type=ContactType.KNOWN, link_H_contact=random_pose(rng)),
+        Contact(link="l_foot", name="foot", link_H_contact=random_pose(rng)),
+        Contact(link="r_hand", name="hand", link_H_contact=random_pose(rng)),
+        Contact(link="root_link"),
+    )
+    robot = touched(contacts[:-1])
+    held = robot.simulation.total_needed() - np.sum(list(robot.simulation.on_links.values()), axis=0)
+    robot.simulation.touch(contacts[-1], held)
+    robot.truth["root_link"] = held
+    sensors = cut or tuple(robot.tree.cuts)
+    measured = Wrenches.of({sensor: robot.simulation.reading(sensor) for sensor in sensors})
+    joints = moving_joints(robot.tree)
+    question = Question(
+        tree=robot.tree, measured=sensors, contacts=contacts, torques=joints, torque_sum=TorqueSum.SUB_MODEL
+    )
+    return robot, question, measured
+
+
+def test_exact_input_gives_the_truth_and_no_spread() -> None:
+    """Without covariance the answer is the simulation's, as is that of the plain estimator."""
+    robot, question, measured = _pushed()
+    known = Wrenches.of({"skin": robot.truth["skin"]})
+    answer = estimate_with_covariance(question, robot.joints, robot.root, measured=measured, known=known)
+    plain = estimate(question, robot.joints, robot.root, measured=measured, known=known)
+    for name in ("foot", "hand", "root_link", "skin"):
+        np.testing.assert_allclose(answer.contact(name), robot.truth[name], rtol=0, atol=ROUNDING)
+    np.testing.assert_allclose(answer.torques, plain.torques, rtol=0, atol=ROUNDING)
+    for joint in question.torques:
+        np.testing.assert_allclose(answer.torque(joint), robot.simulation.torque(joint), rtol=0, atol=ROUNDING)
+    assert not answer.undetermined
+    assert np.abs(answer.torque_covariance).max() == 0.0
+
+
+def test_covariance_is_that_of_draws() -> None:
+    """What readings and skin err by comes out as their covariance says, in every contact and torque."""
+    robot, question, measured = _pushed(ALONE)
+    first = _first_sample(robot, measured)
+    covariances = {name: _covariance(k, 0.03) for k, name in enumerate(question.measured)}
+    of_skin = _covariance(9, 0.1)
+    uncertainty = Uncertainty(measured=covariances, known={"skin": of_skin})
+    inputs = {"joints": first.joints, "root": first.root}
+    known = Wrenches.of({"skin": robot.truth["skin"][:1]})
+    answer = estimate_with_covariance(question, **inputs, measured=first.measured, known=known, uncertainty=uncertainty)
+    contacts, torques = _drawn(question, first, known, covariances, of_skin)
+    looked = 0
+    for name in ("foot", "hand", "root_link"):
+        ratio = contacts[name].std(axis=0) / answer.contact_sd(name)[0]
+        np.testing.assert_allclose(ratio, 1.0, rtol=0, atol=SPREAD)
+        looked += 1
+    told = answer.torque_sd[0]
+    moved = told > ROUNDING
+    np.testing.assert_allclose(torques.std(axis=0)[moved] / told[moved], 1.0, rtol=0, atol=SPREAD)
+    np.testing.assert_allclose(torques.std(axis=0)[~moved], 0.0, rtol=0, atol=ROUNDING)
+    drawn = np.corrcoef(torques[:, moved].T)
+    stated = answer.torque_covariance[0][np.ix_(moved, moved)] / np.outer(told[moved], told[moved])
+    np.testing.assert_allclose(stated, drawn, rtol=0, atol=SPREAD)
+    assert looked == 3
+    assert moved.sum() > 10
+    # negative control: twice the errors are seen
+    wrong = estimate_with_covariance(
+        question,
+        **inputs,
+        measured=first.measured,
+        known=known,
+        uncertainty=replace(uncertainty, known={"skin": 4.0 * of_skin}),
+    )
+    assert np.abs(wrong.contact_sd("foot") / answer.contact_sd("foot") - 1.0).max() > VISIBLE
+
+
+def _first_sample(robot: Touched, measured: Wrenches) -> Touched:
+    joints = robot.joints.samples(slice(0, 1))
+    root = type(robot.root)(
+        **{
+            name: getattr(robot.root, name)[:1]
+            for name in ("proper_acceleration", "angular_velocity", "angular_acceleration")
+        }
+    )
+    return replace(robot, joints=joints, root=root, measured=Wrenches(names=measured.names, values=measured.values[:1]))
+
+
+def _drawn(
+    question: Question, first: Touched, known: Wrenches, covariances: dict[str, FloatArray], of_skin: FloatArray
+) -> tuple[dict[str, FloatArray], FloatArray]:
+    """Errors of the plain estimator, by drawing."""
+    rng = np.random.default_rng(5)
+    values = np.repeat(first.measured.values, DRAWS, axis=0)
+    for k, name in enumerate(first.measured.names):
+        values[:, k] += rng.multivariate_normal(np.zeros(6), covariances[name], DRAWS)
+    skin = known.of_name("skin") + rng.multivariate_normal(np.zeros(6), of_skin, DRAWS)
+    joints = type(first.joints)(
+        names=first.joints.names,
+        **{
+            name: np.repeat(getattr(first.joints, name), DRAWS, axis=0)
+            for name in ("position", "velocity", "acceleration")
+        },
+    )
+    plain = estimate(
+        question,
+        joints,
+        first.root,
+        measured=Wrenches(names=first.measured.names, values=values),
+        known=Wrenches.of({"skin": skin}),
+    )
+    return {name: plain.contact(name) for name in ("foot", "hand", "root_link")}, plain.torques
+
+
+def test_a_surplus_equation_weighs_both_by_their_covariance() -> None:
+    """A known wrench and a sensor that both tell one contact: the mean of the two by inverse covariance, by hand."""
+    robot, question, measured = _pushed()
+    contacts = tuple(
+        Contact(link=c.link, name=c.name, type=ContactType.KNOWN, link_H_contact=c.link_H_contact)
+        if c.name in ("hand", "foot", "skin")
+        else c
+        for c in question.contacts
+    )
+    asked = replace(question, contacts=contacts)
+    true = {name: robot.truth[name] for name in ("hand", "foot", "skin")}
+    wrong = {**true, "hand": true["hand"] + 1.0}
+    at_hand, at_arm = _covariance(1, 0.2), _covariance(2, 0.1)
+    answer = estimate_with_covariance(
+        asked,
+        robot.joints,
+        robot.root,
+        measured=measured,
+        known=Wrenches.of(wrong),
+        uncertainty=Uncertainty(known={"hand": at_hand}, measured={"r_arm_ft": at_arm}),
+    )
+    hand = next(c for c in contacts if c.name == "hand")
+    into_hand = _into_hand(robot, hand)
+    looked = 0
+    for k, matrix in enumerate(into_hand):
+        seen = matrix @ at_arm @ matrix.T
+        gain = at_hand @ np.linalg.inv(at_hand + seen)
+        by_hand = wrong["hand"][k] + gain @ (true["hand"][k] - wrong["hand"][k])
+        np.testing.assert_allclose(answer.contact("hand")[k], by_hand, rtol=0, atol=ROUNDING)
+        np.testing.assert_allclose(answer.covariance_of("hand")[k], at_hand - gain @ at_hand, rtol=0, atol=ROUNDING)
+        looked += 1
+    assert looked == len(robot.joints)
+
+
+def _into_hand(robot: Touched, hand: Contact) -> FloatArray:
+    """How an error of the arm's sensor would be a wrench at the hand, (n, 6, 6)."""
+    columns = []
+    for unit in np.eye(6):
+        moved = replace(robot, measured=Wrenches.of({"r_arm_ft": np.tile(unit, (len(robot.joints), 1))}))
+        columns.append(robot.in_contact(hand, moved.passing("r_arm_ft")))
+    return np.stack(columns, axis=2)
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        (np.diag([1.0, 1.0, 1.0, 1.0, 1.0, -1.0]), "no negative eigenvalue, got -1"),
+        (np.eye(6) + np.eye(6, k=1), "a symmetric matrix"),
+        (np.diag([np.inf, 1.0, 1.0, 1.0, 1.0, 1.0]), "finite numbers"),
+    ],
+)
+def test_what_is_no_covariance_is_refused(change: FloatArray, words: str) -> None:
+    """Of whom, in which sample, and what is wrong."""
+    several = np.stack([np.eye(6), change])
+    with pytest.raises(EstimationError, match=f"covariance of 'skin', sample 1: expected {words}"):
+        wrench_covariances(several, name="skin", samples=2)
+    robot, question, measured = _pushed()
+    known = Wrenches.of({"skin": robot.truth["skin"]})
+    with pytest.raises(EstimationError, match="covariance of 'skin', sample 0"):
+        estimate_with_covariance(
+            question,
+            robot.joints,
+            robot.root,
+            measured=measured,
+            known=known,
+            uncertainty=Uncertainty(known={"skin": change}),
+        )
+
+
+def test_an_unknown_name_is_refused() -> None:
+    """A covariance of what the question does not have is a mistake, not nothing."""
+    robot, question, measured = _pushed()
+    known = Wrenches.of({"skin": robot.truth["skin"]})
+    with pytest.raises(EstimationError, match="the question has none of 'l_leg'"):
+        estimate_with_covariance(
+            question,
+            robot.joints,
+            robot.root,
+            measured=measured,
+            known=known,
+            uncertainty=Uncertainty(measured={"l_leg": np.eye(6)}),
+        )
+
+
+def test_a_gap_stays_in_its_sample() -> None:
+    """NaN in a reading makes NaN of that sample and of no other."""
+    robot, question, measured = _pushed()
+    values = measured.values.copy()
+    values[2, 0, 3] = np.nan
+    answer = estimate_with_covariance(
+        question,
+        robot.joints,
+        robot.root,
+        measured=Wrenches(names=measured.names, values=values),
+        known=Wrenches.of({"skin": robot.truth["skin"]}),
+    )
+    gap = np.isnan(answer.torques).any(axis=1)
+    assert gap.tolist() == [k == 2 for k in range(len(answer))]
+    assert not answer.undetermined
