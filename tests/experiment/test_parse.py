@@ -205,7 +205,7 @@ TABLES = {
     "[[sensor]]": (
         r"sensor\[0\]",
         "allowed_gains, amplifier_gain, frame, full_scale, joint, limit_counts, measure_direction, name, prior, "
-        "serial, stream, variable",
+        "reading_deviation, reading_noise, serial, stream, variable",
     ),
     "[[support]]": (r"support\[0\]", "frame, gravity_direction, imu"),
     'label = "judge"': (r"interval\[1\]", "end_s, kind, label, session, start_s, support, touched, use"),
@@ -217,8 +217,8 @@ TABLES = {
     ),
     'name = "small arm"': (
         "top level",
-        "calibration, contact, estimation, interval, load, load_case, name, patch, plan, processing, recording, robot, "
-        "schema, sensor, support, trial",
+        "calibration, contact, estimation, fusion, interval, load, load_case, motor, name, patch, plan, processing, "
+        "recording, robot, schema, sensor, support, trial",
     ),
 }
 

@@ -41,7 +41,6 @@ SI_FACTORS: dict[str, tuple[str, float]] = {
     "A": ("A", 1.0),
     "mA": ("A", 1e-3),
     "1": ("1", 1.0),
-    "%": ("1", 1e-2),
     "degC": ("degC", 1.0),
     "counts": ("counts", 1.0),
     "tick": ("tick", 1.0),
