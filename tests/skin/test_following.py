@@ -21,7 +21,9 @@ SHANK = WarmShank.drawn()
 PATCH = SkinPatch.of(SHANK.layout)
 TRUE_N = float(np.linalg.norm(SHANK.truth.wrench[:3]))
 LEAST_N = 0.7
-"""Error that heat from inside may leave; the object has 9.8 N."""
+"""Error of this object without heat, by its taxels and their tables; it has 9.8 N."""
+HEAT_N = 0.5
+"""What heat may change, noise of a frame included, of which there is 0.1."""
 
 
 @pytest.fixture(scope="module", name="table")
@@ -61,9 +63,15 @@ def _without_gains(heat: HeatGains) -> HeatGains:
 
 
 def test_heat_from_inside_is_no_force(table: PressureTable, learned: HeatGains) -> None:
-    """The object stays as heavy as it is, for five minutes; without gains it weighs many times that."""
+    """The object stays as heavy as it is, for five minutes; without gains it weighs many times that.
+
+    It is compared with what it weighs cold: what its few taxels tell of it then is another matter.
+    """
+    _, cold = _followed(table, learned, replace(HELD, inside_K=0.0))
+    forces = _forces(cold, 12.0, 309.0)
+    assert abs(forces.mean() - TRUE_N) < LEAST_N
     _, told = _followed(table, learned, HELD)
-    np.testing.assert_allclose(_forces(told, 12.0, 309.0), TRUE_N, atol=LEAST_N)
+    np.testing.assert_allclose(_forces(told, 12.0, 309.0), forces.mean(), atol=HEAT_N)
     _, wrong = _followed(table, _without_gains(learned), HELD)
     assert _forces(wrong, 300.0, 309.0).min() > 2.0 * TRUE_N
 
