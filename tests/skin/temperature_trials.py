@@ -40,7 +40,7 @@ HIGH_PASS_S: Final = 30.0
 """Time constant of a high-pass that moves the baseline of every taxel, touched or not."""
 LAST_S: Final = 10.0
 """Time over which errors are averaged; rules without a memory are asked for twice that at the end only."""
-DRAWS: Final = 40
+DRAWS: Final = 10
 """Patches with own taxels, gains, object and noise."""
 WARM_UP: Final = Warmth(hold_s=1200.0)
 """The recording without contact that gains are learned in."""
