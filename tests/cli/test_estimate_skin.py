@@ -128,7 +128,7 @@ def test_what_cannot_be_is_refused(old: str, new: str, words: str, run: Run, leg
 
 def test_a_message_beyond_the_range_is_said(run: Run, leg: Leg) -> None:
     """A calibration up to a low pressure makes every contact doubtful."""
-    assert run("skin", "calibrate", "bag.toml", "-o", "low.json", "--highest-kPa", "4").code == 0
+    assert run("skin", "calibrate", "bag.toml", "-o", "low.json", "--highest-kpa", "7").code == 0
     low = run("estimate", _changed("low.toml", ("shank.json", "low.json")), "-o", "low.parquet", "--format", "json")
     assert low.result()["skin"][0]["beyond_range"] > 0
     assert any("presses a taxel beyond what it was calibrated for" in words for words in low.log)

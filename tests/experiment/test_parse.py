@@ -71,7 +71,7 @@ def test_what_may_be_left_out_has_a_default(tmp_path: Path) -> None:
 
 def _documented() -> list[str]:
     blocks = re.findall(r"```toml\n(.*?)```", DOCUMENT.read_text(encoding="utf-8"), re.DOTALL)
-    assert len(blocks) == 6
+    assert len(blocks) == 7
     return blocks
 
 
@@ -103,11 +103,19 @@ def test_the_documented_variables_fit_into_it(tmp_path: Path) -> None:
 
 def test_the_documented_ports_and_imu_fit_into_it(tmp_path: Path) -> None:
     """The other kinds of ports and the moving support are accepted in place of their plain forms."""
-    whole, _, ports, moving, _, _ = _documented()
+    whole, _, ports, events, moving, _, _ = _documented()
     fixed = whole[whole.index("[[support]]") : whole.index("[processing]")]
-    parsed = _parse(tmp_path, whole.replace("[[sensor]]", f"{ports}\n[[sensor]]").replace(fixed, f"{moving}\n"))
+    logged = f"{ports}\n{events}\n[[sensor]]"
+    parsed = _parse(tmp_path, whole.replace("[[sensor]]", logged).replace(fixed, f"{moving}\n"))
     assert isinstance(parsed.recording, YarpLog)
-    assert {port.kind for port in parsed.recording.stream} == {"analog", "state_ext", "measures", "inertial", "state"}
+    assert {port.kind for port in parsed.recording.stream} == {
+        "analog",
+        "state_ext",
+        "measures",
+        "inertial",
+        "state",
+        "skin_events",
+    }
     assert parsed.support[0].imu == ("imu",)
 
 
@@ -116,7 +124,7 @@ def test_the_documented_wrist_is_complete_with_a_sensor_and_intervals(tmp_path: 
     head = 'schema = "forcetorque/experiment/1"\nname = "wrist"\n'
     sensor = '[[sensor]]\nname = "wrist"\nstream = "poses"\nserial = "FT1"\nprior = "identity"\n'
     interval = '[[interval]]\nlabel = "all"\nstart_s = 0\nuse = "calibration"\n'
-    parsed = _parse(tmp_path, f"{head}{_documented()[4]}\n{sensor}{interval}")
+    parsed = _parse(tmp_path, f"{head}{_documented()[5]}\n{sensor}{interval}")
     assert parsed.load is not None
     assert parsed.load.mass_kg == 0.932
     assert parsed.sensor[0].prior == "identity"
