@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import json
 from dataclasses import replace
 from pathlib import Path
 
@@ -106,12 +107,13 @@ def test_of_two_sources_both_are_suspected(arm: Path, fitted: Calibration) -> No
     assert [row.verdict for row in fusion.sources if row.interval == "judge"] == ["suspected", "suspected"]
 
 
-def test_without_fusion_the_json_does_not_have_it(arm: Path, fitted: Calibration) -> None:
-    """What nobody asked for is not there."""
+def test_what_nobody_asked_for_is_none(arm: Path, fitted: Calibration) -> None:
+    """In Python and in JSON, of one recording as of several."""
     experiment = load_experiment(with_motors(arm))
     corrections = corrections_of(experiment, {"fitted": fitted})
     summary = summarise_estimates(experiment, corrections, estimate_experiment(experiment, corrections))
-    assert '"fusion"' not in summary.json_text()
+    assert summary.fusion is None
+    assert json.loads(summary.json_text())["fusion"] is None
 
 
 @pytest.mark.parametrize(

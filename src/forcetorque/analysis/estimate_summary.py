@@ -84,7 +84,7 @@ class EstimatedRecording(Row):
     validity: tuple[ReadingsOutside, ...] = ()
     """One per sensor that a calibration reads: how far its readings lie outside what was fitted."""
     fusion: TorqueFusion | None = None
-    """Joint torques of several sources; not in the JSON where they were not asked for."""
+    """Joint torques of several sources; None where they were not asked for."""
     skin: tuple[SkinContactSummary, ...] = ()
     """One per interval and contact on skin."""
 
@@ -92,7 +92,7 @@ class EstimatedRecording(Row):
 class EstimateSummary(Result):
     """What touches the robot over the intervals of an experiment, and how well its equations determine that."""
 
-    of_several: ClassVar[tuple[str, ...]] = ("recordings", "fusion")
+    of_several: ClassVar[tuple[str, ...]] = ("recordings",)
 
     schema_name: Literal["forcetorque/estimate/1"] = Field(default="forcetorque/estimate/1", alias="schema")
     """Form of the result."""
@@ -113,7 +113,7 @@ class EstimateSummary(Result):
     validity: tuple[ReadingsOutside, ...] = ()
     """One per sensor that a calibration reads: how far its readings lie outside what was fitted."""
     fusion: TorqueFusion | None = None
-    """Joint torques of several sources; not in the JSON where they were not asked for."""
+    """Joint torques of several sources; None where they were not asked for."""
     skin: tuple[SkinContactSummary, ...] = ()
     """One per interval and contact on skin."""
     recordings: tuple[EstimatedRecording, ...] = ()
