@@ -14,7 +14,7 @@ from forcetorque.analysis import Demands, ExperimentAssessment, skin_wrench
 from forcetorque.analysis.experiment_assessment import assess_experiment
 from forcetorque.analysis.skin_event_rows import skin_event_rows
 from forcetorque.errors import ShapeError
-from forcetorque.experiment import load_experiment, load_patches, patches_of
+from forcetorque.experiment import load_experiment
 from forcetorque.recording import Recording
 from forcetorque.report.document import Figure, List, Section, Text
 from forcetorque.report.figures import skin_event_figure, torque_figure
@@ -38,9 +38,7 @@ def skin_folder(intact: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
 @pytest.fixture(scope="module", name="assessed")
 def skin_assessed(folder: Path) -> ExperimentAssessment:
     """All that is said about it."""
-    experiment = load_experiment(folder / SKIN)
-    patches = load_patches(folder / SKIN)
-    return assess_experiment(experiment, {}, file=SKIN, demands=Demands(), patches=patches)
+    return assess_experiment(load_experiment(folder / SKIN), {}, file=SKIN, demands=Demands())
 
 
 def _texts(section: Section) -> str:
@@ -82,8 +80,9 @@ def test_another_clock_is_not_laid_beside(folder: Path) -> None:
 
 def test_without_skin_there_is_no_section(intact: Path) -> None:
     """An experiment of sensors alone says nothing of skin."""
-    assert patches_of(intact / PARQUET) is None
-    assessed = assess_experiment(load_experiment(intact / PARQUET), {}, file=PARQUET, demands=Demands())
+    experiment = load_experiment(intact / PARQUET)
+    assert experiment.skin is None
+    assessed = assess_experiment(experiment, {}, file=PARQUET, demands=Demands())
     assert skin_section(assessed).blocks == ()
 
 
@@ -95,8 +94,7 @@ def test_a_patch_that_cannot_be_read_is_said(folder: Path, tmp_path: Path, old: 
     """It does not cost the document."""
     copy = Path(shutil.copytree(folder, tmp_path / "copy"))
     edit(copy / SKIN, old, new)
-    experiment, patches = load_experiment(copy / SKIN), load_patches(copy / SKIN)
-    assessed = assess_experiment(experiment, {}, file=SKIN, demands=Demands(), patches=patches)
+    assessed = assess_experiment(load_experiment(copy / SKIN), {}, file=SKIN, demands=Demands())
     assert assessed.skin == ()
     (points,) = (block.points for block in skin_section(assessed).blocks if isinstance(block, List))
     assert words in points[0]

@@ -168,9 +168,9 @@ def _clock(experiment: Experiment) -> Stream:
     recording = experiment.recording
     if experiment.sensors:
         return recording.stream(experiment.sensors[0].stream)
-    if experiment.skin is None:
+    if not experiment.force_patches:
         raise ExperimentError(f"experiment {experiment.name!r}: expected a sensor or a patch with a table, got neither")
-    return recording.stream(experiment.skin.patches[0].counts)
+    return recording.stream(experiment.force_patches[0].counts)
 
 
 def _measured(
@@ -232,7 +232,7 @@ def _question(
         contacts=(*contacts, *(source.contact for source in skin)),
         torques=moving_joints(tree),
         # errors leave nothing in a sub-model that its neighbours' torques would need
-        torque_sum=TorqueSum.WHOLE_TREE if experiment.skin is None else TorqueSum.SUB_MODEL,
+        torque_sum=TorqueSum.SUB_MODEL if experiment.force_patches else TorqueSum.WHOLE_TREE,
         expected=sensors,
         minimum_norm=None if length_scale is None else MinimumNorm(length_scale=length_scale),
     )

@@ -19,7 +19,7 @@ from forcetorque.analysis.skin_event_rows import SkinEventPicture, SkinEventRow,
 from forcetorque.analysis.skin_wrench import SkinWrench
 from forcetorque.calibration import Calibration
 from forcetorque.calibration.joint import PartResidual
-from forcetorque.experiment import Experiment, PatchExperiment
+from forcetorque.experiment import Experiment
 from forcetorque.recording import Use
 from forcetorque.result import Row
 
@@ -66,7 +66,6 @@ def assess_experiment(
     file: str,
     demands: Demands,
     runs: Mapping[str, SensorRun] | None = None,
-    patches: PatchExperiment | None = None,
     progress: Callable[[str], None] | None = None,
 ) -> ExperimentAssessment:
     """Ask every question about the sensors of an experiment.
@@ -78,7 +77,6 @@ def assess_experiment(
         file: Name of its file.
         demands: Limits and other sensors.
         runs: The sensors to judge by name, where other questions share what they have computed; made if left out.
-        patches: Its patches of skin; None without any.
         progress: Called with what is done next.
 
     Returns:
@@ -100,7 +98,7 @@ def assess_experiment(
         sensors.append(assess(run, calibrations.get(sensor.name, {}), others=others, demands=demands))
     first = {name: next(iter(group.values())) for name, group in calibrations.items() if group}
     residuals = part_residuals(experiment, first, Use.VALIDATION)
-    skin, skin_left_out = assess_skin(patches)
+    skin, skin_left_out = assess_skin(experiment.skin)
     skin_events, skin_event_pictures = skin_event_rows(experiment.recording)
     start, end = experiment.recording.span_ns
     return ExperimentAssessment(

@@ -43,7 +43,6 @@ def report(
     from forcetorque import report as reports
     from forcetorque.analysis import Demands, read_population
     from forcetorque.cli.reading import read_experiment, refuse_inputs
-    from forcetorque.experiment import patches_of
 
     log = start_logging()
     reports.require_writable(output)
@@ -68,7 +67,6 @@ def report(
         demands=demands,
         results=sources.results,
         viewer=section if viewer else None,
-        patches=[patches_of(path) for path in sources.experiments],
         progress=log.info,
     )
     log.info("drawing")

@@ -4,7 +4,7 @@
 from forcetorque.experiment.content import Experiment, ExperimentSensor
 from forcetorque.experiment.load import load_experiment, load_touched_robot
 from forcetorque.experiment.parse import parse_experiment
-from forcetorque.experiment.patches import ExperimentPatch, PatchExperiment, PatchInterval, load_patches, patches_of
+from forcetorque.experiment.patches import ExperimentPatch, PatchExperiment, PatchInterval, load_patches
 from forcetorque.experiment.schema import ExperimentFile
 
 __all__ = [
@@ -16,7 +16,6 @@ __all__ = [
     "PatchInterval",
     "load_experiment",
     "load_patches",
-    "patches_of",
     "load_touched_robot",
     "parse_experiment",
 ]

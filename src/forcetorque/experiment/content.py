@@ -14,7 +14,7 @@ from forcetorque.errors import ExperimentError, known_names
 from forcetorque.estimation import Contact, Payload, Processing
 from forcetorque.experiment.fusion_schema import FusionTable, MotorTable
 from forcetorque.experiment.load_case_schema import LoadCaseTable
-from forcetorque.experiment.patches import PatchExperiment
+from forcetorque.experiment.patches import ExperimentPatch, PatchExperiment
 from forcetorque.experiment.plan_schema import PlanTable
 from forcetorque.experiment.recording_names import path_endings, recording_name
 from forcetorque.recording import Interval, Recording, ScalarSource, Support, Use
@@ -195,13 +195,18 @@ class Experiment:
     plan: PlanTable | None = None
     """What can be recorded next, as the file states it."""
     skin: PatchExperiment | None = None
-    """Patches of skin whose contacts are sources of force; None where no patch states its table."""
+    """Its patches of skin; None without any."""
 
     def __repr__(self) -> str:
         sensors = ", ".join(f"{sensor.name} ({sensor.serial})" for sensor in self.sensors)
         intervals = ", ".join(f"{one.label!r} {one.use}" for one in self.recording.intervals)
         what = f"{self.model.name}; sensors {sensors}; {intervals or 'no intervals'}"
         return f"<Experiment {self.name!r}: {what}>"
+
+    @property
+    def force_patches(self) -> tuple[ExperimentPatch, ...]:
+        """Patches of skin whose contacts are sources of force: those with a calibration of their taxels."""
+        return () if self.skin is None else tuple(patch for patch in self.skin.patches if patch.table is not None)
 
     @property
     def stands(self) -> bool:

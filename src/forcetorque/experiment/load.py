@@ -139,7 +139,8 @@ def _of_wrist(parsed: schema.ExperimentFile, file: Path) -> Experiment:
         inertia = payload.inertia()
     with stated_in(str(file)):
         recording = streams.with_intervals(intervals)
-    loaded, hashes = load_model(load, name, inertia), inputs.sha256()
+    loaded = load_model(load, name, inertia)
+    skin, hashes = skin_of_robot(parsed, file, loaded, recording, inputs), inputs.sha256()
     return Experiment(
         name=parsed.name,
         file=file,
@@ -159,6 +160,7 @@ def _of_wrist(parsed: schema.ExperimentFile, file: Path) -> Experiment:
         condition=parsed.trial.condition,
         trial=parsed.trial.number,
         load_cases=read_load_cases(parsed.load_case, file, loaded),
+        skin=skin,
     )
 
 

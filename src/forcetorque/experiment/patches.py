@@ -116,18 +116,6 @@ class PatchExperiment:
         raise ExperimentError(f"{self.file}: no patch is called {name!r}; {known_names(name or '', known)}")
 
 
-def patches_of(path: Path) -> PatchExperiment | None:
-    """Read the patches of an experiment file that may have none.
-
-    Args:
-        path: TOML file.
-
-    Returns:
-        The patches; None without any.
-    """
-    return load_patches(path) if parse_experiment(path).patch else None
-
-
 def load_patches(path: Path | str) -> PatchExperiment:
     """Read the patches of an experiment file, and their recording.
 
@@ -148,20 +136,10 @@ def load_patches(path: Path | str) -> PatchExperiment:
         raise ExperimentError(f"{file}: expected [[patch]], a patch of skin, got none")
     inputs = Inputs(file.parent)
     inputs.file(Path(file.name))
-    recording = read_streams(parsed, file, None, inputs)
-    return PatchExperiment(
-        name=parsed.name,
-        file=file,
-        recording=recording,
-        patches=read_patches(parsed, file, recording, inputs),
-        intervals=_intervals(parsed, file, recording),
-        inputs_sha256=inputs.sha256(),
-    )
+    return read_patches(parsed, file, read_streams(parsed, file, None, inputs), inputs)
 
 
-def read_patches(
-    parsed: schema.ExperimentFile, file: Path, recording: Recording, inputs: Inputs
-) -> tuple[ExperimentPatch, ...]:
+def read_patches(parsed: schema.ExperimentFile, file: Path, recording: Recording, inputs: Inputs) -> PatchExperiment:
     """Match the patches of a file to their streams.
 
     Args:
@@ -180,13 +158,21 @@ def read_patches(
     for index, name in enumerate(names):
         if name in names[:index]:
             raise ExperimentError(f"{file}: patch[{index}]: {name!r} is listed twice; keep one")
-    return tuple(_patch(f"{file}: patch[{k}]", entry, recording, inputs) for k, entry in enumerate(parsed.patch))
+    patches = tuple(_patch(f"{file}: patch[{k}]", entry, recording, inputs) for k, entry in enumerate(parsed.patch))
+    return PatchExperiment(
+        name=parsed.name,
+        file=file,
+        recording=recording,
+        patches=patches,
+        intervals=_intervals(parsed, file, recording),
+        inputs_sha256=inputs.sha256(),
+    )
 
 
 def skin_of_robot(
     parsed: schema.ExperimentFile, file: Path, model: RobotModel, recording: Recording, inputs: Inputs
 ) -> PatchExperiment | None:
-    """Give the patches that are sources of force: those with a calibration of their taxels, each on a link.
+    """Give the patches of a robot, those with a calibration of their taxels each on a link: they are sources of force.
 
     Args:
         parsed: Content of the experiment file.
@@ -196,29 +182,23 @@ def skin_of_robot(
         inputs: Keeps track of the files that are read.
 
     Returns:
-        The patches; None where no patch states its table.
+        The patches; None without any.
 
     Raises:
         MissingFileError: If a table is not there.
         ExperimentError: If a patch is on no link of the robot, or the file does not say which.
     """
-    tables = [entry.table for entry in parsed.patch if entry.table is not None]
-    if not tables:
+    if not parsed.patch:
         return None
-    for table in tables:
+    for table in (entry.table for entry in parsed.patch if entry.table is not None):
         if not inputs.file(table).is_file():
             raise MissingFileError(
                 f"{inputs.folder / table}: expected a calibration of taxels, there is none; `forcetorque skin "
                 "calibrate` makes one"
             )
-    patches = [_on_link(file, patch, model) for patch in read_patches(parsed, file, recording, inputs) if patch.table]
-    return PatchExperiment(
-        name=parsed.name,
-        file=file,
-        recording=recording,
-        patches=tuple(patches),
-        intervals=_intervals(parsed, file, recording),
-        inputs_sha256=inputs.sha256(),
+    skin = read_patches(parsed, file, recording, inputs)
+    return replace(
+        skin, patches=tuple(patch if patch.table is None else _on_link(file, patch, model) for patch in skin.patches)
     )
 
 

@@ -14,7 +14,7 @@ from forcetorque.analysis.use_verdict import Tone
 from forcetorque.atomic import refuse_unwritable, write_bytes_atomically
 from forcetorque.calibration import Calibration
 from forcetorque.errors import ForceTorqueError
-from forcetorque.experiment import Experiment, PatchExperiment
+from forcetorque.experiment import Experiment
 from forcetorque.experiment.inputs import stated_in
 from forcetorque.report.decision_page import decision_page
 from forcetorque.report.document import Document, Section, html_bytes, pdf_bytes
@@ -195,7 +195,6 @@ def report(
     demands: Demands | None = None,
     results: Mapping[str, dict[str, Any]] | None = None,
     viewer: Callable[[int], Section] | None = None,
-    patches: Sequence[PatchExperiment | None] | None = None,
     progress: Callable[[str], None] | None = None,
 ) -> Report:
     """Say everything about the sensors of experiments.
@@ -209,7 +208,6 @@ def report(
         demands: Limits and other sensors to compare with.
         results: Results of other commands by file.
         viewer: Makes the section with the viewer of an experiment, by its place; none if left out.
-        patches: Skin of every experiment; of none if left out.
         progress: Called with what is done next.
 
     Returns:
@@ -221,15 +219,7 @@ def report(
     for place, ((file, experiment), groups) in enumerate(zip(experiments, calibrations, strict=True)):
         with stated_in(file):
             assessments.append(
-                assess_experiment(
-                    experiment,
-                    groups,
-                    file=file,
-                    demands=demanded,
-                    runs=runs[place],
-                    patches=None if patches is None else patches[place],
-                    progress=progress,
-                )
+                assess_experiment(experiment, groups, file=file, demands=demanded, runs=runs[place], progress=progress)
             )
             if viewer is not None:
                 viewers.append(viewer(place))

@@ -11,7 +11,7 @@ from pathlib import Path
 from forcetorque.analysis import inspect_experiment
 from forcetorque.analysis.applicability import by_sensor
 from forcetorque.calibration import Calibration
-from forcetorque.experiment import Experiment, ExperimentSensor, PatchExperiment
+from forcetorque.experiment import Experiment, ExperimentSensor
 from forcetorque.experiment.wrist_load import is_wrist_load
 from forcetorque.recording import Finding, Interval
 from forcetorque.recording.alignment import seconds_since
@@ -47,7 +47,6 @@ def build_scene(
     sensors: Sequence[str] | None = None,
     mesh_folders: Sequence[Path] = (),
     provenance: Sequence[str] = (),
-    patches: PatchExperiment | None = None,
 ) -> BuiltScene:
     """Collect everything that the viewer shows of an experiment.
 
@@ -61,7 +60,6 @@ def build_scene(
         sensors: Sensors to show; all of the experiment if None.
         mesh_folders: Folders with packages of meshes that are looked at first.
         provenance: Lines to add to the list of inputs.
-        patches: Skin of the experiment; None without any.
 
     Returns:
         The scene.
@@ -92,7 +90,7 @@ def build_scene(
         for one in shown
     ]
     contacts = scene_contacts(computed, groups, posture, priors, block, notes, sources)
-    skin = () if patches is None else scene_skin(patches, model.links, block, notes, sources)
+    skin = () if computed.skin is None else scene_skin(computed.skin, model.links, block, notes, sources)
     events = scene_skin_events(recording, posture.stream.clock, model.links, block, notes)
     robot, missing = _robot(experiment, posture, urdf, block, mesh_folders)
     scene = Scene(

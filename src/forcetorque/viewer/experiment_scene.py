@@ -9,7 +9,7 @@ from pathlib import Path
 
 from forcetorque.calibration import Calibration
 from forcetorque.errors import MissingFileError
-from forcetorque.experiment import Experiment, parse_experiment, patches_of
+from forcetorque.experiment import Experiment, parse_experiment
 from forcetorque.viewer.build import BuiltScene, build_scene
 
 
@@ -47,5 +47,4 @@ def scene_of(
         sensors=sensors,
         mesh_folders=mesh_folders or (),
         provenance=[f"{file} sha256 {hashlib.sha256(Path(file).read_bytes()).hexdigest()}" for file in calibrations],
-        patches=patches_of(path),
     )
