@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import hashlib
 from collections.abc import Container
 from typing import Final
 
@@ -53,7 +52,6 @@ def scene_skin(
             notes.append(f"patch {patch.name!r} is not shown: the robot has no link {link!r}; state link in [[patch]]")
             continue
         shown.append(_patch(patch.name, link, frames, _period_s(experiment, patch) * averaged, block))
-        sources.append(f"{patch.table.name} sha256 {hashlib.sha256(patch.table.read_bytes()).hexdigest()}")
         sources.append(f"{patch.name}: pressures and contacts by kriging, in means of {averaged} messages")
     return tuple(shown)
 
