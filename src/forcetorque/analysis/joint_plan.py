@@ -166,16 +166,14 @@ def _step(number: int, chosen: Sequence[_Outcome]) -> JointPlanStep:
 
 def _advice(chosen: Sequence[_Outcome]) -> str:
     excess = [chosen[0].excess_before, *(outcome.excess for outcome in chosen)]
-    useful = [
-        outcome.added
-        for outcome, before, after in zip(chosen, excess, excess[1:], strict=False)
-        if after < (1.0 - HELPS) * before
-    ]
+    # one that helps little by itself may be needed by the next: all up to the last help
+    steps = [number for number in range(1, len(excess)) if excess[number] < (1.0 - HELPS) * excess[number - 1]]
+    names = [outcome.added for outcome in chosen]
+    useful, rest = (names[: steps[-1]], names[steps[-1] :]) if steps else ([], names)
     if not useful:
         return (
             "none of these recordings is expected to lower the errors; move more joints, or change what the feet bear"
         )
-    rest = [outcome.added for outcome in chosen if outcome.added not in useful]
     words = (
         f"record {', then '.join(useful)}: errors over what is allowed are expected to fall from {excess[0]:.2f} to "
     )
