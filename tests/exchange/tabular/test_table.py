@@ -15,6 +15,7 @@ from hypothesis import strategies as st
 from forcetorque.errors import ForceTorqueError, FormatError, MissingFileError, UnitError
 from forcetorque.exchange.tabular import StampColumn, TableLayout, TableSignal, read_table
 from forcetorque.recording import Stream
+from tests.fuzzing import examples
 
 WRENCH = ("fx", "fy", "fz", "tx", "ty", "tz")
 N_MM = ("N", "N", "N", "N mm", "N mm", "N mm")
@@ -172,8 +173,9 @@ def test_declarations_are_checked() -> None:
         TableLayout(stamp=None, signals=())
 
 
+@pytest.mark.fuzz
 @given(st.data())
-@settings(suppress_health_check=[HealthCheck.function_scoped_fixture], max_examples=300, deadline=None)
+@settings(suppress_health_check=[HealthCheck.function_scoped_fixture], max_examples=examples(300), deadline=None)
 def test_damage_gives_our_errors_only(tmp_path: Path, data: st.DataObject) -> None:
     """Flipped bytes, truncation and inserted text give a stream or our error, nothing else."""
     content = bytearray((HEAD + "".join(ROW.format(t=k) for k in range(5))).encode())
