@@ -125,7 +125,7 @@ def test_a_real_wrist_sensors_load(data_dir: Path) -> None:
         ),
     )
     path = data_dir / "ati_gamma_kuka_med14_skrede" / "0-calibration_fts-accel.csv"
-    table = read_table(path, layout, stream="wrist", clock="none")
+    (table,) = read_table(path, layout, stream="wrist", clock="none").streams
     payload = identify_payload(
         table.signal("wrench").values,
         -table.signal("gravity").values,

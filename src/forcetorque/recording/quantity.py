@@ -112,6 +112,14 @@ QUANTITIES = {
             description="Reading of an accelerometer: +9.8 m/s2 upwards at rest.",
         ),
         Quantity(
+            name="orientation",
+            labels=Labels.FIXED,
+            columns=tuple(f"r{row}{column}" for row in "123" for column in "123"),
+            units=("1",) * 9,
+            has_frame=True,
+            description="Rotation matrix of a frame, row by row: it turns vectors along its axes to the world's.",
+        ),
+        Quantity(
             name="gravity",
             labels=Labels.FIXED,
             columns=_XYZ,

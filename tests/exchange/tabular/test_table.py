@@ -34,7 +34,7 @@ def _layout(*, unit: str = "s", delimiter: str = ",", names: tuple[str, ...] | N
 def _read(tmp_path: Path, text: str | bytes, layout: TableLayout | None = None) -> Stream:
     path = tmp_path / "log.csv"
     path.write_bytes(text.encode() if isinstance(text, str) else text)
-    return read_table(path, layout or _layout(), stream="wrist", clock="pc")
+    return read_table(path, layout or _layout(), stream="wrist", clock="pc").streams[0]
 
 
 @pytest.mark.parametrize(
