@@ -65,6 +65,7 @@ from forcetorque.analysis.population import read_population
 from forcetorque.analysis.prior_comparison import Independence, PriorComparison, compare_with_prior
 from forcetorque.analysis.reading import Correction
 from forcetorque.analysis.recording_moments import recording_moments, store_moments
+from forcetorque.analysis.robot_load import export_load, robot_load
 from forcetorque.analysis.samples import IntervalSamples
 from forcetorque.analysis.sensor_calibration import (
     SensorCalibration,
@@ -85,6 +86,7 @@ from forcetorque.analysis.static_checks import IntervalOffset, StaticChecks, che
 from forcetorque.analysis.study import SensorStudy, study_sensor
 from forcetorque.analysis.study_data import StudyData, read_study_data
 from forcetorque.analysis.study_result import StudiedSensor, Studies, studied_sensor, study_warnings
+from forcetorque.analysis.tare import Tare, TaredSensor, tare
 from forcetorque.analysis.torque_fusion import TorqueFusion, fuse_experiment
 from forcetorque.analysis.trial_group import TrialGroup, group_trials
 from forcetorque.analysis.trials import TrialSphere, read_trials
@@ -93,6 +95,11 @@ from forcetorque.analysis.validate import Validation, validate
 from forcetorque.analysis.verdict import VerdictLine
 
 __all__ = [
+    "Tare",
+    "TaredSensor",
+    "export_load",
+    "robot_load",
+    "tare",
     "TorqueFusion",
     "fuse_experiment",
     "write_plan",

@@ -26,6 +26,7 @@ from forcetorque.cli.simulate import simulate
 from forcetorque.cli.skin import skin
 from forcetorque.cli.sphere import sphere
 from forcetorque.cli.study import study
+from forcetorque.cli.tare import tare
 from forcetorque.cli.validate import validate
 from forcetorque.cli.view import view
 from forcetorque.errors import ForceTorqueError
@@ -66,6 +67,7 @@ _COMMANDS = (
     simulate,
     sphere,
     study,
+    tare,
     validate,
     view,
 )

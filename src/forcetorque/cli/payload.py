@@ -3,21 +3,46 @@
 
 from __future__ import annotations
 
+from forcetorque.atomic import STANDARD_OUTPUT
+from forcetorque.cli.load_file import (
+    LoadFileOption,
+    LoadFormatOption,
+    SensorPoseOption,
+    WorldFrameOption,
+    refuse_load_file,
+    write_load,
+)
 from forcetorque.cli.options import ExperimentArgument, FormatOption
-from forcetorque.cli.output import Format, show, start_logging
+from forcetorque.cli.output import Format, show, show_warnings, start_logging
 
 
-def payload(experiment: ExperimentArgument, output_format: FormatOption = Format.TABLE) -> None:
+def payload(
+    experiment: ExperimentArgument,
+    to: LoadFormatOption = None,
+    output: LoadFileOption = None,
+    world_frame: WorldFrameOption = None,
+    sensor_pose: SensorPoseOption = None,
+    output_format: FormatOption = Format.TABLE,
+) -> None:
     """Estimate mass, centre of mass and bias of a wrist sensor's load.
 
-    Example: forcetorque payload experiment.toml
+    Example: forcetorque payload wrist.toml --to ft-tools -o load.yaml
     """
     from forcetorque import analysis
     from forcetorque.experiment import load_experiment
     from forcetorque.experiment.inputs import stated_in
 
-    start_logging().info("reading %s", experiment)
+    log = start_logging()
+    refuse_load_file(output, to, output_format)
+    log.info("reading %s", experiment)
     content = load_experiment(experiment)
+    run = analysis.SensorRun(content, content.sensors[0])
     with stated_in(str(experiment)):
-        load = analysis.weigh_load(analysis.SensorRun(content, content.sensors[0]))
-    show(load, output_format)
+        load = analysis.weigh_load(run)
+        if output is not None and to is not None:
+            told = analysis.robot_load(run, load.bias)
+            write_load(told, output, to, world_frame=world_frame, sensor_pose=sensor_pose, log=log)
+    if output == STANDARD_OUTPUT:  # the file itself went there
+        show_warnings(load)
+    else:
+        show(load, output_format)

@@ -86,6 +86,18 @@ class Run(SensorRun):
         """
         return analysis.validate(self, named(calibrations), **options)
 
+    def tare(self, label: str, calibration: Calibration | None = None) -> analysis.Tare:
+        """Find the offset with which the sensor, at rest over an interval, reads what the model says of its load.
+
+        Args:
+            label: Label of the interval.
+            calibration: Reads the sensor; its prior or the logged wrench if left out.
+
+        Returns:
+            The offset, to be added, with its interval.
+        """
+        return analysis.tare(self, label, name=None if calibration is None else NEW, calibration=calibration)
+
     def verdicts(self, calibrations: Calibrations) -> tuple[analysis.UseVerdict, ...]:
         """Say whether calibrations may be used for the loads to come.
 
