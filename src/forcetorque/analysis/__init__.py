@@ -87,6 +87,8 @@ from forcetorque.analysis.study import SensorStudy, study_sensor
 from forcetorque.analysis.study_data import StudyData, read_study_data
 from forcetorque.analysis.study_result import StudiedSensor, Studies, studied_sensor, study_warnings
 from forcetorque.analysis.tare import Tare, TaredSensor, tare
+from forcetorque.analysis.thermal import Thermal, thermal
+from forcetorque.analysis.thermal_rows import SensorThermal, ThermalCurve, ThermalDriftRow
 from forcetorque.analysis.torque_fusion import TorqueFusion, fuse_experiment
 from forcetorque.analysis.trial_group import TrialGroup, group_trials
 from forcetorque.analysis.trials import TrialSphere, read_trials
@@ -95,7 +97,12 @@ from forcetorque.analysis.validate import Validation, validate
 from forcetorque.analysis.verdict import VerdictLine
 
 __all__ = [
+    "SensorThermal",
     "Tare",
+    "Thermal",
+    "ThermalCurve",
+    "ThermalDriftRow",
+    "thermal",
     "TaredSensor",
     "export_load",
     "robot_load",

@@ -27,6 +27,7 @@ from forcetorque.cli.skin import skin
 from forcetorque.cli.sphere import sphere
 from forcetorque.cli.study import study
 from forcetorque.cli.tare import tare
+from forcetorque.cli.thermal import thermal
 from forcetorque.cli.validate import validate
 from forcetorque.cli.view import view
 from forcetorque.errors import ForceTorqueError
@@ -68,6 +69,7 @@ _COMMANDS = (
     sphere,
     study,
     tare,
+    thermal,
     validate,
     view,
 )

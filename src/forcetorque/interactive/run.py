@@ -98,6 +98,19 @@ class Run(SensorRun):
         """
         return analysis.tare(self, label, name=None if calibration is None else NEW, calibration=calibration)
 
+    def thermal(self, calibration: Calibration | None = None, **options: Any) -> analysis.Thermal:
+        """Find how the reading drifts with temperature at a load that stays.
+
+        Args:
+            calibration: Reads the sensor; its prior or the logged wrench if left out.
+            options: As of `analysis.thermal`: intervals, variable.
+
+        Returns:
+            Drift per degree and per hour, and hysteresis, with intervals.
+        """
+        name = None if calibration is None else NEW
+        return analysis.thermal(self, name=name, calibration=calibration, **options)
+
     def verdicts(self, calibrations: Calibrations) -> tuple[analysis.UseVerdict, ...]:
         """Say whether calibrations may be used for the loads to come.
 

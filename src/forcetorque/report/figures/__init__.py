@@ -19,6 +19,7 @@ from forcetorque.report.figures.skin_layout import skin_layout_figure
 from forcetorque.report.figures.skin_wrench import skin_wrench_figure
 from forcetorque.report.figures.sphere import sphere_figure
 from forcetorque.report.figures.taxels import taxel_figure
+from forcetorque.report.figures.thermal import thermal_figure
 from forcetorque.report.figures.torques import torque_figure
 from forcetorque.report.figures.uses import use_figure
 from forcetorque.report.figures.wrench_space import space_figure
@@ -43,6 +44,7 @@ __all__ = [
     "space_figure",
     "sphere_figure",
     "taxel_figure",
+    "thermal_figure",
     "torque_figure",
     "use_figure",
 ]
