@@ -15,6 +15,7 @@ from forcetorque.exchange.load_format import LoadFormat
 from forcetorque.experiment import load_experiment
 from forcetorque.interactive import load_experiment as interactive_experiment
 from tests.experiments import OFFSET, PARQUET
+from tests.page_scripts import unmarked
 from tests.result.showing import require_shown
 from tests.wrist_postures import BIAS, CENTRE, MASS, POSTURES, SLOW, weight, write_postures
 
@@ -84,6 +85,16 @@ def test_a_calibrated_sensor_of_a_robot_is_tared_by_its_model(arm: Path) -> None
     assert np.array_equal(row.offset_before, calibration.offset)
     with pytest.raises(ExperimentError, match=r"expected \[load\], of which a robot is told"):
         robot_load(run, row.bias)
+
+
+def test_the_script_of_its_page_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """It writes the file that the page says."""
+    (code,) = unmarked((Path(__file__).parents[2] / "docs" / "robot_load.md").read_text(encoding="utf-8"))
+    path = write_postures(tmp_path, seed=4)
+    path.write_text(path.read_text().replace('label = "first"', 'label = "still"'))
+    monkeypatch.chdir(tmp_path)
+    exec(compile(code, "robot_load.md", "exec"), {})
+    assert read_hrpsys(tmp_path / "offsets.txt", sensor="wrist", frame="tool").mass == MASS
 
 
 @pytest.mark.long

@@ -16,6 +16,7 @@ from forcetorque.exchange.icub import encode_matrix, write_matrix_file
 from forcetorque.experiment import load_experiment
 from forcetorque.interactive import load_experiment as interactive_experiment
 from tests.experiments import PARQUET
+from tests.page_scripts import unmarked
 from tests.result.showing import require_shown
 from tests.thermal_cycles import HYSTERESIS, PER_DEGREE, TEXT, record, write_cycles
 from tests.warm_experiments import TEMPERATURE, with_variables
@@ -118,6 +119,17 @@ def test_a_calibration_that_knows_the_temperature_is_not_told_again(warm: Path) 
     (before,), (after,) = run.thermal().sensors, run.thermal(calibration).sensors
     assert (before.corrected, after.corrected, after.variable_table()) == (False, True, None)
     assert after.reading == "calibration"
+
+
+def test_the_script_of_its_page_runs(
+    chamber: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """It prints the table of the command."""
+    (code,) = unmarked((Path(__file__).parents[2] / "docs" / "thermal.md").read_text(encoding="utf-8"))
+    (chamber.parent / "cycles.toml").write_text(TEXT)
+    monkeypatch.chdir(chamber.parent)
+    exec(compile(code, "thermal.md", "exec"), {})
+    assert "heating - cooling" in capsys.readouterr().out
 
 
 def test_what_is_missing_is_said(arm: Path, chamber: Path) -> None:

@@ -139,7 +139,11 @@ def _temperature(run: SensorRun, wanted: str | None) -> SensorVariable:
             f"sensor {run.sensor.name!r}: no variable {wanted!r} in degC; {known_names(wanted, known)}"
         )
     if wanted is None and len(known) != 1:
-        got = f"{', '.join(known)}; choose one, --variable" if known else "none; state the stream of its thermometer"
+        got = (
+            f"{', '.join(known)}; choose one, --variable"
+            if known
+            else "none; state its thermometer, or leave it out, --sensor"
+        )
         raise ExperimentError(f"sensor {run.sensor.name!r}: expected one [[sensor.variable]] in degC, got {got}")
     return known[wanted] if wanted is not None else next(iter(known.values()))
 

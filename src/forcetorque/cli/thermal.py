@@ -31,7 +31,7 @@ def thermal(
     ] = None,
     output_format: FormatOption = Format.TABLE,
 ) -> None:
-    """Find drift and hysteresis of a sensor in temperature cycles at constant load.
+    """Find how a reading drifts with temperature at a constant load.
 
     Example: forcetorque thermal cycles.toml --figure drift.png
     """
