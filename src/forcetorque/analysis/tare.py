@@ -8,13 +8,11 @@ turned. Here the reading is set to what the load weighs in the posture of the st
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import replace
 from typing import Annotated, Literal
 
 import numpy as np
 from pydantic import Field
 
-from forcetorque.analysis.reading import Correction
 from forcetorque.analysis.sensor_run import SensorRun
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration import Calibration
@@ -106,18 +104,13 @@ def tare(run: SensorRun, interval: str, *, name: str | None = None, calibration:
         FitError: If it has too few samples to tell an error.
     """
     span = _interval(run, interval)
-    if calibration is None:
-        correction = Correction.without_offset(run.sensor)
-    else:
-        run.require_fit(name or "calibration", calibration)
-        correction = Correction.of(name or "calibration", calibration)
+    correction = run.read_by(name, calibration)
     samples = run.interval_samples(span, variables=correction.variables)
     count = len(samples.samples)
     if count < FEWEST:
         raise FitError(f"interval {interval!r}: expected at least {FEWEST} samples to tell an offset, got {count}")
-    bare = replace(correction, model=replace(correction.model, offset=np.zeros(6)))
     expected = samples.samples.reference
-    lacking = expected - samples.readings.wrench(bare)
+    lacking = expected - samples.readings.wrench(correction.bare)
     time_s = seconds_since(samples.samples.stamp_ns, run.experiment.recording.start_ns)
     known = correction.in_session(run.experiment.session_names(interval)).model.offset
     moves = float(np.linalg.norm(expected[:, :3] - expected[:, :3].mean(axis=0), axis=1).max())

@@ -5,7 +5,6 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Collection, Iterator, Sequence
-from dataclasses import replace
 from typing import Literal
 
 import numpy as np
@@ -91,11 +90,7 @@ def thermal(
         ExperimentError: If there is no temperature, or no such interval.
     """
     temperature = _temperature(run, variable)
-    if calibration is None:
-        correction = Correction.without_offset(run.sensor)
-    else:
-        run.require_fit(name or "calibration", calibration)
-        correction = Correction.of(name or "calibration", calibration)
+    correction = run.read_by(name, calibration)
     sessions = _sessions(run, _chosen(run, intervals), temperature, correction)
     cycles = cycles_of(sessions)
     settled = cycles.on_branches()
@@ -162,14 +157,13 @@ def _sessions(
 ) -> list[tuple[FloatArray, FloatArray, FloatArray]]:
     """Instants, temperatures and signals of each power-up: the wrench without offset, then raw channels."""
     experiment, name = run.experiment, temperature.linear.name
-    bare = replace(correction, model=replace(correction.model, offset=np.zeros(6)))
     parts: dict[str, list[FloatArray]] = defaultdict(list)
     for interval in intervals:
         at_ns = padded_samples(experiment.recording, run.stream, interval, None).stamp_ns
         readings = readings_at(experiment, run.sensor, list(dict.fromkeys([name, *correction.variables])), at_ns)
         raw = readings.raw if run.sensor.quantity == "raw" else np.empty((len(at_ns), 0))
         time_s = seconds_since(at_ns, experiment.recording.start_ns)
-        columns = np.column_stack([time_s, readings.variables[name], readings.wrench(bare), raw])
+        columns = np.column_stack([time_s, readings.variables[name], readings.wrench(correction.bare), raw])
         parts[experiment.session_names(interval.label)[0]].append(columns[np.isfinite(columns).all(axis=1)])
     joined = [np.concatenate(rows) for rows in parts.values()]
     return [(rows[:, 0], rows[:, 1], rows[:, 2:]) for rows in joined if len(rows)]

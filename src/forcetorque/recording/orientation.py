@@ -18,7 +18,6 @@ from forcetorque.arrays import FloatArray, read_only, require_shape
 from forcetorque.constants import STANDARD_GRAVITY
 from forcetorque.errors import FormatError, RecordingError, UnitError
 from forcetorque.recording.finding import Finding
-from forcetorque.recording.quantity import QUANTITIES
 from forcetorque.recording.stream import Signal, Stream
 from forcetorque.spatial import si_factor
 
@@ -251,16 +250,7 @@ def _require_rotations(matrices: FloatArray, where: Callable[[int], str]) -> Non
 def _signals(world_R_sensor: FloatArray, world_gravity: FloatArray, frame: str) -> dict[str, Signal]:
     along_sensor = np.einsum("nji,j->ni", world_R_sensor, world_gravity)
     values = {"orientation": world_R_sensor.reshape(-1, 9), "gravity": along_sensor}
-    return {
-        quantity: Signal(
-            quantity=quantity,
-            values=samples,
-            columns=QUANTITIES[quantity].columns,
-            units=QUANTITIES[quantity].units,
-            frame=frame,
-        )
-        for quantity, samples in values.items()
-    }
+    return {quantity: Signal.of_fixed(quantity, samples, frame=frame) for quantity, samples in values.items()}
 
 
 def _doubts(values: FloatArray, unit: str, stream: str) -> list[Finding]:
