@@ -75,16 +75,19 @@ class Tare(Result):
             A table and a sentence for each.
         """
         for row in self.sensors:
-            lines = [("offset, to be added (N, N m)", row.offset), ("± half a 95 % interval", row.half_width_95)]
+            lines = [("offset", row.offset), ("±", row.half_width_95)]
             if row.offset_before is not None:
-                lines.append(("offset of the calibration", row.offset_before))
-            lines.append(("the model reads there", row.load))
+                lines.append(("before", row.offset_before))
+            lines.append(("load", row.load))
             yield Table(
                 caption=f"{row.sensor} ({row.serial}), {row.reading}, {row.samples} samples of {row.interval!r}",
                 headings=("", *COMPONENTS),
                 rows=tuple((name, *(f"{value:.4f}" for value in values)) for name, values in lines),
             )
-        yield "The reading keeps the weight of the load in every posture; errors of its model come on top."
+        yield (
+            "offset: to be added, ± half a 95 % interval; before: that of the calibration; load: what the model reads "
+            "there. The reading keeps the weight of the load in every posture; errors of its model come on top."
+        )
 
 
 def tare(run: SensorRun, interval: str, *, name: str | None = None, calibration: Calibration | None = None) -> Tare:

@@ -202,8 +202,8 @@ def _doubts(sensor: SensorThermal, cycles: Cycles, fit: DriftFit, step: LoadStep
         yield f"{sensor.sensor}: heating and cooling were not both recorded over the same range: no hysteresis is told"
     elif fit.hysteresis_share > MIXED_WITH_TIME:
         yield (
-            f"{sensor.sensor}: {cycles.cycles:g} cycle(s) hardly tell heating against cooling from a drift in time, "
-            "which makes their intervals wide; record at least two cycles without switching off"
+            f"{sensor.sensor}: heating against cooling is hardly told from a drift in time by what was recorded, which "
+            "makes their intervals wide; record at least two cycles without switching off"
         )
     if step is not None:
         signal = [*sensor.components, *sensor.channels][step.signal]

@@ -94,8 +94,8 @@ class SensorThermal(Row):
             Tables and sentences.
         """
         caption = (
-            f"{self.sensor} ({self.serial}), {self.reading}: {self.samples} samples, {self.cycles:g} cycles from "
-            f"{self.lowest_degC:.1f} to {self.highest_degC:.1f} degC"
+            f"{self.sensor} ({self.serial}), {self.reading}: {self.samples} samples, {self.cycles:g} times heated and "
+            f"cooled, {self.lowest_degC:.1f} to {self.highest_degC:.1f} degC"
         )
         yield table_of(self.components, caption)
         if self.channels:

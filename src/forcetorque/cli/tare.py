@@ -47,6 +47,7 @@ def tare(
     """
     from forcetorque import analysis
     from forcetorque.cli.reading import read_calibrations, read_experiment, refuse_left_out, sensors_named
+    from forcetorque.experiment.inputs import stated_in
 
     log = start_logging()
     refuse_load_file(output, to, output_format)
@@ -57,10 +58,11 @@ def tare(
     by_sensor = _one_for_each(content, calibrations)
     runs = [analysis.SensorRun(content, one) for one in chosen]
     names = [by_sensor.get(run.sensor.name) for run in runs]
-    result = analysis.Tare.together(
-        analysis.tare(run, interval, name=name, calibration=calibrations[name] if name else None)
-        for run, name in zip(runs, names, strict=True)
-    )
+    with stated_in(str(experiment)):
+        result = analysis.Tare.together(
+            analysis.tare(run, interval, name=name, calibration=calibrations[name] if name else None)
+            for run, name in zip(runs, names, strict=True)
+        )
     if output is not None and to is not None:
         load = analysis.robot_load(runs[0], result.sensors[0].bias)
         write_load(load, output, to, world_frame=world_frame, sensor_pose=sensor_pose, log=log)

@@ -39,6 +39,7 @@ def thermal(
     from forcetorque.atomic import write_bytes_atomically
     from forcetorque.cli.figure_file import refuse_figure
     from forcetorque.cli.reading import read_calibrations, read_experiment, refuse_left_out, sensors_named
+    from forcetorque.experiment.inputs import stated_in
 
     log = start_logging()
     refuse_figure(figure)
@@ -48,16 +49,17 @@ def thermal(
     chosen = sensors_named(content, wanted)
     refuse_left_out(content, chosen, calibrations)
     name, read_by = next(iter(calibrations.items()), (None, None))
-    result = analysis.Thermal.together(
-        analysis.thermal(
-            analysis.SensorRun(content, one),
-            intervals=interval or (),
-            variable=variable,
-            name=name,
-            calibration=read_by,
+    with stated_in(str(experiment)):
+        result = analysis.Thermal.together(
+            analysis.thermal(
+                analysis.SensorRun(content, one),
+                intervals=interval or (),
+                variable=variable,
+                name=name,
+                calibration=read_by,
+            )
+            for one in chosen
         )
-        for one in chosen
-    )
     if figure is not None:
         from forcetorque.report.figures import thermal_figure
         from forcetorque.report.figures.canvas import png_bytes
