@@ -7,16 +7,14 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from forcetorque.errors import FormatError, RecordingError, UnitError
+from forcetorque.errors import FormatError, UnitError
 from forcetorque.recording import (
     EulerAxes,
     OrientationForm,
     OrientationLayout,
     OrientationSense,
     Signal,
-    Stream,
     orientation_signals,
-    with_reversed_orientation,
 )
 
 ROUNDING = 1e-12
@@ -76,20 +74,15 @@ def test_gravity_of_the_world_is_stated() -> None:
     np.testing.assert_allclose(_signals(np.array([[0.0, 0.0, 0.0, 1.0]]), layout)["gravity"].values, [[0, 0, 9.82]])
 
 
-def test_a_stream_tells_the_other_sense_too() -> None:
-    """Reversed, it is the stream of a log that was stated in the other sense; reversed twice, it is itself."""
+def test_the_orientation_that_is_kept_tells_the_other_sense_too() -> None:
+    """R g is gravity of the world, and R of that is gravity in the sensor, were the sense the other one."""
     numbers = WORLD_R_SENSOR.as_quat()
-    stamps = np.arange(len(numbers))
-    stream = Stream(name="pose", clock="log", stamp_ns=stamps, signals=_signals(numbers, _quaternions()))
-    expected = _signals(numbers, _quaternions(OrientationSense.WORLD_TO_SENSOR))
-    turned = with_reversed_orientation(stream)
-    for quantity in ("orientation", "gravity"):
-        np.testing.assert_allclose(turned.signal(quantity).values, expected[quantity].values, atol=ROUNDING)
-        again = with_reversed_orientation(turned).signal(quantity).values
-        np.testing.assert_allclose(again, stream.signal(quantity).values, atol=10 * ROUNDING)
-    alone = Stream(name="pose", clock="log", stamp_ns=stamps, signals={"gravity": stream.signal("gravity")})
-    with pytest.raises(RecordingError, match=r"expected an orientation.*got gravity"):
-        with_reversed_orientation(alone)
+    signals = _signals(numbers, _quaternions())
+    kept, gravity = signals["orientation"].values.reshape(-1, 3, 3), signals["gravity"].values
+    in_world = np.einsum("nij,nj->ni", kept, gravity)
+    np.testing.assert_allclose(in_world, np.tile(DOWN, (len(numbers), 1)), atol=10 * ROUNDING)
+    other = _signals(numbers, _quaternions(OrientationSense.WORLD_TO_SENSOR))["gravity"].values
+    np.testing.assert_allclose(np.einsum("nij,nj->ni", kept, in_world), other, atol=10 * ROUNDING)
 
 
 def test_missing_rows_are_missing() -> None:

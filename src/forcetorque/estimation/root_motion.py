@@ -147,7 +147,8 @@ def _require_complete(model: RobotModel, support: MovingSupport, found: dict[str
     if "gravity" not in found and {"proper_acceleration", "angular_velocity"} <= set(found):
         return
     raise RecordingError(
-        f"support frame {support.frame!r}: expected proper_acceleration and angular_velocity, or gravity alone, in the "
+        f"support frame {support.frame!r}: expected proper_acceleration and angular_velocity, or gravity alone, which "
+        "an orientation gives, in the "
         f"streams {', '.join(support.motion_streams)}; got {', '.join(has) or 'neither'}"
     )
 

@@ -9,7 +9,6 @@ from forcetorque.recording.orientation import (
     OrientationLayout,
     OrientationSense,
     orientation_signals,
-    with_reversed_orientation,
 )
 from forcetorque.recording.quantity import QUANTITIES, Labels, Quantity
 from forcetorque.recording.recording import Recording
@@ -40,6 +39,5 @@ __all__ = [
     "orientation_signals",
     "read_recording",
     "recording_schema",
-    "with_reversed_orientation",
     "write_recording",
 ]

@@ -8,7 +8,7 @@ This is the one place where an orientation becomes gravity.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from enum import StrEnum
 from typing import Any
 
@@ -16,9 +16,9 @@ import numpy as np
 
 from forcetorque.arrays import FloatArray, read_only, require_shape
 from forcetorque.constants import STANDARD_GRAVITY
-from forcetorque.errors import FormatError, RecordingError, UnitError
+from forcetorque.errors import FormatError, UnitError
 from forcetorque.recording.finding import Finding
-from forcetorque.recording.stream import Signal, Stream
+from forcetorque.recording.stream import Signal
 from forcetorque.spatial import si_factor
 
 LARGEST_DEFECT = 0.01
@@ -171,32 +171,6 @@ def orientation_signals(
     if len(known):
         world_R_sensor[known] = _rotations(values[known], layout, lambda row: where(int(known[row])))
     return _signals(world_R_sensor, layout.world_gravity, frame), tuple(_doubts(values[known], unit, stream))
-
-
-def with_reversed_orientation(stream: Stream) -> Stream:
-    """Give a stream as it were, had its orientation been stated in the other sense.
-
-    Args:
-        stream: A stream with orientation and the gravity that follows from it.
-
-    Returns:
-        The stream with the inverse rotations, and gravity along the axes of a frame that is turned so.
-
-    Raises:
-        RecordingError: If it holds no orientation.
-    """
-    if not {"orientation", "gravity"} <= set(stream.signals):
-        raise RecordingError(
-            f"stream {stream.name!r}: expected an orientation, and gravity that follows from it, to turn it round; got "
-            f"{', '.join(stream.signals)}"
-        )
-    orientation, gravity = stream.signal("orientation"), stream.signal("gravity")
-    world_R_sensor = orientation.values.reshape(-1, 3, 3)
-    in_world = np.einsum("nij,nj->ni", world_R_sensor, gravity.values)
-    turned = np.einsum("nij,nj->ni", world_R_sensor, in_world)
-    inverse = world_R_sensor.transpose(0, 2, 1).reshape(-1, 9)
-    changed = {"orientation": replace(orientation, values=inverse), "gravity": replace(gravity, values=turned)}
-    return replace(stream, signals={**stream.signals, **changed})
 
 
 def _turns_about(axes: str) -> bool:
