@@ -43,8 +43,10 @@ LOST: Final = np.sin(np.radians(15.0))
 """Share of the weight along a shin that leans by 15 degrees: 26 %."""
 ALONG: Final = 0.01
 """Share of the weight by which that is off: curves of the shin under a wide weight."""
-SEVERAL: Final = 2.0
-"""By how much the torque of skin is worse at 75 degrees than at 90; measured 2.9 over ten seeds."""
+LEAST_LOSS: Final = 0.12
+MOST_LOSS: Final = 0.22
+"""What the torque of skin loses from 90 to 75 degrees: 2.54 N, 52 mm from the axis of the shin, are 0.13 N m; measured
+0.165 N m over ten seeds."""
 
 
 def small_shin() -> SkinLayout:
@@ -107,7 +109,9 @@ def test_the_experiment_on_a_leg_of_real_taxels(data_dir: Path) -> None:
     simple, interpolated = mean_errors(inside)
     assert simple > 2.5 * interpolated
     at = {angle: [row for rows in several for row in leaned(rows) if row.load.degrees == angle] for angle in (90, 75)}
-    assert pooled_rmse(at[75]) > SEVERAL * pooled_rmse(at[90])
+    assert pooled_rmse(at[75]) > pooled_rmse(at[90])
+    bias = {angle: np.mean([row.skin_Nm.mean() - row.truth.knee_Nm for row in rows]) for angle, rows in at.items()}
+    assert LEAST_LOSS < bias[90] - bias[75] < MOST_LOSS
     for row in inside:
         assert not row.beyond_range
     hanging = [row for rows in several for row in rows if row.load == Load(mass_kg=3.0, on_top=False)]

@@ -86,6 +86,7 @@ from forcetorque.analysis.study import SensorStudy, study_sensor
 from forcetorque.analysis.study_data import StudyData, read_study_data
 from forcetorque.analysis.study_result import StudiedSensor, Studies, studied_sensor, study_warnings
 from forcetorque.analysis.torque_fusion import TorqueFusion, fuse_experiment
+from forcetorque.analysis.torque_picture import TorquePicture, torque_picture
 from forcetorque.analysis.trial_group import TrialGroup, group_trials
 from forcetorque.analysis.trials import TrialSphere, read_trials
 from forcetorque.analysis.use_verdict import Reason, UseError, UseVerdict, use_sentences
@@ -94,6 +95,8 @@ from forcetorque.analysis.verdict import VerdictLine
 
 __all__ = [
     "TorqueFusion",
+    "TorquePicture",
+    "torque_picture",
     "fuse_experiment",
     "write_plan",
     "refuse_full_folder",

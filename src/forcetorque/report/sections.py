@@ -16,6 +16,7 @@ from forcetorque.report.figures import joint_figure
 from forcetorque.report.judgements import judgement_section
 from forcetorque.report.questions import ERRORS, QUESTIONS
 from forcetorque.report.skin_section import skin_section
+from forcetorque.report.torque_section import torque_section
 from forcetorque.result import Table, table_of
 
 
@@ -47,6 +48,7 @@ def report_document(
     parts += [_question(name, make, experiments) for name, make in QUESTIONS]
     parts += [_parts(experiment) for experiment in experiments]
     parts += [skin_section(experiment) for experiment in experiments]
+    parts += [torque_section(experiment) for experiment in experiments]
     parts += [_recording(experiment) for experiment in experiments]
     parts += [*viewers, *(_findings(experiment) for experiment in experiments)]
     for file, content in results.items():
