@@ -9,11 +9,11 @@ from typing import Final
 import numpy as np
 
 from forcetorque.arrays import BoolArray, FloatArray
-from forcetorque.errors import SkinError
 from forcetorque.experiment import ExperimentPatch, PatchExperiment
 from forcetorque.recording.alignment import seconds_since, usable_samples
 from forcetorque.skin import PressureTable
 from forcetorque.skin.contact import PatchReader
+from forcetorque.skin.messages import require_counts
 from forcetorque.skin.taxels import Ailment, taxel_ailments
 
 _SICK: Final = (Ailment.WRAPS, Ailment.RAILS, Ailment.NOISE)
@@ -28,20 +28,13 @@ def patch_messages(content: PatchExperiment, patch: ExperimentPatch) -> tuple[Fl
         patch: One of its patches.
 
     Returns:
-        Times since the start of the recording, shape (k,), and counts, shape (k, columns); s, counts.
-
-    Raises:
-        SkinError: If a message is all zero or has gaps.
+        Times since the start of the recording, shape (k,), and counts, shape (k, columns); s, counts; no message is all
+        zero or has gaps.
     """
     stream = content.recording.stream(patch.counts)
     rows = usable_samples(stream.stamp_ns)
     counts = stream.signal("taxel_counts").values[rows]
-    empty = np.flatnonzero(~(np.nan_to_num(counts).any(axis=1) & np.isfinite(counts).all(axis=1)))
-    if len(empty):
-        raise SkinError(
-            f"row {rows[empty[0]]} of {patch.counts!r}: expected counts, got a message of zeros or with gaps "
-            f"({len(empty)} such of {len(counts)}): the board had no power or the message was lost; leave it out"
-        )
+    require_counts(counts, where=repr(patch.counts), rows=rows)
     return seconds_since(stream.stamp_ns[rows], content.recording.start_ns), counts
 
 
