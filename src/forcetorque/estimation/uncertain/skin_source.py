@@ -18,9 +18,13 @@ from forcetorque.skin.contact import SkinContacts
 
 TILT_RAD: Final = 0.011
 """Standard deviation of the direction of a skin's force about either tangent: root mean square of 157 simulated
-contacts on a lower leg, in range and off its edge; the covariance of pressures does not hold it."""
+contacts on a lower leg, in range and off its edge. The covariance of pressures holds some of it already, so this is on
+the safe side: normalised errors of other contacts are 0.6 to 0.7 in root mean square."""
 PLACE_M: Final = 0.0006
 """The same of the place of a contact along either tangent, of the same contacts; m."""
+TWIST_M: Final = 7e-5
+"""Moment about the normal over the push that the covariance of pressures lacks: with it normalised errors of 489 such
+contacts are 1 in root mean square, and were 1.4 without; judged on others; m."""
 OLDEST_S: Final = 0.5
 """How much older than a pose the frame of pressures that belongs to it may be; s."""
 
@@ -149,10 +153,12 @@ def _source(
     # a push that acts elsewhere has another moment, by the way along the skin times the force
     shifted = PLACE_M * np.cross(maps[:, :3], wrench[rows, :3, None], axis=1)
     moved = np.concatenate([np.zeros_like(shifted), shifted], axis=1)
+    about = np.where(np.isnan(normal[rows]), 0.0, normal[rows])
+    turned = TWIST_M * force[rows, None, None] * np.concatenate([np.zeros_like(about), about], axis=1)[:, :, None]
     return SkinSource(
         contact=Contact(link=link, name=name, type=ContactType.KNOWN),
         wrench=wrench[rows],
-        covariance=covariance[rows] + tilted @ tilted.transpose(0, 2, 1) + moved @ moved.transpose(0, 2, 1),
+        covariance=covariance[rows] + sum(one @ one.transpose(0, 2, 1) for one in (tilted, moved, turned)),
         tangents=tangents,
         centre=centre[rows],
         beyond_range=beyond[rows],
