@@ -63,8 +63,8 @@ def torque_picture(
     Raises:
         ExperimentError: If no torque of a rotary joint is known.
     """
-    pieces = [_of_fusion(one) for one in fusions] or [_of_estimates(experiment, span) for span in spans]
-    pieces.sort(key=lambda piece: int(piece.stamp_ns[0]))
+    several = [_of_fusion(one) for one in fusions] or [_of_estimates(experiment, span) for span in spans]
+    pieces = sorted((piece for piece in several if len(piece.stamp_ns)), key=lambda piece: int(piece.stamp_ns[0]))
     rotary = [
         joint
         for joint in dict.fromkeys(joint for piece in pieces for joint in piece.joints)
