@@ -15,6 +15,7 @@ from forcetorque.recording import write_recording
 from forcetorque.simulation.skin import (
     REFERENCE_PA,
     ContactTruth,
+    Loading,
     SkinBody,
     TaxelResponses,
     chamber_recording,
@@ -59,7 +60,9 @@ def write_table(folder: Path) -> None:
     answer.calibration.save(folder / "shank.json")
 
 
-def write_touched(folder: Path, *, seed: int = 6, broken: int | None = None) -> Sequence[ContactTruth]:
+def write_touched(
+    folder: Path, *, seed: int = 6, broken: int | None = None, loading: Loading | None = None
+) -> Sequence[ContactTruth]:
     """Write `shank.csv`, `bag.toml` and `touched.toml` with their recordings; one taxel may be at its rail."""
     layout = shank_layout()
     rng = np.random.default_rng(seed)
@@ -68,7 +71,7 @@ def write_touched(folder: Path, *, seed: int = 6, broken: int | None = None) -> 
     write_layout_table(folder / "shank.csv", layout)
     write_recording(folder / "bag", chamber_recording(taxels, highest_pa=REFERENCE_PA, ramp_s=8.0, rng=rng))
     later = replace(taxels, rest=taxels.rest - 1.3)
-    touched = contact_recording(layout, later, truths, rng)
+    touched = contact_recording(layout, later, truths, rng, loading=loading)
     if broken is not None:
         stream = touched.stream("counts")
         counts = stream.signal("taxel_counts").values.copy()

@@ -77,6 +77,7 @@ from forcetorque.analysis.sensor_sphere import SensorSphere, sensor_spheres, sph
 from forcetorque.analysis.skin_calibrate import SkinCalibration, calibrate_skin, read_patches
 from forcetorque.analysis.skin_check import LayoutFindingRow, SkinCheck, check_patch, check_skin
 from forcetorque.analysis.skin_contact_rows import SkinContactRow, SkinWrenchPicture
+from forcetorque.analysis.skin_sources import frames_of_patches
 from forcetorque.analysis.skin_wrench import SkinWrench, skin_wrench
 from forcetorque.analysis.skin_wrench_choice import WrenchChoice
 from forcetorque.analysis.sphere import Spheres, spheres, spheres_of_sensors
@@ -94,6 +95,7 @@ from forcetorque.analysis.verdict import VerdictLine
 
 __all__ = [
     "TorqueFusion",
+    "frames_of_patches",
     "fuse_experiment",
     "write_plan",
     "refuse_full_folder",

@@ -95,11 +95,19 @@ def _estimated(
     corrections = analysis.corrections_of(content, calibrations)
     for sensor, correction in corrections.items():
         log.info("%s: %s", sensor, correction.source)
+    patches = analysis.frames_of_patches(content)
     with _Progress() as progress:
         spans = analysis.estimate_experiment(
-            content, corrections, contacts=named, length_scale=length_scale, progress=progress.show
+            content,
+            corrections,
+            contacts=named,
+            length_scale=length_scale,
+            progress=progress.show,
+            patches=patches,
         )
-    fusions, frictions = analysis.fuse_experiment(content, corrections, contacts=named) if fuse else ([], ())
+    if not fuse:
+        return analysis.summarise_estimates(content, corrections, spans, file=file)
+    fusions, frictions = analysis.fuse_experiment(content, corrections, contacts=named, patches=patches)
     return analysis.summarise_estimates(content, corrections, spans, file=file, fusions=fusions, frictions=frictions)
 
 

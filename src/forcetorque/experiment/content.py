@@ -17,7 +17,7 @@ from forcetorque.experiment.load_case_schema import LoadCaseTable
 from forcetorque.experiment.patches import ExperimentPatch, PatchExperiment
 from forcetorque.experiment.plan_schema import PlanTable
 from forcetorque.experiment.recording_names import path_endings, recording_name
-from forcetorque.recording import Interval, Recording, ScalarSource, Support, Use
+from forcetorque.recording import Interval, Recording, ScalarSource, Stream, Support, Use
 from forcetorque.robot import RobotModel
 
 
@@ -207,6 +207,18 @@ class Experiment:
     def force_patches(self) -> tuple[ExperimentPatch, ...]:
         """Patches of skin whose contacts are sources of force: those with a calibration of their taxels."""
         return () if self.skin is None else tuple(patch for patch in self.skin.patches if patch.table is not None)
+
+    @property
+    def clock_stream(self) -> Stream:
+        """The stream at whose instants is estimated: of the first sensor, or of the first patch where there is none."""
+        if self.sensors:
+            return self.recording.stream(self.sensors[0].stream)
+        if not self.force_patches:
+            raise ExperimentError(
+                f"experiment {self.name!r}: expected [[sensor]], or a [[patch]] with a table, got neither; "
+                "`forcetorque skin calibrate` makes a table"
+            )
+        return self.recording.stream(self.force_patches[0].counts)
 
     @property
     def stands(self) -> bool:

@@ -13,6 +13,7 @@ import numpy as np
 from forcetorque.arrays import BoolArray, FloatArray, IntArray
 from forcetorque.errors import EstimationError
 from forcetorque.estimation.contact import Contact, ContactType
+from forcetorque.estimation.uncertain.covariance import square_root
 from forcetorque.estimation.uncertain.uncertainty import SLIPPING, Tangents, tangent_maps
 from forcetorque.skin.contact import SkinContacts
 
@@ -41,6 +42,29 @@ class SkinSource:
     """Centre of pressure; NaN where there is no contact; shape (n, 3); m."""
     beyond_range: BoolArray
     """Whether a taxel reads more than it was calibrated for; shape (n,)."""
+
+    def errors(self, noise_share: float) -> tuple[FloatArray, FloatArray]:
+        """Give its errors, where friction bounds what it does not feel, as noise and as what lasts while it is touched.
+
+        Args:
+            noise_share: Share of their covariance that differs from sample to sample.
+
+        Returns:
+            Covariance of the noise, and what one standard deviation of each lasting error adds; shape (n, 6, 6) each.
+
+        Raises:
+            EstimationError: If nothing is known of its tangential force.
+        """
+        covariance = self.covariance
+        if self.tangents is not None:
+            if self.tangents.sd_N is None:
+                raise EstimationError(
+                    f"contact {self.contact.name!r}: expected friction, which bounds the force along the skin: without "
+                    "it skin alone tells no torque; state a coefficient in [[patch]], such as 0.3"
+                )
+            slanted = self.tangents.maps * self.tangents.sd_N[:, None, None]
+            covariance = covariance + slanted @ slanted.transpose(0, 2, 1)
+        return noise_share * covariance, square_root((1.0 - noise_share) * covariance)
 
     def of_samples(self, kept: BoolArray) -> SkinSource:
         """Keep some samples.
