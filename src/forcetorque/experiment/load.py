@@ -70,6 +70,11 @@ def load_touched_robot(path: Path | str) -> Experiment:
     file = Path(path)
     parsed = parse_experiment(file)
     alone = not parsed.sensor and parsed.robot is not None and any(patch.table for patch in parsed.patch)
+    if alone and not parsed.support and not any(one.touched for one in parsed.interval):
+        raise ExperimentError(
+            f"{file}: expected [[support]], the link whose motion is known, got none: at rest with gravity_direction, "
+            "or moving with imu, the streams of an IMU; without it nobody knows what moves the robot, skin or not"
+        )
     return _of_robot(parsed, file) if alone else load_experiment(file)
 
 

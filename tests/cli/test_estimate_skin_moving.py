@@ -1,0 +1,86 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Whole-body torques from skin, encoders and one IMU, without any force-torque sensor, on a base that moves."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pyarrow.parquet as pq
+import pytest
+
+from forcetorque.arrays import FloatArray
+from tests.cli.outcome import Run
+from tests.estimation.simulated import Simulation
+from tests.moving_leg import AT_REST, BY_IMU, CURRENT, FT, JOINTS, RATE_HZ, changed, write_moving_leg
+
+ALONE = ((FT, ""), (CURRENT, ""))
+ERROR_NM = {"hip_roll": 0.1, "hip_pitch": 0.1, "ankle": 1e-3}
+"""Largest root mean square error: skin errs by some percent and lags by 0.2 s; the ankle is that of the model alone."""
+WITHOUT_NM = 2.0
+"""What the hip is wrong by, at least, where the base is said to rest: 2.5 and 3.1 N m here."""
+
+Leg = tuple[Path, Simulation]
+
+
+@pytest.fixture(scope="module", name="leg")
+def moving_leg(tmp_path_factory: pytest.TempPathFactory) -> Leg:
+    """A leg with objects on its skin, on a base that is swung about, and its truth."""
+    folder = tmp_path_factory.mktemp("moving")
+    return folder, write_moving_leg(folder, base_moves=True)
+
+
+def _estimated(run: Run, leg: Leg, *changes: tuple[str, str]) -> tuple[Any, FloatArray]:
+    """Estimates, and rows of the truth that belong to them."""
+    file, output = changed(leg[0], "alone.toml", *changes), leg[0] / "alone.parquet"
+    assert run("estimate", str(file), "-o", str(output)).code == 0
+    table = pq.read_table(output)
+    return table, np.rint(np.array(table["time_s"]) * RATE_HZ).astype(int)
+
+
+def _errors(table: Any, rows: FloatArray, truth: Simulation, joint: str) -> FloatArray:
+    errors: FloatArray = np.array(table[f"torque.{joint}"]) - truth.torque(joint)[rows]
+    return errors
+
+
+def test_torques_follow_from_skin_encoders_and_an_imu(run: Run, leg: Leg) -> None:
+    """Of all joints, while objects press and while nothing does."""
+    table, rows = _estimated(run, leg, *ALONE)
+    assert not any(name.startswith("measured.") for name in table.column_names)
+    pressed = np.isfinite(np.array(table["centre.shank 1.x"]))
+    assert 0 < np.count_nonzero(pressed) < len(rows)
+    for joint in JOINTS:
+        errors = _errors(table, rows, leg[1], joint)
+        assert np.sqrt(np.mean(errors**2)) < ERROR_NM[joint]
+        # while nothing presses only the differences of encoders and gyroscope are left
+        assert np.sqrt(np.mean(errors[~pressed] ** 2)) < 0.02
+    assert len(JOINTS) == 3
+
+
+def test_without_the_motion_of_the_base_torques_are_wrong(run: Run, leg: Leg) -> None:
+    """The negative control: the same skin and encoders, and a base that is said to rest."""
+    table, rows = _estimated(run, leg, *ALONE, (BY_IMU, AT_REST))
+    for joint in ("hip_roll", "hip_pitch"):
+        assert np.sqrt(np.mean(_errors(table, rows, leg[1], joint) ** 2)) > WITHOUT_NM
+
+
+@pytest.mark.parametrize(
+    ("changes", "words"),
+    [
+        (((f'[[support]]\nframe = "base"\n{BY_IMU}\n', ""),), "expected [[support]], the link whose motion is known"),
+        (((BY_IMU, ""),), "a support needs gravity_direction if it is at rest, or imu if the robot moves"),
+        (((BY_IMU, 'imu = ["gyro"]'),), "the recording has no stream 'gyro'; known: counts, imu"),
+        (((BY_IMU, 'imu = ["joints"]'),), "expected proper_acceleration and angular_velocity, or gravity alone"),
+    ],
+    ids=["no support", "neither gravity nor IMU", "unknown stream", "no IMU in the stream"],
+)
+def test_a_base_whose_motion_nobody_knows_is_refused(
+    changes: tuple[tuple[str, str], ...], words: str, run: Run, leg: Leg
+) -> None:
+    """In one line that says what to state."""
+    file, output = changed(leg[0], "unknown.toml", *ALONE, *changes), leg[0] / "unknown.parquet"
+    error = run("estimate", str(file), "-o", str(output)).error()
+    assert words in error
+    assert "unknown.toml" in error
+    assert not output.exists()
