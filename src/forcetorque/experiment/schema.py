@@ -8,7 +8,6 @@ from typing import Annotated, Any, Literal
 
 from pydantic import (
     BeforeValidator,
-    ConfigDict,
     Discriminator,
     Field,
     Tag,
@@ -365,10 +364,6 @@ class CalibrationTable(Table):
 class ExperimentFile(Table):
     """The whole file."""
 
-    model_config = ConfigDict(
-        **Table.model_config, json_schema_extra={"anyOf": [{"required": ["sensor"]}, {"required": ["patch"]}]}
-    )
-
     schema_name: Literal["forcetorque/experiment/1"] = Field(alias="schema")
     """Form of the file."""
     name: Text
@@ -382,7 +377,7 @@ class ExperimentFile(Table):
     sensor: Annotated[tuple[Sensor, ...], Field(min_length=1)] = ()
     """Sensors; may be left out where the file is about skin alone."""
     patch: Annotated[tuple[Patch, ...], Field(min_length=1)] = ()
-    """Patches of artificial skin."""
+    """Patches of artificial skin; without these and sensors a file is about contacts that a skinManager saw."""
     support: tuple[Support, ...] = ()
     """Support frames; none with `load`."""
     interval: Annotated[tuple[Interval, ...], Field(min_length=1)]
@@ -408,8 +403,6 @@ class ExperimentFile(Table):
 
     @model_validator(mode="after")
     def _robot_or_load(self) -> ExperimentFile:
-        if not self.sensor and not self.patch:
-            raise PydanticCustomError("no_sensor", "expected [[sensor]], or [[patch]] for skin")
         if not self.sensor:
             return self
         if (self.robot is None) == (self.load is None):

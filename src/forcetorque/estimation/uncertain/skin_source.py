@@ -153,7 +153,7 @@ def _source(
     wrench, covariance = np.zeros((len(frames), 6)), np.zeros((len(frames), 6, 6))
     centre, normal = np.full((len(frames), 3), np.nan), np.full((len(frames), 3), np.nan)
     force, beyond = np.zeros(len(frames)), np.zeros(len(frames), dtype=np.bool_)
-    for k in np.unique(rows).tolist():
+    for k in np.unique([rows, np.minimum(rows + 1, len(frames) - 1)]).tolist():
         if number < len(frames[k]):
             contacts = frames[k]
             wrench[k], covariance[k] = contacts.wrench[number], contacts.covariance[number]
@@ -173,10 +173,15 @@ def _source(
     # a push that acts elsewhere has another moment, by the way along the skin times the force
     shifted = PLACE_M * np.cross(maps[:, :3], wrench[rows, :3, None], axis=1)
     moved = np.concatenate([np.zeros_like(shifted), shifted], axis=1)
+    # somewhere between this frame and the next, evenly likely: the square of what changes by then is a third
+    pending = np.diff(wrench, axis=0, append=wrench[-1:])[rows] / np.sqrt(3.0)
     return SkinSource(
         contact=Contact(link=link, name=name, type=ContactType.KNOWN),
         wrench=wrench[rows],
-        covariance=covariance[rows] + tilted @ tilted.transpose(0, 2, 1) + moved @ moved.transpose(0, 2, 1),
+        covariance=covariance[rows]
+        + tilted @ tilted.transpose(0, 2, 1)
+        + moved @ moved.transpose(0, 2, 1)
+        + pending[:, :, None] * pending[:, None],
         tangents=tangents,
         centre=centre[rows],
         beyond_range=beyond[rows],
