@@ -276,6 +276,7 @@ def _for_table(experiment: Experiment, span: IntervalEstimates, fused: IntervalF
         torques={} if fused is None else dict(fused.columns()),
         uncertain=span.uncertain,
         centres={source.contact.name: source.centre for source in span.skin},
+        identities={source.contact.name: source.identity for source in span.skin},
     )
 
 

@@ -18,7 +18,9 @@ class SkinContactSummary(Row):
     interval: Annotated[str, Shown("interval")]
     """Label of the interval."""
     contact: Annotated[str, Shown("contact on skin")]
-    """Patch and number of the contact, which is that in its frame."""
+    """Patch and place of the contact; a place is taken again when a contact was let go."""
+    identities: tuple[int, ...]
+    """Numbers of the contacts that had it, as `forcetorque skin wrench` has them."""
     samples: Annotated[int, Shown("samples")]
     """Number of samples in which it touches."""
     push_mean_N: Annotated[float, Shown("push", "N", digits=2)]
@@ -50,6 +52,7 @@ def skin_rows(span: IntervalEstimates) -> Iterator[SkinContactSummary]:
         yield SkinContactSummary(
             interval=span.interval.label,
             contact=name,
+            identities=tuple(np.unique(source.identity[there]).tolist()),
             samples=int(there.sum()),
             push_mean_N=float(np.linalg.norm(source.wrench[there, :3], axis=1).mean()),
             force_mean_N=float(np.linalg.norm(force[told], axis=1).mean()) if told.any() else None,
