@@ -24,6 +24,8 @@ HOT_COUNTS = 10.0
 ERROR_NM = 0.35
 """Largest root mean square error of a sound source: skin lags by 0.2 s while an object of 20 N is put down in 0.5 s."""
 
+OFFSET = "samples of a calibration interval, and the offset of knee_ft is taken there as if nothing touched"
+
 Leg = tuple[Path, Simulation]
 
 
@@ -44,7 +46,9 @@ def test_all_sources_stand_beside_each_other_and_together(run: Run, sound: Leg) 
     """Each tells the torques of the hip; together they are not in conflict."""
     folder, truth = sound
     output = folder / "torques.parquet"
-    result = run("estimate", str(folder / FILE), "--fuse", "-o", str(output), "--format", "json").result()
+    outcome = run("estimate", str(folder / FILE), "--fuse", "-o", str(output), "--format", "json")
+    result = outcome.result()
+    assert not any(OFFSET in line for line in outcome.log)
     judged = [row for row in result["fusion"]["sources"] if row["interval"] == "judge"]
     assert [row["source"] for row in judged] == ["ft", "skin", "current"]
     assert {row["verdict"] for row in judged} == {"used"}
@@ -85,6 +89,16 @@ def test_any_two_sources_are_fused(
     rows = np.searchsorted(experiment.clock_stream.stamp_ns, judge.fusion.stamp_ns)
     error = judge.fusion.torque[:, column] - truth.torque("hip_pitch")[rows]
     assert np.sqrt(np.nanmean(error**2)) < ERROR_NM
+
+
+def test_a_contact_where_the_offset_is_taken_is_warned_of(run: Run, sound: Leg) -> None:
+    """Nothing may touch in a calibration interval unless a calibration gives the offset of the sensor."""
+    folder, _ = sound
+    spans = ("end_s = 9.0", "end_s = 11.0"), ("start_s = 9.0", "start_s = 11.0")
+    file = changed(folder, "touched.toml", *spans)
+    outcome = run("estimate", str(file), "-o", str(folder / "touched.parquet"))
+    assert outcome.code == 0
+    assert any(f"fit: skin is touched in 95 of 425 {OFFSET}" in line for line in outcome.log)
 
 
 def test_hot_skin_is_named(run: Run, tmp_path: Path) -> None:

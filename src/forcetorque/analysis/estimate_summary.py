@@ -258,8 +258,9 @@ def _doubts(corrections: Mapping[str, Correction], spans: Sequence[IntervalEstim
     exact = tuple(
         name for name, one in corrections.items() if one.calibration is None or one.calibration.posterior is None
     )
+    resting = tuple(name for name, one in corrections.items() if one.calibration is None and one.removes_offset)
     for span in spans:
-        yield from skin_doubts(span, exact)
+        yield from skin_doubts(span, exact, resting)
 
 
 def _for_table(experiment: Experiment, span: IntervalEstimates, fused: IntervalFusion | None) -> EstimatedSpan:

@@ -9,6 +9,7 @@ from typing import Annotated
 import numpy as np
 
 from forcetorque.analysis.estimate import IntervalEstimates
+from forcetorque.recording import Use
 from forcetorque.result import Row, Shown
 
 
@@ -61,12 +62,13 @@ def skin_rows(span: IntervalEstimates) -> Iterator[SkinContactSummary]:
         )
 
 
-def skin_doubts(span: IntervalEstimates, exact: tuple[str, ...]) -> Iterator[str]:
+def skin_doubts(span: IntervalEstimates, exact: tuple[str, ...], resting: tuple[str, ...]) -> Iterator[str]:
     """Say what makes estimates with skin doubtful.
 
     Args:
         span: Estimates over an interval.
         exact: Sensors whose errors nobody predicts.
+        resting: Sensors whose offset is that of the calibration intervals, in which nothing is to touch the robot.
 
     Yields:
         Sentences.
@@ -83,5 +85,12 @@ def skin_doubts(span: IntervalEstimates, exact: tuple[str, ...]) -> Iterator[str
                 f"{label}: {source.contact.name!r} presses a taxel beyond what it was calibrated for in {beyond} of "
                 f"{len(source.beyond_range)} samples: its force is extrapolated there"
             )
+    touched = int(np.count_nonzero(np.any([source.identity > 0 for source in span.skin], axis=0)))
+    if resting and touched and span.interval.use is Use.CALIBRATION:
+        yield (
+            f"{label}: skin is touched in {touched} of {len(span.stamp_ns)} samples of a calibration interval, and the "
+            f"offset of {', '.join(resting)} is taken there as if nothing touched; leave these samples out, or read by "
+            "a calibration (-c)"
+        )
     if exact:
         yield f"{label}: readings of {', '.join(exact)} count as exact, as no calibration predicts their errors"
