@@ -19,8 +19,8 @@ from tests.cli.outcome import Run
 from tests.estimation.simulated import Simulation
 from tests.moving_leg import CURRENT, DRIVEN, FILE, FT, RATE_HZ, SKIN, Faults, changed, write_moving_leg
 
-HOT_COUNTS = 10.0
-"""What heat of some 8 degrees takes from the taxels of one side."""
+HOT_COUNTS = 5.0
+"""What heat of some 4 degrees takes from the taxels of one side."""
 ERROR_NM = 0.35
 """Largest root mean square error of a sound source: skin lags by 0.2 s while an object of 20 N is put down in 0.5 s."""
 
