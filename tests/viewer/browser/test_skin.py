@@ -10,10 +10,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import pytest
 
-from forcetorque.viewer import BuiltScene
+from forcetorque.experiment import load_shown
+from forcetorque.viewer import BuiltScene, scene_of
 from forcetorque.viewer.scene import Block, SkinEventSeries, SkinPatch, read_array
 from forcetorque.viewer.skin_contacts import contact_frames
 from tests.browser import Visit
+from tests.skin_alone import TOUCHED, write_events
 from tests.viewer.browser.arm_scene import Arm, arm_scene
 
 if TYPE_CHECKING:
@@ -148,3 +150,18 @@ def test_pressure_is_seen(skin_page: Page, skinned: tuple[Arm, BuiltScene]) -> N
     skin_page.get_by_label("Pressure and contacts on skin").uncheck()
     skin_page.evaluate("window.ft.show(window.ft.sample())")
     assert canvas.screenshot() != pressed
+
+
+def test_skin_alone_has_the_page_to_itself(visit: Visit, tmp_path: Path) -> None:
+    """Without a sensor there is neither force space nor a course of forces; contacts are drawn and numbered."""
+    file = write_events(tmp_path)
+    page = visit.open(scene_of(file, load_shown(file), {}))
+    assert page.get_by_role("region", name="Robot").is_visible()
+    for empty in ("Force space", "Planes"):
+        assert not page.get_by_role("region", name=empty).is_visible()
+    page.evaluate(f"window.ft.show({TOUCHED[3]})")
+    assert [len(tips) for tips in page.evaluate("window.ft.skin()")["contacts"].values()] == [1, 0]
+    texts = page.get_by_role("region", name="Skin").get_by_role("row").all_text_contents()
+    assert texts == ["right forearm: contact 13.04 heuristic"]
+    page.evaluate(f"window.ft.show({TOUCHED[0] - 2})")
+    assert [len(tips) for tips in page.evaluate("window.ft.skin()")["contacts"].values()] == [0, 0]
