@@ -22,6 +22,8 @@ from tests.touched import shank_layout, write_table, write_touched
 
 FILE = "leg.toml"
 RATE_HZ = 50.0
+FEW = 3
+"""Rows of modules of a patch whose surface is built quickly."""
 GRAVITY = 9.80665
 LOADING = Loading(rest_s=9.0)
 """Nothing touches in the first interval, which friction and the offset of the sensor are fitted on."""
@@ -116,7 +118,7 @@ class Faults:
 
 
 def write_moving_leg(
-    folder: Path, *, seed: int = 6, base_moves: bool = False, faults: Faults | None = None
+    folder: Path, *, seed: int = 6, base_moves: bool = False, faults: Faults | None = None, along: int = FEW
 ) -> Simulation:
     """Write `leg.toml`, with all sources, and what it needs.
 
@@ -125,12 +127,13 @@ def write_moving_leg(
         seed: Seed of objects, taxels, motion and noise.
         base_moves: Whether the base moves, which its IMU tells; it rests, level, if not.
         faults: What is wrong; nothing if None.
+        along: Rows of modules of the skin.
 
     Returns:
         The leg, with the objects as they press, at every message.
     """
     wrong, rng = faults or Faults(), np.random.default_rng(seed + 1000)
-    truths = write_touched(folder, seed=seed, loading=LOADING)
+    truths = write_touched(folder, seed=seed, loading=LOADING, along=along)
     write_table(folder)
     (folder / "leg.urdf").write_text(URDF, encoding="utf-8")
     counts = read_recording(folder / "touched").stream("counts")
@@ -148,7 +151,7 @@ def write_moving_leg(
         "motors": _currents(simulation, rng, np.where(late, wrong.friction, 1.0)),
     }
     streams = {name: _stream(name, counts, signal) for name, signal in signals.items()}
-    streams |= {"counts": _heated(counts, wrong.hot_counts), "imu": _imu(simulation, counts)}
+    streams |= {"counts": _heated(counts, wrong.hot_counts, along), "imu": _imu(simulation, counts)}
     write_recording(folder / "leg", Recording(streams=streams))
     text = _TEXT.format(support=BY_IMU if base_moves else AT_REST) + FT + SKIN + CURRENT
     (folder / FILE).write_text(text, encoding="utf-8")
@@ -240,12 +243,12 @@ def _imu(simulation: Simulation, counts: Stream) -> Stream:
     return Stream(name="imu", clock=counts.clock, stamp_ns=counts.stamp_ns, signals=signals)
 
 
-def _heated(counts: Stream, hot: float) -> Stream:
+def _heated(counts: Stream, hot: float, along: int) -> Stream:
     """The counts, lower on the side that x points to, from the second interval on."""
     signal = counts.signal("taxel_counts")
     seconds = (counts.stamp_ns - counts.stamp_ns[0]) * 1e-9
     warmth = hot * np.linspace(0.5, 1.0, len(seconds)) * (seconds >= LOADING.rest_s)
-    side = np.maximum(shank_layout().normals[:, 0], 0.0)
+    side = np.maximum(shank_layout(along).normals[:, 0], 0.0)
     values = signal.values - np.rint(warmth[:, None] * side)
     return replace(counts, signals={"taxel_counts": replace(signal, values=values)})
 

@@ -46,9 +46,9 @@ use = "calibration"
 """
 
 
-def shank_layout() -> SkinLayout:
-    """Modules around a cylinder, every number of whose messages is a taxel."""
-    layout = cylinder_patch(across=9, along=6).layout()
+def shank_layout(along: int = 6) -> SkinLayout:
+    """Modules around a cylinder, in so many rows, every number of whose messages is a taxel."""
+    layout = cylinder_patch(across=9, along=along).layout()
     count = np.arange(len(layout))
     none = np.zeros(0, dtype=np.int64)
     return replace(layout, name="shank", columns=len(count), taxels=count, thermal_pads=none, thermal_modules=none)
@@ -61,10 +61,10 @@ def write_table(folder: Path) -> None:
 
 
 def write_touched(
-    folder: Path, *, seed: int = 6, broken: int | None = None, loading: Loading | None = None
+    folder: Path, *, seed: int = 6, broken: int | None = None, loading: Loading | None = None, along: int = 6
 ) -> Sequence[ContactTruth]:
     """Write `shank.csv`, `bag.toml` and `touched.toml` with their recordings; one taxel may be at its rail."""
-    layout = shank_layout()
+    layout = shank_layout(along)
     rng = np.random.default_rng(seed)
     taxels = TaxelResponses.drawn(len(layout), rng)
     truths = list(contacts(SkinBody.of(layout), rng, OBJECTS))

@@ -22,6 +22,8 @@ from tests.moving_leg import DRIVEN, FILE, Faults, write_moving_leg
 
 FIRST, SEEDS = 20, 20
 """Seeds on which nothing was chosen; those of other tests are below."""
+ROWS: Final = 6
+"""Of modules, about as many as a lower leg has."""
 HOT_COUNTS: Final = 5.0
 """What heat of some 4 degrees takes from the taxels of one side."""
 FAULTS: Final = {
@@ -55,7 +57,7 @@ def trials(broken: str | None, seeds: int = SEEDS) -> Iterator[Trial]:
 
 
 def _trial(folder: Path, seed: int, faults: Faults) -> Trial:
-    simulation = write_moving_leg(folder, seed=seed, faults=faults)
+    simulation = write_moving_leg(folder, seed=seed, faults=faults, along=ROWS)
     experiment = load_touched_robot(folder / FILE)
     (_, judged), _ = fuse_experiment(experiment, corrections_of(experiment, {}))
     fusion = judged.fusion

@@ -10,14 +10,19 @@ import numpy as np
 import pyarrow.parquet as pq
 import pytest
 
+from forcetorque.analysis import estimate_experiment
 from forcetorque.arrays import FloatArray
+from forcetorque.experiment import load_touched_robot
 from tests.cli.outcome import Run
 from tests.estimation.simulated import Simulation
 from tests.moving_leg import AT_REST, BY_IMU, CURRENT, FT, JOINTS, RATE_HZ, changed, write_moving_leg
 
 ALONE = ((FT, ""), (CURRENT, ""))
-ERROR_NM = {"hip_roll": 0.1, "hip_pitch": 0.1, "ankle": 1e-3}
-"""Largest root mean square error: skin errs by some percent and lags by 0.2 s; the ankle is that of the model alone."""
+ERROR_NM = {"hip_roll": 0.3, "hip_pitch": 0.3, "ankle": 1e-3}
+"""Largest root mean square error: skin errs by some percent and lags by 0.2 s while 14 N are put down in 0.5 s, which
+gives 0.20 and 0.13 N m; the ankle is that of the model alone."""
+UNTOUCHED_NM = 0.01
+"""The same while nothing presses."""
 WITHOUT_NM = 2.0
 """What the hip is wrong by, at least, where the base is said to rest: 2.5 and 3.1 N m here."""
 
@@ -49,20 +54,28 @@ def test_torques_follow_from_skin_encoders_and_an_imu(run: Run, leg: Leg) -> Non
     table, rows = _estimated(run, leg, *ALONE)
     assert not any(name.startswith("measured.") for name in table.column_names)
     pressed = np.isfinite(np.array(table["centre.shank 1.x"]))
-    assert 0 < np.count_nonzero(pressed) < len(rows)
+    free = ~pressed & ~leg[1].on_links["shank"][rows].any(axis=1)
+    assert 0 < np.count_nonzero(pressed) < np.count_nonzero(free) < len(rows)
     for joint in JOINTS:
         errors = _errors(table, rows, leg[1], joint)
         assert np.sqrt(np.mean(errors**2)) < ERROR_NM[joint]
-        # while nothing presses only the differences of encoders and gyroscope are left
-        assert np.sqrt(np.mean(errors[~pressed] ** 2)) < 0.02
+        # while nothing presses only what filters of encoders and gyroscope flatten is left
+        assert np.sqrt(np.mean(errors[free] ** 2)) < UNTOUCHED_NM
     assert len(JOINTS) == 3
 
 
-def test_without_the_motion_of_the_base_torques_are_wrong(run: Run, leg: Leg) -> None:
-    """The negative control: the same skin and encoders, and a base that is said to rest."""
-    table, rows = _estimated(run, leg, *ALONE, (BY_IMU, AT_REST))
+def test_without_the_motion_of_the_base_torques_are_wrong(leg: Leg) -> None:
+    """The negative control: the same encoders, and a base that is said to rest."""
+    experiment = load_touched_robot(changed(leg[0], "rest.toml", *ALONE, (BY_IMU, AT_REST)))
+    # what skin feels does not matter here, and is not read again
+    spans = estimate_experiment(experiment, {}, patches=())
     for joint in ("hip_roll", "hip_pitch"):
-        assert np.sqrt(np.mean(_errors(table, rows, leg[1], joint) ** 2)) > WITHOUT_NM
+        errors = [
+            span.estimates.torque(joint)
+            - leg[1].torque(joint)[np.searchsorted(experiment.clock_stream.stamp_ns, span.stamp_ns)]
+            for span in spans
+        ]
+        assert np.sqrt(np.mean(np.concatenate(errors) ** 2)) > WITHOUT_NM
 
 
 @pytest.mark.parametrize(

@@ -40,7 +40,7 @@ def test_links_stand_apart() -> None:
 
 def test_a_patch_is_on_the_link_of_its_layout(tmp_path: Path) -> None:
     """Where the file states none."""
-    write_touched(tmp_path)
+    write_touched(tmp_path, along=3)
     write_table(tmp_path)
     file = tmp_path / "touched.toml"
     file.write_text(file.read_text().replace("[[interval]]", 'table = "shank.json"\n\n[[interval]]'), encoding="utf-8")
@@ -54,7 +54,7 @@ def test_what_is_about_neither_sensors_nor_skin_is_refused(tmp_path: Path) -> No
     file = write_events(tmp_path)
     with pytest.raises(ExperimentError, match=r"expected \[\[sensor\]\], .* got none; `forcetorque inspect`, `view`"):
         load_experiment(file)
-    write_touched(tmp_path)
+    write_touched(tmp_path, along=3)
     counts = tmp_path / "touched.toml"
     text = counts.read_text(encoding="utf-8")
     counts.write_text(text[: text.index("[[patch]]")] + text[text.index("[[interval]]") :], encoding="utf-8")

@@ -45,8 +45,7 @@ def patch_messages(content: PatchExperiment, patch: ExperimentPatch) -> tuple[Fl
     if len(empty):
         raise SkinError(
             f"row {rows[empty[0]]} of {patch.counts!r}: expected counts, got a message of zeros or with gaps "
-            f"({len(empty)} such of {len(counts)}): the board had no power or the message was lost; take it out "
-            "of the log"
+            f"({len(empty)} such of {len(counts)}): the board had no power or the message was lost; leave it out"
         )
     return seconds_since(stream.stamp_ns[rows], content.recording.start_ns), counts
 
