@@ -1,0 +1,87 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A matrix that reads most positions right, whatever a few of them hide.
+
+A least-squares fit follows a fault: with two loads swapped it finds neither of them odd. So positions that disagree
+count less (Student's t, by weighing anew), and the fit begins from several matrices: the nominal one, where there is
+one, that of the loads as stated, and those of the swaps that would make the residual smallest.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from forcetorque.arrays import FloatArray
+from forcetorque.exsitu.bench import Bench
+from forcetorque.exsitu.scatter import Scatter
+
+_STUDENT = 1.0
+"""Degrees of freedom while searching: few, so that a fault has hardly any weight."""
+_SWEEPS = 25
+_SWAPS = 12
+"""Swaps to begin from."""
+
+
+def reading_matrix(bench: Bench, scatter: Scatter) -> FloatArray:
+    """Fit a matrix to those positions that agree.
+
+    Args:
+        bench: The bench; its loads have rank 6.
+        scatter: How positions scatter, roughly.
+
+    Returns:
+        The matrix; shape (6, c); N/count, N m/count.
+    """
+    loads, counts = bench.loads.wrench, bench.raw / bench.full_scale
+    precision = np.asarray(np.linalg.inv(scatter.covariance), dtype=np.float64)
+    starts = [*([] if bench.prior is None else [_of_prior(bench)]), *_by_swaps(loads, counts)]
+    candidates = [_settled(loads, counts, precision, start) for start in starts]
+    matrix, _ = min(candidates, key=lambda candidate: candidate[1])
+    reading: FloatArray = matrix / bench.full_scale
+    return reading
+
+
+def _of_prior(bench: Bench) -> FloatArray:
+    prior = np.asarray(bench.prior) * bench.full_scale
+    residual = bench.raw / bench.full_scale @ prior.T - bench.loads.wrench
+    return np.hstack([prior, -np.median(residual, axis=0)[:, None]])
+
+
+def _by_swaps(loads: FloatArray, counts: FloatArray) -> Iterator[FloatArray]:
+    """Matrices with offset by least squares, with loads as stated and with two of them swapped; shape (6, c + 1)."""
+    design = np.hstack([loads, np.ones((len(loads), 1))])
+    left = np.linalg.svd(design, full_matrices=False)[0]
+    kept = np.eye(len(loads)) - left @ left.T
+    first, second = np.triu_indices(len(loads), k=1)
+    apart, residual, own = counts[second] - counts[first], kept @ counts, np.diag(kept)
+    change = 2.0 * ((residual[first] - residual[second]) * apart).sum(axis=1) + (apart**2).sum(axis=1) * (
+        own[first] + own[second] - 2.0 * kept[first, second]
+    )
+    yield _line(design, counts, np.ones(len(loads)))
+    for place in np.argsort(change)[:_SWAPS]:
+        swapped = counts.copy()
+        swapped[[first[place], second[place]]] = counts[[second[place], first[place]]]
+        yield _line(design, swapped, np.ones(len(loads)))
+
+
+def _settled(
+    loads: FloatArray, counts: FloatArray, precision: FloatArray, start: FloatArray
+) -> tuple[FloatArray, float]:
+    """Weigh anew until it settles; the matrix without offset, and how badly it fits."""
+    design = np.hstack([loads, np.ones((len(loads), 1))])
+    size = 1.0 / np.einsum("pii->p", precision)
+    matrix, worth = start, 0.0
+    for _ in range(_SWEEPS):
+        residual = counts @ matrix[:, :-1].T + matrix[:, -1] - loads
+        distance = np.einsum("pi,pij,pj->p", residual, precision, residual)
+        worth = float(np.log1p(distance / _STUDENT).sum())
+        matrix = _line(design, counts, np.sqrt((_STUDENT + 6.0) / (_STUDENT + distance) / size))
+    return matrix[:, :-1], worth
+
+
+def _line(design: FloatArray, counts: FloatArray, weight: FloatArray) -> FloatArray:
+    """Matrix and offset that undo the response of counts to loads; shape (6, c + 1)."""
+    response = np.linalg.lstsq(design * weight[:, None], counts * weight[:, None], rcond=None)[0]
+    matrix = np.linalg.pinv(response[:6].T)
+    return np.hstack([matrix, -(matrix @ response[6])[:, None]])
