@@ -28,6 +28,7 @@ from forcetorque.cli.sphere import sphere
 from forcetorque.cli.study import study
 from forcetorque.cli.validate import validate
 from forcetorque.cli.view import view
+from forcetorque.cli.workbench import workbench
 from forcetorque.errors import ForceTorqueError
 
 app = typer.Typer(
@@ -68,6 +69,7 @@ _COMMANDS = (
     study,
     validate,
     view,
+    workbench,
 )
 
 _GROUPS = (skin,)
