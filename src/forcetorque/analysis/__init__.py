@@ -5,6 +5,7 @@ from forcetorque.analysis.acceptance import Acceptance, accept, criteria_table
 from forcetorque.analysis.acceptance_file import AcceptanceFile, read_acceptance
 from forcetorque.analysis.applicability import by_sensor, one_per_sensor
 from forcetorque.analysis.assessment import Assessment, Demands, assess
+from forcetorque.analysis.bench_file import BenchFile
 from forcetorque.analysis.bench_recording import BenchRecording, read_bench
 from forcetorque.analysis.best_candidate import BestCandidate, CandidateComparison
 from forcetorque.analysis.calibrate import calibrate_sensor
@@ -92,10 +93,12 @@ from forcetorque.analysis.trials import TrialSphere, read_trials
 from forcetorque.analysis.use_verdict import Reason, UseError, UseVerdict, use_sentences
 from forcetorque.analysis.validate import Validation, validate
 from forcetorque.analysis.verdict import VerdictLine
-from forcetorque.analysis.workbench import Workbench, workbench
+from forcetorque.analysis.workbench import workbench
+from forcetorque.analysis.workbench_result import Workbench
 from forcetorque.analysis.workbench_rows import BenchPicture
 
 __all__ = [
+    "BenchFile",
     "BenchPicture",
     "BenchRecording",
     "Workbench",

@@ -64,7 +64,7 @@ def bench_calibration(
         lambda_counts2=None,
         prior=None
         if bench.prior is None or prior_offset is None
-        else Prior(matrix=bench.prior, offset=prior_offset, source=str(sensor.prior)),
+        else Prior(matrix=bench.prior, offset=prior_offset, source=str(sensor.prior or "given")),
         validity=validity_of(
             readings.min(axis=0),
             readings.max(axis=0),

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -14,7 +14,8 @@ from forcetorque.arrays import FloatArray
 from forcetorque.calibration import Moments, excitation_of
 from forcetorque.calibration.generative import unmoved_directions
 from forcetorque.errors import ExperimentError, FitError
-from forcetorque.exsitu import Bench, BenchFit, fit_bench, in_folds, one_by_one, whole_series
+from forcetorque.exsitu import Bench, BenchFit, fit_bench, in_folds, one_by_one, rms, whole_series
+from forcetorque.spatial import WRENCH_COMPONENTS
 
 _SWAPPED = 0.5
 """Error with forces and moments exchanged, over that as stated, below which they were exchanged."""
@@ -22,10 +23,12 @@ _SWAPPED = 0.5
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class FittedBench:
-    """A sensor with what its bench says of it."""
+    """A sensor with its fit."""
 
+    recording: BenchRecording
+    """What it read."""
     row: BenchSensorRow
-    """The same for people."""
+    """What its bench says of it, for people."""
     bench: Bench
     """Positions whose load and reading are known."""
     fitted: BenchFit | None
@@ -34,9 +37,15 @@ class FittedBench:
     """Series left out as a whole."""
 
     @property
-    def matrix(self) -> FloatArray | None:
-        """The matrix; None where there is none."""
-        return None if self.fitted is None else self.fitted.fit.model.matrix
+    def matrix(self) -> FloatArray:
+        """The matrix; shape (6, c).
+
+        Raises:
+            FitError: If there is none.
+        """
+        if self.fitted is None:
+            raise FitError(f"{self.row.file}: expected loads that tell a matrix: {self.row.reason}")
+        return self.fitted.fit.model.matrix
 
 
 def fit_recording(recording: BenchRecording, rng: np.random.Generator) -> FittedBench:
@@ -71,7 +80,7 @@ def fit_recording(recording: BenchRecording, rng: np.random.Generator) -> Fitted
         sensor=bench.sensor,
         serial=bench.serial,
         positions=len(bench),
-        without_load=tuple(name for name in recording.bench.loads.names if name not in bench.loads.names),
+        without_load=tuple(_not_known(recording.bench)),
         rank=6 - len(unmoved),
         unmoved=unmoved,
         unseen=excitation.describe_unexcited(channel_names=channels) if len(channels) > 6 else "",
@@ -81,11 +90,21 @@ def fit_recording(recording: BenchRecording, rng: np.random.Generator) -> Fitted
         folds_mean=None if folds is None else folds.mean(axis=0),
         folds_least=None if folds is None else folds.min(axis=0),
         folds_largest=None if folds is None else folds.max(axis=0),
-        prior=None if bench.prior is None else _rms(bench.read_by(bench.prior) - bench.loads.wrench),
+        prior=None if bench.prior is None else rms(bench.read_by(bench.prior) - bench.loads.wrench),
         scatter="",
     )
     series = () if fitted is None or held_out is None else _series_rows(fitted, held_out)
-    return FittedBench(row=row, bench=bench, fitted=fitted, series=series)
+    return FittedBench(recording=recording, row=row, bench=bench, fitted=fitted, series=series)
+
+
+def _not_known(bench: Bench) -> Iterator[str]:
+    """Positions that are not used, with the components that are missing where others are there."""
+    for name, wrench, raw in zip(bench.loads.names, bench.loads.wrench, bench.raw, strict=True):
+        missing = [c for c, known in zip(WRENCH_COMPONENTS, np.isfinite(wrench), strict=True) if not known]
+        if 0 < len(missing) < len(WRENCH_COMPONENTS):
+            yield f"{name} (no {', '.join(missing)})"
+        elif missing or not np.isfinite(raw).all():
+            yield name
 
 
 def _series_rows(fitted: BenchFit, held_out: FloatArray) -> tuple[SeriesRow, ...]:
@@ -94,8 +113,9 @@ def _series_rows(fitted: BenchFit, held_out: FloatArray) -> tuple[SeriesRow, ...
         SeriesRow(
             serial=fitted.bench.serial,
             series=name,
-            error=None if isinstance(outcome, str) else outcome,
-            ratio=float("nan") if isinstance(outcome, str) else float((outcome / held_out).max()),
+            error=None if isinstance(outcome, str) else rms(outcome),
+            largest_force_N=None if isinstance(outcome, str) else float(np.linalg.norm(outcome[:, :3], axis=1).max()),
+            ratio=float("nan") if isinstance(outcome, str) else float((rms(outcome) / held_out).max()),
             reason=outcome if isinstance(outcome, str) else "",
         )
         for name, outcome in rows
@@ -114,8 +134,3 @@ def _require_halves(bench: Bench, file: str) -> None:
             f"{file}: expected known wrenches as force, then moment, got what the prior reads as moment, then force; "
             "exchange the columns of readings.known, or of readings.channels"
         )
-
-
-def _rms(errors: FloatArray) -> FloatArray:
-    size: FloatArray = np.sqrt((errors**2).mean(axis=0))
-    return size

@@ -18,6 +18,7 @@ from forcetorque.errors import ExperimentError, known_names
 from forcetorque.exchange.icub import read_matrix_file
 from forcetorque.experiment.inputs import Inputs, stated_in
 from forcetorque.exsitu import THESIS_TABLE, Bench, BenchLoads, Placement, read_loads
+from forcetorque.spatial import MeasureDirection
 from forcetorque.toml_table import read_toml
 
 IDENTITY = "identity"
@@ -42,6 +43,35 @@ class BenchRecording:
     """What was read of loads; None before anything is."""
     inputs_sha256: dict[str, str]
     """SHA-256 of every file that was read."""
+
+    @classmethod
+    def of(cls, bench: Bench, *, measure_direction: MeasureDirection, frame: str = "sensor") -> BenchRecording:
+        """Take what a sensor read from arrays, without a file.
+
+        Args:
+            bench: What it read.
+            measure_direction: Who acts on whom in the reading; the load is the child.
+            frame: Frame along whose axes loads are stated.
+
+        Returns:
+            The same as of a file.
+        """
+        sensor = BenchSensorTable(
+            name=bench.sensor,
+            serial=bench.serial,
+            measure_direction=measure_direction,
+            frame=frame,
+            full_scale=tuple(bench.full_scale.tolist()),
+        )
+        return cls(
+            file=bench.serial,
+            sensor=sensor,
+            loads=bench.loads,
+            left_out=(),
+            recorded=(),
+            bench=bench,
+            inputs_sha256={},
+        )
 
 
 def read_bench(path: Path | str) -> BenchRecording:

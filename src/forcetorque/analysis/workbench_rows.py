@@ -83,6 +83,8 @@ class SeriesRow(Row):
     """The series."""
     error: Annotated[WrenchValues | None, ShownWrench(digits=3)]
     """Root mean square error with a fit to the others; N, N m; None where they do not tell it."""
+    largest_force_N: Annotated[float | None, Shown("largest", "N", digits=2)]
+    """Largest norm of the force error."""
     ratio: FloatOrNull
     """Largest ratio to the error of positions that are left out one by one."""
     reason: str

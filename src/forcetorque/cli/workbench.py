@@ -9,7 +9,14 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from forcetorque.cli.options import FormatOption
-from forcetorque.cli.output import Format, refuse_two_on_standard_output, show, show_warnings, start_logging
+from forcetorque.cli.output import (
+    Format,
+    refuse_two_on_standard_output,
+    show,
+    show_warnings,
+    start_logging,
+    stop_at_failures,
+)
 from forcetorque.errors import ForceTorqueError
 
 if TYPE_CHECKING:
@@ -27,6 +34,9 @@ def workbench(
     full_matrix: Annotated[
         bool, typer.Option("--full-matrix", help="Refuse loads that do not move all six directions.")
     ] = False,
+    spec: Annotated[
+        Path | None, typer.Option("--spec", help="Acceptance file (TOML) with limits; exit code 1 if one fails.")
+    ] = None,
     figure: Annotated[
         Path | None, typer.Option("--figure", help="PNG of forces on the spheres of their loads, and of errors.")
     ] = None,
@@ -57,6 +67,7 @@ def workbench(
         created=datetime.now(UTC).isoformat(timespec="seconds"),
         full_matrix=full_matrix,
         only_next=next_only,
+        spec=None if spec is None else analysis.read_acceptance(spec),
     )
     if output is not None:
         answer.save(output)
@@ -67,6 +78,7 @@ def workbench(
         show_warnings(answer)
     else:
         show(answer, output_format)
+    stop_at_failures([criterion for criterion in answer.criteria if not criterion.passed])
 
 
 def _require_one(files: list[Path], *, next_only: bool) -> None:

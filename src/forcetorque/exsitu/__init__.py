@@ -6,7 +6,7 @@ from forcetorque.exsitu.block import BIAS, Block
 from forcetorque.exsitu.faults import Fault, Signatures, signatures
 from forcetorque.exsitu.fit import SESSION, BenchFit, fit_bench
 from forcetorque.exsitu.guide import block_findings
-from forcetorque.exsitu.held_out import FOLDS, SHUFFLES, held_out_errors, in_folds, one_by_one, whole_series
+from forcetorque.exsitu.held_out import FOLDS, SHUFFLES, held_out_errors, in_folds, one_by_one, rms, whole_series
 from forcetorque.exsitu.load_table import THESIS_TABLE, read_loads
 from forcetorque.exsitu.loads import BenchLoads, Weights
 from forcetorque.exsitu.reading_matrix import reading_matrix
@@ -45,6 +45,7 @@ __all__ = [
     "plainest",
     "read_loads",
     "reading_matrix",
+    "rms",
     "scatter_of_sensors",
     "signatures",
     "simulate_specimen",

@@ -72,7 +72,7 @@ def one_by_one(fitted: BenchFit) -> FloatArray:
     Returns:
         Root mean square errors; shape (6,); N, N m.
     """
-    return _rms(held_out_errors(fitted, [np.array([k]) for k in range(len(fitted.bench))]))
+    return rms(held_out_errors(fitted, [np.array([k]) for k in range(len(fitted.bench))]))
 
 
 def in_folds(fitted: BenchFit, rng: np.random.Generator) -> FloatArray:
@@ -86,7 +86,7 @@ def in_folds(fitted: BenchFit, rng: np.random.Generator) -> FloatArray:
         Root mean square errors of every deal; shape (`SHUFFLES`, 6); N, N m.
     """
     deals = (np.array_split(rng.permutation(len(fitted.bench)), FOLDS) for _ in range(SHUFFLES))
-    return np.stack([_rms(held_out_errors(fitted, deal)) for deal in deals])
+    return np.stack([rms(held_out_errors(fitted, deal)) for deal in deals])
 
 
 def whole_series(fitted: BenchFit) -> dict[str, FloatArray | str]:
@@ -96,8 +96,8 @@ def whole_series(fitted: BenchFit) -> dict[str, FloatArray | str]:
         fitted: The fit of all positions.
 
     Returns:
-        By name of the series, root mean square errors, shape (6,), N, N m; or why the others cannot foretell it. None
-        where there is one series.
+        By name of the series, its errors, shape (k, 6), N, N m; or why the others cannot foretell it. None where there
+        is one series.
     """
     series = np.array(fitted.bench.loads.series)
     names = list(dict.fromkeys(fitted.bench.loads.series))
@@ -111,12 +111,20 @@ def _of_series(fitted: BenchFit, left_out: np.ndarray[tuple[int], np.dtype[np.bo
         model = fit_means(fitted.bench, replace(means, **kept)).model
     except FitError as error:
         return str(error)
-    return _rms(model.wrench(means.raw[left_out]) - means.reference[left_out])
+    return model.wrench(means.raw[left_out]) - means.reference[left_out]
 
 
 _BY_POSITION = ("time_s", "count", "raw", "reference", "flattening", "variables")
 
 
-def _rms(errors: FloatArray) -> FloatArray:
+def rms(errors: FloatArray) -> FloatArray:
+    """Give the root mean square.
+
+    Args:
+        errors: Errors; shape (n, 6); N, N m.
+
+    Returns:
+        Of every component; shape (6,); N, N m.
+    """
     size: FloatArray = np.sqrt((errors**2).mean(axis=0))
     return size
