@@ -24,6 +24,7 @@ ROOT = Path(__file__).parents[2]
 FILES = (
     "experiment",
     "acceptance",
+    "bench",
     "scenario",
     "recording",
     "calibration",
@@ -54,6 +55,8 @@ JSON_SCHEMAS = (
     "skin_wrench",
     "study",
     "taxels",
+    "bench",
+    "workbench",
 )
 
 

@@ -13,7 +13,9 @@ from pathlib import Path
 import pytest
 
 from forcetorque.cli.main import app
+from forcetorque.exsitu import BenchFaults
 from forcetorque.result import Result
+from tests.benches import write_bench
 from tests.chambers import write_chambers
 from tests.cli.commands import question_of, typed_commands
 from tests.cli.outcome import Run
@@ -45,6 +47,7 @@ COMMANDS = {
     "study": ("study", PARQUET, "-o", "study", *SHORT),
     "validate": ("validate", TWO, "-c", "fitted.json"),
     "view": ("view", PARQUET, "-o", "view.html"),
+    "workbench": ("workbench", "SIM001.toml"),
 }
 WITHOUT_TABLE = {"payload", "schema", "simulate"}
 """Shown elsewhere: `payload` needs a wrist, `simulate` minutes; `schema` is JSON."""
@@ -80,6 +83,8 @@ def test_the_layout_is_that_which_was_looked_at(arm: Path, run: Run, name: str, 
     write_chambers(arm)
     write_touched(arm, broken=25)
     write_table(arm)
+    if name == "workbench":
+        write_bench(arm, faults=BenchFaults(swapped=(3, 8)))
     (arm / "patch.txt").write_text(position_text(collapsed(cylinder_patch(), 4)), encoding="utf-8")
     ended = run(*COMMANDS[name])
     assert ended.code in (0, 1), ended.err

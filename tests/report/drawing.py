@@ -18,6 +18,7 @@ from matplotlib.image import imread
 from matplotlib.text import Text
 
 from forcetorque.analysis import (
+    BenchPicture,
     LearntDirection,
     Reason,
     SensorSphere,
@@ -33,6 +34,7 @@ from forcetorque.analysis.skin_picture import TaxelPicture
 from forcetorque.calibration.joint import PartResidual
 from forcetorque.evaluation.sphere import analyse_sphere
 from forcetorque.report.figures import (
+    bench_figure,
     comparison_figure,
     contact_figure,
     difference_figure,
@@ -363,7 +365,20 @@ def _skin_layout(rng: np.random.Generator) -> Figure:
     return skin_layout_figure(patch.positions, {"as written": placeholder, "rebuilt": patch.normals})
 
 
+def _bench(rng: np.random.Generator) -> Figure:
+    directions = rng.standard_normal((24, 3))
+    forces = directions / np.linalg.norm(directions, axis=1, keepdims=True)
+    return bench_figure(
+        BenchPicture(
+            loads=("5.2 kg", "25.2 kg"),
+            on_sphere=(forces[:16], 1.01 * forces[16:]),
+            errors=(rng.standard_normal((16, 6)), 3.0 * rng.standard_normal((8, 6))),
+        )
+    )
+
+
 FIGURES: dict[str, Callable[[np.random.Generator], Figure]] = {
+    "bench": _bench,
     "space": _space,
     "force space": _force_space,
     "difference": _difference,

@@ -145,9 +145,10 @@ def _single_scatter(bench: Bench, read: FloatArray) -> Scatter:
 
 
 def _common_scatter(benches: Sequence[Bench], read: Sequence[FloatArray]) -> Scatter | None:
+    if len(benches) < LEAST_SENSORS:
+        return None
     loads = benches[0].loads
-    same = all(bench.loads.names == loads.names for bench in benches)
-    if len(benches) < LEAST_SENSORS or not same:
+    if any(bench.loads.names != loads.names for bench in benches):
         return None
     return scatter_of_sensors(loads.wrench, np.array(read) - loads.wrench)
 

@@ -26,6 +26,9 @@ from forcetorque.calibration import Calibration, write_calibration
 from forcetorque.errors import ExperimentError, FitError
 from forcetorque.result import COMPONENTS, Result, Table, number, table_of
 
+_NEVER = 1e-6
+"""Probability below which its size says nothing more."""
+
 
 class Workbench(Result):
     """What a workbench says of sensors, and what sensors say of it."""
@@ -82,7 +85,7 @@ class Workbench(Result):
         ):
             if rows:
                 yield table_of(rows, caption)
-        yield from (f"{row.sentence} (one in {1.0 / row.probability:.2g} sound sensors)" for row in self.faults)
+        yield from (f"{row.sentence} ({_chance(row.probability)})" for row in self.faults)
         if self.sensors and not self.faults:
             yield "no fault of the bench is seen"
         if self.criteria:
@@ -124,3 +127,9 @@ def _error_table(sensor: BenchSensorRow, series: Sequence[SeriesRow]) -> Table:
             for name, error in errors.items()
         ),
     )
+
+
+def _chance(probability: float) -> str:
+    if probability < _NEVER:
+        return f"in less than one of {1.0 / _NEVER:.0e} sound sensors"
+    return f"in one of {1.0 / probability:.0f} sound sensors"

@@ -42,7 +42,7 @@ def workbench(
     ] = None,
     output_format: FormatOption = Format.TABLE,
 ) -> None:
-    """Calibrate sensors with known loads on a workbench, and find what is wrong with it.
+    """Calibrate sensors with known loads, and find faults of the workbench.
 
     Example: forcetorque workbench SN170.toml -o SN170.json
     """

@@ -11,14 +11,16 @@ from forcetorque.arrays import FloatArray
 from forcetorque.exsitu.block import Block
 from forcetorque.exsitu.loads import BenchLoads
 
-SIZE = (0.8, 1.25)
-"""Share of the expected load that a sensor with its nominal matrix reads at least and at most: specimens differ by 10 %
-and weights that are mistaken for each other by more."""
+SIZE = (0.7, 1.4)
+"""Share of the expected load that a sensor reads by its nominal matrix at least and at most: specimens differ by some
+11 %, weights that are mistaken for each other by more than three times that."""
 
 _SAME = 0.02
 """Share of a change of reading below which two blocks are of the same position."""
 _OWN = 0.5
 """Distance to another load, over that to its own, below which a block is of the other."""
+_NEAR = 0.35
+"""Distance to the other, over its size, that specimens differ by at most."""
 
 
 def block_findings(
@@ -67,7 +69,8 @@ def _of_load(wrench: FloatArray, position: str, loads: BenchLoads) -> Iterator[s
     nearest = int(np.argmin(distance))
     swapped_halves = float(np.linalg.norm(np.roll(wrench, 3) / sizes - own))
     own_distance = float(distance[loads.names.index(position)])
-    if distance[nearest] < _OWN * own_distance:
+    is_near = distance[nearest] < _NEAR * np.linalg.norm(known[nearest])
+    if is_near and distance[nearest] < _OWN * own_distance:
         yield f"it reads like position {loads.names[nearest]}: was that one recorded in place of it?"
     elif swapped_halves < _OWN * own_distance:
         yield "it reads as if forces and moments were swapped: check the order of the channels"

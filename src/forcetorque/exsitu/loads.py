@@ -83,7 +83,7 @@ def _require_weights(weights: Weights) -> None:
                 f"{where}: expected a place within {LONGEST_LEVER_M:g} m of the sensor, got {levers[k]:g} m; "
                 "is it in mm? State the unit in the heading"
             )
-        if lengths[k] < 0.1:
+        if not lengths[k] > 0.0:
             raise SensorError(f"{where}: expected a direction of gravity, got {weights.direction[k].tolist()}")
 
 

@@ -17,8 +17,9 @@ from forcetorque.spatial import skew
 LEAST_SENSORS = 30
 """Fewer sensors do not tell the covariance of six components at a position."""
 
-_STUDENT = 4.0
-"""Degrees of freedom of the distribution that sensors are taken to scatter by, so that a fault counts little."""
+_PLAIN = 1.3
+"""Residual of a sensor over the median of all, from which it counts less."""
+_TINY = 1e-300
 _SWEEPS = 60
 _MEDIAN_OF_SIX = 5.348
 """Median of a chi-squared of 6."""
@@ -122,8 +123,9 @@ def own_scatter(loads: FloatArray, residual: FloatArray) -> Scatter:
 def scatter_of_sensors(loads: FloatArray, residuals: FloatArray) -> Scatter:
     """Estimate the scatter of every position from many sensors.
 
-    Restricted likelihood under Student's t by expectation maximisation, so that neither the lines that were fitted
-    nor the faults of some sensors make it too small or too large; then scaled to the median distance.
+    Restricted likelihood by expectation maximisation, so that the lines that were fitted do not make it too small;
+    sensors with large residuals count little, so that their faults do not make it too large; then every position is
+    scaled to its median distance.
 
     Args:
         loads: Loads, which all sensors had; shape (n, 6); N, N m.
@@ -143,8 +145,10 @@ def scatter_of_sensors(loads: FloatArray, residuals: FloatArray) -> Scatter:
     for _ in range(_SWEEPS):
         space = ResidualSpace.of(loads, covariance)
         weighed = space.weighed(residuals)
-        weight = (_STUDENT + 6.0) / (_STUDENT + space.distances(weighed))
-        seen = np.einsum("sp,spi,spj->pij", weight, weighed, weighed) / s
+        # a fault at one position bends the line through all, so a sensor counts as a whole
+        whole = np.einsum("spi,spi->s", weighed, residuals)
+        weight = np.minimum(1.0, _PLAIN * np.median(whole) / np.maximum(whole, _TINY)) ** 2
+        seen = np.einsum("s,spi,spj->pij", weight, weighed, weighed) / weight.sum()
         covariance = covariance + covariance @ (seen - space.own) @ covariance
         covariance = 0.5 * (covariance + covariance.transpose(0, 2, 1)) + floor
     space = ResidualSpace.of(loads, covariance)

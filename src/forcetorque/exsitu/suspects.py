@@ -92,16 +92,32 @@ def suspects(
         Faults, the plainest first; each is looked for beside those before it.
     """
     named: list[Suspect] = []
-    explained: list[FloatArray] = []
+    explained = np.zeros((6 * len(loads), 0))
+    read, covariance = residual + loads.wrench, scatter.covariance
     while len(named) < MOST_FAULTS:
-        known = np.hstack(explained) if explained else None
-        space = ResidualSpace.of(loads.wrench, scatter.covariance, known)
-        (suspect,) = plainest(loads, residual[None], space, scatter.degrees_of_freedom, kinds=kinds)
+        space = ResidualSpace.of(loads.wrench, covariance, explained)
+        (suspect,) = plainest(loads, (read - loads.wrench)[None], space, scatter.degrees_of_freedom, kinds=kinds)
         if suspect is None or suspect.log_probability > np.log(false_alarms):
             break
         named.append(suspect)
-        explained.append(_columns(loads, suspect))
+        if suspect.fault is Fault.SWAPPED:
+            # where a load really hung it scatters as it does there
+            loads, covariance = _exchanged(loads, covariance, suspect)
+        else:
+            explained = np.hstack([explained, _columns(loads, suspect)])
     return tuple(named)
+
+
+def _exchanged(loads: BenchLoads, covariance: FloatArray, suspect: Suspect) -> tuple[BenchLoads, FloatArray]:
+    """Loads and scatter with two positions exchanged, as a whole or in one component."""
+    first, second = suspect.positions
+    if suspect.component is None:
+        order = np.arange(len(loads))
+        order[[first, second]] = second, first
+        return replace(loads.taken(order), names=loads.names), covariance[order]
+    wrench = loads.wrench.copy()
+    wrench[[first, second], suspect.component] = wrench[[second, first], suspect.component]
+    return replace(loads, wrench=wrench), covariance
 
 
 def plainest(
