@@ -49,18 +49,16 @@ def test_sound_sensors_are_let_pass() -> None:
 
 
 @pytest.mark.long
-@pytest.mark.parametrize("together", [False, True], ids=["as stated", "by all sensors"])
 @pytest.mark.parametrize("name", ["two rows swapped", "weight wrong by 5 %", "row tilted by 2 deg"])
-def test_plain_faults_are_named_in_nineteen_of_twenty(name: str, together: bool) -> None:
+def test_plain_faults_are_named_in_nineteen_of_twenty(name: str) -> None:
     """Of 200 sensors with one fault each."""
-    assert named_share(TRIALS[name], MANY, OTHER_SEED, together=together) >= NAMED
+    assert named_share(TRIALS[name], MANY, OTHER_SEED) >= NAMED
 
 
 @pytest.mark.long
-@pytest.mark.parametrize("together", [False, True], ids=["as stated", "by all sensors"])
-def test_false_alarms_are_as_rare_as_stated(together: bool) -> None:
+def test_false_alarms_are_as_rare_as_stated() -> None:
     """The rate that is stated lies within, or above, the interval of 200 sensors."""
-    alarms = round(MANY * alarm_share(MANY, OTHER_SEED, together=together))
+    alarms = round(MANY * alarm_share(MANY, OTHER_SEED))
     assert binomtest(alarms, MANY).proportion_ci().low <= FALSE_ALARMS
 
 
@@ -156,17 +154,18 @@ def test_the_residual_space_holds_what_no_line_explains() -> None:
 
 
 def test_many_sensors_tell_the_scatter_of_positions_whatever_a_few_hide() -> None:
-    """Within a fifth of the truth, with a tenth of the sensors at fault; too few are refused."""
+    """Within a quarter of the truth, with a tenth of the sensors at fault; too few are refused."""
     rng, loads = np.random.default_rng(8), thesis_loads().wrench
     sizes = np.where(np.arange(24)[:, None] < 12, 0.05, 0.2) * np.array([1.0, 1.0, 1.0, 0.02, 0.02, 0.02])
     residuals = rng.standard_normal((150, 24, 6)) * sizes
     residuals[:15, 3] += [5.0, 5.0, 5.0, 0.1, 0.1, 0.1]  # a hundred times the scatter
-    scatter = scatter_of_sensors(loads, residuals)
+    shape = np.tile(np.diag([1.0, 1.0, 1.0, 0.02, 0.02, 0.02]) ** 2, (24, 1, 1))
+    scatter = scatter_of_sensors(loads, residuals, shape)
     told = np.sqrt(np.einsum("pii->pi", scatter.covariance)) / sizes
-    assert np.median(told) == pytest.approx(1.0, abs=0.2)
+    assert np.median(told) == pytest.approx(1.0, abs=0.25)
     assert told[3].max() < 2.5  # plain root mean squares of this position would be thirty times the truth
     with pytest.raises(SensorError, match="at least 30 sensors, got 4"):
-        scatter_of_sensors(loads, residuals[:4])
+        scatter_of_sensors(loads, residuals[:4], shape)
 
 
 def test_tails_are_those_of_chi_squared_and_of_f() -> None:

@@ -11,6 +11,7 @@ from typing import Annotated
 import numpy as np
 
 from forcetorque.arrays import FloatArray
+from forcetorque.calibration.generative import unmoved_directions
 from forcetorque.exsitu import (
     LEAST_SENSORS,
     Bench,
@@ -27,19 +28,14 @@ from forcetorque.exsitu import (
 from forcetorque.result import Row, Shown
 from forcetorque.spatial import WRENCH_COMPONENTS, WRENCH_UNITS
 
-ALL_SENSORS = "all sensors"
-"""Stands for a serial number where a fault is that of the bench itself."""
-_MEDIAN_VARIANCE = 0.5 * math.pi
-"""Variance of a median over that of a mean."""
 _LEAST_PROBABILITY = 1e-300
-_RANK = 6
 
 
 class FaultRow(Row):
     """A fault that the readings show."""
 
     serial: Annotated[str, Shown("serial")]
-    """Serial number; `all sensors` for a fault that they share."""
+    """Serial number."""
     fault: Annotated[str, Shown("fault")]
     """Kind of fault."""
     positions: Annotated[tuple[str, ...], Shown("positions")]
@@ -86,17 +82,18 @@ class Examined:
         return tuple(fault_row(suspect, self.bench.loads, self.bench.serial) for suspect in self.suspects)
 
 
-def examine(benches: Sequence[Bench], matrices: Sequence[FloatArray]) -> list[Examined]:
+def examine(benches: Sequence[Bench], matrices: Sequence[FloatArray | None] | None = None) -> list[Examined]:
     """Look for faults of sensors.
 
     Args:
-        benches: Sensors.
-        matrices: Matrix of each by all its positions; shape (6, c).
+        benches: Sensors; where the loads of one do not move all six directions it needs a matrix.
+        matrices: Matrix of each where one is fitted; shape (6, c); by least squares where there is none.
 
     Returns:
         Every sensor with its faults.
     """
-    read = [_read(bench, matrix) for bench, matrix in zip(benches, matrices, strict=True)]
+    given = matrices or [None] * len(benches)
+    read = [_read(bench, matrix) for bench, matrix in zip(benches, given, strict=True)]
     common = _common_scatter(benches, read)
     examined = []
     for bench, wrench in zip(benches, read, strict=True):
@@ -106,35 +103,18 @@ def examine(benches: Sequence[Bench], matrices: Sequence[FloatArray]) -> list[Ex
     return examined
 
 
-def shared_faults(examined: Sequence[Examined]) -> tuple[FaultRow, ...]:
-    """Look for faults that all sensors show, which are those of the bench.
-
-    Args:
-        examined: Sensors at the same loads, enough to tell the scatter.
-
-    Returns:
-        A row per fault; none where the sensors are too few.
-    """
-    scatter = _common_scatter([one.bench for one in examined], [one.read for one in examined])
-    if scatter is None:
-        return ()
-    error = np.median([one.error for one in examined], axis=0)
-    shrunk = Scatter(
-        covariance=scatter.covariance * _MEDIAN_VARIANCE / len(examined),
-        degrees_of_freedom=scatter.degrees_of_freedom,
-        source=scatter.source,
-    )
-    loads = examined[0].bench.loads
-    return tuple(fault_row(suspect, loads, ALL_SENSORS) for suspect in suspects(loads, error, shrunk))
-
-
-def _read(bench: Bench, matrix: FloatArray) -> FloatArray:
+def _read(bench: Bench, matrix: FloatArray | None) -> FloatArray:
     """Wrenches by a matrix that no single fault bends."""
-    loads = bench.loads.wrench
-    scatter = _single_scatter(bench, bench.read_by(matrix))
-    if np.linalg.matrix_rank(loads - loads.mean(axis=0)) < _RANK:
+    if matrix is not None and unmoved_directions(bench.loads.wrench, [len(bench)]):
         return bench.read_by(matrix)
+    scatter = _single_scatter(bench, bench.read_by(_by_least_squares(bench) if matrix is None else matrix))
     return bench.read_by(reading_matrix(bench, scatter))
+
+
+def _by_least_squares(bench: Bench) -> FloatArray:
+    design = np.hstack([bench.loads.wrench, np.ones((len(bench), 1))])
+    response = np.linalg.lstsq(design, bench.raw, rcond=None)[0][:6].T
+    return np.asarray(np.linalg.pinv(response), dtype=np.float64)
 
 
 def _single_scatter(bench: Bench, read: FloatArray) -> Scatter:
@@ -145,12 +125,13 @@ def _single_scatter(bench: Bench, read: FloatArray) -> Scatter:
 
 
 def _common_scatter(benches: Sequence[Bench], read: Sequence[FloatArray]) -> Scatter | None:
-    if len(benches) < LEAST_SENSORS:
+    if len(benches) < LEAST_SENSORS or any(bench.placement is not None for bench in benches):
         return None
     loads = benches[0].loads
     if any(bench.loads.names != loads.names for bench in benches):
         return None
-    return scatter_of_sensors(loads.wrench, np.array(read) - loads.wrench)
+    each = [_single_scatter(bench, wrench).covariance for bench, wrench in zip(benches, read, strict=True)]
+    return scatter_of_sensors(loads.wrench, np.array(read) - loads.wrench, np.median(each, axis=0))
 
 
 def fault_row(suspect: Suspect, loads: BenchLoads, serial: str) -> FaultRow:

@@ -37,23 +37,18 @@ class FittedBench:
     """Series left out as a whole."""
 
     @property
-    def matrix(self) -> FloatArray:
-        """The matrix; shape (6, c).
-
-        Raises:
-            FitError: If there is none.
-        """
-        if self.fitted is None:
-            raise FitError(f"{self.row.file}: expected loads that tell a matrix: {self.row.reason}")
-        return self.fitted.fit.model.matrix
+    def matrix(self) -> FloatArray | None:
+        """The matrix; shape (6, c); None where there is none."""
+        return None if self.fitted is None else self.fitted.fit.model.matrix
 
 
-def fit_recording(recording: BenchRecording, rng: np.random.Generator) -> FittedBench:
+def fit_recording(recording: BenchRecording, rng: np.random.Generator, *, with_series: bool) -> FittedBench:
     """Fit a sensor.
 
     Args:
         recording: What it read.
         rng: Source of the deals into folds.
+        with_series: Whether whole series are left out, too, which takes a fit for each.
 
     Returns:
         The fit.
@@ -93,7 +88,9 @@ def fit_recording(recording: BenchRecording, rng: np.random.Generator) -> Fitted
         prior=None if bench.prior is None else rms(bench.read_by(bench.prior) - bench.loads.wrench),
         scatter="",
     )
-    series = () if fitted is None or held_out is None else _series_rows(fitted, held_out)
+    series: tuple[SeriesRow, ...] = ()
+    if with_series and fitted is not None and held_out is not None:
+        series = _series_rows(fitted, held_out)
     return FittedBench(recording=recording, row=row, bench=bench, fitted=fitted, series=series)
 
 

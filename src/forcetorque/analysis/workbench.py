@@ -10,7 +10,7 @@ import numpy as np
 from forcetorque.analysis.acceptance_file import AcceptanceFile
 from forcetorque.analysis.bench_acceptance import bench_criteria, bench_subject
 from forcetorque.analysis.bench_calibration import bench_calibration
-from forcetorque.analysis.bench_faults import Examined, FaultRow, examine, shared_faults
+from forcetorque.analysis.bench_faults import Examined, FaultRow, examine
 from forcetorque.analysis.bench_fit import FittedBench, fit_recording
 from forcetorque.analysis.bench_next import next_words
 from forcetorque.analysis.bench_recording import BenchRecording
@@ -62,11 +62,12 @@ def workbench(
     checked = [block_rows(recording) for recording in recordings]
     blocks = tuple(row for rows in checked for row in rows)
     read = [] if only_next else [recording for recording in recordings if recording.bench is not None]
-    fits = [fit_recording(recording, np.random.default_rng(seed)) for recording in read]
+    fits = [fit_recording(recording, np.random.default_rng(seed), with_series=len(read) == 1) for recording in read]
     if full_matrix:
         _require_full(fits)
     with_matrix = [fit for fit in fits if fit.fitted is not None]
-    examined = examine([fit.bench for fit in with_matrix], [fit.matrix for fit in with_matrix])
+    read_at_all = [fit for fit in fits if fit.fitted is not None or not fit.row.unmoved]
+    examined = examine([fit.bench for fit in read_at_all], [fit.matrix for fit in read_at_all])
     faults = tuple(row for one in examined for row in one.rows())
     calibrations = tuple(
         bench_calibration(
@@ -83,8 +84,8 @@ def workbench(
     many = len(examined) > 1 and len({one.bench.loads.names for one in examined}) == 1
     return Workbench(
         sensors=tuple(fit.row.model_copy(update={"scatter": scatter.get(fit.row.serial, "")}) for fit in fits),
-        faults=(*faults, *(shared_faults(examined) if many else ())),
-        series=fits[0].series if len(fits) == 1 else (),
+        faults=faults,
+        series=tuple(row for fit in fits for row in fit.series),
         blocks_checked=blocks,
         next=next_words(recordings[0], checked[0]) if len(recordings) == 1 else None,
         positions=position_rows(examined) if many else (),

@@ -38,7 +38,7 @@ class Workbench(Result):
     sensors: tuple[BenchSensorRow, ...]
     """One per file with readings."""
     faults: tuple[FaultRow, ...]
-    """Faults of every sensor, the plainest first, then those that all sensors share."""
+    """Faults of every sensor, the plainest first."""
     series: tuple[SeriesRow, ...]
     """Series that were left out as a whole; of one sensor."""
     blocks_checked: tuple[BlockRow, ...]

@@ -10,6 +10,7 @@ import numpy as np
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration import Assumptions, GenerativeFit, WindowMeans, fit_generative
 from forcetorque.exsitu.bench import Bench
+from forcetorque.noise import CANDIDATES
 
 SESSION = "bench"
 """Name of the one session of a bench: every block is taken from its own bias."""
@@ -82,7 +83,9 @@ def fit_means(bench: Bench, means: WindowMeans) -> GenerativeFit:
     """
     # what loads are off by differs from position to position: it shows in the residual, and is no lasting error
     assumptions = Assumptions(full_scale=bench.full_scale, accuracy=np.zeros(6))
-    return fit_generative([means], bench.prior, assumptions, quadratic=False)
+    # nobody knows when: what one position is off by then says nothing of the next
+    shapes = CANDIDATES if bench.time_s is not None else CANDIDATES[:1]
+    return fit_generative([means], bench.prior, assumptions, quadratic=False, shapes=shapes)
 
 
 def _fitted(bench: Bench, weight: FloatArray) -> GenerativeFit:

@@ -35,10 +35,9 @@ def reading_matrix(bench: Bench, scatter: Scatter) -> FloatArray:
     """
     loads, counts = bench.loads.wrench, bench.raw / bench.full_scale
     precision = np.asarray(np.linalg.inv(scatter.covariance), dtype=np.float64)
-    starts = [*([] if bench.prior is None else [_of_prior(bench)]), *_by_swaps(loads, counts)]
-    candidates = [_settled(loads, counts, precision, start) for start in starts]
-    matrix, _ = min(candidates, key=lambda candidate: candidate[1])
-    reading: FloatArray = matrix / bench.full_scale
+    starts = np.stack([*([] if bench.prior is None else [_of_prior(bench)]), *_by_swaps(loads, counts)])
+    matrices, worth = _settled(loads, counts, precision, starts)
+    reading: FloatArray = matrices[int(np.argmin(worth))] / bench.full_scale
     return reading
 
 
@@ -58,30 +57,35 @@ def _by_swaps(loads: FloatArray, counts: FloatArray) -> Iterator[FloatArray]:
     change = 2.0 * ((residual[first] - residual[second]) * apart).sum(axis=1) + (apart**2).sum(axis=1) * (
         own[first] + own[second] - 2.0 * kept[first, second]
     )
-    yield _line(design, counts, np.ones(len(loads)))
+    yield _lines(design, counts, np.ones((1, len(loads))))[0]
     for place in np.argsort(change)[:_SWAPS]:
         swapped = counts.copy()
         swapped[[first[place], second[place]]] = counts[[second[place], first[place]]]
-        yield _line(design, swapped, np.ones(len(loads)))
+        yield _lines(design, swapped, np.ones((1, len(loads))))[0]
 
 
 def _settled(
-    loads: FloatArray, counts: FloatArray, precision: FloatArray, start: FloatArray
-) -> tuple[FloatArray, float]:
-    """Weigh anew until it settles; the matrix without offset, and how badly it fits."""
+    loads: FloatArray, counts: FloatArray, precision: FloatArray, starts: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """Weigh anew until it settles, from every start; matrices without offset, and how badly they fit."""
     design = np.hstack([loads, np.ones((len(loads), 1))])
-    size = 1.0 / np.einsum("pii->p", precision)
-    matrix, worth = start, 0.0
+    size = np.einsum("pii->p", precision)
+    matrices, worth = starts, np.zeros(len(starts))
     for _ in range(_SWEEPS):
-        residual = counts @ matrix[:, :-1].T + matrix[:, -1] - loads
-        distance = np.einsum("pi,pij,pj->p", residual, precision, residual)
-        worth = float(np.log1p(distance / _STUDENT).sum())
-        matrix = _line(design, counts, np.sqrt((_STUDENT + 6.0) / (_STUDENT + distance) / size))
-    return matrix[:, :-1], worth
+        residual = counts @ matrices[:, :, :-1].transpose(0, 2, 1) + matrices[:, None, :, -1] - loads
+        distance = np.einsum("spi,pij,spj->sp", residual, precision, residual, optimize=True)
+        worth = np.log1p(distance / _STUDENT).sum(axis=1)
+        matrices = _lines(design, counts, size * (_STUDENT + 6.0) / (_STUDENT + distance))
+    return matrices[:, :, :-1], worth
 
 
-def _line(design: FloatArray, counts: FloatArray, weight: FloatArray) -> FloatArray:
-    """Matrix and offset that undo the response of counts to loads; shape (6, c + 1)."""
-    response = np.linalg.lstsq(design * weight[:, None], counts * weight[:, None], rcond=None)[0]
-    matrix = np.linalg.pinv(response[:6].T)
-    return np.hstack([matrix, -(matrix @ response[6])[:, None]])
+def _lines(design: FloatArray, counts: FloatArray, weights: FloatArray) -> FloatArray:
+    """Matrix and offset that undo the response of counts to loads, for every set of weights; shape (s, 6, c + 1)."""
+    scale = np.linalg.norm(design, axis=0)
+    unit = design / scale
+    moments = np.einsum("sp,pi,pj->sij", weights, unit, unit, optimize=True)
+    shared = np.einsum("sp,pi,pc->sic", weights, unit, counts, optimize=True)
+    response = np.linalg.solve(moments, shared) / scale[:, None]
+    matrices = np.linalg.pinv(response[:, :6].transpose(0, 2, 1))
+    lines: FloatArray = np.concatenate([matrices, -(matrices @ response[:, 6, :, None])], axis=2)
+    return lines
