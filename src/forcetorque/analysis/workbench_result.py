@@ -131,5 +131,5 @@ def _error_table(sensor: BenchSensorRow, series: Sequence[SeriesRow]) -> Table:
 
 def _chance(probability: float) -> str:
     if probability < _NEVER:
-        return f"in less than one of {1.0 / _NEVER:.0e} sound sensors"
-    return f"in one of {1.0 / probability:.0f} sound sensors"
+        return "as in fewer than one sound sensor of a million"
+    return f"as in one sound sensor of {1.0 / probability:.0f}"
