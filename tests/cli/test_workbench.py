@@ -28,7 +28,9 @@ def test_it_writes_a_calibration_and_a_figure_and_names_the_fault(run: Run, benc
     assert asked.code == 0
     assert "SIM001: positions 4 and 9 are swapped" in asked.out
     assert "1 fault(s) of the bench are seen" in asked.err
-    assert read_calibration("new.json").doubts == ("SIM001: positions 4 and 9 are swapped",)
+    blocks, fault = read_calibration("new.json").doubts[:2], read_calibration("new.json").doubts[2]
+    assert all("it reads like position" in words for words in blocks)
+    assert fault == "SIM001: positions 4 and 9 are swapped"
     assert (bench / "bench.png").read_bytes().startswith(b"\x89PNG")
     assert run("export", "new.json", "--to", "icub-matrix", "-o", "matrix_SIM001.txt").code == 0
 

@@ -75,7 +75,7 @@ def workbench(
             fit.fitted,
             code_version=code_version,
             created=created,
-            doubts=tuple(row.sentence for row in faults if row.serial == fit.row.serial),
+            doubts=(*_unsound(blocks, fit.row.serial), *(r.sentence for r in faults if r.serial == fit.row.serial)),
         )
         for fit in with_matrix
         if fit.fitted is not None
@@ -138,6 +138,12 @@ def _criteria(
             unsound=sum(row.serial == serial and not row.sound for row in blocks),
         )
         yield from bench_criteria(subject, spec)
+
+
+def _unsound(blocks: Sequence[BlockRow], serial: str) -> Iterator[str]:
+    for row in blocks:
+        if row.serial == serial and not row.sound:
+            yield f"{serial}: position {row.position}: {row.findings[0]}"
 
 
 def _others(calibrations: Sequence[Calibration], serial: str) -> dict[str, FloatArray]:
