@@ -17,8 +17,11 @@ from forcetorque.exsitu.bench import Bench
 from forcetorque.exsitu.scatter import Scatter
 
 _STUDENT = 1.0
-"""Degrees of freedom while searching: few, so that a fault has hardly any weight."""
+"""Degrees of freedom while searching: one, so that a fault has hardly any weight."""
 _SWEEPS = 25
+_MEDIAN_OF_SIX = 5.348
+"""Median of a chi-squared of 6."""
+_TINY = 1e-12
 _SWAPS = 12
 """Swaps to begin from."""
 
@@ -28,7 +31,7 @@ def reading_matrix(bench: Bench, scatter: Scatter) -> FloatArray:
 
     Args:
         bench: The bench; its loads have rank 6.
-        scatter: How positions scatter, roughly.
+        scatter: How positions scatter, up to its size.
 
     Returns:
         The matrix; shape (6, c); N/count, N m/count.
@@ -74,8 +77,10 @@ def _settled(
     for _ in range(_SWEEPS):
         residual = counts @ matrices[:, :, :-1].transpose(0, 2, 1) + matrices[:, None, :, -1] - loads
         distance = np.einsum("spi,pij,spj->sp", residual, precision, residual, optimize=True)
-        worth = np.log1p(distance / _STUDENT).sum(axis=1)
-        matrices = _lines(design, counts, size * (_STUDENT + 6.0) / (_STUDENT + distance))
+        # a scatter that was told from a line that follows a fault is far too large: its size is found beside
+        scale = np.median(distance, axis=1, keepdims=True) / _MEDIAN_OF_SIX + _TINY
+        worth = 6.0 * len(loads) * np.log(scale[:, 0]) + (_STUDENT + 6.0) * np.log1p(distance / scale).sum(axis=1)
+        matrices = _lines(design, counts, size * (_STUDENT + 6.0) / (_STUDENT + distance / scale))
     return matrices[:, :, :-1], worth
 
 
