@@ -63,6 +63,15 @@ def test_false_alarms_are_as_rare_as_stated() -> None:
 
 
 @pytest.mark.long
+def test_sensors_tell_the_scatter_where_nothing_is_stated() -> None:
+    """Swaps in a fifth of 200 sensors, by the scatter of all; false alarms as stated."""
+    among = MANY - MANY // 5
+    assert named_share(TRIALS["two rows swapped"], MANY // 5, OTHER_SEED, among=among) >= NAMED
+    alarms = round(MANY * alarm_share(MANY, OTHER_SEED, together=True))
+    assert binomtest(alarms, MANY).proportion_ci().low <= FALSE_ALARMS
+
+
+@pytest.mark.long
 def test_the_plain_residual_names_fewer_swaps() -> None:
     """A least-squares fit follows the fault."""
     assert plainly_named_share(MANY, OTHER_SEED) < named_share(TRIALS["two rows swapped"], MANY, OTHER_SEED)
@@ -176,6 +185,9 @@ def test_tails_are_those_of_chi_squared_and_of_f() -> None:
     tail = log_upper_tail(explained, amounts, np.inf)
     np.testing.assert_allclose(tail, chi2.logsf(explained, amounts), rtol=2e-3)
     assert (np.diff(log_upper_tail(np.array([[1e3, 2e3, 4e3, 8e3]]), np.full(4, 2), np.inf)) < 0.0).all()
+    farther = log_upper_tail(np.array([[3e3, 1e4, 1e5, 1e6]]), np.full(4, 1), 1200.0)
+    assert (np.diff(farther) < -10.0).all()
+    assert farther[0, 0] < -700.0
     np.testing.assert_allclose(
         log_upper_tail(explained, amounts, 20.0), f.logsf(explained / amounts, amounts, 20.0), rtol=1e-6
     )

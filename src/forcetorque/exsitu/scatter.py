@@ -20,6 +20,9 @@ LEAST_SENSORS = 30
 _SWEEPS = 20
 _STEP = 0.7
 """Power of the ratio by which a size is changed in a sweep: with 1 the positions overshoot each other."""
+_TAIL = 30.0
+"""Degrees of freedom of what sensors scatter by: nonlinearity and shapes that are not known make tails long, so that
+with those of the number of sensors one sound sensor of fourteen is suspected, not of fifty."""
 _LEAST_SIZE = 1.0
 """Share of the median size that no position falls below: a line through few positions hides what they scatter by, and
 with sizes as small as they look, one sound sensor of ten is suspected."""
@@ -152,4 +155,4 @@ def scatter_of_sensors(loads: FloatArray, residuals: FloatArray, shape: FloatArr
         distance = np.quantile(space.distances(space.weighed(residuals)), _QUANTILE, axis=0)
         size = size * (distance / _DISTANCE) ** _STEP
         size = np.maximum(size, _LEAST_SIZE * np.median(size))
-    return Scatter(covariance=size[:, None, None] * shape, degrees_of_freedom=6.0 * s, source=f"by {s} sensors")
+    return Scatter(covariance=size[:, None, None] * shape, degrees_of_freedom=_TAIL, source=f"by {s} sensors")

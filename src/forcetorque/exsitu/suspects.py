@@ -24,6 +24,7 @@ MOST_FAULTS = 5
 """Faults that are looked for in one sensor: where there are more, the bench is to be set up anew."""
 
 _RANK = 1e-9
+_TINY = 1e-300
 _SAME = 4.0
 """Squared distance in standard deviations up to which an amount is that of a known cause."""
 
@@ -203,15 +204,23 @@ def log_upper_tail(explained: FloatArray, amounts: FloatArray, degrees_of_freedo
     Returns:
         Logarithms of the upper tail of a chi-squared, or of F where the scatter is estimated; shape (s, m).
     """
-    from scipy.special import fdtrc, gammaincc, gammaln  # here because importing it takes longer than most commands
+    from scipy.special import betaln, fdtrc, gammaincc, gammaln  # importing it takes longer than most commands
 
     half, count = 0.5 * explained, np.broadcast_to(0.5 * amounts, explained.shape)
+    # beyond the smallest float the first term of the tail is exact enough to tell which is farther
     if np.isfinite(degrees_of_freedom):
-        tail = fdtrc(2.0 * count, degrees_of_freedom, half / count)
-        return np.asarray(np.log(np.maximum(tail, np.finfo(float).tiny)), dtype=np.float64)
-    tail = gammaincc(count, half)
-    far = (count - 1.0) * np.log(np.maximum(half, 1.0)) - half - gammaln(count)  # first term for large arguments
-    logarithm: FloatArray = np.where(tail > np.finfo(float).tiny, np.log(np.maximum(tail, np.finfo(float).tiny)), far)
+        tail, rest = fdtrc(2.0 * count, degrees_of_freedom, half / count), 0.5 * degrees_of_freedom
+        left = rest / (rest + half)
+        far = (
+            rest * np.log(left)
+            + (count - 1.0) * np.log(np.maximum(1.0 - left, _TINY))
+            - np.log(rest)
+            - betaln(rest, count)
+        )
+    else:
+        tail = gammaincc(count, half)
+        far = (count - 1.0) * np.log(np.maximum(half, 1.0)) - half - gammaln(count)
+    logarithm: FloatArray = np.where(tail > _TINY, np.log(np.maximum(tail, _TINY)), far)
     return logarithm
 
 
