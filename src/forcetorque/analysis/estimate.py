@@ -219,7 +219,7 @@ def _question(
     asked: bool,
     length_scale: float | None,
 ) -> Question:
-    tree = build_tree(experiment.model, support.frame)
+    tree = build_tree(experiment.model_on(support), support.frame)
     sensors = tuple(sensor.name for sensor in experiment.sensors)
     contacts = [entry.contact for entry in present]
     if support.frame not in [contact.name for contact in contacts]:

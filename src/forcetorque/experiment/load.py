@@ -22,7 +22,7 @@ from forcetorque.experiment.patches import skin_of_robot
 from forcetorque.experiment.plan_limits import read_plan
 from forcetorque.experiment.sensors import declare_sensors, read_sensors
 from forcetorque.experiment.streams import read_streams
-from forcetorque.experiment.wrist_load import estimate_load, given_inertia, load_model
+from forcetorque.experiment.wrist_load import load_model, read_loads
 from forcetorque.recording import MovingSupport, SavitzkyGolay, Support, Use
 from forcetorque.robot import read_urdf
 from forcetorque.spatial import Inertia
@@ -83,7 +83,7 @@ def _of_robot(parsed: schema.ExperimentFile, file: Path) -> Experiment:
     streams = read_streams(parsed, file, model, inputs)
     logs = inputs.names() - before
     supports = read_supports(parsed.support, file, streams, model)
-    intervals = read_intervals(parsed, file, streams, supports, model, default=None)
+    intervals = read_intervals(parsed, file, streams, supports, model, loads=None)
     with stated_in(str(file)):
         recording = streams.with_intervals(intervals)
     sensors = read_sensors(parsed, file, model, recording, inputs)
@@ -102,7 +102,6 @@ def _of_robot(parsed: schema.ExperimentFile, file: Path) -> Experiment:
         fit_options=fit_options(parsed.calibration),
         sphere_intervals=_sphere_intervals(parsed, file),
         roles=_roles(parsed),
-        payload=None,
         inputs_sha256=hashes,
         log_sha256=frozenset(hashes[name] for name in logs),
         condition=parsed.trial.condition,
@@ -120,26 +119,24 @@ def _of_wrist(parsed: schema.ExperimentFile, file: Path) -> Experiment:
     """A wrist sensor: the robot is its load, whose motion is logged and whose mass may be estimated."""
     if parsed.load is None:
         raise ExperimentError(f"{file}: expected [robot] or [load]")
-    load, name, inputs = parsed.load, parsed.sensor[0].name, Inputs(file.parent)
+    load, name, inputs = parsed.load[0], parsed.sensor[0].name, Inputs(file.parent)
     inputs.file(Path(file.name))
     before = inputs.names()
     streams = read_streams(parsed, file, None, inputs)
     logs = inputs.names() - before
-    moving = MovingSupport(frame=load.frame, motion_streams=load.motion)
+    supports = {one.name: MovingSupport(frame=load.frame, motion_streams=load.streams) for one in parsed.load}
     with stated_in(f"{file}: load"):
-        for stream in load.motion:
+        for stream in load.streams:
             streams.stream(stream)
-    intervals = read_intervals(parsed, file, streams, {}, None, default=moving)
+        if load.applied is not None:
+            streams.stream(load.applied).signal("applied_wrench")
+    intervals = read_intervals(parsed, file, streams, {}, None, loads=supports)
     (sensor,) = read_sensors(parsed, file, load_model(load, name, Inertia.zero()), streams, inputs)
-    inertia, payload = given_inertia(load), None
+    wrist = read_loads(parsed.load, file, supports, sensor)
     processing = processing_of(parsed.processing, gravity=Processing().gravity)
-    if inertia is None:
-        with stated_in(f"{file}: load"):
-            payload = estimate_load(load, sensor, streams, intervals, window=processing.derivative_window)
-        inertia = payload.inertia()
     with stated_in(str(file)):
         recording = streams.with_intervals(intervals)
-    loaded = load_model(load, name, inertia)
+    loaded = load_model(load, name, wrist.stated_inertia())
     skin, hashes = skin_of_robot(parsed, file, loaded, recording, inputs), inputs.sha256()
     return Experiment(
         name=parsed.name,
@@ -154,7 +151,7 @@ def _of_wrist(parsed: schema.ExperimentFile, file: Path) -> Experiment:
         fit_options=fit_options(parsed.calibration),
         sphere_intervals=_sphere_intervals(parsed, file),
         roles=_roles(parsed),
-        payload=payload,
+        wrist=wrist,
         inputs_sha256=hashes,
         log_sha256=frozenset(hashes[name] for name in logs),
         condition=parsed.trial.condition,

@@ -63,6 +63,14 @@ class Run(SensorRun):
         samples = self.interval_samples(intervals[label]).samples
         return seconds_since(samples.stamp_ns, self.experiment.recording.start_ns), samples.reference
 
+    def payload(self) -> analysis.WeighedLoad:
+        """Weigh what hangs on a wrist sensor, on the calibration intervals.
+
+        Returns:
+            Loads, biases, their intervals, and what stays open.
+        """
+        return analysis.weigh_load(self)
+
     def evaluate(self, calibrations: Calibrations | None = None) -> analysis.Evaluation:
         """Judge calibrations, and their priors, on the validation intervals.
 

@@ -58,6 +58,14 @@ QUANTITIES = {
             description="Reading of a force-torque sensor that was already turned into force, then moment.",
         ),
         Quantity(
+            name="applied_wrench",
+            labels=Labels.FIXED,
+            columns=WRENCH_COMPONENTS,
+            units=WRENCH_UNITS,
+            has_frame=True,
+            description="Known wrench, as of a dead weight: what an exact sensor without bias reads, in its direction.",
+        ),
+        Quantity(
             name="raw",
             labels=Labels.CHANNELS,
             units=("counts",),
