@@ -133,6 +133,19 @@ def test_a_load_that_is_not_determined_does_not_stop_who_does_not_need_it(tmp_pa
         calibrate_sensor(SensorRun(experiment, experiment.sensors[0]), code_version="1", created="now")
 
 
+def test_samples_that_lack_something_are_left_out_and_counted(tmp_path: Path) -> None:
+    """Two poses without a reading are no part of the answer, and a warning says so."""
+    path = _write(tmp_path)
+    lines = (tmp_path / "poses.csv").read_text().splitlines()
+    lines[3], lines[7] = ("nan," + line.split(",", 1)[1] for line in (lines[3], lines[7]))
+    (tmp_path / "poses.csv").write_text("\n".join(lines) + "\n")
+    experiment = load_experiment(path)
+    weighed = weigh_load(SensorRun(experiment, experiment.sensors[0]))
+    assert (weighed.rows, weighed.left_out) == (38, 2)
+    assert any(words.startswith("2 sample(s) lack") for words in weighed.warnings)
+    assert weighed.loads[0].mass_kg == pytest.approx(MASS, abs=0.01)
+
+
 SEVERAL = """\
 [[load]]
 name = "small"
