@@ -19,7 +19,7 @@ test: $(VENV)/test.stamp
 	OMP_NUM_THREADS=1 $(BIN)/pytest $(SUITE)
 
 test-long: $(VENV)/test.stamp $(VENV)/docs.stamp
-	$(BIN)/pytest tests --data=$(DATA) -m long
+	$(BIN)/pytest tests --data=$(DATA) -m "long or fuzz" --all-examples
 
 # every Python of pyproject.toml, the oldest with the oldest dependencies; ONLY=3.12 runs one of them
 test-matrix: $(BIN)/uv

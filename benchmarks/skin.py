@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A frame of skin from counts to wrenches of contacts, against interpolating the field anew in every frame."""
+"""A frame of skin from counts to wrenches of contacts, against interpolating the field anew in every frame.
+
+And on to the joint torques of a whole robot, beside what the estimator takes by itself.
+"""
 
 from __future__ import annotations
 
@@ -7,10 +10,20 @@ import statistics
 import time
 from collections.abc import Callable
 
+import icub_models
 import numpy as np
 
 from benchmarks.harness import arguments, interleaved, median_ratio, write_result
 from forcetorque.arrays import FloatArray, IntArray
+from forcetorque.estimation import Contact, Estimates, Evaluator, Question, TorqueSum, estimate, moving_joints
+from forcetorque.estimation.uncertain import (
+    SkinSource,
+    UncertainEstimates,
+    Uncertainty,
+    estimate_with_covariance,
+    skin_sources,
+)
+from forcetorque.robot import JointMotion, RootMotion, Wrenches, build_tree, read_urdf
 from forcetorque.skin import PressureTable, SkinLayout
 from forcetorque.skin.contact import PatchReader, SkinContacts, find_contacts
 from forcetorque.skin.wrench import SkinPatch
@@ -22,6 +35,7 @@ FEW, MANY = 380, 4000
 GRID_M = 1e-3
 """Grid on which the thesis interpolates."""
 CONTACTS = 4
+ROBOT, LINK, ANGLE_RAD = "iCubGazeboV2_7", "r_lower_leg", 0.1
 REPEATS = 20
 """Calls that are timed together: one takes microseconds."""
 
@@ -32,14 +46,19 @@ def main() -> None:
     rounds = 3 if options.quick else 30
     few, many = _Skin(FEW), _Skin(MANY)
     operator = few.patch.operator()
+    robot = _Robot(few)
     tasks: dict[str, Callable[[], object]] = {
         "product, 380 taxels": lambda: _repeated(lambda: operator.wrench(few.pressures)),
         "frame, 380 taxels": lambda: _repeated(few.frame),
         "frame, 4000 taxels": lambda: _repeated(many.frame),
+        "frame to joint torques": lambda: _repeated(robot.torques),
+        "frame to joint torques with covariance": lambda: _repeated(robot.torques_with_covariance),
+        "estimator alone": lambda: _repeated(robot.estimator_alone),
+        "estimator alone with covariance": lambda: _repeated(robot.alone_with_covariance),
         "interpolated anew, 380 taxels": few.interpolated,
     }
     seconds = interleaved(tasks, rounds=rounds)
-    for name in list(tasks)[:3]:
+    for name in list(tasks)[:-1]:
         seconds[name] = [value / REPEATS for value in seconds[name]]
     build = few.build_seconds()
     peer = seconds["interpolated anew, 380 taxels"]
@@ -49,11 +68,21 @@ def main() -> None:
         ratios={
             "frame to interpolating anew, 380 taxels": median_ratio(seconds["frame, 380 taxels"], peer),
             "product to interpolating anew, 380 taxels": median_ratio(seconds["product, 380 taxels"], peer),
+            "frame to joint torques to estimator alone": median_ratio(
+                seconds["frame to joint torques"], seconds["estimator alone"]
+            ),
+            "the same with covariance": median_ratio(
+                seconds["frame to joint torques with covariance"], seconds["estimator alone with covariance"]
+            ),
         },
         seconds=seconds,
-        accuracy={"force over interpolated force": whole / few.interpolated(), "contacts": len(many.frame().wrench)},
+        accuracy={
+            "force over interpolated force": whole / few.interpolated(),
+            "contacts": len(many.frame().wrench),
+            "torques, largest difference between both ways, N m": robot.difference(),
+        },
         rounds=rounds,
-        packages=("numpy", "scipy"),
+        packages=("numpy", "scipy", "icub-models"),
         figures={
             **{f"{name}_us": 1e6 * statistics.median(values) for name, values in seconds.items()},
             "build_380_taxels_s": build,
@@ -121,6 +150,61 @@ class _Skin:
             distance = np.linalg.norm(self.layout.positions - self.layout.positions[centre], axis=1)
             falls += 20.0 * np.exp(-0.5 * (distance / 0.012) ** 2)
         return falls
+
+
+class _Robot:
+    """An iCub at rest whose lower leg has the skin: no force-torque sensor, torques of all joints."""
+
+    def __init__(self, skin: _Skin) -> None:
+        self._skin = skin
+        tree = build_tree(read_urdf(icub_models.get_model_file(ROBOT)), "root_link")
+        joints = moving_joints(tree)
+        self._motion = (
+            JointMotion.at_rest(joints, np.full((1, len(joints)), ANGLE_RAD)),
+            RootMotion.fixed([0.0, 0.0, -1.0]),
+        )
+        self._question = Question(
+            tree=tree,
+            contacts=(Contact(link="root_link"), *(source.contact for source in self._sources())),
+            torques=joints,
+            torque_sum=TorqueSum.SUB_MODEL,
+        )
+        self._felt = self._sources()
+
+    def torques(self) -> Estimates:
+        """From counts to the torques of all joints."""
+        return self._estimated(self._sources())
+
+    def torques_with_covariance(self) -> UncertainEstimates:
+        """The same, and how far they may be off."""
+        return self._uncertain(self._sources())
+
+    def estimator_alone(self) -> Estimates:
+        """From contacts that are known already."""
+        return self._estimated(self._felt)
+
+    def alone_with_covariance(self) -> UncertainEstimates:
+        """The same with covariance."""
+        return self._uncertain(self._felt)
+
+    def difference(self) -> float:
+        """By how much both ways differ; N m."""
+        return float(np.abs(self.torques().torques - self.torques_with_covariance().torques).max())
+
+    def _sources(self) -> tuple[SkinSource, ...]:
+        return skin_sources("pipe", LINK, [self._skin.frame()], np.zeros(1, dtype=np.int64), friction=0.3)
+
+    def _estimated(self, sources: tuple[SkinSource, ...]) -> Estimates:
+        known = Wrenches.of({source.contact.name: source.wrench for source in sources})
+        return estimate(self._question, *self._motion, known=known, evaluator=Evaluator.COMPILED, threads=1)
+
+    def _uncertain(self, sources: tuple[SkinSource, ...]) -> UncertainEstimates:
+        known = Wrenches.of({source.contact.name: source.wrench for source in sources})
+        uncertainty = Uncertainty(
+            known={source.contact.name: source.covariance for source in sources},
+            tangents={source.contact.name: source.tangents for source in sources if source.tangents is not None},
+        )
+        return estimate_with_covariance(self._question, *self._motion, known=known, uncertainty=uncertainty)
 
 
 def _repeated(task: Callable[[], object]) -> None:

@@ -44,9 +44,9 @@ def _run(code: str, environment: dict[str, str], *words: object) -> tuple[float,
     return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime, run.stderr
 
 
-def _least(environment: dict[str, str], *words: object) -> float:
-    """The least CPU seconds of some runs."""
-    return min(_run(_START, environment, *words)[0] for _ in range(RUNS))
+def _within(budget_s: float, environment: dict[str, str], *words: object) -> bool:
+    """Whether one of some runs, the first if neighbours let it, takes less CPU seconds."""
+    return any(_run(_START, environment, *words)[0] < budget_s for _ in range(RUNS))
 
 
 def _modules(environment: dict[str, str], *words: object) -> set[str]:
@@ -63,7 +63,7 @@ def _example(number: str, data_dir: Path, folder: Path) -> Path:
 def test_a_help_is_there_at_once(bytecode: dict[str, str]) -> None:
     """Neither Pydantic nor anything that computes is loaded, and it takes less than 0.3 s."""
     assert not {"pydantic", "numpy", "scipy", "pyarrow"} & _modules(bytecode, "calibrate", "--help")
-    assert _least(bytecode, "calibrate", "--help") < 0.3
+    assert _within(0.3, bytecode, "calibrate", "--help")
 
 
 @pytest.mark.real_data
@@ -73,7 +73,7 @@ def test_a_load_is_weighed_without_what_it_does_not_use(
     """`payload` on 24 rows takes less than 2.4 s."""
     file = _example("07", data_dir, tmp_path)
     assert not set(UNUSED) & _modules(bytecode, "payload", file)
-    assert _least(bytecode, "payload", file) < 2.4
+    assert _within(2.4, bytecode, "payload", file)
 
 
 @pytest.mark.real_data
@@ -82,7 +82,7 @@ def test_a_log_is_judged_without_what_it_does_not_use(bytecode: dict[str, str], 
     file, leg = _example("02", data_dir, tmp_path), tmp_path / "leg.json"
     _run(_START, bytecode, "calibrate", file, "-o", leg)
     assert not set(UNUSED) & _modules(bytecode, "evaluate", file, "-c", leg)
-    assert _least(bytecode, "evaluate", file, "-c", leg) < 2.8
+    assert _within(2.8, bytecode, "evaluate", file, "-c", leg)
 
 
 def test_a_module_and_its_time_are_noticed(bytecode: dict[str, str]) -> None:

@@ -25,6 +25,7 @@ ORDER = (
     "skin",
     "estimation",
     "calibration",
+    "loads",
     "evaluation",
     "study",
     "simulation",

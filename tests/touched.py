@@ -15,6 +15,7 @@ from forcetorque.recording import write_recording
 from forcetorque.simulation.skin import (
     REFERENCE_PA,
     ContactTruth,
+    Loading,
     SkinBody,
     TaxelResponses,
     chamber_recording,
@@ -45,9 +46,9 @@ use = "calibration"
 """
 
 
-def shank_layout() -> SkinLayout:
-    """Modules around a cylinder, every number of whose messages is a taxel."""
-    layout = cylinder_patch(across=9, along=6).layout()
+def shank_layout(along: int = 6) -> SkinLayout:
+    """Modules around a cylinder, in so many rows, every number of whose messages is a taxel."""
+    layout = cylinder_patch(across=9, along=along).layout()
     count = np.arange(len(layout))
     none = np.zeros(0, dtype=np.int64)
     return replace(layout, name="shank", columns=len(count), taxels=count, thermal_pads=none, thermal_modules=none)
@@ -59,16 +60,18 @@ def write_table(folder: Path) -> None:
     answer.calibration.save(folder / "shank.json")
 
 
-def write_touched(folder: Path, *, seed: int = 6, broken: int | None = None) -> Sequence[ContactTruth]:
+def write_touched(
+    folder: Path, *, seed: int = 6, broken: int | None = None, loading: Loading | None = None, along: int = 6
+) -> Sequence[ContactTruth]:
     """Write `shank.csv`, `bag.toml` and `touched.toml` with their recordings; one taxel may be at its rail."""
-    layout = shank_layout()
+    layout = shank_layout(along)
     rng = np.random.default_rng(seed)
     taxels = TaxelResponses.drawn(len(layout), rng)
     truths = list(contacts(SkinBody.of(layout), rng, OBJECTS))
     write_layout_table(folder / "shank.csv", layout)
     write_recording(folder / "bag", chamber_recording(taxels, highest_pa=REFERENCE_PA, ramp_s=8.0, rng=rng))
     later = replace(taxels, rest=taxels.rest - 1.3)
-    touched = contact_recording(layout, later, truths, rng)
+    touched = contact_recording(layout, later, truths, rng, loading=loading)
     if broken is not None:
         stream = touched.stream("counts")
         counts = stream.signal("taxel_counts").values.copy()

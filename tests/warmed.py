@@ -69,12 +69,17 @@ class WarmShank:
 
     def chamber(self, seed: int = 8) -> Recording:
         """A chamber log; pads stay as they are."""
-        log = chamber_recording(self.taxels, highest_pa=REFERENCE_PA, ramp_s=8.0, rng=np.random.default_rng(seed))
-        stream = log.stream("counts")
-        counts = np.zeros((len(stream.stamp_ns), self.layout.columns))
-        counts[:, self.layout.taxels] = stream.signal("taxel_counts").values
-        counts[:, self.layout.thermal_pads] = REST_COUNTS
-        return with_counts(log, counts)
+        return chamber_messages(self.layout, self.taxels, np.random.default_rng(seed))
+
+
+def chamber_messages(layout: SkinLayout, taxels: TaxelResponses, rng: np.random.Generator) -> Recording:
+    """A chamber log in whole messages; thermal pads stay as they are."""
+    log = chamber_recording(taxels, highest_pa=REFERENCE_PA, ramp_s=8.0, rng=rng)
+    stream = log.stream("counts")
+    counts = np.zeros((len(stream.stamp_ns), layout.columns))
+    counts[:, layout.taxels] = stream.signal("taxel_counts").values
+    counts[:, layout.thermal_pads] = REST_COUNTS
+    return with_counts(log, counts)
 
 
 def counts_of(recording: Recording) -> tuple[FloatArray, FloatArray]:

@@ -103,6 +103,8 @@ def _place(content: Any, location: tuple[int | str, ...], *, missing: bool) -> s
     """Name a key as the file has it, such as `sensor[0].serial`; the names of alternatives are no keys."""
     place = ""
     for depth, part in enumerate(location, start=1):
+        if isinstance(part, int) and isinstance(content, dict):
+            continue  # one table may stand for a list of one
         if isinstance(part, int):
             place, content = f"{place}[{part}]", content[part]
         elif isinstance(content, dict) and part in content:

@@ -228,7 +228,7 @@ def test_the_files_of_a_plan_are_what_the_plan_says(planned: Plan, tmp_path: Pat
         signals=(TableSignal(quantity="position", columns=JOINTS, units=("rad",) * len(JOINTS)),),
     )
     for number, (row, proposal) in enumerate(zip(planned.recordings, planned.proposals, strict=True), start=1):
-        stream = read_table(output / f"trajectory_{number}.csv", layout, stream="joints", clock="plan")
+        (stream,) = read_table(output / f"trajectory_{number}.csv", layout, stream="joints", clock="plan").streams
         values, seconds = stream.signal("position").values, stream.stamp_ns * 1e-9
         assert seconds[-1] == pytest.approx(row.seconds, abs=1e-3)
         np.testing.assert_allclose(values, proposal.trajectory(seconds).position, atol=1e-3)

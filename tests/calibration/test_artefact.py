@@ -34,6 +34,7 @@ from forcetorque.errors import (
     ShapeError,
 )
 from forcetorque.spatial import MeasureDirection
+from tests.fuzzing import examples
 
 ROUNDING = 1e-13
 """Relative: sums of seven products in double precision, in another order."""
@@ -204,7 +205,8 @@ def test_a_missing_file_is_named(tmp_path: Path) -> None:
         read_calibration(tmp_path / "none.json")
 
 
-@settings(suppress_health_check=[HealthCheck.function_scoped_fixture], max_examples=150, deadline=None)
+@pytest.mark.fuzz
+@settings(suppress_health_check=[HealthCheck.function_scoped_fixture], max_examples=examples(150), deadline=None)
 @given(st.data())
 def test_damaged_bytes_give_our_errors_only(tmp_path: Path, data: st.DataObject) -> None:
     """Truncation and flipped bytes give a calibration or our error, nothing else."""

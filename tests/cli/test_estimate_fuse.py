@@ -31,7 +31,9 @@ def test_torques_of_all_sources_are_in_the_file(arm: Path, run: Run) -> None:
         if (row["interval"], row["joint"], row["source"]) == ("fit", "shoulder_roll", "fused")
     )
     assert table.column("torque_fused.shoulder_roll").to_numpy()[fit].mean() == row["mean"]
-    shown = run(*words).out
+    shown = run(*words, "--figure", "torques.png").out
+    assert "joint torques drawn to torques.png" in shown
+    assert Path("torques.png").read_bytes().startswith(b"\x89PNG")
     assert "sources of joint torques" in shown
     assert "at most 1.0% of intervals" in shown
 
@@ -40,6 +42,8 @@ def test_what_is_missing_is_one_line(arm: Path, run: Run) -> None:
     """A known error, with the key to state, and no file."""
     file = with_motors(arm)
     file.write_text(file.read_text(encoding="utf-8").replace(FUSION, ""), encoding="utf-8")
+    outcome = run("estimate", PARQUET, "-o", "out.parquet", "-c", "fitted.json", "--fuse", "--figure", "torques.jpg")
+    assert "--figure torques.jpg: expected a name that ends in .png" in outcome.error()
     outcome = run("estimate", PARQUET, "-o", "out.parquet", "-c", "fitted.json", "--fuse")
     assert outcome.code == 2
     assert "expected [fusion] with model_deviation" in outcome.err

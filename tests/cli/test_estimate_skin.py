@@ -80,6 +80,11 @@ def test_torques_are_told_with_and_without_a_sensor(
     assert looked == len(truths)
     assert {row["contact"] for row in result["skin"]} >= {"shank 1"}
     assert all(table["determined"].to_pylist())
+    numbers = [np.array(table[f"identity.shank {k}"].drop_null()) for k in (1, 2)]
+    assert table["identity.shank 1"].null_count == table["centre.shank 1.x"].null_count
+    # every object is a contact of its own, and what it was when it was put down as long as it rests
+    assert len(truths) <= len(np.unique(np.concatenate(numbers))) <= len(truths) + 2
+    assert (np.diff(numbers[0]) >= 0).all()
     empty = table["centre.shank 1.x"].null_count
     assert 0 < empty < len(table)
 

@@ -24,6 +24,7 @@ ROOT = Path(__file__).parents[2]
 FILES = (
     "experiment",
     "acceptance",
+    "bench",
     "scenario",
     "recording",
     "calibration",
@@ -54,6 +55,8 @@ JSON_SCHEMAS = (
     "skin_wrench",
     "study",
     "taxels",
+    "bench",
+    "workbench",
 )
 
 
@@ -200,7 +203,9 @@ def test_experiment_files_fit_the_printed_schema(run: Run, form: str) -> None:
     ]
     for damage in bad:
         assert faults({**content, **damage}, schema) != []
-    for key in ("recording", "sensor", "interval", "schema", "name"):
+    # contacts that a skinManager saw are about neither sensors nor patches
+    assert faults({other: value for other, value in content.items() if other != "sensor"}, schema) == []
+    for key in ("recording", "interval", "schema", "name"):
         assert faults({other: value for other, value in content.items() if other != key}, schema) != []
 
 

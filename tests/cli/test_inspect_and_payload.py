@@ -171,20 +171,21 @@ def test_the_wrist_payload(run: Run, data_dir: Path, tmp_path: Path) -> None:
     text = (EXAMPLES / "07_wrist_payload.toml").read_text(encoding="utf-8")
     path.write_text(text.replace("../../shared/data", data_dir.as_posix()))
     result = run("payload", path, "--format", "json").result()
-    assert result["mass_kg"] == pytest.approx(0.932, abs=0.003)
-    assert result["centre_of_mass_m"][2] == pytest.approx(0.0439, abs=0.0005)
+    (load,), (session,) = result["loads"], result["sessions"]
+    assert load["mass_kg"] == pytest.approx(0.932, abs=0.003)
+    assert load["centre_of_mass_m"][2] == pytest.approx(0.0439, abs=0.0005)
     (row,) = run("payload", path, "--format", "csv").rows()
-    assert float(row["mass_kg"]) == result["mass_kg"]
-    assert float(row["bias_tz_Nm"]) == result["bias"][5]
-    assert float(row["centre_of_mass_z_m"]) == result["centre_of_mass_m"][2]
+    assert float(row["mass_kg"]) == load["mass_kg"]
+    assert float(row["bias_tz_Nm"]) == session["bias"][5]
+    assert float(row["centre_of_mass_z_m"]) == load["centre_of_mass_m"][2]
     assert "kg at (" in run("payload", path).out
     assert faults(result, run("schema", "payload").result()) == []
     experiment = load_experiment(path)
-    load = weigh_load(SensorRun(experiment, experiment.sensors[0]))
-    require_shown(load)
-    assert json.loads(load.json_text()) == result
+    weighed = weigh_load(SensorRun(experiment, experiment.sensors[0]))
+    require_shown(weighed)
+    assert json.loads(weighed.json_text()) == result
 
 
 def test_a_robot_has_no_payload_to_estimate(arm: Path, run: Run) -> None:
     """The command says which table it needs."""
-    assert "expected [load] without mass_kg" in run("payload", arm / PARQUET).error()
+    assert "expected [load], what hangs on a wrist sensor" in run("payload", arm / PARQUET).error()

@@ -109,11 +109,17 @@ def test_inspect_names_broken_taxels(run: Run, palm: Path) -> None:
         ("sphere", "fit.toml"),
         ("study", "fit.toml", "-o", "study"),
         ("estimate", "fit.toml", "-o", "contacts.csv"),
-        ("view", "fit.toml", "-o", "view.html"),
-        ("report", "fit.toml", "-o", "report.html"),
     ],
 )
 def test_other_commands_refuse_a_patch_alone(run: Run, palm: Path, words: tuple[str, ...]) -> None:
     """In one line that says which commands read it."""
     error = run(*words).error()
     assert "fit.toml: expected [[sensor]], a force-torque sensor, got patches of skin only; `forcetorque skin`" in error
+
+
+@pytest.mark.parametrize(
+    "words", [("view", "fit.toml", "-o", "view.html"), ("report", "fit.toml", "-o", "report.html")]
+)
+def test_a_patch_that_is_on_no_link_is_not_shown(run: Run, palm: Path, words: tuple[str, ...]) -> None:
+    """What shows patches alone needs to know on which link each is."""
+    assert "fit.toml: expected [robot], or skin on links of some name: a [[patch]] with link" in run(*words).error()

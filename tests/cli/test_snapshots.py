@@ -10,15 +10,19 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from forcetorque.cli.main import app
+from forcetorque.exsitu import BenchFaults
 from forcetorque.result import Result
+from tests.benches import write_bench
 from tests.chambers import write_chambers
 from tests.cli.commands import question_of, typed_commands
 from tests.cli.outcome import Run
 from tests.experiments import PARQUET, TWO
 from tests.patches import collapsed, cylinder_patch, position_text
+from tests.thermal_cycles import record, write_cycles
 from tests.touched import write_table, write_touched
 
 WIDTHS = (60, 80, 100, 120)
@@ -43,8 +47,11 @@ COMMANDS = {
     "skin wrench": ("skin", "wrench", "touched.toml", "--table", "shank.json"),
     "sphere": ("sphere", PARQUET, "-c", "fitted.json"),
     "study": ("study", PARQUET, "-o", "study", *SHORT),
+    "tare": ("tare", PARQUET, "--interval", "judge", "-c", "fitted.json"),
+    "thermal": ("thermal", "chamber/chamber.toml"),
     "validate": ("validate", TWO, "-c", "fitted.json"),
     "view": ("view", PARQUET, "-o", "view.html"),
+    "workbench": ("workbench", "SIM001.toml"),
 }
 WITHOUT_TABLE = {"payload", "schema", "simulate"}
 """Shown elsewhere: `payload` needs a wrist, `simulate` minutes; `schema` is JSON."""
@@ -80,6 +87,11 @@ def test_the_layout_is_that_which_was_looked_at(arm: Path, run: Run, name: str, 
     write_chambers(arm)
     write_touched(arm, broken=25)
     write_table(arm)
+    if name == "workbench":
+        write_bench(arm, faults=BenchFaults(swapped=(3, 8)))
+    if name == "thermal":
+        (arm / "chamber").mkdir()
+        write_cycles(arm / "chamber", *record(np.random.default_rng(1), hours=0.2))
     (arm / "patch.txt").write_text(position_text(collapsed(cylinder_patch(), 4)), encoding="utf-8")
     ended = run(*COMMANDS[name])
     assert ended.code in (0, 1), ended.err

@@ -17,18 +17,18 @@ from typing import Final
 import numpy as np
 
 from forcetorque.arrays import FloatArray
-from forcetorque.estimation import Contact, ContactType, Question, estimate
+from forcetorque.estimation import Contact, ContactType, Question, TorqueSum, estimate
 from forcetorque.estimation.fusion import (
     Friction,
     Fusion,
     Motor,
     TorqueSource,
-    WrenchError,
     fit_friction,
     fuse,
     motor_source,
     wrench_source,
 )
+from forcetorque.estimation.uncertain import Uncertainty
 from forcetorque.robot import JointMotion, RootMotion, Wrenches, build_tree, read_urdf
 from forcetorque.simulation import ARM_URDF, SimulatedMotor, Stand, random_movement
 from tests.estimation.fusion.sources import three
@@ -148,7 +148,13 @@ class Arm:
         """Ask for the torques; the base takes up what else there is."""
         tree = build_tree(self.stand.model, "base")
         measured = ("arm_ft",) if ft else ()
-        return Question(tree=tree, measured=measured, contacts=(Contact(link="base"), *contacts), torques=JOINTS)
+        return Question(
+            tree=tree,
+            measured=measured,
+            contacts=(Contact(link="base"), *contacts),
+            torques=JOINTS,
+            torque_sum=TorqueSum.SUB_MODEL,
+        )
 
     def motion(self) -> JointMotion:
         """Move at random."""
@@ -192,7 +198,7 @@ class Arm:
             motion,
             self.root,
             self.stamp_ns,
-            errors={"arm_ft": WrenchError(noise=FT_NOISE, lasting=FT_OFFSET)},
+            uncertainty=Uncertainty(measured={"arm_ft": FT_NOISE}, lasting={"arm_ft": FT_OFFSET}),
             floor=FLOOR_NM,
             measured=Wrenches.of({"arm_ft": reading}),
         )
@@ -218,7 +224,7 @@ class Arm:
             motion,
             self.root,
             self.stamp_ns,
-            errors={"push": WrenchError(noise=noise, lasting=lasting)},
+            uncertainty=Uncertainty(known={"push": noise}, lasting={"push": lasting}),
             floor=FLOOR_NM,
             known=Wrenches.of({"push": wrench}),
         )

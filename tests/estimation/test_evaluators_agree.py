@@ -7,6 +7,7 @@ from collections import Counter
 from dataclasses import replace
 
 import numpy as np
+import pytest
 from hypothesis import HealthCheck, given, settings
 
 from forcetorque.arrays import BoolArray, FloatArray
@@ -23,6 +24,7 @@ from forcetorque.estimation import (
 from forcetorque.robot import JointMotion, Wrenches, build_tree, read_urdf
 from tests.estimation.random_robots import Problem, problems, random_unit
 from tests.estimation.simulated import random_pose, random_root
+from tests.fuzzing import examples
 from tests.robots import icub, random_motion
 
 EPS = float(np.finfo(np.float64).eps)
@@ -31,7 +33,7 @@ ROUNDINGS = 300.0
 """Roundings along a chain of nine links and in a least-squares solution, per unit of its condition: 30 in the worst
 of 1500 examples, with a margin of ten."""
 
-EXAMPLES = 250
+EXAMPLES = examples(320)
 
 SLOW = [HealthCheck.too_slow, HealthCheck.data_too_large]
 """A robot takes many draws."""
@@ -89,6 +91,7 @@ def _worst(problem: Problem, readable: Estimates, compiled: Estimates) -> float:
     return worst
 
 
+@pytest.mark.fuzz
 def test_both_evaluators_agree_on_anything() -> None:
     """Within rounding times condition, with the same gaps and ranks, whatever robot, question and input."""
     seen: Counter[str] = Counter()

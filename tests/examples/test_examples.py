@@ -3,11 +3,13 @@
 
 from __future__ import annotations
 
+import json
 import os
 import re
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -19,6 +21,7 @@ from tests.page_scripts import marked
 ROOT = Path(__file__).resolve().parents[2]
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 PAGES = sorted((ROOT / "docs").glob("*.md"))
+NOTEBOOK = ROOT / "examples" / "14_from_arrays.ipynb"
 YOGA = sorted((ROOT / "examples").glob("0[2-5]_icub_yoga_*.toml"))
 
 
@@ -87,6 +90,23 @@ def test_the_readmes_script_runs(demo: tuple[Path, str]) -> None:
     assert sentence in " ".join(output.split())
     assert read_calibration(folder / "mine.json").sensor.serial == "SIM001"
     assert (folder / "report.html").stat().st_size > 10_000
+
+
+def test_the_notebook_runs(demo: tuple[Path, str], monkeypatch: pytest.MonkeyPatch) -> None:
+    """Cell by cell, after the demonstration: a saved, judged and drawn calibration from arrays."""
+    folder, _ = demo
+    monkeypatch.chdir(folder.parents[1])
+    shown: dict[str, Any] = {}
+    for cell in json.loads(NOTEBOOK.read_text(encoding="utf-8"))["cells"]:
+        if cell["cell_type"] == "code":
+            assert cell["outputs"] == []
+            exec(compile("".join(cell["source"]), str(NOTEBOOK), "exec"), shown)
+    assert read_calibration("build/demo/from_arrays.json").sensor.serial == "SIM001"
+    assert Path("build/demo/from_arrays.html").stat().st_size > 10_000
+    assert shown["expected"].shape == (len(shown["seconds"]), 6)
+    figure = shown["run"].figure(shown["calibration"])
+    assert len(figure.axes) == 6
+    assert figure._repr_png_().startswith(b"\x89PNG")
 
 
 def test_the_script_of_the_page_on_uses_runs(demo: tuple[Path, str]) -> None:

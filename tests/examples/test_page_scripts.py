@@ -18,6 +18,8 @@ RUN_ELSEWHERE = {
     "estimation.md": "tests/estimation/test_documentation.py",
     "recording.md": "tests/experiment/test_written_logs.py",
     "joint.md": "tests/analysis/test_joint_calibration.py",
+    "robot_load.md": "tests/analysis/test_tare.py",
+    "thermal.md": "tests/analysis/test_thermal.py",
     "simulation.md": "tests/examples/test_page_scripts.py",
     "skin_layout.md": "tests/exchange/skin/test_documentation.py",
     "simulation.md, both feet": "tests/examples/test_simulation_page.py",

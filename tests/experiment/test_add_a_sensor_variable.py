@@ -66,7 +66,7 @@ def test_tables_of_it_are_read_once_its_unit_is_known(tmp_path: Path, monkeypatc
     with pytest.raises(UnitError, match="unknown unit '%'"):
         read_table(tmp_path / "air.csv", layout, stream="air", clock="board")
     monkeypatch.setitem(SI_FACTORS, "%", ("%", 1.0))
-    read = read_table(tmp_path / "air.csv", layout, stream="air", clock="board").signal("humidity")
+    read = read_table(tmp_path / "air.csv", layout, stream="air", clock="board").streams[0].signal("humidity")
     assert (read.columns, read.units) == (("humidity",), ("%",))
     assert read.values[:, 0].tolist() == [40.0, 41.5]
 

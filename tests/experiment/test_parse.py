@@ -126,7 +126,7 @@ def test_the_documented_wrist_is_complete_with_a_sensor_and_intervals(tmp_path: 
     interval = '[[interval]]\nlabel = "all"\nstart_s = 0\nuse = "calibration"\n'
     parsed = _parse(tmp_path, f"{head}{_documented()[5]}\n{sensor}{interval}")
     assert parsed.load is not None
-    assert parsed.load.mass_kg == 0.932
+    assert parsed.load[0].mass_kg == 0.932
     assert parsed.sensor[0].prior == "identity"
 
 
@@ -216,7 +216,7 @@ TABLES = {
         "reading_deviation, reading_noise, serial, stream, variable",
     ),
     "[[support]]": (r"support\[0\]", "frame, gravity_direction, imu"),
-    'label = "judge"': (r"interval\[1\]", "end_s, kind, label, session, start_s, support, touched, use"),
+    'label = "judge"': (r"interval\[1\]", "end_s, kind, label, load, session, start_s, support, touched, use"),
     "[processing]": ("processing", "derivatives, smoothing"),
     "[calibration]": (
         "calibration",

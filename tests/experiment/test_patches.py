@@ -57,8 +57,8 @@ WRONG: list[tuple[str, str, type[ForceTorqueError], str]] = [
     (
         TEXT[TEXT.index("[[patch]]") : TEXT.index("[[interval]]")],
         "",
-        FormatError,
-        r"expected \[\[sensor\]\], or \[\[patch\]\]",
+        ExperimentError,
+        r"expected \[\[patch\]\], a patch of skin, got none",
     ),
     (
         "[[interval]]",

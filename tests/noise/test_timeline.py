@@ -36,6 +36,16 @@ def test_product_and_determinant_are_those_of_the_covariance_written_out(noise: 
     assert log_determinant == pytest.approx(np.linalg.slogdet(covariance)[1], rel=1e-9)
 
 
+@pytest.mark.parametrize("noise", CANDIDATES[::5], ids=lambda noise: f"{noise.time_constant_s:g}s-{noise.ratio:g}")
+def test_what_an_instant_is_worth_is_the_diagonal_of_the_inverse(noise: SlowNoise) -> None:
+    """The cheap way and the plain one; and of one instant alone."""
+    line = _two_recordings(np.random.default_rng(2))
+    inverse = np.linalg.inv(_written_out(line, noise))
+    np.testing.assert_allclose(line.precision_diagonal(noise), np.diag(inverse), rtol=1e-9)
+    single = Timeline.of([0.0], share=[0.5])
+    np.testing.assert_allclose(single.precision_diagonal(noise), 1.0 / _written_out(single, noise)[0], rtol=1e-12)
+
+
 def test_a_recording_of_its_own_is_not_correlated_with_the_one_before() -> None:
     """Negative control: as one recording the same instants have another determinant."""
     noise = SlowNoise(time_constant_s=50.0, ratio=1.0)

@@ -33,6 +33,7 @@ from forcetorque.recording import (
     storage,
     write_recording,
 )
+from tests.fuzzing import examples
 from tests.recording.recordings import described, even_stamps, recording, refused, signal, stream
 
 INTEGERS = st.integers(-(2**63), 2**63 - 1)
@@ -102,8 +103,9 @@ def _recordings(draw: st.DrawFn) -> Recording:
     )
 
 
+@pytest.mark.fuzz
 @given(_recordings())
-@settings(derandomize=True, deadline=None, max_examples=150)
+@settings(deadline=None, max_examples=examples(150))
 def test_what_is_written_reads_back_bit_by_bit(whole: Recording) -> None:
     """Values, stamps, counters, names of any characters, intervals, findings and origin are the same."""
     with tempfile.TemporaryDirectory() as parent:

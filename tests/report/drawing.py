@@ -18,10 +18,14 @@ from matplotlib.image import imread
 from matplotlib.text import Text
 
 from forcetorque.analysis import (
+    BenchPicture,
     LearntDirection,
     Reason,
     SensorSphere,
+    SensorThermal,
     SkinWrenchPicture,
+    ThermalCurve,
+    ThermalDriftRow,
     TrialGroup,
     TrialSphere,
     UseError,
@@ -33,6 +37,7 @@ from forcetorque.analysis.skin_picture import TaxelPicture
 from forcetorque.calibration.joint import PartResidual
 from forcetorque.evaluation.sphere import analyse_sphere
 from forcetorque.report.figures import (
+    bench_figure,
     comparison_figure,
     contact_figure,
     difference_figure,
@@ -51,6 +56,7 @@ from forcetorque.report.figures import (
     space_figure,
     sphere_figure,
     taxel_figure,
+    thermal_figure,
     torque_figure,
     use_figure,
 )
@@ -363,7 +369,67 @@ def _skin_layout(rng: np.random.Generator) -> Figure:
     return skin_layout_figure(patch.positions, {"as written": placeholder, "rebuilt": patch.normals})
 
 
+def _thermal(rng: np.random.Generator) -> Figure:
+    degrees = np.concatenate([np.linspace(20.0, 40.0, 60), np.linspace(40.0, 20.0, 60)])
+    heating = np.repeat([1.0, -1.0], 60)
+    slopes = rng.normal(size=6)
+    rows = tuple(
+        ThermalDriftRow(
+            signal=name,
+            unit="N",
+            drift_per_degC=float(slope),
+            drift_standard_error_per_degC=0.1,
+            drift_half_width_95_per_degC=0.2,
+            hysteresis=1.0,
+            hysteresis_half_width_95=0.1,
+            drift_per_hour=None,
+            drift_half_width_95_per_hour=None,
+            residual_rms=0.1,
+        )
+        for name, slope in zip(WRENCH_COMPONENTS, slopes, strict=True)
+    )
+    reading = np.outer(degrees - 30.0, slopes) + 0.5 * heating[:, None] + 0.1 * rng.normal(size=(120, 6))
+    curve = ThermalCurve(
+        signals=tuple(f"{name}, N" for name in WRENCH_COMPONENTS),
+        temperature_degC=degrees,
+        heating=heating,
+        reading=reading,
+        reference_degC=30.0,
+    )
+    sensor = SensorThermal(
+        sensor="_left $wrist$ " + "x" * 70,
+        serial="FT1",
+        reading="the logged wrench",
+        variable="temperature",
+        samples=120,
+        sessions=1,
+        lowest_degC=20.0,
+        highest_degC=40.0,
+        reference_degC=30.0,
+        cycles=1.0,
+        told_from_time=True,
+        components=rows,
+        channels=(),
+        corrected=False,
+        curve=curve,
+    )
+    return thermal_figure([sensor, sensor])
+
+
+def _bench(rng: np.random.Generator) -> Figure:
+    directions = rng.standard_normal((24, 3))
+    forces = directions / np.linalg.norm(directions, axis=1, keepdims=True)
+    return bench_figure(
+        BenchPicture(
+            loads=("5.2 kg", "25.2 kg"),
+            on_sphere=(forces[:16], 1.01 * forces[16:]),
+            errors=(rng.standard_normal((16, 6)), 3.0 * rng.standard_normal((8, 6))),
+        )
+    )
+
+
 FIGURES: dict[str, Callable[[np.random.Generator], Figure]] = {
+    "bench": _bench,
     "space": _space,
     "force space": _force_space,
     "difference": _difference,
@@ -380,6 +446,7 @@ FIGURES: dict[str, Callable[[np.random.Generator], Figure]] = {
     "skin event": _skin_event,
     "skin_wrench": _skin_wrench,
     "taxel": _taxel,
+    "thermal": _thermal,
     "torque": _torque,
     "index": _index,
     "skin layout": _skin_layout,

@@ -256,7 +256,8 @@ def main() -> None:
             for (low, high), some in by_active(trials).items():
                 if some:
                     told = errors(some, method)
-                    print(f"    {low} to {high} active: {told.number} contacts, {told.over_load:.2%}")  # noqa: T201
+                    words = f"{told.number} contacts, {told.over_load:.2%}, bias {told.bias:+.1%}"
+                    print(f"    {low} to {high} active: {words}")  # noqa: T201
         shares = ", ".join(f"{within(trials, times)[0]:.1%} within {times:g} sd" for times in (1.0, 2.0))
         print(f"  {within(trials, 1.0)[1]} contacts in scope: {shares}")  # noqa: T201
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tables 7.1 and 7.2 of the thesis from their columns: what they say, what is misprinted, what a gain explains."""
+"""Tables 7.1 to 7.3 of the thesis from their columns: what they say, what is misprinted, what a gain explains."""
 
 from __future__ import annotations
 
@@ -23,6 +23,17 @@ SKIN_RMSE: Final = np.array([0.1529, 0.0356, 0.1703, 0.1582, 0.1653, 0.0964])
 """Table 7.2; N m."""
 SENSOR_TORQUE: Final = np.array([4.4184, 4.7511, 4.4908, 4.5038, 4.5212, 4.3868])
 SKIN_TORQUE: Final = np.array([4.2667, 4.7666, 4.3211, 4.3463, 4.3578, 4.4806])
+HANGING: Final = np.array([0, 2, 3, 4, 5])
+"""Rows of table 7.2 whose mass hangs; the other one is on top."""
+HANGING_MASS: Final = np.array([1.0, 1.5, 1.7, 1.9, 3.0])
+NEAR, FAR = 0.04, 0.05
+"""How far from the knee a mass hangs, at least and at most; m."""
+DEGREES: Final = np.array([90, 85, 80, 75])
+"""Table 7.3; N m."""
+SENSOR_AT: Final = np.array([5.204, 5.205, 5.188, 5.204])
+SKIN_AT: Final = np.array([5.234, 5.021, 4.886, 4.627])
+MEAN_DIFFERENCE_AT: Final = np.array([0.07, 0.225, 0.304, 0.539])
+RMSE_AT: Final = np.array([0.129, 0.265, 0.319, 0.558])
 WITHOUT_3_KG: Final = slice(0, 6)
 PRINTED: Final = 0.6e-4
 """Half of the last digit of four decimals, with room for its own rounding."""
@@ -92,3 +103,27 @@ def test_joint_torques() -> None:
     bias = np.abs(SKIN_TORQUE - SENSOR_TORQUE)
     assert (bias <= SKIN_RMSE).all()
     assert (bias[[0, 2, 3, 4, 5]] > 0.97 * SKIN_RMSE[[0, 2, 3, 4, 5]]).all()
+
+
+def test_joint_torques_do_not_grow_as_the_masses_do() -> None:
+    """Table 7.2: from 1 to 1.9 kg both torques rise by a quarter of what these masses add, and 3 kg are below 1 kg.
+
+    So its torques are no test of sizes: leg or masses cannot have stayed where the text has them.
+    """
+    added = GRAVITY * (1.9 - 1.0) * np.array([NEAR, FAR])
+    for torque in (SENSOR_TORQUE[HANGING], SKIN_TORQUE[HANGING]):
+        rise = torque[HANGING_MASS == 1.9] - torque[HANGING_MASS == 1.0]
+        assert 0.2 * added[1] < rise < 0.3 * added[0]
+    assert SENSOR_TORQUE[HANGING][HANGING_MASS == 3.0] < SENSOR_TORQUE[HANGING][HANGING_MASS == 1.0]
+
+
+def test_mean_differences_are_between_those_of_means_and_the_rmse() -> None:
+    """Table 7.3: |mean of differences| <= mean of |differences| <= RMSE, whatever the samples; not at 75 degrees."""
+    of_means = np.abs(SKIN_AT - SENSOR_AT)
+    can_be = (of_means <= MEAN_DIFFERENCE_AT + ROW) & (MEAN_DIFFERENCE_AT <= RMSE_AT)
+    np.testing.assert_array_equal(DEGREES[~can_be], [75])
+    assert of_means[~can_be] == pytest.approx(0.577)
+    assert of_means[~can_be] > RMSE_AT[~can_be]
+    # the error grows as the weight turns along the skin
+    assert (np.diff(RMSE_AT) > 0.0).all()
+    assert RMSE_AT[-1] > 4.0 * RMSE_AT[0]

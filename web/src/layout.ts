@@ -42,6 +42,8 @@ export function layout(data: SceneData, store: Store, footer: (say: (text: strin
     panel(store, "Force space", "space", spaceTitle, space),
     panel(store, "Planes", "planes", el("div", { class: "tools" }), el("div", { class: "three" }, ...planes)),
   );
+  // without sensors there is neither force space nor a course of forces: skin alone has the page to itself
+  views.classList.toggle("robot-alone", data.scene.sensors.length === 0);
   store.on(["large"], () => {
     views.dataset["large"] = store.state.large ?? "";
   });
@@ -50,7 +52,8 @@ export function layout(data: SceneData, store: Store, footer: (say: (text: strin
     const [start, end] = data.span;
     unzoom.hidden = store.state.window[0] === start && store.state.window[1] === end;
   });
-  const time = el("section", { class: "times", "aria-label": "Time plots" }, strip, ...plots, unzoom);
+  const courses = data.scene.sensors.length === 0 ? [] : plots;
+  const time = el("section", { class: "times", "aria-label": "Time plots" }, strip, ...courses, unzoom);
   const app = el(
     "div",
     { class: "app" },

@@ -155,6 +155,8 @@ export interface SkinContactFrames {
   readonly force: ArrayRef;
   /** Half axes of one standard deviation of the force, as the columns of matrices; N; shape (m, 9) float32. */
   readonly spread: ArrayRef | null;
+  /** Number of each contact, which it keeps from frame to frame; shape (m,) uint32. */
+  readonly identity: ArrayRef;
 }
 
 /** A patch of artificial skin with its pressures; its v taxels are the corners of its facets. */

@@ -10,6 +10,8 @@ export interface SkinContact {
   readonly force: readonly number[];
   /** Half axes of one standard deviation as the columns of a matrix, row by row; null where unknown. */
   readonly spread: readonly number[] | null;
+  /** Number that it keeps from frame to frame. */
+  readonly identity: number;
 }
 
 /** Frame that is shown at an instant; null before the first, and after the hold of one without a next. */
@@ -32,6 +34,7 @@ export function contactsOf(data: SceneData, frames: SkinContactFrames, frame: nu
   const first = data.integers(frames.first);
   const [places, forces] = [data.floats(frames.place), data.floats(frames.force)];
   const spreads = frames.spread ? data.floats(frames.spread) : null;
+  const identities = data.integers(frames.identity);
   const [start, end] = [first[frame] ?? 0, first[frame + 1] ?? 0];
   return Array.from({ length: end - start }, (_, k) => {
     const at = start + k;
@@ -40,6 +43,7 @@ export function contactsOf(data: SceneData, frames: SkinContactFrames, frame: nu
       place: [...places.subarray(3 * at, 3 * at + 3)],
       force: [...forces.subarray(3 * at, 3 * at + 3)],
       spread: spread?.every(Number.isFinite) ? spread : null,
+      identity: identities[at] ?? 0,
     };
   });
 }

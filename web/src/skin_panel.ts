@@ -54,7 +54,7 @@ class ContactsTable implements Drawable {
       chip.style.background = colour;
       const error = deviation(contact);
       const size = Math.hypot(...contact.force).toFixed(2) + (Number.isFinite(error) ? ` ± ${error.toFixed(2)}` : "");
-      return el("tr", {}, el("th", { scope: "row" }, chip, name), el("td", {}, `${size} ${unit}`));
+      return el("tr", {}, el("th", { scope: "row" }, chip, `${name}: contact ${contact.identity}`), el("td", {}, `${size} ${unit}`));
     });
   }
 }

@@ -5,6 +5,8 @@ from forcetorque.analysis.acceptance import Acceptance, accept, criteria_table
 from forcetorque.analysis.acceptance_file import AcceptanceFile, read_acceptance
 from forcetorque.analysis.applicability import by_sensor, one_per_sensor
 from forcetorque.analysis.assessment import Assessment, Demands, assess
+from forcetorque.analysis.bench_file import BenchFile
+from forcetorque.analysis.bench_recording import BenchRecording, read_bench
 from forcetorque.analysis.best_candidate import BestCandidate, CandidateComparison
 from forcetorque.analysis.calibrate import calibrate_sensor
 from forcetorque.analysis.campaign import Campaign, Runs
@@ -65,6 +67,7 @@ from forcetorque.analysis.population import read_population
 from forcetorque.analysis.prior_comparison import Independence, PriorComparison, compare_with_prior
 from forcetorque.analysis.reading import Correction
 from forcetorque.analysis.recording_moments import recording_moments, store_moments
+from forcetorque.analysis.robot_load import export_load, robot_load
 from forcetorque.analysis.samples import IntervalSamples
 from forcetorque.analysis.sensor_calibration import (
     SensorCalibration,
@@ -77,6 +80,7 @@ from forcetorque.analysis.sensor_sphere import SensorSphere, sensor_spheres, sph
 from forcetorque.analysis.skin_calibrate import SkinCalibration, calibrate_skin, read_patches
 from forcetorque.analysis.skin_check import LayoutFindingRow, SkinCheck, check_patch, check_skin
 from forcetorque.analysis.skin_contact_rows import SkinContactRow, SkinWrenchPicture
+from forcetorque.analysis.skin_sources import frames_of_patches
 from forcetorque.analysis.skin_wrench import SkinWrench, skin_wrench
 from forcetorque.analysis.skin_wrench_choice import WrenchChoice
 from forcetorque.analysis.sphere import Spheres, spheres, spheres_of_sensors
@@ -85,15 +89,41 @@ from forcetorque.analysis.static_checks import IntervalOffset, StaticChecks, che
 from forcetorque.analysis.study import SensorStudy, study_sensor
 from forcetorque.analysis.study_data import StudyData, read_study_data
 from forcetorque.analysis.study_result import StudiedSensor, Studies, studied_sensor, study_warnings
+from forcetorque.analysis.tare import Tare, TaredSensor, tare
+from forcetorque.analysis.thermal import Thermal, thermal
+from forcetorque.analysis.thermal_rows import SensorThermal, ThermalCurve, ThermalDriftRow
 from forcetorque.analysis.torque_fusion import TorqueFusion, fuse_experiment
+from forcetorque.analysis.torque_picture import TorquePicture, torque_picture
 from forcetorque.analysis.trial_group import TrialGroup, group_trials
 from forcetorque.analysis.trials import TrialSphere, read_trials
 from forcetorque.analysis.use_verdict import Reason, UseError, UseVerdict, use_sentences
 from forcetorque.analysis.validate import Validation, validate
 from forcetorque.analysis.verdict import VerdictLine
+from forcetorque.analysis.workbench import workbench
+from forcetorque.analysis.workbench_result import Workbench
+from forcetorque.analysis.workbench_rows import BenchPicture
 
 __all__ = [
+    "SensorThermal",
+    "Tare",
+    "Thermal",
+    "ThermalCurve",
+    "ThermalDriftRow",
+    "thermal",
+    "TaredSensor",
+    "export_load",
+    "robot_load",
+    "tare",
+    "BenchFile",
+    "BenchPicture",
+    "BenchRecording",
+    "Workbench",
+    "read_bench",
+    "workbench",
     "TorqueFusion",
+    "TorquePicture",
+    "torque_picture",
+    "frames_of_patches",
     "fuse_experiment",
     "write_plan",
     "refuse_full_folder",

@@ -228,6 +228,19 @@ class Learnt(_Limits):
     """Moments about z."""
 
 
+class WorkbenchLimits(_Limits):
+    """Known loads on a workbench (`forcetorque workbench --spec`)."""
+
+    held_out: PerAxis | None = None
+    """Root mean square error of positions that are left out one by one; at most."""
+    rank: Annotated[int, Field(ge=1, le=6, strict=True)] | None = None
+    """Directions of load that the positions move; at least."""
+    faults: Annotated[int, Field(ge=0, strict=True)] | None = None
+    """Faults of the bench that are seen; at most."""
+    unsound_blocks: Annotated[int, Field(ge=0, strict=True)] | None = None
+    """Blocks with findings; at most."""
+
+
 class AcceptanceFile(Table):
     """The whole file."""
 
@@ -255,6 +268,8 @@ class AcceptanceFile(Table):
     """What the data moved, in raw directions."""
     learnt: Learnt | None = None
     """What the data taught of loads; for calibrations of the generative model."""
+    workbench: WorkbenchLimits | None = None
+    """Known loads on a workbench, which `accept` does not judge."""
     load_case: tuple[LoadCaseTable, ...] = ()
     """What the sensor is to be used for: the verdict on each must be `use`."""
 

@@ -7,7 +7,7 @@ from collections.abc import Collection
 from dataclasses import replace
 
 from forcetorque.errors import ExperimentError
-from forcetorque.estimation import Contact, Question, required_joints_of
+from forcetorque.estimation import Contact, ContactType, Question, required_joints_of
 from forcetorque.robot.sub_model import outboard_bodies
 
 
@@ -16,7 +16,8 @@ def narrowed(
 ) -> tuple[Question, list[str]]:
     """Leave out what needs joints that are not there.
 
-    A torque is left out too if a contact that it depends on is: it would be wrong without.
+    A torque is left out too if a contact that it depends on is: it would be wrong without. Contacts whose wrench is
+    known need no equation, and stay.
 
     Args:
         question: Everything that is wanted.
@@ -43,7 +44,9 @@ def narrowed(
             raise ExperimentError(
                 f"contact {asked[0]!r}: its sub-model {part.name!r} cannot be solved, {_words(missing)}"
             )
-        names = ", ".join(contact.name for contact in inside) or "none"
+        known = [contact for contact in inside if contact.type is ContactType.KNOWN]
+        kept += known
+        names = ", ".join(contact.name for contact in inside if contact not in known) or "none"
         left_out.append(f"sub-model {part.name} with its contacts ({names}): {_words(missing)}")
     torques = [joint for joint in question.torques if not _missing_for_torque(question, available, kept, joint)]
     dropped = [joint for joint in question.torques if joint not in torques]

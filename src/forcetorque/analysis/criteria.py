@@ -30,17 +30,11 @@ _Checked = TypeVar("_Checked")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Subject:
-    """What is judged, as one recording shows it."""
+class Judged:
+    """A calibration, or a prior, with what was measured of it."""
 
-    campaign: Campaign
-    """The sensor in all recordings, whose errors are judged together."""
-    run: SensorRun
-    """The sensor in one of them."""
     calibration: tuple[str, Calibration] | None
     """Name and calibration; None to judge the prior."""
-    others: Mapping[str, Calibration]
-    """Calibrations of the other sensors by name."""
     checks: StaticChecks
     """What was measured of it without limits."""
 
@@ -60,7 +54,7 @@ class Subject:
         """
         if self.calibration is None:
             raise ExperimentError(
-                f"it judges a calibration, none was given of {self.run.sensor.name!r}; see --calibration"
+                f"it judges a calibration, none was given of {self.checks.sensor!r}; see --calibration"
             )
         return self.calibration
 
@@ -82,6 +76,18 @@ class Subject:
         return value
 
 
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Subject(Judged):
+    """What is judged, as one recording shows it."""
+
+    campaign: Campaign
+    """The sensor in all recordings, whose errors are judged together."""
+    run: SensorRun
+    """The sensor in one of them."""
+    others: Mapping[str, Calibration]
+    """Calibrations of the other sensors by name."""
+
+
 def criteria_of(subjects: Sequence[Subject], spec: limits.AcceptanceFile) -> Iterator[Criterion]:
     """Hold what is judged to every limit of an acceptance file.
 
@@ -96,7 +102,10 @@ def criteria_of(subjects: Sequence[Subject], spec: limits.AcceptanceFile) -> Ite
 
     Raises:
         ForceTorqueError: If a limit is stated for what cannot be measured; the message names its table.
+        ExperimentError: If there are limits for a workbench.
     """
+    if spec.workbench is not None:
+        raise ExperimentError("[workbench] cannot be judged on a robot; see forcetorque workbench --spec")
     for table, criteria in _TABLES.items():
         stated = getattr(spec, "validate_" if table == "validate" else table)
         if not stated:
@@ -189,7 +198,7 @@ def _validate(subject: Subject, stated: limits.Validate) -> Iterator[Criterion]:
     yield from judge.at_limits("validate.mean_absolute", errors.mean_absolute, stated.mean_absolute, count=n)
 
 
-def _matrix(subject: Subject, stated: limits.Matrix) -> Iterator[Criterion]:
+def _matrix(subject: Judged, stated: limits.Matrix) -> Iterator[Criterion]:
     checks, judge = subject.checks, subject.judge
     yield from judge.at_limit("matrix.condition", subject.measured("matrix", checks.condition), stated.condition)
     if stated.full_scale is not None and checks.full_scale_least is None:
@@ -199,7 +208,7 @@ def _matrix(subject: Subject, stated: limits.Matrix) -> Iterator[Criterion]:
     yield from judge.at_limits("matrix.resolution_rms", checks.resolution_rms, stated.resolution_rms)
 
 
-def _population(subject: Subject, stated: limits.Population) -> Iterator[Criterion]:
+def _population(subject: Judged, stated: limits.Population) -> Iterator[Criterion]:
     judge, features = subject.judge, subject.checks.population
     n = subject.measured("population", subject.checks.population_count)
     if stated.robust_z is not None:
@@ -252,7 +261,7 @@ def _no_slope(checks: StaticChecks) -> str:
     return f"expected intervals of different temperature, they span {max(known) - min(known):.3g} degC"
 
 
-def _uncertainty(subject: Subject, stated: limits.Uncertainty) -> Iterator[Criterion]:
+def _uncertainty(subject: Judged, stated: limits.Uncertainty) -> Iterator[Criterion]:
     name, fitted = subject.fitted()
     n = fitted.provenance.samples
     if stated.matrix_relative is not None:
@@ -268,7 +277,7 @@ def _uncertainty(subject: Subject, stated: limits.Uncertainty) -> Iterator[Crite
     yield from subject.judge.at_limits("uncertainty.offset", fitted.offset_standard_error, stated.offset, count=n)
 
 
-def _excitation(subject: Subject, stated: limits.Excitation) -> Iterator[Criterion]:
+def _excitation(subject: Judged, stated: limits.Excitation) -> Iterator[Criterion]:
     _, fitted = subject.fitted()
     n, validity = fitted.provenance.samples, fitted.validity
     moved = sum(validity.excited)
@@ -277,7 +286,7 @@ def _excitation(subject: Subject, stated: limits.Excitation) -> Iterator[Criteri
     yield from subject.judge.at_limit("excitation.condition", condition, stated.condition, count=n)
 
 
-def _learnt(subject: Subject, stated: limits.Learnt) -> Iterator[Criterion]:
+def _learnt(subject: Judged, stated: limits.Learnt) -> Iterator[Criterion]:
     name, fitted = subject.fitted()
     directions = learnt_directions(fitted)
     if directions is None:
@@ -317,7 +326,12 @@ _TABLES: dict[str, Callable[..., Iterable[Criterion]]] = {
     "learnt": _learnt,
     "load_case": _load_case,
 }
-"""What judges each table of the file."""
+"""What judges each table of the file on a robot."""
+
+OF_CALIBRATION: dict[str, Callable[..., Iterable[Criterion]]] = {
+    name: _TABLES[name] for name in ("matrix", "population", "uncertainty", "excitation", "learnt")
+}
+"""What judges those tables that need no recording on a robot."""
 
 _OF_RECORDING = {"matrix", "population", "recording", "offset"}
 """Tables about what is measured in every recording by itself; the matrix with its readings' limit and, of a prior, its

@@ -32,7 +32,7 @@ from forcetorque.estimation.samples import robot_motion_at
 from forcetorque.estimation.uncertain import SkinSource, UncertainEstimates, estimate_with_covariance
 from forcetorque.experiment.contacts import contacts_at_sensors, contacts_in, touched_otherwise
 from forcetorque.experiment.content import Experiment, ExperimentContact
-from forcetorque.recording import Interval, MovingSupport, Stream, Support, Use
+from forcetorque.recording import Interval, MovingSupport, Support, Use
 from forcetorque.recording.alignment import interpolate, require_overlap
 from forcetorque.robot import JointMotion, Wrenches, build_tree
 
@@ -68,6 +68,7 @@ def estimate_experiment(
     contacts: Sequence[ExperimentContact] | None = None,
     length_scale: float | None = None,
     progress: Callable[[int, int], None] | None = None,
+    patches: Sequence[PatchFrames] | None = None,
 ) -> list[IntervalEstimates]:
     """Estimate over every interval that is not to be ignored.
 
@@ -80,6 +81,7 @@ def estimate_experiment(
         contacts: Contacts in place of the experiment's.
         length_scale: Length scale in place of the experiment's; m.
         progress: Called with the number of samples done and of all.
+        patches: What its patches say (`frames_of_patches`); they are read if None.
 
     Returns:
         Estimates in the order of the intervals.
@@ -92,8 +94,8 @@ def estimate_experiment(
         raise ExperimentError(f"experiment {experiment.name!r}: expected an interval that is not to be ignored")
     named = experiment.contacts if contacts is None else tuple(contacts)
     scale = experiment.length_scale if length_scale is None else length_scale
-    source = _clock(experiment)
-    patches = frames_of_patches(experiment)
+    source = experiment.clock_stream
+    skinned = frames_of_patches(experiment) if patches is None else patches
     recording, smoothing = experiment.recording, experiment.processing.smoothing
     taken = [
         padded_samples(recording, source, each, smoothing, apart=touched_otherwise(each, recording, named))
@@ -104,7 +106,7 @@ def estimate_experiment(
     for interval, samples in zip(intervals, taken, strict=True):
         before = done
         report = None if progress is None else lambda count, start=before: progress(start + count, total)
-        results.append(_over(experiment, corrections, interval, samples, named, scale, report, patches))
+        results.append(_over(experiment, corrections, interval, samples, named, scale, report, skinned))
         done += len(samples.rows)
     return results
 
@@ -128,7 +130,7 @@ def _over(
     available = set(experiment.recording.joint_signals("position"))
     question, left_out = narrowed(question, available, required={entry.contact.name for entry in present})
     processing = experiment.processing
-    source = _clock(experiment)
+    source = experiment.clock_stream
     joints, root = robot_motion_at(
         experiment.recording,
         experiment.model,
@@ -161,16 +163,6 @@ def _over(
         skin=tuple(source.of_samples(inside) for source in skin),
         uncertain=None if answer is None else answer.of_samples(inside),
     )
-
-
-def _clock(experiment: Experiment) -> Stream:
-    """The stream at whose instants is estimated: of the first sensor, or of the first patch where there is none."""
-    recording = experiment.recording
-    if experiment.sensors:
-        return recording.stream(experiment.sensors[0].stream)
-    if not experiment.force_patches:
-        raise ExperimentError(f"experiment {experiment.name!r}: expected a sensor or a patch with a table, got neither")
-    return recording.stream(experiment.force_patches[0].counts)
 
 
 def _measured(
@@ -219,7 +211,7 @@ def _question(
     asked: bool,
     length_scale: float | None,
 ) -> Question:
-    tree = build_tree(experiment.model, support.frame)
+    tree = build_tree(experiment.model_on(support), support.frame)
     sensors = tuple(sensor.name for sensor in experiment.sensors)
     contacts = [entry.contact for entry in present]
     if support.frame not in [contact.name for contact in contacts]:

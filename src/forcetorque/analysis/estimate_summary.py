@@ -87,6 +87,8 @@ class EstimatedRecording(Row):
     """Joint torques of several sources; None where they were not asked for."""
     skin: tuple[SkinContactSummary, ...] = ()
     """One per interval and contact on skin."""
+    figure: str | None = None
+    """File of the figure of joint torques, where one was drawn."""
 
 
 class EstimateSummary(Result):
@@ -116,6 +118,8 @@ class EstimateSummary(Result):
     """Joint torques of several sources; None where they were not asked for."""
     skin: tuple[SkinContactSummary, ...] = ()
     """One per interval and contact on skin."""
+    figure: str | None = None
+    """File of the figure of joint torques, where one was drawn."""
     recordings: tuple[EstimatedRecording, ...] = ()
     """Of several recordings one each, where these things then stand; none where there is one recording."""
 
@@ -134,6 +138,8 @@ class EstimateSummary(Result):
         for recording in self.recordings or (self,):
             if recording.file is not None:
                 yield f"{recording.rows} rows written to {recording.file}"
+            if recording.figure is not None:
+                yield f"joint torques drawn to {recording.figure}"
 
     def records(self) -> list[dict[str, object]]:
         """Give the contacts as lines.
@@ -258,8 +264,9 @@ def _doubts(corrections: Mapping[str, Correction], spans: Sequence[IntervalEstim
     exact = tuple(
         name for name, one in corrections.items() if one.calibration is None or one.calibration.posterior is None
     )
+    resting = tuple(name for name, one in corrections.items() if one.calibration is None and one.removes_offset)
     for span in spans:
-        yield from skin_doubts(span, exact)
+        yield from skin_doubts(span, exact, resting)
 
 
 def _for_table(experiment: Experiment, span: IntervalEstimates, fused: IntervalFusion | None) -> EstimatedSpan:
@@ -276,6 +283,7 @@ def _for_table(experiment: Experiment, span: IntervalEstimates, fused: IntervalF
         torques={} if fused is None else dict(fused.columns()),
         uncertain=span.uncertain,
         centres={source.contact.name: source.centre for source in span.skin},
+        identities={source.contact.name: source.identity for source in span.skin},
     )
 
 

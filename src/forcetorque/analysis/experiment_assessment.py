@@ -17,6 +17,9 @@ from forcetorque.analysis.sensor_run import SensorRun
 from forcetorque.analysis.skin_assessment import assess_skin
 from forcetorque.analysis.skin_event_rows import SkinEventPicture, SkinEventRow, skin_event_rows
 from forcetorque.analysis.skin_wrench import SkinWrench
+from forcetorque.analysis.torque_assessment import assess_torques
+from forcetorque.analysis.torque_fusion import TorqueFusion
+from forcetorque.analysis.torque_picture import TorquePicture
 from forcetorque.calibration import Calibration
 from forcetorque.calibration.joint import PartResidual
 from forcetorque.experiment import Experiment
@@ -55,6 +58,12 @@ class ExperimentAssessment(Row):
     """Contacts that a skinManager saw."""
     skin_event_pictures: tuple[SkinEventPicture, ...] = Field(default=(), exclude=True, repr=False)
     """The same over time."""
+    fusion: TorqueFusion | None = None
+    """Joint torques of several sources, with the first calibration of every sensor; None without `[fusion]`."""
+    torque_picture: TorquePicture | None = Field(default=None, exclude=True, repr=False)
+    """Joint torques over time, where there is skin or `[fusion]`."""
+    torques_left_out: tuple[str, ...] = ()
+    """Why there are none."""
     inputs_sha256: dict[str, str]
     """SHA-256 of every input file."""
 
@@ -100,6 +109,7 @@ def assess_experiment(
     residuals = part_residuals(experiment, first, Use.VALIDATION)
     skin, skin_left_out = assess_skin(experiment.skin)
     skin_events, skin_event_pictures = skin_event_rows(experiment.recording)
+    torques = assess_torques(experiment, first)
     start, end = experiment.recording.span_ns
     return ExperimentAssessment(
         experiment=experiment.name,
@@ -116,5 +126,8 @@ def assess_experiment(
         skin_left_out=skin_left_out,
         skin_events=skin_events,
         skin_event_pictures=skin_event_pictures,
+        fusion=torques.fusion,
+        torque_picture=torques.picture,
+        torques_left_out=torques.left_out,
         inputs_sha256=dict(experiment.inputs_sha256),
     )

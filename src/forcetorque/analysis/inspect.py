@@ -14,7 +14,7 @@ from forcetorque.analysis.findings import inspect_experiment, inspect_recording
 from forcetorque.analysis.skin_findings import inspect_patches, taxel_findings
 from forcetorque.errors import MissingFileError
 from forcetorque.exchange.formats import not_recognised, recognised_format
-from forcetorque.experiment import load_experiment, load_patches, parse_experiment
+from forcetorque.experiment import load_experiment, load_patches, load_shown, parse_experiment
 from forcetorque.recording import Finding, Recording
 from forcetorque.result import Result, Row, Table
 
@@ -120,6 +120,9 @@ def _recorded(source: Path) -> tuple[Recording, tuple[Finding, ...]]:
     patches = load_patches(source) if stated.patch else None
     if patches is not None and not stated.sensor:
         return patches.recording, inspect_patches(patches)
+    if patches is None and not stated.sensor:
+        recording = load_shown(source).recording
+        return recording, inspect_recording(recording)
     experiment = load_experiment(source)
     findings = inspect_experiment(experiment)
     return experiment.recording, findings if patches is None else (*findings, *taxel_findings(patches))

@@ -4,19 +4,45 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Literal
+from typing import ClassVar, Literal
 
+import numpy as np
 from pydantic import Field
 
+from forcetorque.analysis.campaign import Campaign, Runs
+from forcetorque.analysis.payload_rows import (
+    BiasRow,
+    BiasTestRow,
+    DriftRow,
+    HypothesisRow,
+    JudgedLoadRow,
+    LoadRow,
+    RecordingLoadRow,
+    RowThatDisagrees,
+    VariableRow,
+    six,
+)
+from forcetorque.analysis.payload_words import bias_words, disagreements, drift_words, load_words, payload_doubts
 from forcetorque.analysis.sensor_run import SensorRun
 from forcetorque.errors import ExperimentError
-from forcetorque.result import COMPONENTS, AxisValues, Result, Table, WrenchValues, with_error
+from forcetorque.experiment.load_rows import load_problem, samples_left_out
+from forcetorque.experiment.wrist_load import WristLoads
+from forcetorque.loads import LoadProblem, LoadSolution, instants, load_wrench, solve, together
+from forcetorque.noise import means_over
+from forcetorque.recording import Use
+from forcetorque.result import Result, Table, WrenchValues, table_of
+
+_TOUCHED = 0.2
+"""Share of the weight of a load that nothing but a contact leaves, on intervals that were not fitted (heuristic)."""
+_LASTING_S = 0.25
+"""What lasts shorter is a jerk of the motion, or a tap; s."""
 
 
 class WeighedLoad(Result):
-    """What hangs on a wrist sensor, and the sensor's bias."""
+    """What hangs on a wrist sensor, and the sensor's biases."""
 
-    schema_name: Literal["forcetorque/payload/1"] = Field(default="forcetorque/payload/1", alias="schema")
+    of_several: ClassVar[tuple[str, ...]] = ("recordings", "disagreements")
+    schema_name: Literal["forcetorque/payload/2"] = Field(default="forcetorque/payload/2", alias="schema")
     """Form of the result."""
     experiment: str
     """Name of the experiment."""
@@ -24,81 +50,165 @@ class WeighedLoad(Result):
     """Sensor."""
     serial: str
     """Its serial number."""
-    samples: int
-    """Number of samples."""
-    mass_kg: float
-    """Mass."""
-    mass_standard_error_kg: float
-    """Its standard error."""
-    mass_half_width_95_kg: float
-    """Half-width of its 95 % interval."""
-    centre_of_mass_m: AxisValues
-    """Centre of mass in the sensor's frame."""
-    centre_of_mass_standard_error_m: AxisValues
-    """Its standard error."""
-    centre_of_mass_half_width_95_m: AxisValues
-    """Half-widths of its 95 % intervals."""
-    bias: WrenchValues
-    """Reading without load; N, N m."""
+    rows: int
+    """Number of means or poses that were fitted."""
+    left_out: int
+    """Samples that lack a finite reading or motion."""
+    loads: tuple[LoadRow, ...]
+    """Loads, in the order of the file."""
+    sessions: tuple[BiasRow, ...]
+    """Bias of every session, in the order of time."""
+    variables: tuple[VariableRow, ...]
+    """What the variables of the sensor add."""
+    drift: DriftRow
+    """Whether biases move evenly in time, and why."""
+    bias_tests: tuple[BiasTestRow, ...]
+    """Whether one bias would do."""
+    mount_rad: tuple[float, float, float] | None
+    """Rotation vector from the axes of the motion to those of the sensor; none where it was not asked for."""
+    tilt_rad: tuple[float, float] | None
+    """Rotation vector of gravity about x and y of the world; none where it was not asked for."""
+    open: tuple[str, ...]
+    """What the rows leave open, in sentences."""
+    disagreeing: tuple[RowThatDisagrees, ...]
+    """Rows that disagree with all others."""
+    hypotheses: tuple[HypothesisRow, ...]
+    """Other accounts of the rows that explain them better, the best first."""
+    judged: tuple[JudgedLoadRow, ...]
+    """Validation intervals, held against the loads."""
     residual_rms: WrenchValues
     """Root mean square residual; N, N m."""
+    spanned_directions: int
+    """Directions of wrench, of six, that the loads move: one centre of mass moves three, two five."""
+    recordings: tuple[RecordingLoadRow, ...] = ()
+    """What each of several recordings says by itself."""
+    disagreements: tuple[str, ...] = ()
+    """Where they differ by more than their intervals, in sentences."""
 
     def blocks(self) -> Iterator[Table | str]:
-        """Give mass and centre of mass, then bias and residual.
+        """Give the loads, then biases, what is open and what disagrees.
 
         Yields:
-            A sentence and a table.
+            Sentences and tables.
         """
-        mass = with_error(self.mass_kg, self.mass_half_width_95_kg, digits=4)
-        centre = ", ".join(
-            with_error(1e3 * position, 1e3 * error, digits=2)
-            for position, error in zip(self.centre_of_mass_m, self.centre_of_mass_half_width_95_m, strict=True)
-        )
-        source = f"{self.sensor} ({self.serial}), {self.samples} samples"
-        yield f"{source}: {mass} kg at ({centre}) mm, ± half a 95 % interval"
-        lines = (("bias", self.bias), ("residual RMS", self.residual_rms))
-        yield Table(
-            caption="",
-            headings=("", *COMPONENTS),
-            rows=tuple((name, *(f"{value:.4f}" for value in values)) for name, values in lines),
-        )
+        source = f"{self.sensor} ({self.serial}), {self.rows} rows"
+        for load in self.loads:
+            yield f"{source}: {load_words(load)}"
+        yield table_of(self.sessions, "bias: reading without load")
+        if self.variables:
+            yield table_of(self.variables, "what variables add to the reading, per unit")
+        yield drift_words(self.drift)
+        yield from (bias_words(test, self.loads) for test in self.bias_tests)
+        yield from self.open
+        if self.disagreeing:
+            yield table_of(self.disagreeing, "rows that disagree with all others, and count less")
+        if self.recordings:
+            yield table_of(self.recordings, "what each recording says by itself, ± half a 95 % interval")
+            yield from self.disagreements or ("the recordings agree within their intervals",)
+        if self.judged:
+            yield table_of(self.judged, "what the loads leave of intervals that were not fitted, about its middle")
+        rms = ", ".join(f"{value:.4f}" for value in self.residual_rms)
+        yield f"residual RMS {rms} N, N m; the loads move {self.spanned_directions} of 6 directions of wrench"
 
     def records(self) -> list[dict[str, object]]:
-        """Give the answer as one flat line.
+        """Give a line for every load and session.
 
         Returns:
-            The line.
+            The lines: a load beside the bias of a session.
         """
-        return [{key: value for key, value in self.flat().items() if key != "schema"}]
+        return [load.flat() | session.flat() for load in self.loads for session in self.sessions]
 
 
-def weigh_load(run: SensorRun) -> WeighedLoad:
-    """Give the load that the calibration intervals of an experiment tell.
+def weigh_load(runs: Runs) -> WeighedLoad:
+    """Give the loads that the calibration intervals of one or several experiments tell.
 
     Args:
-        run: The wrist sensor.
+        runs: The wrist sensor; of several experiments, all under the same loads.
 
     Returns:
-        Mass, centre of mass and bias, with their standard errors.
-
-    Raises:
-        ExperimentError: If the experiment is of a robot, or states the mass.
+        Loads, biases, their 95 % intervals, what stays open, and what makes it doubtful.
     """
-    experiment, sensor = run.experiment, run.sensor
-    payload = experiment.payload
-    if payload is None:
-        raise ExperimentError("expected [load] without mass_kg and centre_of_mass_m, which are to be estimated")
-    return WeighedLoad(
-        experiment=experiment.name,
-        sensor=sensor.name,
-        serial=sensor.serial,
-        samples=payload.count,
-        mass_kg=payload.mass,
-        mass_standard_error_kg=payload.mass_error,
-        mass_half_width_95_kg=payload.mass_half_width,
-        centre_of_mass_m=payload.centre_of_mass,
-        centre_of_mass_standard_error_m=payload.centre_of_mass_error,
-        centre_of_mass_half_width_95_m=payload.centre_of_mass_half_width,
-        bias=payload.bias,
-        residual_rms=payload.residual_rms,
+    campaign = Campaign.of(runs)
+    wrists = [_wrist(run) for run in campaign.runs]
+    pairs = list(zip(campaign.runs, wrists, strict=True))
+    solution, first = _solution(campaign, wrists), campaign.runs[0]
+    alone = [
+        RecordingLoadRow.by(name, load)
+        for name, (run, wrist) in zip(campaign.recordings, pairs, strict=True)
+        for load in wrist.solution(run.experiment).loads
+        if len(pairs) > 1
+    ]
+    weighed = WeighedLoad(
+        experiment=", ".join(campaign.experiments),
+        sensor=first.sensor.name,
+        serial=first.sensor.serial,
+        rows=len(solution.residual),
+        left_out=sum(samples_left_out(run.experiment, wrist) for run, wrist in pairs),
+        loads=tuple(LoadRow.of(load) for load in solution.loads),
+        sessions=tuple(BiasRow.of(session) for session in solution.sessions),
+        variables=tuple(
+            VariableRow(variable=one.name, coefficients=six(one.coefficients), half_width_95=six(one.half_width))
+            for one in solution.variables
+        ),
+        drift=DriftRow.of(solution.drift),
+        bias_tests=tuple(BiasTestRow.of_test(test) for test in solution.bias_tests),
+        mount_rad=None if wrists[0].table.mount is None else _vector(solution),
+        tilt_rad=None if wrists[0].table.tilt is None else (float(solution.tilt[0]), float(solution.tilt[1])),
+        open=tuple(entry.words for entry in solution.open_directions),
+        disagreeing=tuple(RowThatDisagrees.of(row) for row in solution.disagreeing),
+        hypotheses=tuple(HypothesisRow.of(one) for one in solution.hypotheses),
+        judged=tuple(row for run, wrist in pairs for row in _judged(run, wrist, solution)),
+        residual_rms=solution.residual_rms,
+        spanned_directions=solution.spanned,
+        recordings=tuple(alone),
+        disagreements=tuple(disagreements(alone)),
     )
+    return weighed.model_copy(update={"warnings": tuple(payload_doubts(weighed))})
+
+
+def _wrist(run: SensorRun) -> WristLoads:
+    if run.experiment.wrist is None:
+        raise ExperimentError("expected [load], what hangs on a wrist sensor, got [robot]; give [load] in its place")
+    return run.experiment.wrist
+
+
+def _solution(campaign: Campaign, wrists: list[WristLoads]) -> LoadSolution:
+    if len(wrists) == 1:
+        return wrists[0].solution(campaign.runs[0].experiment)
+    problems: dict[str, LoadProblem] = {
+        name: load_problem(run.experiment, wrist)
+        for name, run, wrist in zip(campaign.recordings, campaign.runs, wrists, strict=True)
+    }
+    return solve(together(problems))
+
+
+def _vector(solution: LoadSolution) -> tuple[float, float, float]:
+    from scipy.spatial.transform import Rotation  # here because importing it takes longer than most commands
+
+    x, y, z = Rotation.from_matrix(solution.mount).as_rotvec()
+    return float(x), float(y), float(z)
+
+
+def _judged(run: SensorRun, wrist: WristLoads, solution: LoadSolution) -> Iterator[JudgedLoadRow]:
+    """What the loads leave of validation intervals, about the middle of each: its bias is not known."""
+    if not run.has(Use.VALIDATION) or not all(load.is_determined for load in solution.loads):
+        return
+    problem = load_problem(run.experiment, wrist, use=Use.VALIDATION)
+    wrench = load_wrench(problem, solution.guess)
+    left = problem.rows.wrench - wrench
+    for number, label in enumerate(problem.blocks):
+        mine = problem.rows.block == number
+        if not mine.any():
+            continue
+        about = left[mine] - np.median(left[mine], axis=0)
+        _, lasting, _ = means_over(instants(problem.rows)[mine], about, _LASTING_S)
+        force, largest = (np.linalg.norm(one[:, :3], axis=1) for one in (about, lasting))
+        weight = float(np.median(np.linalg.norm(wrench[mine, :3], axis=1)))
+        yield JudgedLoadRow(
+            interval=label,
+            rows=int(mine.sum()),
+            force_error_N=float(np.sqrt((force**2).mean())),
+            moment_error_Nm=float(np.sqrt((about[:, 3:] ** 2).sum(axis=1).mean())),
+            largest_force_N=float(largest.max()),
+            touched=bool(largest.max() > _TOUCHED * weight),
+        )

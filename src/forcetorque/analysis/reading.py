@@ -85,6 +85,11 @@ class Correction:
                 return replace(self, model=replace(self.model, offset=self.sessions[name]))
         return self
 
+    @property
+    def bare(self) -> Self:
+        """The correction without its offset."""
+        return replace(self, model=replace(self.model, offset=np.zeros(6)))
+
     @classmethod
     def without_offset(cls, sensor: ExperimentSensor) -> Self:
         """Read by the prior of the experiment, or take the logged wrench, with whatever offset it has.

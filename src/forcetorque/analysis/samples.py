@@ -73,7 +73,7 @@ def samples_over(
     evaluator = evaluator_of_samples(_samples_with_support(recording, sensor.stream))
     samples = sensor_samples(
         recording,
-        experiment.model,
+        experiment.model if interval.support is None else experiment.model_on(interval.support),
         sensor=sensor.name,
         stream=sensor.stream,
         quantity=sensor.quantity,
@@ -82,6 +82,7 @@ def samples_over(
         variables=[sensor.variable(name).source for name in variables],
         apart=touched_otherwise(interval, recording, experiment.contacts),
         evaluator=evaluator,
+        applied=None if experiment.wrist is None else experiment.wrist.table.applied,
     )
     readings = Readings.of(sensor, samples.reading.values, dict(zip(variables, samples.variables.T, strict=True)))
     return IntervalSamples(interval=interval, samples=samples, readings=readings)

@@ -151,9 +151,9 @@ def data_doubts(run: SensorRun, *, by_model: bool = True) -> Iterator[str]:
         something touches the robot beyond it, and one per finding in a fitted interval.
     """
     experiment = run.experiment
-    if experiment.payload is not None:
+    if experiment.wrist is not None and not experiment.wrist.are_stated:
         yield (
-            "the load's mass was estimated with this sensor's own reading, so a wrong gain cannot be seen; "
+            "the load was estimated with this sensor's own reading, so a wrong gain cannot be seen; "
             "give mass_kg and centre_of_mass_m to judge it"
         )
     if by_model:

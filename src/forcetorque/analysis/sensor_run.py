@@ -248,6 +248,21 @@ class SensorRun:
         """
         return self._once("uncalibrated", lambda: uncalibrated(self))
 
+    def read_by(self, name: str | None, calibration: Calibration | None) -> Correction:
+        """Read the sensor by one calibration, or, with whatever offset it has, by its prior or as logged.
+
+        Args:
+            name: Name of the calibration, for messages; None for none.
+            calibration: The calibration; None for none.
+
+        Returns:
+            The correction.
+        """
+        if calibration is None:
+            return Correction.without_offset(self.sensor)
+        self.require_fit(name or "calibration", calibration)
+        return Correction.of(name or "calibration", calibration)
+
     def candidates(self, calibrations: Mapping[str, Calibration]) -> tuple[JudgedCandidate, ...]:
         """Decide by what the sensor is read in turn.
 

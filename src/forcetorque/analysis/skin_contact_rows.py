@@ -21,7 +21,7 @@ class SkinContactRow(Row):
     time_s: Annotated[float, Shown("time", "s", digits=2)]
     """Middle of the messages that are averaged, since the start of the recording."""
     contact: Annotated[int, Shown("contact")]
-    """Number of the contact at that time, from 1."""
+    """Number of the contact, from 1, which it keeps from its first frame to its last."""
     force_N: Annotated[float, Shown("force", "N", digits=2, error="force_sd_N")]
     """Norm of the force, (7.4)."""
     force_sd_N: FloatOrNull
@@ -84,7 +84,7 @@ def contact_rows(
     return tuple(
         SkinContactRow(
             time_s=time_s,
-            contact=number + 1,
+            contact=int(contacts.identity[number]),
             force_N=float(contacts.force_N[number]),
             force_sd_N=float(contacts.force_sd_N[number]),
             hysteresis_N=float(contacts.hysteresis_N[number]),

@@ -12,6 +12,7 @@ from forcetorque.arrays import FloatArray
 from forcetorque.recording import Recording, Stream
 from forcetorque.recording.alignment import seconds_since, usable_samples
 from forcetorque.result import Row, Shown
+from forcetorque.skin.contact import followed_places
 
 
 class SkinEventRow(Row):
@@ -27,6 +28,8 @@ class SkinEventRow(Row):
     """Contacts of all messages."""
     most: Annotated[int, Shown("most at once")]
     """Contacts of the message with the most."""
+    followed: Annotated[int, Shown("followed")]
+    """Contacts, where what is at one place in successive messages is one: a skinManager numbers them anew each time."""
     largest_heuristic: Annotated[float, Shown("largest heuristic", digits=2)]
     """Largest sum of norms of what a message calls forces: a heuristic, not newtons."""
 
@@ -69,13 +72,17 @@ def _told(stream: Stream, start_ns: int) -> tuple[SkinEventRow, SkinEventPicture
     sizes = np.linalg.norm(vectors, axis=2)  # (n, contacts), NaN where a message has fewer
     counts = np.count_nonzero(np.isfinite(sizes), axis=1)
     heuristic: FloatArray = np.nansum(sizes, axis=1)
+    seconds = seconds_since(stream.stamp_ns[rows], start_ns)
+    pressed = [k for k, name in enumerate(signal.columns) if ".pressed_" in name]
+    places = signal.values[rows][:, pressed].reshape(len(rows), -1, 3)
+    identities = followed_places(seconds, [one[np.isfinite(one).all(axis=1)] for one in places])
     row = SkinEventRow(
         stream=stream.name,
         messages=len(rows),
         touched=int(np.count_nonzero(counts)),
         contacts=int(counts.sum()),
         most=int(counts.max(initial=0)),
+        followed=int(np.concatenate([[0], *identities]).max()),
         largest_heuristic=float(heuristic.max(initial=0.0)),
     )
-    seconds = seconds_since(stream.stamp_ns[rows], start_ns)
     return row, SkinEventPicture(stream=stream.name, seconds=seconds, heuristic=heuristic)

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Final
 
 import numpy as np
@@ -13,7 +13,16 @@ from forcetorque.analysis.skin_messages import resting_reader
 from forcetorque.arrays import BoolArray, FloatArray, IntArray
 from forcetorque.errors import SkinError, known_names
 from forcetorque.skin import PatchCalibration
-from forcetorque.skin.contact import PatchFollower, PatchReader, PressureFrame, Release, SkinContacts, find_contacts
+from forcetorque.skin.contact import (
+    ContactLife,
+    ContactLives,
+    PatchFollower,
+    PatchReader,
+    PressureFrame,
+    Release,
+    SkinContacts,
+    find_contacts,
+)
 from forcetorque.skin.temperature import HeatGains, HeatRule, TaxelDrift, stuck_pads
 from forcetorque.skin.wrench import SkinPatch
 
@@ -49,6 +58,8 @@ class SkinFrames:
     """How heat was taken out."""
     frames: tuple[tuple[float, PressureFrame, SkinContacts], ...]
     """Time, pressures and contacts of every frame; s."""
+    lives: tuple[ContactLife, ...]
+    """Contacts from their first frame to their last."""
     releases: tuple[Release, ...]
     """Contacts that were let go, where heat is followed."""
     dead_pads: IntArray
@@ -88,15 +99,27 @@ def skin_frames(
     if heat is not None and rule is HeatRule.LEARNED:
         follower = PatchFollower(skin, reader, heat, re_tare=chosen.re_tare)
         read = follower.frame
-    frames = tuple((middle, *read(middle, own)) for middle, own in _batches(seconds, counts, chosen.averaged))
+    lives = ContactLives()
+    frames = tuple(
+        (middle, *_followed(lives, middle, *read(middle, own)))
+        for middle, own in _batches(seconds, counts, chosen.averaged)
+    )
     return SkinFrames(
         reader=reader,
         rule=rule,
         frames=frames,
+        lives=lives.lives,
         releases=() if follower is None else tuple(follower.releases),
         dead_pads=dead,
         untold=table.taxels[~told],
     )
+
+
+def _followed(lives: ContactLives, seconds: float, frame: PressureFrame, contacts: SkinContacts) -> Told:
+    """The contacts of a frame under the numbers that they had before."""
+    own = contacts.active & (contacts.contact == np.arange(len(contacts))[:, None])
+    identity = lives.follow(seconds, contacts.centre_of_pressure, own)
+    return frame, replace(contacts, identity=identity)
 
 
 def _rule(calibration: PatchCalibration, chosen: FrameChoice) -> HeatRule:

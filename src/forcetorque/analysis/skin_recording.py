@@ -14,6 +14,7 @@ from forcetorque.experiment import ExperimentPatch, PatchExperiment, PatchInterv
 from forcetorque.experiment.inputs import stated_in
 from forcetorque.recording import Use
 from forcetorque.recording.alignment import interpolate, seconds_since, usable_samples
+from forcetorque.skin.messages import require_counts
 from forcetorque.skin.taxels import Ailment, PressureCycle, pressure_cycle, taxel_ailments
 
 
@@ -80,12 +81,7 @@ def _recording(
     if len(rows) < 2:
         raise SkinError("expected messages with a pressure, got none; do both streams cover the interval?")
     message = whole[rows]
-    empty = np.flatnonzero(~message.any(axis=1))
-    if len(empty):
-        raise SkinError(
-            f"row {rows[empty[0]]} of {patch.counts!r}: expected counts, got a message of zeros ({len(empty)} such of "
-            f"{len(rows)}): the board had no power or the message was lost; leave that time out of the interval"
-        )
+    require_counts(message, where=repr(patch.counts), rows=rows)
     counts = message[:, patch.taxels]
     cycle = pressure_cycle(counts, at)
     return PatchRecording(

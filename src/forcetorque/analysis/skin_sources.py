@@ -59,7 +59,10 @@ def _sources(experiment: Experiment, frames: PatchFrames, at_ns: IntArray) -> It
     rows = frames_before(frame_ns, at_ns, patch=patch.name, oldest_s=oldest_s)
     link = frames.skin.layout.frame if patch.link is None else patch.link
     contacts = [contacts for _, _, contacts in frames.looked]
-    yield from skin_sources(patch.name, link, contacts, rows, friction=patch.friction)
+    both = np.concatenate([rows, np.minimum(rows + 1, len(contacts) - 1)])
+    now = np.arange(len(both)) < len(rows)
+    for source in skin_sources(patch.name, link, contacts, both, friction=patch.friction):
+        yield source.of_samples(now).on_the_way_to(source.of_samples(~now))
 
 
 def uncertainty_of(

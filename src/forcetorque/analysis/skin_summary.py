@@ -9,6 +9,7 @@ from typing import Annotated
 import numpy as np
 
 from forcetorque.analysis.estimate import IntervalEstimates
+from forcetorque.recording import Use
 from forcetorque.result import Row, Shown
 
 
@@ -18,7 +19,9 @@ class SkinContactSummary(Row):
     interval: Annotated[str, Shown("interval")]
     """Label of the interval."""
     contact: Annotated[str, Shown("contact on skin")]
-    """Patch and number of the contact, which is that in its frame."""
+    """Patch and place of the contact; a place is taken again when a contact was let go."""
+    identities: tuple[int, ...]
+    """Numbers of the contacts that had it, as `forcetorque skin wrench` has them."""
     samples: Annotated[int, Shown("samples")]
     """Number of samples in which it touches."""
     push_mean_N: Annotated[float, Shown("push", "N", digits=2)]
@@ -50,6 +53,7 @@ def skin_rows(span: IntervalEstimates) -> Iterator[SkinContactSummary]:
         yield SkinContactSummary(
             interval=span.interval.label,
             contact=name,
+            identities=tuple(np.unique(source.identity[there]).tolist()),
             samples=int(there.sum()),
             push_mean_N=float(np.linalg.norm(source.wrench[there, :3], axis=1).mean()),
             force_mean_N=float(np.linalg.norm(force[told], axis=1).mean()) if told.any() else None,
@@ -58,12 +62,13 @@ def skin_rows(span: IntervalEstimates) -> Iterator[SkinContactSummary]:
         )
 
 
-def skin_doubts(span: IntervalEstimates, exact: tuple[str, ...]) -> Iterator[str]:
+def skin_doubts(span: IntervalEstimates, exact: tuple[str, ...], resting: tuple[str, ...]) -> Iterator[str]:
     """Say what makes estimates with skin doubtful.
 
     Args:
         span: Estimates over an interval.
         exact: Sensors whose errors nobody predicts.
+        resting: Sensors whose offset is that of the calibration intervals, in which nothing is to touch the robot.
 
     Yields:
         Sentences.
@@ -80,5 +85,12 @@ def skin_doubts(span: IntervalEstimates, exact: tuple[str, ...]) -> Iterator[str
                 f"{label}: {source.contact.name!r} presses a taxel beyond what it was calibrated for in {beyond} of "
                 f"{len(source.beyond_range)} samples: its force is extrapolated there"
             )
+    touched = int(np.count_nonzero(np.any([source.identity > 0 for source in span.skin], axis=0)))
+    if resting and touched and span.interval.use is Use.CALIBRATION:
+        yield (
+            f"{label}: skin is touched in {touched} of {len(span.stamp_ns)} samples of a calibration interval, and the "
+            f"offset of {', '.join(resting)} is taken there as if nothing touched; leave these samples out, or read by "
+            "a calibration (-c)"
+        )
     if exact:
         yield f"{label}: readings of {', '.join(exact)} count as exact, as no calibration predicts their errors"

@@ -14,6 +14,7 @@ from pydantic import Field
 from forcetorque.analysis.skin_contact_rows import SkinContactRow, SkinWrenchPicture, contact_rows
 from forcetorque.analysis.skin_frames import SkinFrames, skin_frames
 from forcetorque.analysis.skin_heat_rows import OFFERED, ReleaseRow, heat_warnings, release_row
+from forcetorque.analysis.skin_life_rows import ContactLifeRow, life_rows
 from forcetorque.analysis.skin_messages import patch_messages
 from forcetorque.analysis.skin_wrench_choice import WrenchChoice, chosen_layout, chosen_patch
 from forcetorque.arrays import BoolArray, FloatArray
@@ -63,6 +64,8 @@ class SkinWrench(Result):
     """File of the figure."""
     contacts: tuple[SkinContactRow, ...]
     """Contacts, in time."""
+    lives: tuple[ContactLifeRow, ...]
+    """The same contacts from their first frame to their last."""
     releases: tuple[ReleaseRow, ...]
     """Contacts that were let go, and what their taxels still read; none where heat was not followed."""
     picture: SkinWrenchPicture = Field(exclude=True, repr=False)
@@ -78,6 +81,10 @@ class SkinWrench(Result):
             yield table_of(self.contacts[:_SHOWN], f"{self.patch}: contacts, force ± standard deviation")
         if len(self.contacts) > _SHOWN:
             yield f"{len(self.contacts) - _SHOWN} more; --format csv or json has all, with wrenches and places"
+        if self.lives:
+            yield table_of(self.lives[:_SHOWN], "from first to last")
+        if len(self.lives) > _SHOWN:
+            yield f"{len(self.lives) - _SHOWN} more contacts"
         yield (
             f"{self.patch} on {self.link}, method {self.method}: {self.taxels - len(self.left_out)} of {self.taxels} "
             f"taxels; touched in {self.touched} of {self.frames} means of {self.averaged} messages, with "
@@ -196,6 +203,7 @@ def _answer(content: PatchExperiment, frames: PatchFrames, chosen: WrenchChoice)
         largest_force_N=float(force.max()),
         mean_force_N=float(force[touched].mean()) if touched.any() else 0.0,
         contacts=tuple(rows),
+        lives=life_rows(looked.lives, rows),
         releases=releases,
         picture=_picture(own.name, skin, seconds, force, looked.frames, chosen),
         warnings=(

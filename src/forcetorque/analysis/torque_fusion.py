@@ -10,6 +10,7 @@ from typing import Annotated, Literal
 import numpy as np
 
 from forcetorque.analysis.reading import Correction
+from forcetorque.analysis.skin_wrench import PatchFrames
 from forcetorque.analysis.torque_sources import TorqueSources
 from forcetorque.arrays import FloatArray
 from forcetorque.estimation.fusion import Friction, Fusion, TorqueSource, fuse
@@ -151,6 +152,7 @@ def fuse_experiment(
     corrections: Mapping[str, Correction],
     *,
     contacts: Sequence[ExperimentContact] | None = None,
+    patches: Sequence[PatchFrames] | None = None,
 ) -> tuple[list[IntervalFusion], tuple[Friction, ...]]:
     """Fuse the joint torques of all sources over every interval that is not to be ignored.
 
@@ -158,6 +160,7 @@ def fuse_experiment(
         experiment: The experiment, with `[fusion]`.
         corrections: How its sensors are read (`corrections_of`).
         contacts: Contacts in place of the experiment's.
+        patches: What its patches say (`frames_of_patches`); they are read if None.
 
     Returns:
         Fusions in the order of the intervals, and the friction of the motors.
@@ -166,7 +169,7 @@ def fuse_experiment(
         ExperimentError: If the file lacks what a source needs, or there is only one source.
     """
     asked = experiment if contacts is None else replace(experiment, contacts=tuple(contacts))
-    sources = TorqueSources(asked, corrections)
+    sources = TorqueSources(asked, corrections, patches)
     fusions = []
     for interval in experiment.recording.intervals:
         if interval.use is Use.IGNORE:

@@ -17,7 +17,7 @@ from forcetorque.errors import ForceTorqueError
 if TYPE_CHECKING:
     from logging import Logger
 
-    from forcetorque.analysis import EstimateSummary
+    from forcetorque.analysis import EstimateSummary, TorquePicture
     from forcetorque.calibration import Calibration
     from forcetorque.experiment import Experiment
 
@@ -51,6 +51,13 @@ def estimate(
             "--fuse", help="Joint torques of sensors, known contacts and motors too, beside each other and made one."
         ),
     ] = False,
+    figure: Annotated[
+        Path | None,
+        typer.Option(
+            "--figure",
+            help="PNG of joint torques over time, by source with --fuse; of several experiments one each, as -o.",
+        ),
+    ] = None,
     output_format: FormatOption = Format.TABLE,
 ) -> None:
     """Estimate contact wrenches, joint torques and expected readings.
@@ -59,20 +66,25 @@ def estimate(
     """
     from forcetorque import analysis
     from forcetorque.analysis.campaign_recording import refuse_a_file_twice
+    from forcetorque.cli.figure_file import refuse_figure
     from forcetorque.cli.reading import read_calibrations, read_touched_robot
     from forcetorque.exchange.estimates_table import SUFFIXES
     from forcetorque.experiment.inputs import stated_in
 
     log = start_logging()
     _refuse_ending(output, SUFFIXES)
+    refuse_figure(figure)
     refuse_a_file_twice(experiments)
     calibrations = read_calibrations(calibration)
+    figures = {} if figure is None else _outputs(experiments, figure)
     summaries = {}
     for path, file in _outputs(experiments, output).items():
         # a recording goes when its estimates are written: there may be more of them than memory holds
         content = read_touched_robot(path, log)
         with stated_in(str(path)):
-            summaries[str(path)] = _estimated(content, calibrations, contacts, length_scale, file, log, fuse=fuse)
+            summaries[str(path)] = _estimated(
+                content, calibrations, contacts, length_scale, file, log, fuse=fuse, figure=figures.get(path)
+            )
     several = len(summaries) > 1
     show(analysis.estimates_of_recordings(summaries) if several else summaries[str(experiments[0])], output_format)
 
@@ -86,8 +98,9 @@ def _estimated(
     log: Logger,
     *,
     fuse: bool,
+    figure: Path | None,
 ) -> EstimateSummary:
-    """Estimate over one experiment and write every sample."""
+    """Estimate over one experiment, write every sample, and draw the torques where a file is named."""
     from forcetorque import analysis
     from forcetorque.experiment.contacts import contact_in_words
 
@@ -95,12 +108,35 @@ def _estimated(
     corrections = analysis.corrections_of(content, calibrations)
     for sensor, correction in corrections.items():
         log.info("%s: %s", sensor, correction.source)
+    patches = analysis.frames_of_patches(content)
     with _Progress() as progress:
         spans = analysis.estimate_experiment(
-            content, corrections, contacts=named, length_scale=length_scale, progress=progress.show
+            content,
+            corrections,
+            contacts=named,
+            length_scale=length_scale,
+            progress=progress.show,
+            patches=patches,
         )
-    fusions, frictions = analysis.fuse_experiment(content, corrections, contacts=named) if fuse else ([], ())
-    return analysis.summarise_estimates(content, corrections, spans, file=file, fusions=fusions, frictions=frictions)
+    fusions, frictions = (
+        analysis.fuse_experiment(content, corrections, contacts=named, patches=patches) if fuse else ([], ())
+    )
+    summary = analysis.summarise_estimates(content, corrections, spans, file=file, fusions=fusions, frictions=frictions)
+    if figure is None:
+        return summary
+    _draw(analysis.torque_picture(content, spans, fusions), figure, log)
+    return summary.model_copy(update={"figure": str(figure)})
+
+
+def _draw(picture: TorquePicture, figure: Path, log: Logger) -> None:
+    from forcetorque.atomic import write_bytes_atomically
+    from forcetorque.report.figures import torque_figure
+    from forcetorque.report.figures.canvas import png_bytes
+
+    if picture.left_out:
+        log.info("drawn are the joints whose torques change most, not %s", ", ".join(picture.left_out))
+    drawn = torque_figure(picture.seconds, picture.joints, picture.torques, deviations=picture.deviations)
+    write_bytes_atomically(figure, png_bytes(drawn))
 
 
 def _outputs(experiments: Sequence[Path], output: Path) -> dict[Path, Path]:

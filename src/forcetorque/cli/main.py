@@ -26,8 +26,11 @@ from forcetorque.cli.simulate import simulate
 from forcetorque.cli.skin import skin
 from forcetorque.cli.sphere import sphere
 from forcetorque.cli.study import study
+from forcetorque.cli.tare import tare
+from forcetorque.cli.thermal import thermal
 from forcetorque.cli.validate import validate
 from forcetorque.cli.view import view
+from forcetorque.cli.workbench import workbench
 from forcetorque.errors import ForceTorqueError
 
 app = typer.Typer(
@@ -66,8 +69,11 @@ _COMMANDS = (
     simulate,
     sphere,
     study,
+    tare,
+    thermal,
     validate,
     view,
+    workbench,
 )
 
 _GROUPS = (skin,)

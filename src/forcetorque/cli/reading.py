@@ -12,7 +12,7 @@ from forcetorque.analysis import Campaign, SensorRun
 from forcetorque.analysis.campaign_recording import refuse_a_file_twice
 from forcetorque.calibration import Calibration, RecordingMoments, read_calibration, read_moments
 from forcetorque.errors import ExperimentError, ForceTorqueError
-from forcetorque.experiment import Experiment, ExperimentSensor, load_experiment, load_touched_robot
+from forcetorque.experiment import Experiment, ExperimentSensor, load_experiment, load_shown, load_touched_robot
 from forcetorque.experiment.inputs import stated_in
 from forcetorque.experiment.planned import load_planned
 from forcetorque.paths import real_path
@@ -42,6 +42,19 @@ def read_touched_robot(path: Path, log: logging.Logger) -> Experiment:
         The experiment.
     """
     return _with_findings(load_touched_robot, path, log)
+
+
+def read_shown(path: Path, log: logging.Logger) -> Experiment:
+    """Read an experiment to show it, also one of skin alone, and warn as `read_experiment` does.
+
+    Args:
+        path: Experiment file.
+        log: Where messages go.
+
+    Returns:
+        The experiment.
+    """
+    return _with_findings(load_shown, path, log)
 
 
 def _with_findings(load: Callable[[Path], Experiment], path: Path, log: logging.Logger) -> Experiment:

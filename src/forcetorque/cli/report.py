@@ -42,7 +42,7 @@ def report(
 
     from forcetorque import report as reports
     from forcetorque.analysis import Demands, read_population
-    from forcetorque.cli.reading import read_experiment, refuse_inputs
+    from forcetorque.cli.reading import read_shown, refuse_inputs
 
     log = start_logging()
     reports.require_writable(output)
@@ -50,7 +50,7 @@ def report(
     refuse_inputs(files, results)
     sources = reports.sort_sources(results)
     demands = Demands(acceptance=sources.acceptance, population=read_population(population) if population else None)
-    experiments = [(str(path), read_experiment(path, log)) for path in sources.experiments]
+    experiments = [(str(path), read_shown(path, log)) for path in sources.experiments]
     groups = reports.assign_calibrations([experiment for _, experiment in experiments], sources.calibrations)
 
     def section(place: int) -> Section:

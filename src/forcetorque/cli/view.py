@@ -65,7 +65,7 @@ def view(
     Example: forcetorque view experiment.toml -c right_leg.json -o view.html
     """
     from forcetorque import viewer
-    from forcetorque.cli.reading import read_calibrations, read_experiment
+    from forcetorque.cli.reading import read_calibrations, read_shown
 
     log = start_logging()
     _refuse_contradictions(output, port, video)
@@ -76,7 +76,7 @@ def view(
         viewer.require_playwright()
         program = viewer.find_browser(browser)
     calibrations = read_calibrations(files)
-    built = viewer.scene_of(path, read_experiment(path, log), calibrations, sensors=sensor, mesh_folders=mesh_dir)
+    built = viewer.scene_of(path, read_shown(path, log), calibrations, sensors=sensor, mesh_folders=mesh_dir)
     for note in built.scene.notes:
         log.info("%s", note)
     shown = viewer.View.of(built)

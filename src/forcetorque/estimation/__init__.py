@@ -6,7 +6,6 @@ from forcetorque.estimation.contact import Contact, ContactType
 from forcetorque.estimation.estimate import Evaluator, estimate, evaluator_of_samples
 from forcetorque.estimation.estimates import Estimates, Layout
 from forcetorque.estimation.needs import required_joints_of
-from forcetorque.estimation.payload import Payload, identify_payload
 from forcetorque.estimation.question import MinimumNorm, Question, TorqueSum, moving_joints
 from forcetorque.estimation.root_motion import support_motion_at
 from forcetorque.estimation.samples import Processing, SensorSamples, sensor_samples
@@ -18,14 +17,12 @@ __all__ = [
     "Evaluator",
     "Layout",
     "MinimumNorm",
-    "Payload",
     "Processing",
     "Question",
     "SensorSamples",
     "TorqueSum",
     "estimate",
     "evaluator_of_samples",
-    "identify_payload",
     "indistinguishable",
     "moving_joints",
     "required_joints_of",

@@ -13,7 +13,7 @@ from forcetorque.errors import RecordingError, RobotError, known_names
 from forcetorque.recording import MovingSupport, Recording, SavitzkyGolay, Signal, Stream, Support
 from forcetorque.recording.alignment import interpolate
 from forcetorque.recording.smoothing import smooth
-from forcetorque.robot import JointMotion, RobotModel, RootMotion, build_tree, joints_between, motion_of_link
+from forcetorque.robot import JointMotion, JointType, RobotModel, RootMotion, build_tree, joints_between, motion_of_link
 
 IMU_QUANTITIES: Final = ("proper_acceleration", "angular_velocity", "angular_acceleration", "gravity")
 """What an IMU may tell."""
@@ -48,8 +48,8 @@ def support_motion_at(
     """Give the motion of the support frame at given instants.
 
     Angular acceleration is taken from the IMU's streams where they have it, else it is the
-    derivative of the angular velocity. Where they hold `gravity` instead of a proper acceleration
-    the frame is taken to move slowly.
+    derivative of the angular velocity. Where they hold `gravity`, or of a robot without joints the
+    proper acceleration alone, the frame is taken to turn slowly.
 
     Args:
         model: The robot.
@@ -66,12 +66,13 @@ def support_motion_at(
     if isinstance(support, Support):
         return RootMotion.fixed(support.gravity_direction, gravity=gravity)
     frame = imu_frame(model, recording, support)
-    found = _imu_signals(recording, support)
-    if "gravity" in found:
+    found = _imu_signals(model, recording, support)
+    if "angular_velocity" not in found:
         still = np.zeros((len(at_ns), 3))
-        imu = RootMotion(
-            proper_acceleration=-_at(found["gravity"], at_ns), angular_velocity=still, angular_acceleration=still
+        acceleration = (
+            _at(found["proper_acceleration"], at_ns) if "gravity" not in found else -_at(found["gravity"], at_ns)
         )
+        imu = RootMotion(proper_acceleration=acceleration, angular_velocity=still, angular_acceleration=still)
     else:
         stream, signal = found["angular_velocity"]
         rate = (
@@ -102,7 +103,7 @@ def imu_frame(model: RobotModel, recording: Recording, support: MovingSupport) -
         RecordingError: If signals are missing or doubled, or in different frames.
         RobotError: If their frame is no link of the robot.
     """
-    frames = {signal.frame for _, signal in _imu_signals(recording, support).values()}
+    frames = {signal.frame for _, signal in _imu_signals(model, recording, support).values()}
     if len(frames) != 1:
         raise RecordingError(
             f"support frame {support.frame!r}: expected the IMU's signals in one frame, got {sorted(map(str, frames))}"
@@ -116,7 +117,7 @@ def imu_frame(model: RobotModel, recording: Recording, support: MovingSupport) -
     return frame
 
 
-def _imu_signals(recording: Recording, support: MovingSupport) -> dict[str, tuple[Stream, Signal]]:
+def _imu_signals(model: RobotModel, recording: Recording, support: MovingSupport) -> dict[str, tuple[Stream, Signal]]:
     found: dict[str, tuple[Stream, Signal]] = {}
     for name in support.motion_streams:
         stream = recording.stream(name)
@@ -129,18 +130,25 @@ def _imu_signals(recording: Recording, support: MovingSupport) -> dict[str, tupl
                     f"{name!r}; keep one"
                 )
             found[quantity] = (stream, stream.signals[quantity])
-    _require_complete(support, found)
+    _require_complete(model, support, found)
     return found
 
 
-def _require_complete(support: MovingSupport, found: dict[str, tuple[Stream, Signal]]) -> None:
+def _require_complete(model: RobotModel, support: MovingSupport, found: dict[str, tuple[Stream, Signal]]) -> None:
     has: Sequence[str] = sorted(found)
-    if "gravity" in found and len(found) == 1:
+    # what hangs on a wrist sensor has no joints: it is weighed in poses that are still, or nearly
+    still = (
+        ({"gravity"}, {"proper_acceleration"})
+        if all(joint.type is JointType.FIXED for joint in model.joints.values())
+        else ({"gravity"},)
+    )
+    if set(found) in still:
         return
     if "gravity" not in found and {"proper_acceleration", "angular_velocity"} <= set(found):
         return
     raise RecordingError(
-        f"support frame {support.frame!r}: expected proper_acceleration and angular_velocity, or gravity alone, in the "
+        f"support frame {support.frame!r}: expected proper_acceleration and angular_velocity, or gravity alone, which "
+        "an orientation gives, in the "
         f"streams {', '.join(support.motion_streams)}; got {', '.join(has) or 'neither'}"
     )
 

@@ -26,7 +26,7 @@ from forcetorque.recording import (
     Stream,
     Support,
 )
-from forcetorque.recording.alignment import require_overlap
+from forcetorque.recording.alignment import interpolate, require_overlap
 from forcetorque.recording.joints import joint_motion_at
 from forcetorque.robot import JointMotion, RobotModel, RootMotion, build_tree
 
@@ -97,6 +97,7 @@ def sensor_samples(
     variables: Sequence[ScalarSource] = (),
     apart: Collection[str] = (),
     evaluator: Evaluator | None = None,
+    applied: str | None = None,
 ) -> SensorSamples:
     """Pair the readings of a sensor in an interval with the wrenches expected from the robot model.
 
@@ -113,6 +114,7 @@ def sensor_samples(
         variables: Where linear variables, such as the temperature, come from.
         apart: Labels of intervals in which other links touch: the filter takes nothing from them.
         evaluator: Who computes the reference; by the number of samples of the interval if None.
+        applied: Stream with the `applied_wrench`, which is the reference in place of the model's; none if None.
 
     Returns:
         Samples of the interval that lie in no ignored interval and have a finite reading, reference and variables.
@@ -126,8 +128,10 @@ def sensor_samples(
     source = recording.stream(stream)
     padded = padded_samples(recording, source, interval, processing.smoothing, apart=apart)
     at_ns = padded.stamp_ns
-    reference, flattening, joints = _reference(
-        recording, model, sensor, source, interval.support, at_ns, processing, evaluator
+    reference, flattening, joints = (
+        _reference(recording, model, sensor, source, interval.support, at_ns, processing, evaluator)
+        if applied is None
+        else _applied(recording, source, applied, at_ns)
     )
     reading = source.signal(quantity)
     values = np.where(source.held[padded.rows, None], np.nan, reading.values[padded.rows])
@@ -157,6 +161,16 @@ def _variables(recording: Recording, source: Stream, variables: Sequence[ScalarS
     for variable in variables:
         require_overlap(source, recording.stream(variable.stream))
     return np.column_stack([np.empty((len(at_ns), 0)), *(variable.at(recording, at_ns) for variable in variables)])
+
+
+def _applied(
+    recording: Recording, source: Stream, applied: str, at_ns: IntArray
+) -> tuple[FloatArray, FloatArray, tuple[str, ...]]:
+    """Known wrench at given instants, which no filter has flattened, and no joints."""
+    stream = recording.stream(applied)
+    require_overlap(source, stream)
+    wrench = interpolate(stream, stream.signal("applied_wrench").values, at_ns)
+    return wrench, np.zeros_like(wrench), ()
 
 
 def _reference(

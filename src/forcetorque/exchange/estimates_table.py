@@ -56,6 +56,8 @@ class EstimatedSpan:
     """Contacts and torques with covariances, where there is skin."""
     centres: Mapping[str, FloatArray] = field(default_factory=dict)
     """By contact on skin its centre of pressure, NaN where it does not touch; shape (n, 3) each; m."""
+    identities: Mapping[str, IntArray] = field(default_factory=dict)
+    """By contact on skin the number that it keeps, 0 where it does not touch; shape (n,) each."""
 
 
 def write_estimates(path: Path | str, spans: Sequence[EstimatedSpan], model: RobotModel) -> int:
@@ -63,8 +65,8 @@ def write_estimates(path: Path | str, spans: Sequence[EstimatedSpan], model: Rob
 
     Columns are `interval`, `stamp_ns`, `time_s`, and then `contact.NAME.fx`, `torque.JOINT`, `torque_SOURCE.JOINT`,
     `expected.SENSOR.fx`, `measured.SENSOR.fx`, `outside.SENSOR`, `rank.PART`, `condition.PART` and `residual.PART.fx`;
-    where there is skin `centre.PATCH 1.x`, and standard deviations `sd.contact.NAME.fx` and `sd.torque.JOINT`, and
-    `determined`, whether nothing is hidden from all readings.
+    where there is skin `identity.PATCH 1`, `centre.PATCH 1.x`, and standard deviations `sd.contact.NAME.fx` and
+    `sd.torque.JOINT`, and `determined`, whether nothing is hidden from all readings.
     Their units stand in the metadata of the Parquet fields. A cell is empty where an interval lacks the column, or a
     sample has a gap.
 
@@ -124,13 +126,15 @@ def _columns(span: EstimatedSpan, model: RobotModel) -> Iterator[_Column]:
         yield f"condition.{part}", "1", estimates.condition[:, k]
     yield from _wrenches("residual", layout.parts, estimates.residual)
     if span.uncertain is not None:
-        yield from _of_skin(span.centres, span.uncertain, model)
+        yield from _of_skin(span, span.uncertain, model)
 
 
-def _of_skin(centres: Mapping[str, FloatArray], answer: UncertainEstimates, model: RobotModel) -> Iterator[_Column]:
+def _of_skin(span: EstimatedSpan, answer: UncertainEstimates, model: RobotModel) -> Iterator[_Column]:
     """Contacts on skin, which other columns do not have, and standard deviations of everything."""
-    for name, centre in centres.items():
+    for name, centre in span.centres.items():
         yield from _wrenches("contact", [name], answer.contact(name)[:, None])
+        identity = span.identities[name]
+        yield f"identity.{name}", "1", np.ma.masked_array(identity, mask=identity == 0)
         for axis, values in zip("xyz", centre.T, strict=True):
             yield f"centre.{name}.{axis}", "m", values
     for name in answer.contacts:

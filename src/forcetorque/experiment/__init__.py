@@ -2,7 +2,7 @@
 """The experiment file: from TOML to robot, recording, intervals and sensors."""
 
 from forcetorque.experiment.content import Experiment, ExperimentSensor
-from forcetorque.experiment.load import load_experiment, load_touched_robot
+from forcetorque.experiment.load import load_experiment, load_shown, load_touched_robot
 from forcetorque.experiment.parse import parse_experiment
 from forcetorque.experiment.patches import ExperimentPatch, PatchExperiment, PatchInterval, load_patches
 from forcetorque.experiment.schema import ExperimentFile
@@ -16,6 +16,7 @@ __all__ = [
     "PatchInterval",
     "load_experiment",
     "load_patches",
+    "load_shown",
     "load_touched_robot",
     "parse_experiment",
 ]

@@ -6,19 +6,23 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration import EstimationType, LinearVariable, OffsetStrategy
 from forcetorque.calibration.generative import REPEATABILITY
 from forcetorque.errors import ExperimentError, known_names
-from forcetorque.estimation import Contact, Payload, Processing
+from forcetorque.estimation import Contact, Processing
 from forcetorque.experiment.fusion_schema import FusionTable, MotorTable
 from forcetorque.experiment.load_case_schema import LoadCaseTable
 from forcetorque.experiment.patches import ExperimentPatch, PatchExperiment
 from forcetorque.experiment.plan_schema import PlanTable
 from forcetorque.experiment.recording_names import path_endings, recording_name
-from forcetorque.recording import Interval, Recording, ScalarSource, Support, Use
+from forcetorque.recording import Interval, MovingSupport, Recording, ScalarSource, Stream, Support, Use
 from forcetorque.robot import RobotModel
+
+if TYPE_CHECKING:
+    from forcetorque.experiment.wrist_load import WristLoads
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -174,8 +178,6 @@ class Experiment:
     """Labels of the intervals that give the offset of the sphere types."""
     roles: Mapping[str, Role]
     """What each interval is to a study, by label."""
-    payload: Payload | None
-    """What hangs on a wrist sensor, estimated on the calibration intervals; None for a robot or a given load."""
     inputs_sha256: dict[str, str]
     """SHA-256 of every input file, by its path as the experiment names it."""
     log_sha256: frozenset[str] = frozenset()
@@ -196,6 +198,8 @@ class Experiment:
     """What can be recorded next, as the file states it."""
     skin: PatchExperiment | None = None
     """Its patches of skin; None without any."""
+    wrist: WristLoads | None = None
+    """What hangs on a wrist sensor; None for a robot."""
 
     def __repr__(self) -> str:
         sensors = ", ".join(f"{sensor.name} ({sensor.serial})" for sensor in self.sensors)
@@ -209,9 +213,37 @@ class Experiment:
         return () if self.skin is None else tuple(patch for patch in self.skin.patches if patch.table is not None)
 
     @property
+    def clock_stream(self) -> Stream:
+        """The stream at whose instants is estimated: of the first sensor, or of the first patch where there is none."""
+        if self.sensors:
+            return self.recording.stream(self.sensors[0].stream)
+        if not self.force_patches:
+            raise ExperimentError(
+                f"experiment {self.name!r}: expected [[sensor]], or a [[patch]] with a table, got neither; "
+                "`forcetorque skin calibrate` makes a table"
+            )
+        return self.recording.stream(self.force_patches[0].counts)
+
+    @property
     def stands(self) -> bool:
         """Whether a robot stands on a support at rest, so that its joints can be moved as planned."""
-        return self.payload is None and bool(self.supports)
+        return self.wrist is None and bool(self.supports)
+
+    def model_on(self, support: Support | MovingSupport) -> RobotModel:
+        """Give the robot as it stands on a support, with what hangs on a wrist sensor then.
+
+        A load that nobody stated is estimated when it is first asked for, and once.
+
+        Args:
+            support: Support of an interval.
+
+        Returns:
+            The robot.
+
+        Raises:
+            ExperimentError: If the recording does not determine a load that is to be estimated.
+        """
+        return self.model if self.wrist is None else self.wrist.model_on(support, self)
 
     def sensor(self, name: str) -> ExperimentSensor:
         """Find a sensor of the experiment.

@@ -84,4 +84,6 @@ def stated_in(where: str) -> Iterator[None]:
     try:
         yield
     except ForceTorqueError as error:
-        raise type(error)(f"{where}: {error}") from error
+        # who read the file may have said so already
+        words = str(error) if str(error).startswith(f"{where}: ") else f"{where}: {error}"
+        raise type(error)(words) from error

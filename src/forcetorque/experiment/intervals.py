@@ -61,7 +61,7 @@ def read_intervals(
     supports: Mapping[str, Support | MovingSupport],
     model: RobotModel | None,
     *,
-    default: MovingSupport | None,
+    loads: Mapping[str, MovingSupport] | None,
 ) -> list[Interval]:
     """Bring the intervals to the clock of the recording.
 
@@ -71,7 +71,7 @@ def read_intervals(
         recording: The streams, whose earliest stamp is second 0.
         supports: Supports by frame.
         model: The robot; None for the load of a wrist sensor.
-        default: Support of every interval, for a wrist sensor.
+        loads: Support of the intervals of each load by its name, for a wrist sensor.
 
     Returns:
         Intervals in the order of the file.
@@ -96,7 +96,7 @@ def read_intervals(
                 start_ns=start_ns,
                 end_ns=end_ns,
                 use=span.use,
-                support=_support(span, supports, recording, model, default),
+                support=_support(span, supports, recording, model, loads),
             )
         found.append(interval)
     refuse_overlap(file, found)
@@ -108,11 +108,13 @@ def _support(
     supports: Mapping[str, Support | MovingSupport],
     recording: Recording,
     model: RobotModel | None,
-    default: MovingSupport | None,
+    loads: Mapping[str, MovingSupport] | None,
 ) -> Support | MovingSupport | None:
+    if loads is not None:
+        return next(iter(loads.values())) if span.load is None else loads[span.load]
     # which of several touched links stands for the support does not matter to parts that nothing touches
     if span.touched is None or model is None:
-        return default if span.support is None else supports[span.support]
+        return None if span.support is None else supports[span.support]
     for link in span.touched:
         if link not in model.links:
             raise ExperimentError(

@@ -21,10 +21,11 @@ from forcetorque.experiment.parse import parse_experiment
 from forcetorque.experiment.patches import skin_of_robot
 from forcetorque.experiment.plan_limits import read_plan
 from forcetorque.experiment.sensors import declare_sensors, read_sensors
+from forcetorque.experiment.skin_alone import links_side_by_side, skin_frames_of
 from forcetorque.experiment.streams import read_streams
-from forcetorque.experiment.wrist_load import estimate_load, given_inertia, load_model
-from forcetorque.recording import MovingSupport, SavitzkyGolay, Support, Use
-from forcetorque.robot import read_urdf
+from forcetorque.experiment.wrist_load import load_model, read_loads
+from forcetorque.recording import MovingSupport, Recording, SavitzkyGolay, Support, Use
+from forcetorque.robot import RobotModel, read_urdf
 from forcetorque.spatial import Inertia
 
 
@@ -45,9 +46,15 @@ def load_experiment(path: Path | str) -> Experiment:
     file = Path(path)
     parsed = parse_experiment(file)
     if not parsed.sensor:
+        known, readers = "patches of skin only", "`forcetorque skin`, `inspect`, `view` and `report` read such a file"
+        if not parsed.patch:
+            known, readers = (
+                "none",
+                "`forcetorque inspect`, `view` and `report` read one of a skinManager's contacts alone",
+            )
         raise ExperimentError(
-            f"{file}: expected [[sensor]], a force-torque sensor, got patches of skin only; `forcetorque skin` and "
-            "`forcetorque inspect` read such a file; `forcetorque estimate` does with [robot] and a patch's table"
+            f"{file}: expected [[sensor]], a force-torque sensor, got {known}; {readers}; `forcetorque estimate` does "
+            "with [robot] and a patch's table"
         )
     return _of_wrist(parsed, file) if parsed.load is not None else _of_robot(parsed, file)
 
@@ -70,20 +77,52 @@ def load_touched_robot(path: Path | str) -> Experiment:
     file = Path(path)
     parsed = parse_experiment(file)
     alone = not parsed.sensor and parsed.robot is not None and any(patch.table for patch in parsed.patch)
+    if alone and not parsed.support and not any(one.touched for one in parsed.interval):
+        raise ExperimentError(
+            f"{file}: expected [[support]], the link whose motion is known, got none: at rest with gravity_direction, "
+            "or moving with imu, the streams of an IMU; without it nobody knows what moves the robot, skin or not"
+        )
     return _of_robot(parsed, file) if alone else load_experiment(file)
 
 
+def load_shown(path: Path | str) -> Experiment:
+    """Read an experiment file to show it: also one of skin alone, of patches or of contacts that a skinManager saw.
+
+    Without a robot the links that skin is on stand side by side (`links_side_by_side`). Intervals of skin alone need no
+    support; those without one are shown, and nothing is estimated in them, as if their use were `ignore`.
+
+    Args:
+        path: TOML file; the paths in it are relative to its folder.
+
+    Returns:
+        The experiment, without sensors where the file has none.
+
+    Raises:
+        MissingFileError: If a file is not there.
+        FormatError: If a file does not have its form.
+        ExperimentError: If it has neither sensor nor skin, or contradicts itself, the robot or the recording.
+    """
+    file = Path(path)
+    parsed = parse_experiment(file)
+    if parsed.sensor:
+        return load_experiment(file)
+    spans = tuple(
+        one if one.support or one.touched else one.model_copy(update={"use": Use.IGNORE}) for one in parsed.interval
+    )
+    return _of_robot(parsed.model_copy(update={"interval": spans}), file)
+
+
 def _of_robot(parsed: schema.ExperimentFile, file: Path) -> Experiment:
-    if parsed.robot is None:
-        raise ExperimentError(f"{file}: expected [robot] or [load]")
     inputs = Inputs(file.parent)
     inputs.file(Path(file.name))
-    model = declare_sensors(parsed.sensor, file, read_urdf(inputs.file(parsed.robot.urdf)))
+    urdf = None if parsed.robot is None else read_urdf(inputs.file(parsed.robot.urdf))
+    robot = None if urdf is None else declare_sensors(parsed.sensor, file, urdf)
     before = inputs.names()
-    streams = read_streams(parsed, file, model, inputs)
+    streams = read_streams(parsed, file, robot, inputs)
     logs = inputs.names() - before
+    model = _side_by_side(parsed, file, streams, inputs) if robot is None else robot
     supports = read_supports(parsed.support, file, streams, model)
-    intervals = read_intervals(parsed, file, streams, supports, model, default=None)
+    intervals = read_intervals(parsed, file, streams, supports, model, loads=None)
     with stated_in(str(file)):
         recording = streams.with_intervals(intervals)
     sensors = read_sensors(parsed, file, model, recording, inputs)
@@ -97,12 +136,13 @@ def _of_robot(parsed: schema.ExperimentFile, file: Path) -> Experiment:
         sensors=sensors,
         contacts=read_contacts(parsed, file, model, recording),
         length_scale=parsed.estimation.length_scale_m,
-        processing=processing_of(parsed.processing, gravity=parsed.robot.gravity),
+        processing=processing_of(
+            parsed.processing, gravity=Processing().gravity if parsed.robot is None else parsed.robot.gravity
+        ),
         regularisation=parsed.calibration.lambda_counts2,
         fit_options=fit_options(parsed.calibration),
         sphere_intervals=_sphere_intervals(parsed, file),
         roles=_roles(parsed),
-        payload=None,
         inputs_sha256=hashes,
         log_sha256=frozenset(hashes[name] for name in logs),
         condition=parsed.trial.condition,
@@ -116,30 +156,39 @@ def _of_robot(parsed: schema.ExperimentFile, file: Path) -> Experiment:
     )
 
 
+def _side_by_side(parsed: schema.ExperimentFile, file: Path, streams: Recording, inputs: Inputs) -> RobotModel:
+    """Links of skin alone."""
+    frames = skin_frames_of(parsed, streams, inputs)
+    if not frames:
+        raise ExperimentError(
+            f"{file}: expected [robot], or skin on links of some name: a [[patch]] with link or layout, or a stream of "
+            "skin_events; got neither"
+        )
+    return links_side_by_side(frames)
+
+
 def _of_wrist(parsed: schema.ExperimentFile, file: Path) -> Experiment:
     """A wrist sensor: the robot is its load, whose motion is logged and whose mass may be estimated."""
     if parsed.load is None:
         raise ExperimentError(f"{file}: expected [robot] or [load]")
-    load, name, inputs = parsed.load, parsed.sensor[0].name, Inputs(file.parent)
+    load, name, inputs = parsed.load[0], parsed.sensor[0].name, Inputs(file.parent)
     inputs.file(Path(file.name))
     before = inputs.names()
     streams = read_streams(parsed, file, None, inputs)
     logs = inputs.names() - before
-    moving = MovingSupport(frame=load.frame, motion_streams=load.motion)
+    supports = {one.name: MovingSupport(frame=load.frame, motion_streams=load.streams) for one in parsed.load}
     with stated_in(f"{file}: load"):
-        for stream in load.motion:
+        for stream in load.streams:
             streams.stream(stream)
-    intervals = read_intervals(parsed, file, streams, {}, None, default=moving)
+        if load.applied is not None:
+            streams.stream(load.applied).signal("applied_wrench")
+    intervals = read_intervals(parsed, file, streams, {}, None, loads=supports)
     (sensor,) = read_sensors(parsed, file, load_model(load, name, Inertia.zero()), streams, inputs)
-    inertia, payload = given_inertia(load), None
+    wrist = read_loads(parsed.load, file, supports, sensor)
     processing = processing_of(parsed.processing, gravity=Processing().gravity)
-    if inertia is None:
-        with stated_in(f"{file}: load"):
-            payload = estimate_load(load, sensor, streams, intervals, window=processing.derivative_window)
-        inertia = payload.inertia()
     with stated_in(str(file)):
         recording = streams.with_intervals(intervals)
-    loaded = load_model(load, name, inertia)
+    loaded = load_model(load, name, wrist.stated_inertia())
     skin, hashes = skin_of_robot(parsed, file, loaded, recording, inputs), inputs.sha256()
     return Experiment(
         name=parsed.name,
@@ -154,7 +203,7 @@ def _of_wrist(parsed: schema.ExperimentFile, file: Path) -> Experiment:
         fit_options=fit_options(parsed.calibration),
         sphere_intervals=_sphere_intervals(parsed, file),
         roles=_roles(parsed),
-        payload=payload,
+        wrist=wrist,
         inputs_sha256=hashes,
         log_sha256=frozenset(hashes[name] for name in logs),
         condition=parsed.trial.condition,

@@ -100,7 +100,6 @@ def load_planned(path: Path | str) -> Experiment:
         fit_options=fit_options(parsed.calibration),
         sphere_intervals=None,
         roles={},
-        payload=None,
         inputs_sha256=inputs.sha256(),
         load_cases=read_load_cases(parsed.load_case, file, model),
         supports=tuple(support for support in supports.values() if isinstance(support, Support)),

@@ -8,7 +8,6 @@ from typing import Annotated, Any, Literal
 
 from pydantic import (
     BeforeValidator,
-    ConfigDict,
     Discriminator,
     Field,
     Tag,
@@ -28,6 +27,7 @@ from forcetorque.exchange.formats import AnyLog
 from forcetorque.experiment.fusion_schema import FusionTable, MotorTable, SixPositive
 from forcetorque.experiment.load_case_schema import LoadCaseTable
 from forcetorque.experiment.plan_schema import PlanTable
+from forcetorque.experiment.wrist_schema import Load, OneOrSeveral, require_loads_of, require_one_sensor
 from forcetorque.recording import Use
 from forcetorque.robot import SensorFrame
 from forcetorque.spatial import MeasureDirection
@@ -41,27 +41,6 @@ class Robot(Table):
     """URDF file."""
     gravity: Positive = STANDARD_GRAVITY
     """Magnitude of gravity; m/s2."""
-
-
-class Load(Table):
-    """What hangs on a wrist sensor, in place of a robot."""
-
-    frame: Text
-    """Frame of the sensor, along whose axes it and the motion streams read."""
-    motion: Annotated[tuple[Text, ...], Field(min_length=1)]
-    """Streams with `gravity` (still poses), or `proper_acceleration` and `angular_velocity`."""
-    measure_direction: MeasureDirection
-    """Who acts on whom in the reading; the load is the child."""
-    mass_kg: Positive | None = None
-    """Mass; left out to estimate it with centre of mass and bias on the calibration intervals."""
-    centre_of_mass_m: Annotated[FloatArray, ArrayField((3,))] | None = None
-    """Centre of mass in the frame; given if the mass is."""
-
-    @model_validator(mode="after")
-    def _whole_or_not_at_all(self) -> Load:
-        if (self.mass_kg is None) != (self.centre_of_mass_m is None):
-            raise PydanticCustomError("half_a_load", "give mass_kg and centre_of_mass_m, or neither to estimate both")
-        return self
 
 
 class Variable(Table):
@@ -248,6 +227,8 @@ class Interval(Table):
     session: Text | None = None
     """Stretch of time in which nothing was switched off, such as a day; a study chooses on some sessions and scores on
     others; a calibration has an offset for each; one for the whole recording if left out."""
+    load: Text | None = None
+    """Name of the load that hangs on a wrist sensor; needed where there are several."""
     support: Text | None = None
     """Support frame; required unless the use is ignore, or the links that touch are named."""
     touched: Annotated[tuple[Text, ...], Field(min_length=1)] | None = None
@@ -365,24 +346,20 @@ class CalibrationTable(Table):
 class ExperimentFile(Table):
     """The whole file."""
 
-    model_config = ConfigDict(
-        **Table.model_config, json_schema_extra={"anyOf": [{"required": ["sensor"]}, {"required": ["patch"]}]}
-    )
-
     schema_name: Literal["forcetorque/experiment/1"] = Field(alias="schema")
     """Form of the file."""
     name: Text
     """Name of the experiment."""
     robot: Robot | None = None
     """The robot model; a wrist sensor has `load` instead."""
-    load: Load | None = None
-    """What hangs on a wrist sensor, in place of a robot."""
+    load: Annotated[tuple[Load, ...], OneOrSeveral()] | None = None
+    """What hangs on a wrist sensor, in place of a robot; of several `[[load]]` an interval says which."""
     recording: AnyLog
     """Where the recording is."""
     sensor: Annotated[tuple[Sensor, ...], Field(min_length=1)] = ()
     """Sensors; may be left out where the file is about skin alone."""
     patch: Annotated[tuple[Patch, ...], Field(min_length=1)] = ()
-    """Patches of artificial skin."""
+    """Patches of artificial skin; without these and sensors a file is about contacts that a skinManager saw."""
     support: tuple[Support, ...] = ()
     """Support frames; none with `load`."""
     interval: Annotated[tuple[Interval, ...], Field(min_length=1)]
@@ -408,8 +385,6 @@ class ExperimentFile(Table):
 
     @model_validator(mode="after")
     def _robot_or_load(self) -> ExperimentFile:
-        if not self.sensor and not self.patch:
-            raise PydanticCustomError("no_sensor", "expected [[sensor]], or [[patch]] for skin")
         if not self.sensor:
             return self
         if (self.robot is None) == (self.load is None):
@@ -422,4 +397,13 @@ class ExperimentFile(Table):
             raise PydanticCustomError("load_alone", "with [load] there is one [[sensor]] and no [[support]]")
         if self.load is not None and any(one.touched for one in self.interval):
             raise PydanticCustomError("load_touched", "with [load] nothing else is touched: leave out touched")
+        if self.load is None and any(one.load for one in self.interval):
+            raise PydanticCustomError("load_of_none", "load of [[interval]] names a [[load]], of which there is none")
+        return self
+
+    @model_validator(mode="after")
+    def _loads_of_one_sensor(self) -> ExperimentFile:
+        if self.load is not None:
+            require_one_sensor(self.load)
+            require_loads_of(self.load, [one for one in self.interval if one.use is not Use.IGNORE])
         return self

@@ -3,23 +3,169 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from forcetorque.errors import ExperimentError
-from forcetorque.estimation import Payload, identify_payload, support_motion_at
-from forcetorque.experiment import schema
 from forcetorque.experiment.content import ExperimentSensor
-from forcetorque.recording import Interval, MovingSupport, Recording, SavitzkyGolay, Use
-from forcetorque.recording.alignment import seconds_since
-from forcetorque.robot import ForceTorqueSensor, Joint, JointMotion, JointType, RobotModel, SensorFrame
-from forcetorque.spatial import Inertia
+from forcetorque.experiment.inputs import stated_in
+from forcetorque.experiment.wrist_schema import Load as LoadTable
+from forcetorque.loads import Load, LoadSolution, solve
+from forcetorque.recording import MovingSupport, Support
+from forcetorque.robot import ForceTorqueSensor, Joint, JointType, RobotModel, SensorFrame
+from forcetorque.spatial import Inertia, MeasureDirection
+
+if TYPE_CHECKING:
+    from forcetorque.experiment.content import Experiment
 
 LOAD_LINK = "load"
 """Link of what hangs on the sensor."""
 _JOINT = "mount"
 
 
-def load_model(load: schema.Load, sensor: str, inertia: Inertia) -> RobotModel:
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class WristLoads:
+    """What hangs on a wrist sensor, and in which intervals; what nobody stated is estimated when it is asked for."""
+
+    loads: tuple[Load, ...]
+    """Loads in the order of the file."""
+    supports: Mapping[str, MovingSupport]
+    """Support of the intervals of each load, by its name."""
+    table: LoadTable
+    """What the file says of the sensor under them."""
+    sensor: ExperimentSensor
+    """The sensor."""
+    _known: dict[str, LoadSolution] = field(default_factory=dict, repr=False)
+
+    @property
+    def are_stated(self) -> bool:
+        """Whether nothing of any load is to be estimated."""
+        return self.table.applied is not None or all(load.is_known for load in self.loads)
+
+    @property
+    def direction(self) -> MeasureDirection:
+        """Who acts on whom in the reading; the load is the child."""
+        return self.table.measure_direction
+
+    def number_of(self, support: Support | MovingSupport | None) -> int:
+        """Say which load hangs on the sensor in an interval.
+
+        Args:
+            support: Support of the interval.
+
+        Returns:
+            Its number; 0 where there is one only.
+        """
+        supports = list(self.supports.values())
+        return next((number for number, own in enumerate(supports) if own is support), 0)
+
+    def stated_inertia(self) -> Inertia:
+        """Give what the file says of the load.
+
+        Returns:
+            Its inertia in the frame of the sensor; zero where there are several, or something is to be estimated.
+        """
+        (load, *others) = self.loads
+        if others or not load.is_known or isinstance(load.inertia, str):
+            return Inertia.zero()
+        return Inertia.about_centre_of_mass(
+            mass=load.mass or 0.0,
+            centre_of_mass=np.zeros(3) if load.centre_of_mass is None else load.centre_of_mass,
+            second_moment=np.zeros((3, 3)) if load.inertia is None else load.inertia,
+        )
+
+    def solution(self, experiment: Experiment) -> LoadSolution:
+        """Estimate the loads on the calibration intervals, when it is first asked for.
+
+        Args:
+            experiment: The experiment, of which the recording and its intervals are used.
+
+        Returns:
+            Loads and biases.
+
+        Raises:
+            ExperimentError: If the wrench of the load is stated, so that there is nothing to estimate.
+        """
+        from forcetorque.experiment.load_rows import load_problem
+
+        if self.table.applied is not None:
+            raise ExperimentError(
+                f"load: the wrench of {self.table.applied!r} says what the sensor must read, so there is nothing to "
+                "weigh; state motion in place of applied"
+            )
+        if "solution" not in self._known:
+            self._known["solution"] = solve(load_problem(experiment, self))
+        return self._known["solution"]
+
+    def model_on(self, support: Support | MovingSupport, experiment: Experiment) -> RobotModel:
+        """Give the robot with the load of an interval.
+
+        Args:
+            support: Support of the interval.
+            experiment: The experiment.
+
+        Returns:
+            The robot.
+
+        Raises:
+            ExperimentError: If the recording does not determine the load.
+        """
+        number = self.number_of(support)
+        if self.are_stated and len(self.loads) == 1:
+            return experiment.model
+        if self.table.mount is not None or self.table.tilt is not None:
+            raise ExperimentError(
+                "load: an unknown mount or tilt is for `forcetorque payload`; turn the motion streams by what it says, "
+                "then leave mount and tilt out"
+            )
+        solution = self.solution(experiment)
+        load = solution.loads[number]
+        if not load.is_determined:
+            words = "; ".join(entry.words for entry in solution.open_directions) or "no calibration interval has it"
+            raise ExperimentError(
+                f"load {load.name!r}: the calibration intervals do not determine it: {words}; `forcetorque payload` "
+                "says what they do determine, and mass_kg with centre_of_mass_m state the load"
+            )
+        if not load.mass >= 0.0:
+            words = "; ".join(entry.words for entry in solution.hypotheses) or "see `forcetorque payload`"
+            raise ExperimentError(
+                f"load {load.name!r}: the readings fit a mass of {load.mass:.3g} kg; expected a positive one: {words}"
+            )
+        return load_model(self.table, self.sensor.name, load.as_inertia())
+
+
+def read_loads(
+    tables: Sequence[LoadTable], file: Path, supports: Mapping[str, MovingSupport], sensor: ExperimentSensor
+) -> WristLoads:
+    """Take the loads of an experiment file.
+
+    Args:
+        tables: Tables `[load]` or `[[load]]`.
+        file: The experiment file, for messages.
+        supports: Support of the intervals of each load, by its name.
+        sensor: The sensor.
+
+    Returns:
+        The loads.
+    """
+    with stated_in(f"{file}: load"):
+        loads = tuple(
+            Load(
+                name=table.name,
+                mass=table.mass_kg,
+                centre_of_mass=table.centre_of_mass_m,
+                inertia=table.inertia_kgm2,
+            )
+            for table in tables
+        )
+    return WristLoads(loads=loads, supports=supports, table=tables[0], sensor=sensor)
+
+
+def load_model(load: LoadTable, sensor: str, inertia: Inertia) -> RobotModel:
     """Build the robot of a wrist sensor.
 
     Args:
@@ -66,73 +212,3 @@ def is_wrist_load(model: RobotModel) -> bool:
         Whether `load_model` made it.
     """
     return tuple(model.joints) == (_JOINT,) and tuple(model.links)[1:] == (LOAD_LINK,)
-
-
-def given_inertia(load: schema.Load) -> Inertia | None:
-    """Give the inertia that the file states.
-
-    Args:
-        load: The `[load]` table.
-
-    Returns:
-        A point mass in the sensor's frame; None where it is to be estimated.
-    """
-    if load.mass_kg is None or load.centre_of_mass_m is None:
-        return None
-    return Inertia.about_centre_of_mass(
-        mass=load.mass_kg, centre_of_mass=load.centre_of_mass_m, second_moment=np.zeros((3, 3))
-    )
-
-
-def estimate_load(
-    load: schema.Load,
-    sensor: ExperimentSensor,
-    recording: Recording,
-    intervals: list[Interval],
-    *,
-    window: SavitzkyGolay,
-) -> Payload:
-    """Estimate mass, centre of mass and bias on the calibration intervals, with the prior matrix.
-
-    Args:
-        load: The `[load]` table.
-        sensor: The sensor.
-        recording: Its stream, and those of the motion.
-        intervals: Intervals of the experiment.
-        window: Filter that differentiates an IMU's angular velocity.
-
-    Returns:
-        The payload.
-
-    Raises:
-        ExperimentError: If the sensor has raw readings and no prior, or there is no calibration interval.
-    """
-    stream = recording.stream(sensor.stream)
-    reading = stream.signal(sensor.quantity).values
-    if sensor.quantity == "raw":
-        if sensor.prior is None:
-            raise ExperimentError(f"sensor {sensor.name!r}: estimating its load from raw counts needs a prior matrix")
-        reading = reading @ sensor.prior.T
-    chosen = np.zeros(len(stream), dtype=bool)
-    for use, value in ((Use.CALIBRATION, True), (Use.IGNORE, False)):
-        for interval in intervals:
-            if interval.use is use:
-                chosen[interval.holds(stream.stamp_ns)] = value
-    if not chosen.any():
-        raise ExperimentError(f'sensor {sensor.name!r}: expected samples in an interval with use = "calibration"')
-    motion = support_motion_at(
-        load_model(load, sensor.name, Inertia.zero()),
-        recording,
-        MovingSupport(frame=load.frame, motion_streams=load.motion),
-        JointMotion.at_rest((), np.empty((np.count_nonzero(chosen), 0))),
-        stream.stamp_ns[chosen],
-        window=window,
-        gravity=0.0,
-    )
-    complete = np.isfinite(motion.proper_acceleration).all(axis=1) & np.isfinite(reading[chosen]).all(axis=1)
-    return identify_payload(
-        reading[chosen][complete],
-        motion.proper_acceleration[complete],
-        seconds_since(stream.stamp_ns[chosen][complete], recording.start_ns),
-        direction=load.measure_direction,
-    )

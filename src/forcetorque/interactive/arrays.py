@@ -119,7 +119,6 @@ def experiment_of_arrays(
         fit_options=FitOptions(),
         sphere_intervals=None,
         roles={interval.label: Role(kind=interval.label, session=None) for interval in intervals},
-        payload=None,
         supports=(ground,),
         inputs_sha256={},
     )

@@ -63,6 +63,14 @@ class Run(SensorRun):
         samples = self.interval_samples(intervals[label]).samples
         return seconds_since(samples.stamp_ns, self.experiment.recording.start_ns), samples.reference
 
+    def payload(self) -> analysis.WeighedLoad:
+        """Weigh what hangs on a wrist sensor, on the calibration intervals.
+
+        Returns:
+            Loads, biases, their intervals, and what stays open.
+        """
+        return analysis.weigh_load(self)
+
     def evaluate(self, calibrations: Calibrations | None = None) -> analysis.Evaluation:
         """Judge calibrations, and their priors, on the validation intervals.
 
@@ -85,6 +93,31 @@ class Run(SensorRun):
             Contact forces and joint torques.
         """
         return analysis.validate(self, named(calibrations), **options)
+
+    def tare(self, label: str, calibration: Calibration | None = None) -> analysis.Tare:
+        """Find the offset with which the sensor, at rest over an interval, reads what the model says of its load.
+
+        Args:
+            label: Label of the interval.
+            calibration: Reads the sensor; its prior or the logged wrench if left out.
+
+        Returns:
+            The offset, to be added, with its interval.
+        """
+        return analysis.tare(self, label, name=None if calibration is None else NEW, calibration=calibration)
+
+    def thermal(self, calibration: Calibration | None = None, **options: Any) -> analysis.Thermal:
+        """Find how the reading drifts with temperature at a load that stays.
+
+        Args:
+            calibration: Reads the sensor; its prior or the logged wrench if left out.
+            options: As of `analysis.thermal`: intervals, variable.
+
+        Returns:
+            Drift per degree and per hour, and hysteresis, with intervals.
+        """
+        name = None if calibration is None else NEW
+        return analysis.thermal(self, name=name, calibration=calibration, **options)
 
     def verdicts(self, calibrations: Calibrations) -> tuple[analysis.UseVerdict, ...]:
         """Say whether calibrations may be used for the loads to come.

@@ -1,14 +1,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What measurements do beside what they measure: fast noise that averages out, and slow noise that does not."""
 
-from forcetorque.noise.mean_errors import MeanError, mean_error, means_in_windows
+from forcetorque.noise.mean_errors import MeanError, mean_error, means_in_windows, window_for
 from forcetorque.noise.means import WINDOW_S, means_over, one_after_another
-from forcetorque.noise.regression import SHAPES, Regression, half_width, regress
+from forcetorque.noise.regression import CONFIDENCE, SHAPES, Regression, half_width, log_prior, regress
 from forcetorque.noise.slow import CANDIDATES, SlowNoise
 from forcetorque.noise.timeline import Timeline
 
 __all__ = [
     "CANDIDATES",
+    "CONFIDENCE",
     "SHAPES",
     "WINDOW_S",
     "MeanError",
@@ -16,9 +17,11 @@ __all__ = [
     "SlowNoise",
     "Timeline",
     "half_width",
+    "log_prior",
     "mean_error",
     "means_in_windows",
     "means_over",
     "one_after_another",
     "regress",
+    "window_for",
 ]

@@ -83,7 +83,19 @@ def means_in_windows(time_s: Any, columns: Any) -> tuple[Timeline, FloatArray]:
         FitError: If time falls, or anything is no finite number.
     """
     time = np.asarray(time_s, dtype=np.float64)
-    recorded = float(np.median(np.diff(time))) * len(time) if len(time) > 1 else 0.0  # without pauses
-    window = min(WINDOW_S, recorded / _WINDOWS) if recorded > 0.0 else WINDOW_S
+    window = window_for(time)
     middle, means, counts = means_over(time, columns, window)
     return Timeline.of(middle / window, share=counts / np.median(counts)), means
+
+
+def window_for(time_s: FloatArray) -> float:
+    """Choose the length of windows for a recording.
+
+    Args:
+        time_s: Instants of the samples, not falling; shape (n,); s.
+
+    Returns:
+        1 s, or a hundred and twentieth of what was recorded if that is shorter; s.
+    """
+    recorded = float(np.median(np.diff(time_s))) * len(time_s) if len(time_s) > 1 else 0.0  # without pauses
+    return min(WINDOW_S, recorded / _WINDOWS) if recorded > 0.0 else WINDOW_S

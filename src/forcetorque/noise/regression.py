@@ -127,7 +127,7 @@ def regress(
         return _undetermined(start.T if about is None else about)
     columns = np.asfortranarray(np.column_stack([design, residual]))
     fits = [_fit(line, columns, p, noise) for noise in shapes]
-    log_weight = np.array([fit.log_evidence + _log_prior(noise) for fit, noise in zip(fits, shapes, strict=True)])
+    log_weight = np.array([fit.log_evidence + log_prior(noise) for fit, noise in zip(fits, shapes, strict=True)])
     weight = np.exp(log_weight - log_weight.max(axis=0))
     weight /= weight.sum(axis=0)  # (shapes, k)
     mean = np.einsum("sk,skp->kp", weight, np.array([fit.coefficients for fit in fits]))
@@ -174,7 +174,15 @@ def _fit(line: Timeline, columns: FloatArray, p: int, noise: SlowNoise) -> _Fit:
     return _Fit(coefficients=coefficients, inverse=inverse, variance=squares / (n - p), log_evidence=log_evidence)
 
 
-def _log_prior(noise: SlowNoise) -> float:
+def log_prior(noise: SlowNoise) -> float:
+    """Say how usual a shape of noise is before the record is seen.
+
+    Args:
+        noise: The shape.
+
+    Returns:
+        Logarithm of its weight, where that of white noise is 1.
+    """
     return 0.0 if noise.is_white else float(np.log(_SLOW_WEIGHT) + _SLOW_POWER * np.log(noise.time_constant_s))
 
 

@@ -20,6 +20,8 @@ from forcetorque.noise.slow import SlowNoise
 _LEAST_STEP = 1e-6
 """Instants count as at least this part of a time constant apart: at the same instant the process has no inverse."""
 
+_TOO_CLOSE = "slow noise: the instants are too close to each other to tell it from white noise"
+
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Timeline:
@@ -78,24 +80,73 @@ class Timeline:
         Raises:
             FitError: If instants are too close to each other.
         """
-        from scipy.linalg.lapack import dpttrf, dpttrs  # here because importing it takes longer than most commands
+        solved, log_determinant = self.solve(columns, noise)
+        product = columns.T @ solved
+        return 0.5 * (product + product.T), log_determinant
 
-        weighed = columns * self.share[:, None]
-        white, log_white = columns.T @ weighed, -float(np.log(self.share).sum())
+    def solve(self, columns: FloatArray, noise: SlowNoise) -> tuple[FloatArray, float]:
+        """Multiply columns by the inverse covariance.
+
+        Args:
+            columns: Signals X at the instants; shape (n, m).
+            noise: Shape of the noise, whose covariance for s = 1 is V.
+
+        Returns:
+            `V^-1 X`, shape (n, m), and the logarithm of the determinant of V.
+
+        Raises:
+            FitError: If instants are too close to each other.
+        """
+        from scipy.linalg.lapack import dpttrs  # here because importing it takes longer than most commands
+
+        weighed, log_white = columns * self.share[:, None], -float(np.log(self.share).sum())
         if noise.is_white or not len(self):
-            return white, log_white
+            return weighed, log_white
         if len(self) == 1:  # LAPACK wants a side diagonal
             total = 1.0 + noise.ratio * float(self.share[0])
-            return white / total, log_white + float(np.log(total))
+            return weighed / total, log_white + float(np.log(total))
+        pivots, multipliers, log_inverse = self._factors(noise)
+        inner, wrong = dpttrs(pivots, multipliers, weighed)
+        if wrong:
+            raise FitError(_TOO_CLOSE)
+        solved = weighed - noise.ratio * self.share[:, None] * inner
+        return solved, log_white + float(np.log(pivots).sum()) - log_inverse
+
+    def precision_diagonal(self, noise: SlowNoise) -> FloatArray:
+        """Give what every instant is worth where all others are known.
+
+        Args:
+            noise: Shape of the noise, whose covariance for s = 1 is V.
+
+        Returns:
+            Diagonal of `V^-1`; shape (n,).
+
+        Raises:
+            FitError: If instants are too close to each other.
+        """
+        if noise.is_white or not len(self):
+            return self.share
+        if len(self) == 1:
+            return self.share / (1.0 + noise.ratio * self.share)
+        forward = self._factors(noise)[0]
+        turned = Timeline(time_s=-self.time_s[::-1], recording=self.recording[::-1], share=self.share[::-1])
+        backward = turned._factors(noise)[0][::-1]
+        diagonal = self._precisions[noise.time_constant_s][0] + noise.ratio * self.share
+        inner = 1.0 / (forward + backward - diagonal)  # diagonal of the inverse of a tridiagonal matrix
+        alone: FloatArray = self.share - noise.ratio * self.share**2 * inner
+        return alone
+
+    def _factors(self, noise: SlowNoise) -> tuple[FloatArray, FloatArray, float]:
+        """Pivots and multipliers of `T + r D^-1`, and the log determinant of T."""
+        from scipy.linalg.lapack import dpttrf
+
         if noise.time_constant_s not in self._precisions:  # shapes that are tried have few time constants
             self._precisions[noise.time_constant_s] = self._precision(noise.time_constant_s)
         diagonal, beside, log_inverse = self._precisions[noise.time_constant_s]
         pivots, multipliers, failed = dpttrf(diagonal + noise.ratio * self.share, beside)
-        solved, wrong = dpttrs(pivots, multipliers, weighed) if not failed else (weighed, 1)
-        if failed or wrong:
-            raise FitError("slow noise: the instants are too close to each other to tell it from white noise")
-        product = white - noise.ratio * (weighed.T @ solved)
-        return 0.5 * (product + product.T), log_white + float(np.log(pivots).sum()) - log_inverse
+        if failed:
+            raise FitError(_TOO_CLOSE)
+        return pivots, multipliers, log_inverse
 
     def _precision(self, time_constant_s: float) -> tuple[FloatArray, FloatArray, float]:
         """Diagonal and side diagonal of the inverse covariance of the slow process, and its log determinant."""

@@ -3,6 +3,13 @@
 
 from forcetorque.recording.finding import Finding
 from forcetorque.recording.interval import Interval, MovingSupport, Support, Use
+from forcetorque.recording.orientation import (
+    EulerAxes,
+    OrientationForm,
+    OrientationLayout,
+    OrientationSense,
+    orientation_signals,
+)
 from forcetorque.recording.quantity import QUANTITIES, Labels, Quantity
 from forcetorque.recording.recording import Recording
 from forcetorque.recording.scalar_source import ScalarSource
@@ -13,10 +20,14 @@ from forcetorque.recording.stream import Signal, Stream
 
 __all__ = [
     "QUANTITIES",
+    "EulerAxes",
     "Finding",
     "Interval",
     "Labels",
     "MovingSupport",
+    "OrientationForm",
+    "OrientationLayout",
+    "OrientationSense",
     "Quantity",
     "Recording",
     "SavitzkyGolay",
@@ -25,6 +36,7 @@ __all__ = [
     "Stream",
     "Support",
     "Use",
+    "orientation_signals",
     "read_recording",
     "recording_schema",
     "write_recording",

@@ -58,6 +58,14 @@ QUANTITIES = {
             description="Reading of a force-torque sensor that was already turned into force, then moment.",
         ),
         Quantity(
+            name="applied_wrench",
+            labels=Labels.FIXED,
+            columns=WRENCH_COMPONENTS,
+            units=WRENCH_UNITS,
+            has_frame=True,
+            description="Known wrench, as of a dead weight: what an exact sensor without bias reads, in its direction.",
+        ),
+        Quantity(
             name="raw",
             labels=Labels.CHANNELS,
             units=("counts",),
@@ -110,6 +118,14 @@ QUANTITIES = {
             units=("m/s2",) * 3,
             has_frame=True,
             description="Reading of an accelerometer: +9.8 m/s2 upwards at rest.",
+        ),
+        Quantity(
+            name="orientation",
+            labels=Labels.FIXED,
+            columns=tuple(f"r{row}{column}" for row in "123" for column in "123"),
+            units=("1",) * 9,
+            has_frame=True,
+            description="Rotation matrix of a frame, row by row: it turns vectors along its axes to the world's.",
         ),
         Quantity(
             name="gravity",

@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 
@@ -64,6 +64,21 @@ class Signal:
         if quantity.has_frame != (self.frame is not None):
             wanted = "the frame of its axes" if quantity.has_frame else "no frame"
             raise RecordingError(f"{self.quantity}: expected {wanted}, got {self.frame!r}")
+
+    @classmethod
+    def of_fixed(cls, quantity: str, values: Any, *, frame: str | None = None) -> Self:
+        """Give samples of a quantity whose columns always have the same names and units.
+
+        Args:
+            quantity: Name of the quantity.
+            values: Samples; shape (n, k); in its units.
+            frame: As of the class.
+
+        Returns:
+            The signal.
+        """
+        form = QUANTITIES[quantity]
+        return cls(quantity=quantity, values=values, columns=form.columns, units=form.units, frame=frame)
 
     def column(self, name: str) -> FloatArray:
         """Give one column.

@@ -166,6 +166,11 @@ class Report(Result):
                 write_bytes_atomically(path, _WRITERS[path.suffix.lower()](document))
 
 
+def _subject(assessments: Sequence[ExperimentAssessment]) -> str:
+    """What a report is about: sensors, or skin alone."""
+    return "Force-torque sensors" if any(one.sensors for one in assessments) else "Contacts on skin"
+
+
 def require_writable(paths: Sequence[Path]) -> None:
     """Refuse before the work what cannot be written: other kinds of files, missing folders, what is not installed.
 
@@ -228,7 +233,7 @@ def report(
     uses, undecided = decide_uses(runs, calibrations, demanded)
     names = ", ".join(dict.fromkeys(assessment.experiment for assessment in assessments))
     return Report(
-        title=title or f"Force-torque sensors: {names}",
+        title=title or f"{_subject(assessments)}: {names}",
         created=created,
         code_version=code_version,
         uses=uses,

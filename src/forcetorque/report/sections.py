@@ -16,6 +16,7 @@ from forcetorque.report.figures import joint_figure
 from forcetorque.report.judgements import judgement_section
 from forcetorque.report.questions import ERRORS, QUESTIONS
 from forcetorque.report.skin_section import skin_section
+from forcetorque.report.torque_section import torque_section
 from forcetorque.result import Table, table_of
 
 
@@ -47,6 +48,7 @@ def report_document(
     parts += [_question(name, make, experiments) for name, make in QUESTIONS]
     parts += [_parts(experiment) for experiment in experiments]
     parts += [skin_section(experiment) for experiment in experiments]
+    parts += [torque_section(experiment) for experiment in experiments]
     parts += [_recording(experiment) for experiment in experiments]
     parts += [*viewers, *(_findings(experiment) for experiment in experiments)]
     for file, content in results.items():
@@ -56,7 +58,10 @@ def report_document(
     parts.append(_provenance(experiments))
     sensors = {(sensor.sensor, sensor.serial) for experiment in experiments for sensor in experiment.sensors}
     robots = ", ".join(dict.fromkeys(experiment.robot for experiment in experiments))
-    counts = f"{_counted(len(sensors), 'sensor')} in {_counted(len(experiments), 'recording')}"
+    patches = {patch.patch for experiment in experiments for patch in experiment.skin}
+    patches |= {row.stream for experiment in experiments for row in experiment.skin_events}
+    what = ", ".join(_counted(len(some), noun) for some, noun in ((sensors, "sensor"), (patches, "patch")) if some)
+    counts = f"{what or 'no sensor'} in {_counted(len(experiments), 'recording')}"
     return Document(
         title=title,
         subtitle=f"{robots}; {counts}; forcetorque {code_version}",
@@ -66,7 +71,8 @@ def report_document(
 
 
 def _counted(count: int, noun: str) -> str:
-    return f"{count} {noun}" if count == 1 else f"{count} {noun}s"
+    several = f"{noun}es" if noun.endswith("ch") else f"{noun}s"
+    return f"{count} {noun if count == 1 else several}"
 
 
 def _question(
@@ -107,9 +113,7 @@ def _parts(experiment: ExperimentAssessment) -> Section:
 
 
 def _recording(experiment: ExperimentAssessment) -> Section:
-    blocks: list[Block] = [
-        Text(text=f"{experiment.file}: {experiment.duration_s:.1f} s of the robot {experiment.robot}.")
-    ]
+    blocks: list[Block] = [Text(text=f"{experiment.file}: {experiment.duration_s:.1f} s of {experiment.robot}.")]
     if experiment.intervals:
         blocks.append(table_of(experiment.intervals, "Intervals"))
     blocks.append(table_of(experiment.streams, "Streams"))

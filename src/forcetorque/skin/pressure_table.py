@@ -10,6 +10,7 @@ import numpy as np
 
 from forcetorque.arrays import BoolArray, FloatArray, IntArray, read_only, read_only_integers, require_last_axis
 from forcetorque.errors import ShapeError, SkinError
+from forcetorque.skin.messages import require_counts
 
 ROWS = 256
 """Counts below rest that a table has, from 0 on."""
@@ -70,18 +71,15 @@ class PressureTable:
 
         Raises:
             ShapeError: If a message has another number of counts.
-            SkinError: If a message is all zero.
+            SkinError: If a message is all zero or has gaps.
         """
         message = np.asarray(counts, dtype=np.float64)
         level = np.asarray(rest, dtype=np.float64)
+        where = f"patch {self.patch!r}"
         for name, array in (("counts", message), ("rest", level)):
-            require_last_axis(array, name=f"patch {self.patch!r}: {name}", length=self.columns)
+            require_last_axis(array, name=f"{where}: {name}", length=self.columns)
         chosen = message[..., self.taxels]
-        if not chosen.any(axis=-1).all():
-            raise SkinError(
-                f"patch {self.patch!r}: expected counts, got a message of zeros: the board has no power or the message "
-                "was lost; leave it out"
-            )
+        require_counts(chosen, where=where)
         fall: FloatArray = level[self.taxels] - chosen
         return fall
 

@@ -11,14 +11,15 @@ from pathlib import Path
 from forcetorque.analysis import inspect_experiment
 from forcetorque.analysis.applicability import by_sensor
 from forcetorque.calibration import Calibration
-from forcetorque.experiment import Experiment, ExperimentSensor
+from forcetorque.experiment import Experiment
+from forcetorque.experiment.skin_alone import BESIDE_M, is_skin_alone
 from forcetorque.experiment.wrist_load import is_wrist_load
-from forcetorque.recording import Finding, Interval
+from forcetorque.recording import Finding, Interval, Stream
 from forcetorque.recording.alignment import seconds_since
 from forcetorque.viewer.contacts import scene_contacts
 from forcetorque.viewer.expected import expected_readings
 from forcetorque.viewer.geometry import robot_geometry
-from forcetorque.viewer.instants import Posture, posture_at
+from forcetorque.viewer.instants import Posture, posture_at, shown_stream
 from forcetorque.viewer.once import Priors, differentiated
 from forcetorque.viewer.parts import scene_parts
 from forcetorque.viewer.root_pose import root_poses
@@ -50,8 +51,9 @@ def build_scene(
 ) -> BuiltScene:
     """Collect everything that the viewer shows of an experiment.
 
-    The instants are the stamps of the first shown sensor; other streams are interpolated at them. What is absent
-    becomes a note and not an error, but for calibrations that may not be applied. Values are not smoothed.
+    The instants are the stamps of the first shown sensor, or of skin without any; other streams are interpolated at
+    them. What is absent becomes a note and not an error, but for calibrations that may not be applied. Values are not
+    smoothed.
 
     Args:
         experiment: The experiment.
@@ -72,15 +74,21 @@ def build_scene(
     names = dict.fromkeys(experiment.sensor(name).name for name in sensors or (s.name for s in experiment.sensors))
     shown = [experiment.sensor(name) for name in names]
     recording, model = experiment.recording, experiment.model
-    usable, notes = _without_empty(experiment, shown[0])
+    clock = shown_stream(experiment, shown)
+    usable, notes = _without_empty(experiment, clock)
     notes += [f"calibrations of {name!r} are not shown: --sensor leaves it out" for name in groups if name not in names]
     block, sources = Block(), [*_inputs(experiment), *provenance, f"forcetorque {version('forcetorque')}"]
-    posture = posture_at(recording, model, recording.stream(shown[0].stream))
+    posture = posture_at(recording, model, clock)
     root = root_poses(recording, model, posture, recording.intervals, experiment.processing)
     computed = differentiated(usable)
     priors = Priors(computed)
     expected, lacking = expected_readings(computed, tuple(names), posture)
-    notes += [*posture.notes, *root.notes, *lacking]
+    if is_skin_alone(model):
+        notes.append(
+            f"no [robot]: links with skin are drawn side by side, {BESIDE_M:g} m apart, not where they truly are"
+        )
+    else:
+        notes += [*posture.notes, *root.notes, *lacking]
     if experiment.processing.smoothing is not None:
         sources.append("the smoothing of the experiment file is not applied to what is shown")
     series = [
@@ -89,9 +97,10 @@ def build_scene(
         )
         for one in shown
     ]
-    contacts = scene_contacts(computed, groups, posture, priors, block, notes, sources)
+    contacts = () if is_skin_alone(model) else scene_contacts(computed, groups, posture, priors, block, notes, sources)
     skin = () if computed.skin is None else scene_skin(computed.skin, model.links, block, notes, sources)
     events = scene_skin_events(recording, posture.stream.clock, model.links, block, notes)
+    states_support = not (is_wrist_load(model) or is_skin_alone(model))
     robot, missing = _robot(experiment, posture, urdf, block, mesh_folders)
     scene = Scene(
         title=experiment.name,
@@ -108,11 +117,10 @@ def build_scene(
         skin=skin,
         skin_events=events,
         intervals=tuple(
-            _interval(interval, recording.start_ns, states_support=not is_wrist_load(model))
-            for interval in recording.intervals
+            _interval(interval, recording.start_ns, states_support=states_support) for interval in recording.intervals
         ),
         findings=tuple(_finding(finding, recording.start_ns) for finding in inspect_experiment(usable)),
-        notes=(*notes, *missing),
+        notes=tuple(notes) if is_skin_alone(model) else (*notes, *missing),
         provenance=tuple(sources),
         annotations_url=None,
     )
@@ -135,10 +143,9 @@ def _robot(
     return robot, geometry.notes
 
 
-def _without_empty(experiment: Experiment, sensor: ExperimentSensor) -> tuple[Experiment, list[str]]:
-    """Leave out intervals that hold no sample of a sensor, and say which."""
-    recording = experiment.recording
-    stamps = recording.stream(sensor.stream).stamp_ns
+def _without_empty(experiment: Experiment, clock: Stream) -> tuple[Experiment, list[str]]:
+    """Leave out intervals that hold no sample of a stream, and say which."""
+    recording, stamps = experiment.recording, clock.stamp_ns
     start, end = recording.span_ns
     kept, notes = [], []
     for interval in recording.intervals:

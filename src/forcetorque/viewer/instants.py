@@ -3,12 +3,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import chain
 
 import numpy as np
 
 from forcetorque.arrays import FloatArray, IntArray
-from forcetorque.errors import RecordingError
+from forcetorque.errors import ExperimentError, RecordingError
+from forcetorque.experiment import Experiment, ExperimentSensor
 from forcetorque.recording import Recording, Stream
 from forcetorque.recording.alignment import interpolate, require_overlap, usable_samples
 from forcetorque.robot import RobotModel
@@ -31,6 +34,33 @@ class Posture:
     """Coordinates, held over gaps; shape (n, d); rad or m."""
     notes: tuple[str, ...]
     """What is missing."""
+
+
+def shown_stream(experiment: Experiment, sensors: Sequence[ExperimentSensor]) -> Stream:
+    """Choose the stream whose instants are shown.
+
+    Args:
+        experiment: The experiment.
+        sensors: Sensors that are shown.
+
+    Returns:
+        The stream of the first of them; without any that of the first patch, else of contacts that a skinManager saw.
+
+    Raises:
+        ExperimentError: If there is neither sensor nor skin.
+    """
+    recording = experiment.recording
+    if sensors:
+        return recording.stream(sensors[0].stream)
+    patches = () if experiment.skin is None else experiment.skin.patches
+    events = (name for name, stream in recording.streams.items() if "skin_event" in stream.signals)
+    name = next(chain((patch.counts for patch in patches), events), None)
+    if name is None:
+        raise ExperimentError(
+            f"experiment {experiment.name!r}: expected [[sensor]], [[patch]] or a stream of skin_events to be shown, "
+            "got none"
+        )
+    return recording.stream(name)
 
 
 def posture_at(recording: Recording, model: RobotModel, stream: Stream) -> Posture:

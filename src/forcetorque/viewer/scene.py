@@ -193,6 +193,8 @@ class SkinContactFrames:
     """What each does to the link, along its axes; shape (m, 3) float32; N, but for contacts of a heuristic."""
     spread: ArrayRef | None
     """Half axes of one standard deviation of the force, as the columns of matrices; N; shape (m, 9) float32."""
+    identity: ArrayRef
+    """Number of each contact, which it keeps from frame to frame; shape (m,) uint32."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -85,6 +85,7 @@ def _patch(name: str, link: str, frames: PatchFrames, hold_s: float, block: Bloc
             hold_s=hold_s,
             places=[one.centre_of_pressure for one in contacts],
             forces=[one.wrench[:, :3] for one in contacts],
+            identities=[one.identity for one in contacts],
             covariances=[one.covariance[:, :3, :3] for one in contacts],
         ),
     )

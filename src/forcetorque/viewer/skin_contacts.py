@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray
+from forcetorque.arrays import FloatArray, IntArray
 from forcetorque.viewer.scene import Block, SkinContactFrames
 
 
@@ -18,6 +18,7 @@ def contact_frames(
     hold_s: float,
     places: Sequence[FloatArray],
     forces: Sequence[FloatArray],
+    identities: Sequence[IntArray],
     covariances: Sequence[FloatArray] | None = None,
 ) -> SkinContactFrames:
     """Put the contacts of k frames into the block of a scene.
@@ -28,6 +29,7 @@ def contact_frames(
         hold_s: How long a frame is shown; s.
         places: Centres of pressure in each frame; shape (c, 3); m.
         forces: What the contacts do to the link, or a heuristic of it; shape (c, 3).
+        identities: Numbers that contacts keep; shape (c,).
         covariances: Covariances of the forces; shape (c, 3, 3); N^2; None where nobody knows them.
 
     Returns:
@@ -42,6 +44,7 @@ def contact_frames(
         place=block.add(np.concatenate([np.zeros((0, 3)), *places]), "float32"),
         force=block.add(np.concatenate([np.zeros((0, 3)), *forces]), "float32"),
         spread=None if spread is None else block.add(spread.reshape(-1, 9), "float32"),
+        identity=block.add(np.concatenate([np.zeros(0, dtype=np.int64), *identities]), "uint32"),
     )
 
 

@@ -11,6 +11,7 @@ import numpy as np
 from forcetorque.arrays import BoolArray, FloatArray
 from forcetorque.recording import Recording, Signal, Stream
 from forcetorque.recording.alignment import gap_limit_ns, seconds_since, usable_samples
+from forcetorque.skin.contact import followed_places
 from forcetorque.viewer.scene import Block, SkinEventSeries
 from forcetorque.viewer.skin_contacts import contact_frames
 
@@ -55,15 +56,18 @@ def _series(stream: Stream, frame: str, start_ns: int, block: Block) -> SkinEven
     rows = rows[:: -(-len(rows) // MOST_MESSAGES)]
     places, heuristics = _vectors(signal, "pressed")[rows], _vectors(signal, "heuristic")[rows]
     seen: BoolArray = np.logical_and.reduce(np.isfinite(places), axis=2)
+    times = seconds_since(stream.stamp_ns[rows], start_ns)
+    pressed = [place[one] for place, one in zip(places, seen, strict=True)]
     return SkinEventSeries(
         name=stream.name,
         link=frame,
         contacts=contact_frames(
             block,
-            time_s=seconds_since(stream.stamp_ns[rows], start_ns),
+            time_s=times,
             hold_s=1e-9 * gap_limit_ns(stream.stamp_ns[rows]),
-            places=[place[one] for place, one in zip(places, seen, strict=True)],
+            places=pressed,
             forces=[heuristic[one] for heuristic, one in zip(heuristics, seen, strict=True)],
+            identities=followed_places(times, pressed),
         ),
     )
 

@@ -21,6 +21,8 @@ class View(Result):
     """Name of the experiment."""
     sensors: tuple[str, ...]
     """Sensors that are shown."""
+    skin: tuple[str, ...] = ()
+    """Patches of skin, and streams of contacts that a skinManager saw, that are shown."""
     samples: int
     """Number of samples."""
     url: str | None
@@ -49,6 +51,7 @@ class View(Result):
         return cls(
             experiment=built.scene.title,
             sensors=tuple(sensor.name for sensor in built.scene.sensors if sensor.acting is not None),
+            skin=(*(one.name for one in built.scene.skin), *(one.name for one in built.scene.skin_events)),
             samples=built.scene.samples,
             url=None,
             file=None,
@@ -64,7 +67,7 @@ class View(Result):
         Yields:
             Sentences.
         """
-        yield f"{self.experiment}: {self.samples} samples of {', '.join(self.sensors)}"
+        yield f"{self.experiment}: {self.samples} samples of {', '.join((*self.sensors, *self.skin))}"
         if self.file is not None and self.file_bytes is not None:
             yield f"page of {self.file_bytes / 1e6:.1f} MB written to {self.file}"
         if self.video is not None:
@@ -78,4 +81,5 @@ class View(Result):
         Returns:
             What is single.
         """
-        return [{name: value for name, value in self.flat().items() if name not in ("schema", "sensors", "notes")}]
+        several = ("schema", "sensors", "skin", "notes")
+        return [{name: value for name, value in self.flat().items() if name not in several}]

@@ -10,7 +10,7 @@ from typing import Final
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray
+from forcetorque.arrays import FloatArray, IntArray
 from forcetorque.estimation import Contact, Question, TorqueSum
 from forcetorque.estimation.uncertain import SkinSource, Uncertainty, skin_sources
 from forcetorque.robot import (
@@ -159,6 +159,8 @@ class Draws:
     """Which way is out there; shape (n, k, 3)."""
     foot: FloatArray
     """What happens at the foot; shape (n, 6)."""
+    fewest: IntArray
+    """Active taxels of the contact that has the fewest; shape (n,)."""
 
     def question(self, *, foot: bool, sensor: bool = True) -> Question:
         """Torques of hip and ankle, the wrench at the foot or nothing there, and what holds the base."""
@@ -226,4 +228,5 @@ def draw(
         pushes=np.array([[one.wrench for one in truths] for truths, _ in drawn]),
         normals=np.array([[_normal(one) for one in truths] for truths, _ in drawn]),
         foot=at_foot,
+        fewest=np.array([min(len(told.taxels(k)) for k in range(number)) for told in frames]),
     )

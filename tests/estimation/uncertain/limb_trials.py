@@ -17,8 +17,14 @@ import numpy as np
 
 from forcetorque.arrays import FloatArray
 from forcetorque.estimation import Contact, MinimumNorm, Question, estimate
-from forcetorque.estimation.uncertain import UncertainEstimates, estimate_with_covariance
+from forcetorque.estimation.uncertain import (
+    UncertainEstimates,
+    estimate_with_covariance,
+    skin_sources,
+    tangent_maps,
+)
 from forcetorque.robot import build_tree
+from forcetorque.spatial import wrench_matrix
 from tests.estimation.uncertain.limb import FOOT, FRICTION, Draws, Shin, cylinder, draw
 from tests.skin.contact_trials import leg_layout
 
@@ -30,6 +36,8 @@ LENGTH_SCALE_M: Final = 0.1
 """Moment over force that the smallest solution weighs alike; m."""
 LEG_OBJECTS: Final = 300
 """Objects on the leg that draws choose from."""
+FEW_TAXELS: Final = 11
+"""With so few active taxels a contact is felt too strongly, by more than is stated."""
 _TOLD: Final = 1e-9
 """N, N m: a smaller standard deviation is that of a component that is exact."""
 
@@ -121,6 +129,42 @@ def _figures(error: FloatArray, sd: FloatArray) -> Figures:
     )
 
 
+def inside_by_taxels(touched: Draws, answer: UncertainEstimates) -> dict[str, tuple[float, int]]:
+    """Share of skin forces inside their intervals, and draws, where a contact has few active taxels and where none."""
+    few = touched.fewest <= FEW_TAXELS
+    inside = [
+        np.abs(answer.contact(source.contact.name) - touched.skin_truth[:, k])[:, :3]
+        <= WIDE * answer.contact_sd(source.contact.name)[:, :3]
+        for k, source in enumerate(touched.sources)
+    ]
+    shares = np.mean(inside, axis=(0, 2))
+    sides = {f"up to {FEW_TAXELS} taxels": few, "more": ~few}
+    return {name: (float(shares[rows].mean()), int(rows.sum())) for name, rows in sides.items() if rows.any()}
+
+
+def normalised_errors(shin: Shin, seed: int = SEED) -> FloatArray:
+    """Errors of what the skin tells of every object in scope, over their standard deviations; shape (k, 6).
+
+    Along two tangents and the normal at the true centre of pressure, and about them.
+    """
+    rng = np.random.default_rng(seed)
+    rows = []
+    for truth in shin.truths:
+        told = shin.felt([truth], rng)
+        if len(told) != 1:
+            continue
+        (source,) = skin_sources("shin", "shank", [told], np.zeros(1, dtype=np.int64), friction=0.0)
+        normal = -truth.wrench[:3] / np.linalg.norm(truth.wrench[:3])
+        tangents = tangent_maps(truth.centre[None], normal[None])[0, :3].T
+        centre_H_shank = np.eye(4)
+        centre_H_shank[:3, :3] = np.vstack([tangents, normal])
+        centre_H_shank[:3, 3] = -centre_H_shank[:3, :3] @ truth.centre
+        matrix = wrench_matrix(centre_H_shank)
+        sd = np.sqrt(np.diag(matrix @ source.covariance[0] @ matrix.T))
+        rows.append(matrix @ (source.wrench[0] - truth.wrench) / sd)
+    return np.array(rows)
+
+
 def smallest_error(touched: Draws, *, foot: bool) -> float:
     """Root mean square error of a contact's force by the smallest wrenches that explain the sensor, without skin."""
     centres = touched.centres.mean(axis=0)
@@ -143,13 +187,24 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=main.__doc__)
     parser.add_argument("--draws", type=int, default=DRAWS)
     parser.add_argument("--seed", type=int, default=SEED)
+    parser.add_argument("--skin-seed", type=int, default=2, help="seed of taxels and objects on the leg")
     parser.add_argument("--data", type=Path, help="folder of measured data: the layout of a leg in place of a cylinder")
     options = parser.parse_args()
-    shin = cylinder() if options.data is None else Shin(leg_layout(options.data), objects=LEG_OBJECTS)
+    shin = (
+        cylinder()
+        if options.data is None
+        else Shin(leg_layout(options.data), objects=LEG_OBJECTS, seed=options.skin_seed)
+    )
+    normalised = normalised_errors(shin, options.seed)
+    rms = ", ".join(f"{number:.2f}" for number in np.sqrt((normalised**2).mean(axis=0)))
+    print(f"{len(normalised)} objects: normalised errors along and about tangents and normal {rms}")  # noqa: T201
     for name, case in CASES.items():
         touched = drawn(shin, case, seed=options.seed, draws=options.draws)
         print(f"{name}; smallest norm without skin: {smallest_error(touched, foot=case.foot):.2f} N")  # noqa: T201
-        for what, one in figures(touched, answered(touched, case)).items():
+        answer = answered(touched, case)
+        for side, (share, count) in inside_by_taxels(touched, answer).items():
+            print(f"  skin force by the contact with the fewest taxels, {side}: {share:.1%} of {count} draws inside")  # noqa: T201
+        for what, one in figures(touched, answer).items():
             line = f"{one.inside:.1%} of {one.numbers} inside, rmse {one.rmse:.3f}, predicted {one.sd:.3f}"
             print(f"  {what}: {line}")  # noqa: T201
 

@@ -12,6 +12,7 @@ from forcetorque.evaluation.sphere import SphereAnalysis
 from tests.evaluation.sphere.simulated_leg import GRAVITY, JUDGED, SCREWS, Leg, leg, screwed
 
 SEEDS = range(1, 11)
+SOME = pytest.mark.parametrize("seeds", [range(1, 6), pytest.param(SEEDS, marks=pytest.mark.long)], ids=["5", "10"])
 LEG_MASS = 4.734
 """What the model of this robot has beyond the sensor; the thesis has 4.733; kg."""
 ACCELERATIONS = 0.002
@@ -37,30 +38,33 @@ def _screwed(seed: int, screws: str) -> Leg:
     return screwed(seed, screws)
 
 
-def test_before_in_situ_calibration() -> None:
+@SOME
+def test_before_in_situ_calibration(seeds: range) -> None:
     """Table 4.1 has 0.5 to 1.24 kg with the model and 0.5 to 2.4 without: eight of ten sensors fall into that."""
-    found = np.array([_indices(_leg(seed).analysed("grid", _leg(seed).workbench)) for seed in SEEDS])
+    found = np.array([_indices(_leg(seed).analysed("grid", _leg(seed).workbench)) for seed in seeds])
     assert ((found > 0.45) & (found < 1.65)).all()
-    assert np.count_nonzero(found[:, 0] < 1.3) >= 6
+    assert np.count_nonzero(found[:, 0] < 1.3) >= 0.6 * len(seeds)
     assert 0.5 < np.median(found[:, 0]) < 1.3
     # the model brings little here: the grid covers enough, and nothing but the sensor is wrong
     np.testing.assert_allclose(found[:, 0], found[:, 1], atol=0.1)
 
 
-def test_after_in_situ_calibration() -> None:
+@SOME
+def test_after_in_situ_calibration(seeds: range) -> None:
     """Without temperature, as in Table 4.1, below 0.2 kg, where that has 0.12 and 0.13; with it below 0.1 kg."""
-    plain = np.array([_indices(_leg(seed).calibrated(temperature=False)) for seed in SEEDS])
-    compensated = np.array([_indices(_leg(seed).calibrated(temperature=True)) for seed in SEEDS])
+    plain = np.array([_indices(_leg(seed).calibrated(temperature=False)) for seed in seeds])
+    compensated = np.array([_indices(_leg(seed).calibrated(temperature=True)) for seed in seeds])
     assert plain.max() < 0.2
     assert plain[:, 0].max() > 0.1
     assert compensated.max() < 0.1
     assert np.median(compensated[:, 0]) < 0.5 * np.median(plain[:, 0])
 
 
-def test_the_calibrated_errors_hold_the_true_weight() -> None:
+@SOME
+def test_the_calibrated_errors_hold_the_true_weight(seeds: range) -> None:
     """The masses of the true matrix are that of the leg, within their intervals, on every seed."""
     held = 0
-    for seed in SEEDS:
+    for seed in seeds:
         found = _leg(seed).analysed(JUDGED, _leg(seed).truth)
         assert found.mass == pytest.approx(LEG_MASS, abs=ACCELERATIONS)
         assert found.radius.identifiable
@@ -70,7 +74,7 @@ def test_the_calibrated_errors_hold_the_true_weight() -> None:
         masses = found.masses(found.free)
         assert masses is not None
         assert np.abs(masses - LEG_MASS).max() < 0.15
-    assert held >= 27
+    assert held >= 0.9 * 3 * len(seeds)
 
 
 @pytest.mark.parametrize("seed", [1, 2, 3])
@@ -94,7 +98,7 @@ def test_even_screws_change_nothing_here() -> None:
 
 def test_temperature_hardly_moves_the_index() -> None:
     """The cold grid and the warm one, 13 degrees apart, give one index: an offset is no deformation."""
-    for seed in SEEDS[:4]:
+    for seed in SEEDS[:2]:
         cold, warm = (
             np.array(_indices(_leg(seed).analysed(name, _leg(seed).workbench))) for name in ("grid", "grid_2")
         )

@@ -15,6 +15,7 @@ from hypothesis import strategies as st
 from forcetorque.errors import ForceTorqueError, FormatError, MissingFileError, UnitError
 from forcetorque.exchange.tabular import StampColumn, TableLayout, TableSignal, read_table
 from forcetorque.recording import Stream
+from tests.fuzzing import examples
 
 WRENCH = ("fx", "fy", "fz", "tx", "ty", "tz")
 N_MM = ("N", "N", "N", "N mm", "N mm", "N mm")
@@ -34,7 +35,7 @@ def _layout(*, unit: str = "s", delimiter: str = ",", names: tuple[str, ...] | N
 def _read(tmp_path: Path, text: str | bytes, layout: TableLayout | None = None) -> Stream:
     path = tmp_path / "log.csv"
     path.write_bytes(text.encode() if isinstance(text, str) else text)
-    return read_table(path, layout or _layout(), stream="wrist", clock="pc")
+    return read_table(path, layout or _layout(), stream="wrist", clock="pc").streams[0]
 
 
 @pytest.mark.parametrize(
@@ -172,8 +173,9 @@ def test_declarations_are_checked() -> None:
         TableLayout(stamp=None, signals=())
 
 
+@pytest.mark.fuzz
 @given(st.data())
-@settings(suppress_health_check=[HealthCheck.function_scoped_fixture], max_examples=300, deadline=None)
+@settings(suppress_health_check=[HealthCheck.function_scoped_fixture], max_examples=examples(300), deadline=None)
 def test_damage_gives_our_errors_only(tmp_path: Path, data: st.DataObject) -> None:
     """Flipped bytes, truncation and inserted text give a stream or our error, nothing else."""
     content = bytearray((HEAD + "".join(ROW.format(t=k) for k in range(5))).encode())

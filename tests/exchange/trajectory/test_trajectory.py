@@ -27,7 +27,7 @@ def test_the_table_is_read_by_our_own_reader(tmp_path: Path) -> None:
         stamp=StampColumn(column=TIME_COLUMN, unit="s"),
         signals=(TableSignal(quantity="position", columns=NAMES, units=("rad", "rad")),),
     )
-    stream = read_table(file, layout, stream="joints", clock="plan")
+    (stream,) = read_table(file, layout, stream="joints", clock="plan").streams
     np.testing.assert_allclose(stream.stamp_ns * 1e-9, TIME)
     np.testing.assert_allclose(stream.signal("position").values, POSITION, rtol=1e-8)
 

@@ -22,6 +22,7 @@ from forcetorque.exchange.wholebodydynamics import (
 )
 from tests.calibrations import FACTORY, make_calibration
 from tests.exchange.wholebodydynamics.device import Processor, bottle, configured, use_pre_estimated_offset
+from tests.fuzzing import examples
 
 TOUCHES_FILES = settings(deadline=None)
 """A busy disk is no failure."""
@@ -344,7 +345,8 @@ PAYLOAD = VALID[VALID.index(b"<params>") :]
 """Without the comment, in which most damage would do nothing."""
 
 
-@settings(deadline=None, max_examples=400)
+@pytest.mark.fuzz
+@settings(deadline=None, max_examples=examples(400))
 @given(st.data())
 def test_damaged_bytes_give_our_errors_only(data: st.DataObject) -> None:
     """Truncated, overwritten and repeated bytes give corrections or our error in one line, nothing else."""

@@ -30,6 +30,7 @@ from forcetorque.exchange.yarp import (
     read_state_ext,
 )
 from tests.exchange.yarp.port_logs import INFO, INFO_TWO_STAMPS, STATE_NAMES, parse_nested, parse_slowly, write_port
+from tests.fuzzing import examples
 
 _INFO = INFO.replace("tx;", "rx;")
 """With `tx`, a damaged sequence number could ask for a second stamp."""
@@ -169,14 +170,16 @@ _CASES = {
 }
 
 
+@pytest.mark.fuzz
 @pytest.mark.parametrize("case", _CASES)
 @pytest.mark.parametrize("packed", [False, True])
 def test_damaged_logs_are_refused_or_read_right(tmp_path: Path, case: str, packed: bool) -> None:
     """No other error, no wrong number; both outcomes must have been met."""
     original, info, n_stamps, check = _CASES[case]
     outcomes: Counter[str] = Counter()
+    drawn = examples(200 if packed else 400)
 
-    @settings(max_examples=150 if packed else 400, deadline=None)
+    @settings(max_examples=drawn, deadline=None)
     @given(_damaged(original))
     def run(content: bytes) -> None:
         folder = write_port(tmp_path, content, info=info, packed=packed)
@@ -190,7 +193,7 @@ def test_damaged_logs_are_refused_or_read_right(tmp_path: Path, case: str, packe
             outcomes["read"] += 1
 
     run()
-    assert outcomes["refused"] > 40
+    assert outcomes["refused"] > drawn // 5
     assert outcomes["read"] > 0
 
 
@@ -231,12 +234,14 @@ def test_damaged_logs_are_discovered(tmp_path: Path, case: str) -> None:
     assert min(outcomes[outcome] for outcome in ("unknown", "refused", "read")) > 0
 
 
+@pytest.mark.fuzz
 def test_damaged_packed_logs_are_refused_or_read_right(tmp_path: Path) -> None:
     """Bytes of the gzip file itself are damaged; its checksum lets nothing else through."""
     packed = gzip.compress(_ANALOG, mtime=0)
     outcomes: Counter[str] = Counter()
+    drawn = examples(300)
 
-    @settings(max_examples=300, deadline=None)
+    @settings(max_examples=drawn, deadline=None)
     @given(_damaged(packed))
     def run(content: bytes) -> None:
         folder = write_port(tmp_path, "", packed=True)
@@ -244,11 +249,12 @@ def test_damaged_packed_logs_are_refused_or_read_right(tmp_path: Path) -> None:
         outcomes[_outcome(lambda: _check_analog(folder, _ANALOG.decode(), 1))] += 1
 
     run()
-    assert outcomes["refused"] > 50
+    assert outcomes["refused"] > drawn // 6
 
 
+@pytest.mark.fuzz
 @given(content=st.binary(max_size=300))
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=examples(300), deadline=None)
 def test_garbage_is_refused(content: bytes, tmp_path_factory: pytest.TempPathFactory) -> None:
     """Random bytes are no log, as messages, as a packed file and as the info file."""
     folder = write_port(tmp_path_factory.getbasetemp() / "garbage", content)

@@ -19,6 +19,7 @@ from forcetorque.errors import FormatError, RecordingError
 from forcetorque.exchange.yarp import MeasuresList, MeasuresSensor, PortReading, read_measures
 from forcetorque.recording import QUANTITIES
 from tests.exchange.yarp.port_logs import INFO, INFO_TWO_STAMPS, parse_nested, write_port
+from tests.fuzzing import examples
 
 ONE_SENSOR = (
     "1277 1648477185.597940 () () () () (((32.0) 3062439114.0)) "
@@ -166,8 +167,9 @@ _MESSAGES = st.lists(
 )
 
 
+@pytest.mark.fuzz
 @given(messages=_MESSAGES, data=st.data())
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=examples(150), deadline=None)
 def test_spaces_between_brackets_may_be_missing(
     tmp_path_factory: pytest.TempPathFactory, messages: list[Any], data: st.DataObject
 ) -> None:

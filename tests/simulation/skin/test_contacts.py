@@ -8,18 +8,22 @@ from typing import Final
 import numpy as np
 import pytest
 
-from forcetorque.errors import SkinError
+from forcetorque.errors import ShapeError, SkinError
 from forcetorque.simulation.skin import (
     REFERENCE_PA,
     REST_COUNTS,
     ClothStrip,
     FlatWeight,
+    HeatResponses,
+    Loading,
+    MotorHeat,
     SkinBody,
     SkinContact,
     SkinObject,
     Sphere,
     TaxelResponses,
     TrueSurface,
+    contact_recording,
     contacts,
 )
 from forcetorque.skin import SkinLayout
@@ -124,3 +128,26 @@ def test_taxels_answer_as_stated() -> None:
     np.testing.assert_allclose(counts.mean(), REST_COUNTS, atol=0.05)
     np.testing.assert_allclose((counts - counts.mean(axis=0)).std(), np.hypot(0.65, 1 / np.sqrt(12)), rtol=0.03)
     assert taxels.counts(np.full(2000, 1e9), rng, frames=1).min() >= 0
+
+
+def test_motors_warm_taxels_and_pads_while_objects_rest(leg: SkinBody) -> None:
+    """Mean readings fall by the rise times each answer, beside the pressure; without heat pads stay as they are."""
+    rng = np.random.default_rng(4)
+    taxels, heat = TaxelResponses.drawn(len(LEG), rng), HeatResponses.drawn(LEG, rng)
+    truths, loading = list(contacts(leg, rng, 1)), Loading(rest_s=1.0, ramp_s=0.2, hold_s=1.0)
+    seconds, _ = loading.shares(1)
+    warm = MotorHeat(responses=heat, rise_K=np.full(len(seconds), 5.0))
+    cold, hot = (
+        contact_recording(LEG, taxels, truths, np.random.default_rng(5), loading=loading, heat=one)
+        .stream("counts")
+        .signal("taxel_counts")
+        .values
+        for one in (None, warm)
+    )
+    fall = (cold - hot).mean(axis=0)
+    np.testing.assert_allclose(fall[LEG.taxels], 5.0 * heat.taxels, atol=0.5)
+    np.testing.assert_allclose(hot[:, LEG.thermal_pads].mean(axis=0), heat.pad_rest - 5.0 * heat.pads, atol=0.5)
+    assert (cold[:, LEG.thermal_pads] == REST_COUNTS).all()
+    short = MotorHeat(responses=heat, rise_K=np.zeros(3))
+    with pytest.raises(ShapeError, match="rise_K: expected one for each of .* messages, got 3"):
+        contact_recording(LEG, taxels, truths, rng, loading=loading, heat=short)

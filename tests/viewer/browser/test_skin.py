@@ -10,10 +10,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import pytest
 
-from forcetorque.viewer import BuiltScene
+from forcetorque.experiment import load_shown
+from forcetorque.viewer import BuiltScene, scene_of
 from forcetorque.viewer.scene import Block, SkinEventSeries, SkinPatch, read_array
 from forcetorque.viewer.skin_contacts import contact_frames
 from tests.browser import Visit
+from tests.skin_alone import TOUCHED, write_events
 from tests.viewer.browser.arm_scene import Arm, arm_scene
 
 if TYPE_CHECKING:
@@ -27,6 +29,7 @@ PRESSURE = np.array([[0.0, 0, 0, 0], [4e3, 0, 2e3, 0], [1e4, 8e3, 2e3, 1e3]])
 STARTS, HOLD_S = np.array([1.0, 3.0, 5.0]), 2.0
 PLACES = [np.zeros((0, 3)), VERTICES[:1], VERTICES[[0, 2]]]
 FORCES = [np.zeros((0, 3)), np.array([[0.0, 0.0, -10.0]]), np.array([[0.0, 0.0, -20.0], [3.0, 0.0, -4.0]])]
+IDENTITIES = [np.array([], dtype=np.int64), np.array([1]), np.array([1, 3])]
 SD_N = 0.5
 METRES_TOLERANCE = 1e-5
 """Of tips: coordinates are float32."""
@@ -47,7 +50,13 @@ def skinned_scene(tmp_path_factory: pytest.TempPathFactory) -> tuple[Arm, BuiltS
         pressure=block.add(PRESSURE, "float32"),
         largest_Pa=float(PRESSURE.max()),
         contacts=contact_frames(
-            block, time_s=STARTS, hold_s=HOLD_S, places=PLACES, forces=FORCES, covariances=covariances
+            block,
+            time_s=STARTS,
+            hold_s=HOLD_S,
+            places=PLACES,
+            forces=FORCES,
+            identities=IDENTITIES,
+            covariances=covariances,
         ),
     )
     events = SkinEventSeries(
@@ -59,6 +68,7 @@ def skinned_scene(tmp_path_factory: pytest.TempPathFactory) -> tuple[Arm, BuiltS
             hold_s=1.0,
             places=[np.array([[0.1, 0.0, 0.0]])],
             forces=[np.array([[-0.5, 0.0, 0.0]])],
+            identities=[np.array([4])],
         ),
     )
     scene = replace(arm.built.scene, skin=(patch,), skin_events=(events,))
@@ -106,7 +116,11 @@ def test_the_numbers_say_what_is_heuristic(skin_page: Page, skinned: tuple[Arm, 
     _, shown = _shown(skin_page, time_s, 6.5)
     assert len(shown["contacts"]["hand_events"]) == 1
     texts = region.get_by_role("row").all_text_contents()
-    assert texts == ["forearm_skin20.00 ± 0.50 N", "forearm_skin5.00 ± 0.50 N", "hand_events0.50 heuristic"]
+    assert texts == [
+        "forearm_skin: contact 120.00 ± 0.50 N",
+        "forearm_skin: contact 35.00 ± 0.50 N",
+        "hand_events: contact 40.50 heuristic",
+    ]
     assert region.get_by_text("10.0 kPa").is_visible()
 
 
@@ -136,3 +150,18 @@ def test_pressure_is_seen(skin_page: Page, skinned: tuple[Arm, BuiltScene]) -> N
     skin_page.get_by_label("Pressure and contacts on skin").uncheck()
     skin_page.evaluate("window.ft.show(window.ft.sample())")
     assert canvas.screenshot() != pressed
+
+
+def test_skin_alone_has_the_page_to_itself(visit: Visit, tmp_path: Path) -> None:
+    """Without a sensor there is neither force space nor a course of forces; contacts are drawn and numbered."""
+    file = write_events(tmp_path)
+    page = visit.open(scene_of(file, load_shown(file), {}))
+    assert page.get_by_role("region", name="Robot").is_visible()
+    for empty in ("Force space", "Planes"):
+        assert not page.get_by_role("region", name=empty).is_visible()
+    page.evaluate(f"window.ft.show({TOUCHED[3]})")
+    assert [len(tips) for tips in page.evaluate("window.ft.skin()")["contacts"].values()] == [1, 0]
+    texts = page.get_by_role("region", name="Skin").get_by_role("row").all_text_contents()
+    assert texts == ["right forearm: contact 13.04 heuristic"]
+    page.evaluate(f"window.ft.show({TOUCHED[0] - 2})")
+    assert [len(tips) for tips in page.evaluate("window.ft.skin()")["contacts"].values()] == [0, 0]

@@ -3,6 +3,7 @@
 
 from forcetorque.calibration.generative.agreement import Disagreement, disagreements
 from forcetorque.calibration.generative.assumptions import ACCURACY_SHARE, REPEATABILITY, Assumptions
+from forcetorque.calibration.generative.determined import unmoved_directions
 from forcetorque.calibration.generative.fit import GenerativeFit, fit_generative
 from forcetorque.calibration.generative.means import WindowMeans
 from forcetorque.calibration.generative.nonlinear import corrected_fit, try_correction
@@ -18,4 +19,5 @@ __all__ = [
     "disagreements",
     "fit_generative",
     "try_correction",
+    "unmoved_directions",
 ]

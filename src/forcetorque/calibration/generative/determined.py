@@ -19,6 +19,23 @@ _LEAST_GAIN = 0.3
 """Least singular value of measured over prior response; mounting takes up to half of it, not more."""
 
 
+def unmoved_directions(wrench: FloatArray, lengths: Sequence[int]) -> tuple[str, ...]:
+    """Name the directions that loads do not move.
+
+    Args:
+        wrench: Loads of all stretches; shape (n, 6); N, N m.
+        lengths: Number of means in each stretch.
+
+    Returns:
+        Directions such as `fz`; none where the loads have rank 6.
+    """
+    parts = np.split(wrench, np.cumsum(lengths)[:-1])
+    moved = np.concatenate([part - part.mean(axis=0) for part in parts])
+    size = _load_sizes(moved)
+    _, strengths, directions = np.linalg.svd(np.vstack([moved / size, np.zeros((6, 6))]), full_matrices=False)
+    return tuple(direction_words(direction / size) for direction in directions[strengths < _RANK * strengths[0]])
+
+
 def require_rank(wrench: FloatArray, lengths: Sequence[int]) -> None:
     """Refuse loads that do not move all six directions.
 
@@ -29,16 +46,10 @@ def require_rank(wrench: FloatArray, lengths: Sequence[int]) -> None:
     Raises:
         FitError: If a direction does not move; the message names it.
     """
-    parts = np.split(wrench, np.cumsum(lengths)[:-1])
-    moved = np.concatenate([part - part.mean(axis=0) for part in parts])
-    size = _load_sizes(moved)
-    _, strengths, directions = np.linalg.svd(np.vstack([moved / size, np.zeros((6, 6))]), full_matrices=False)
-    weak = strengths < _RANK * strengths[0]
-    if weak.any():
-        named = "; ".join(direction_words(direction / size) for direction in directions[weak])
+    if weak := unmoved_directions(wrench, lengths):
         raise FitError(
-            f"the loads move {6 - int(weak.sum())} of 6 directions, not {named}; without a prior matrix all six are "
-            "needed: give prior, or record a load with its centre of mass elsewhere"
+            f"the loads move {6 - len(weak)} of 6 directions, not {'; '.join(weak)}; without a prior matrix all six "
+            "are needed: give prior, or record a load with its centre of mass elsewhere"
         )
 
 

@@ -21,6 +21,7 @@ from forcetorque.calibration.posterior import Posterior, RowNoise
 from forcetorque.calibration.quadratic_correction import PAIRS
 from forcetorque.calibration.wrench_model import WrenchModel
 from forcetorque.errors import FitError
+from forcetorque.noise import CANDIDATES, SlowNoise
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -55,6 +56,7 @@ def fit_generative(
     variables: Sequence[LinearVariable] = (),
     drift: bool = False,
     quadratic: bool = True,
+    shapes: Sequence[SlowNoise] = CANDIDATES,
 ) -> GenerativeFit:
     """Fit a sensor: readings are regressed on loads, and where no load speaks the prior stays.
 
@@ -65,6 +67,7 @@ def fit_generative(
         variables: What the columns of `variables` in the means are.
         drift: Whether the offset of a session may move evenly in time.
         quadratic: Whether there are quadratic terms; without them what is quadratic passes for gain.
+        shapes: Shapes of the noise to choose from; white noise alone where nothing goes on from mean to mean.
 
     Returns:
         The fit.
@@ -108,7 +111,7 @@ def fit_generative(
     ]
     kinds = np.repeat(np.arange(5), [LOADS, LOADS, len(variables), len(PAIRS[0]), LOADS])
     unknowns = infer(
-        whiten(design),
+        whiten(design, shapes),
         basis,
         kinds,
         _scales(with_prior=prior is not None),

@@ -7,7 +7,7 @@ from forcetorque.estimation.fusion.friction import Friction, fit_friction
 from forcetorque.estimation.fusion.fuse import FALSE_ALARM, WINDOW_S, Fusion, fuse
 from forcetorque.estimation.fusion.motor import Motor, motor_source
 from forcetorque.estimation.fusion.source import TorqueSource
-from forcetorque.estimation.fusion.wrench_source import WrenchError, wrench_source
+from forcetorque.estimation.fusion.wrench_source import wrench_source
 
 __all__ = [
     "FALSE_ALARM",
@@ -19,7 +19,6 @@ __all__ = [
     "Innovation",
     "Motor",
     "TorqueSource",
-    "WrenchError",
     "fit_friction",
     "fuse",
     "motor_source",

@@ -12,6 +12,7 @@ from forcetorque.arrays import FloatArray, IntArray
 from forcetorque.errors import EstimationError
 from forcetorque.estimation.fusion.friction import Friction, friction_terms
 from forcetorque.estimation.fusion.source import TorqueSource
+from forcetorque.estimation.uncertain import square_root
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -78,7 +79,7 @@ def motor_source(
         taken = friction.torque(velocity[:, k], acceleration[:, k])
         torque[moving, k] = (drive_torque[:, k] - taken)[moving]
         terms = friction_terms(velocity[:, k], acceleration[:, k])
-        lasting[:, k, 4 * k : 4 * k + 4] = terms @ _root(friction.covariance)
+        lasting[:, k, 4 * k : 4 * k + 4] = terms @ square_root(friction.covariance)
     noise = np.diag([friction.variance for friction in frictions])
     return TorqueSource(
         name=name,
@@ -89,10 +90,3 @@ def motor_source(
         lasting=np.where(np.isfinite(lasting), lasting, 0.0),
         noise_time_s=max(friction.noise_time_s for friction in frictions),
     )
-
-
-def _root(covariance: FloatArray) -> FloatArray:
-    """A matrix whose product with its transpose is the covariance, also where that is singular."""
-    values, vectors = np.linalg.eigh(covariance)
-    root: FloatArray = vectors * np.sqrt(np.maximum(values, 0.0))
-    return root

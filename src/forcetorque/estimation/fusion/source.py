@@ -11,6 +11,7 @@ import numpy as np
 
 from forcetorque.arrays import FloatArray, IntArray, read_only, read_only_integers
 from forcetorque.errors import EstimationError
+from forcetorque.estimation.uncertain import square_root
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -105,10 +106,7 @@ class TorqueSource:
         """
         if not 0.0 < noise_share <= 1.0:
             raise EstimationError(f"source {name!r}: noise_share: expected above 0 and at most 1, got {noise_share}")
-        values, vectors = np.linalg.eigh(np.nan_to_num(covariance))
-        # the symmetric root: it changes no faster than the covariance
-        scale = np.sqrt((1.0 - noise_share) * np.maximum(values, 0.0))
-        lasting = (vectors * scale[:, None, :]) @ vectors.transpose(0, 2, 1)
+        lasting = square_root((1.0 - noise_share) * np.nan_to_num(covariance))
         noise = noise_share * covariance
         return cls(name=name, joints=tuple(joints), stamp_ns=stamp_ns, torque=torque, noise=noise, lasting=lasting)
 

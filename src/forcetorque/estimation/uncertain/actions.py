@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -30,6 +30,8 @@ class Actor:
     """What the unknowns do, each in N or N m; shape (n, 6, u)."""
     errors: FloatArray
     """What errors do; shape (n, 6, m)."""
+    lasting: int = 0
+    """How many of the errors, the last ones, stay the same from sample to sample."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -62,7 +64,7 @@ def actors_of(
     unknown = [_unknown(contact, active[:, k]) for k, contact in enumerate(question.unknown)]
     pushes = [_known(contact, known[:, k], uncertainty) for k, contact in enumerate(question.known)]
     sensors = [
-        _actor(name, measured[:, k], _root_of(uncertainty.measured, name, len(measured)))
+        _actor(name, measured[:, k], _root_of(uncertainty.measured, name, len(measured)), uncertainty)
         for k, name in enumerate(question.measured)
     ]
     return [*unknown, *pushes, *sensors]
@@ -103,15 +105,25 @@ def _known(contact: Contact, wrench: FloatArray, uncertainty: Uncertainty) -> Ac
     errors = _root_of(uncertainty.known, contact.name, len(wrench))
     tangents = uncertainty.tangents.get(contact.name)
     if tangents is None:
-        return _actor(contact.name, wrench, errors)
+        return _actor(contact.name, wrench, errors, uncertainty)
     if tangents.sd_N is None:
-        return Actor(name=contact.name, unknowns=("s", "t"), given=wrench, free=tangents.maps, errors=errors)
+        pressed = _actor(contact.name, wrench, errors, uncertainty)
+        return replace(pressed, unknowns=("s", "t"), free=tangents.maps)
     slanted = tangents.maps * tangents.sd_N[:, None, None]
-    return _actor(contact.name, wrench, np.concatenate([errors, slanted], axis=2))
+    return _actor(contact.name, wrench, np.concatenate([errors, slanted], axis=2), uncertainty)
 
 
-def _actor(name: str, given: FloatArray, errors: FloatArray) -> Actor:
-    return Actor(name=name, unknowns=(), given=given, free=np.zeros((len(given), 6, 0)), errors=errors)
+def _actor(name: str, given: FloatArray, errors: FloatArray, uncertainty: Uncertainty) -> Actor:
+    n = len(given)
+    lasting = uncertainty.lasting.get(name, np.zeros((n, 6, 0)))
+    return Actor(
+        name=name,
+        unknowns=(),
+        given=given,
+        free=np.zeros((n, 6, 0)),
+        errors=np.concatenate([errors, lasting], axis=2),
+        lasting=lasting.shape[2],
+    )
 
 
 def _root_of(covariances: Mapping[str, FloatArray], name: str, n: int) -> FloatArray:

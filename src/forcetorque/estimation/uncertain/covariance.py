@@ -47,18 +47,20 @@ def wrench_covariances(values: Any, *, name: str, samples: int) -> FloatArray:
 
 
 def square_root(covariance: FloatArray) -> FloatArray:
-    """Give a matrix whose product with its transpose is a covariance; also of one that has no inverse.
+    """Give the symmetric matrix whose square is a covariance; also of one that has no inverse.
+
+    Of all roots it alone changes no faster than the covariance, so that its columns may be errors that last.
 
     Args:
-        covariance: Covariances; NaN for a gap; shape (n, 6, 6).
+        covariance: Covariances; NaN for a gap; shape (..., k, k).
 
     Returns:
-        Square roots, NaN where the covariance has one; shape (n, 6, 6).
+        Square roots, NaN where the covariance has one; shape (..., k, k).
     """
-    whole: BoolArray = np.all(np.isfinite(covariance), axis=(1, 2))
-    values, vectors = np.linalg.eigh(np.where(whole[:, None, None], covariance, 0.0))
-    root: FloatArray = vectors * np.sqrt(np.maximum(values, 0.0))[:, None, :]
-    return np.where(whole[:, None, None], root, np.nan)
+    whole = np.isfinite(covariance).all(axis=(-2, -1), keepdims=True)
+    values, vectors = np.linalg.eigh(np.where(whole, covariance, 0.0))
+    root: FloatArray = (vectors * np.sqrt(np.maximum(values, 0.0))[..., None, :]) @ np.swapaxes(vectors, -2, -1)
+    return np.where(whole, root, np.nan)
 
 
 def _refuse(bad: BoolArray, name: str, expected: str, values: FloatArray) -> None:

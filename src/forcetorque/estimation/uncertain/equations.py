@@ -16,7 +16,7 @@ from itertools import accumulate
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray
+from forcetorque.arrays import BoolArray, FloatArray
 from forcetorque.estimation.question import Question
 from forcetorque.estimation.uncertain.actions import Action, Actor
 from forcetorque.robot.sub_model import SubModel, outboard_bodies
@@ -79,6 +79,12 @@ class Scene:
         """
         joints = {body.joint: index for index, body in enumerate(self.question.tree.bodies) if body.joint is not None}
         return _stacked([self._torque(joints[joint]) for joint in self.question.torques], self._width)
+
+    @property
+    def lasting(self) -> BoolArray:
+        """Which errors stay the same from sample to sample; shape (m,)."""
+        marks = [np.arange(k := actor.errors.shape[2]) >= k - actor.lasting for actor in self.actors]
+        return np.concatenate([np.zeros(0, dtype=np.bool_), *marks])
 
     def _torque(self, index: int) -> Affine:
         """What moves the outboard bodies of the sub-model less what acts on them, along the joint."""

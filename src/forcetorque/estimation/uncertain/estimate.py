@@ -8,7 +8,7 @@ from typing import Any, Final
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray
+from forcetorque.arrays import FloatArray, require_shape
 from forcetorque.errors import EstimationError, ShapeError, known_names
 from forcetorque.estimation.inputs import Inputs, checked_inputs, refuse_infinite
 from forcetorque.estimation.question import Question, TorqueSum
@@ -61,6 +61,40 @@ def estimate_with_covariance(
         EstimationError: If a covariance is not one, inputs are missing, the question sums torques up otherwise, or
             something is determined in no sample; the message says along which forces.
     """
+    answer = estimate_determined(
+        question, joints, root, measured=measured, known=known, active=active, uncertainty=uncertainty
+    )
+    _refuse_undetermined(answer)
+    return answer
+
+
+def estimate_determined(
+    question: Question,
+    joints: JointMotion,
+    root: RootMotion,
+    *,
+    measured: Wrenches | None = None,
+    known: Wrenches | None = None,
+    active: Mapping[str, Any] | None = None,
+    uncertainty: Uncertainty | None = None,
+) -> UncertainEstimates:
+    """Estimate as `estimate_with_covariance` does what is determined, however little that is.
+
+    Args:
+        question: What is asked; its torques are summed up inside sub-models (`TorqueSum.SUB_MODEL`).
+        joints: Motion of the joints; n samples.
+        root: Motion of the root link's frame; one sample or n.
+        measured: Readings of the sensors.
+        known: Wrenches of the known contacts.
+        active: By the name of an unknown contact, whether it is there; shape (n,), bool.
+        uncertainty: What is not known of these; all is exact if None.
+
+    Returns:
+        The answer; NaN where it is not determined.
+
+    Raises:
+        EstimationError: If a covariance is not one, inputs are missing, or the question sums torques up otherwise.
+    """
     if question.torques and question.torque_sum is not TorqueSum.SUB_MODEL:
         raise EstimationError(
             f"torque_sum: expected {TorqueSum.SUB_MODEL}, got {question.torque_sum}; sums over the whole tree would "
@@ -68,9 +102,7 @@ def estimate_with_covariance(
         )
     inputs = checked_inputs(question, joints, root, measured, known, active)
     checked = _checked(question, uncertainty or Uncertainty(), len(joints))
-    answer = _joined([_answer(question, inputs, checked, block) for block in _blocks(len(joints))])
-    _refuse_undetermined(answer)
-    return answer
+    return _joined([_answer(question, inputs, checked, block) for block in _blocks(len(joints))])
 
 
 def _answer(question: Question, inputs: Inputs, uncertainty: Uncertainty, block: slice) -> UncertainEstimates:
@@ -79,18 +111,18 @@ def _answer(question: Question, inputs: Inputs, uncertainty: Uncertainty, block:
     parts = inputs.needs.solved
     posterior = posterior_of(scene.equations(parts))
     n = len(posterior.rank)
-    wrenches, covariance = posterior.answers(scene.contact_rows())
-    torques, torque_covariance = posterior.answers(scene.torque_rows())
+    wrenches, wrong = posterior.answers(scene.contact_rows())
+    torques, torques_wrong = posterior.answers(scene.torque_rows())
     contacts = tuple(contact.name for contact in (*question.unknown, *question.known))
-    own = np.arange(len(contacts))
-    squares = covariance.reshape(n, len(contacts), 6, len(contacts), 6)
+    wrong = wrong.reshape(n, len(contacts), 6, wrong.shape[2])
     return UncertainEstimates(
         contacts=contacts,
         contact_wrenches=wrenches.reshape(n, len(contacts), 6),
-        contact_covariance=np.moveaxis(squares[:, own, :, own], 0, 1),
+        contact_covariance=wrong @ wrong.swapaxes(2, 3),
         joints=question.torques,
         torques=torques,
-        torque_covariance=torque_covariance,
+        torque_covariance=torques_wrong @ torques_wrong.swapaxes(1, 2),
+        torque_lasting=torques_wrong[:, :, scene.lasting],
         parts=tuple(part.name for part in parts),
         residual=posterior.residual.reshape(n, len(parts), 6),
         rank=posterior.rank,
@@ -144,6 +176,7 @@ def _checked(question: Question, uncertainty: Uncertainty, n: int) -> Uncertaint
     for what, given, names in (
         ("measured", uncertainty.measured, question.measured),
         ("known", uncertainty.known, known),
+        ("lasting", uncertainty.lasting, (*question.measured, *known)),
         ("tangents", uncertainty.tangents, known),
     ):
         for name in given:
@@ -157,16 +190,27 @@ def _checked(question: Question, uncertainty: Uncertainty, n: int) -> Uncertaint
     return Uncertainty(
         measured={k: wrench_covariances(v, name=k, samples=n) for k, v in uncertainty.measured.items()},
         known={k: wrench_covariances(v, name=k, samples=n) for k, v in uncertainty.known.items()},
+        lasting={k: _lasting(v, name=k, samples=n) for k, v in uncertainty.lasting.items()},
         tangents=dict(uncertainty.tangents),
     )
 
 
+def _lasting(values: FloatArray, *, name: str, samples: int) -> FloatArray:
+    """Columns of lasting errors, for each sample."""
+    given = np.asarray(values, dtype=np.float64)
+    if given.ndim == 2:
+        given = np.broadcast_to(given, (samples, *given.shape))
+    require_shape(given, name=f"lasting errors of {name!r}", shape=(samples, 6, None))
+    return given
+
+
 def _cut(uncertainty: Uncertainty, block: slice) -> Uncertainty:
     tangents = {name: one.of_samples(block) for name, one in uncertainty.tangents.items()}
-    measured, known = (
-        {name: values[block] for name, values in given.items()} for given in (uncertainty.measured, uncertainty.known)
+    measured, known, lasting = (
+        {name: values[block] for name, values in given.items()}
+        for given in (uncertainty.measured, uncertainty.known, uncertainty.lasting)
     )
-    return Uncertainty(measured=measured, known=known, tangents=tangents)
+    return Uncertainty(measured=measured, known=known, lasting=lasting, tangents=tangents)
 
 
 def _blocks(n: int) -> Iterator[slice]:

@@ -17,6 +17,7 @@ BY_SAMPLE: Final = (
     "contact_covariance",
     "torques",
     "torque_covariance",
+    "torque_lasting",
     "residual",
     "rank",
     "condition",
@@ -41,6 +42,9 @@ class UncertainEstimates:
     """What the motor does along +q; shape (n, joints); N m, N where prismatic."""
     torque_covariance: FloatArray
     """Covariance of their errors; shape (n, joints, joints)."""
+    torque_lasting: FloatArray
+    """What one standard deviation of each of p errors that last leaves them wrong by; part of that covariance; shape
+    (n, joints, p)."""
     parts: tuple[str, ...]
     """Sub-models whose equations were solved, by the sensor at their base or the root link."""
     residual: FloatArray

@@ -48,17 +48,16 @@ class Posterior:
             rows: The answers; shape (n, r).
 
         Returns:
-            Means, shape (n, r), and covariances, shape (n, r, r); NaN where they depend on what cannot be told.
+            Means, shape (n, r), and what one standard deviation of each error leaves them wrong by, shape (n, r, m),
+            whose product with its transpose is their covariance; NaN where they depend on what cannot be told.
         """
-        by_errors = rows.errors + rows.free @ self.by_errors
         mean = rows.constant + _times(rows.free, self.unknowns) + _times(rows.errors, self.errors)
-        covariance = by_errors @ self.left @ by_errors.transpose(0, 2, 1)
+        wrong = (rows.errors + rows.free @ self.by_errors) @ self.left
         size = np.linalg.norm(rows.free, axis=2)
         open_rows = np.linalg.norm(rows.free @ self.hidden, axis=2) > _SEEN * np.maximum(
             size, np.finfo(np.float64).tiny
         )
-        either = open_rows[:, :, None] | open_rows[:, None, :]
-        return np.where(open_rows, np.nan, mean), np.where(either, np.nan, covariance)
+        return np.where(open_rows, np.nan, mean), np.where(open_rows[:, :, None], np.nan, wrong)
 
 
 def posterior_of(equations: Affine) -> Posterior:

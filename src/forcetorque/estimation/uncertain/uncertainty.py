@@ -57,6 +57,9 @@ class Uncertainty:
     """Covariance of readings, by sensor; shape (6, 6) or (n, 6, 6); N², N² m, N² m²."""
     known: Mapping[str, FloatArray] = field(default_factory=dict)
     """Covariance of known wrenches, by contact; shape (6, 6) or (n, 6, 6)."""
+    lasting: Mapping[str, FloatArray] = field(default_factory=dict)
+    """What one standard deviation of each of p further errors adds, by sensor or known contact: errors that stay the
+    same from sample to sample, as an offset does; shape (6, p) or (n, 6, p); N, N m."""
     tangents: Mapping[str, Tangents] = field(default_factory=dict)
     """Tangential forces, by known contact; without it there is none."""
 

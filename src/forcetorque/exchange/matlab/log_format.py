@@ -14,7 +14,7 @@ from forcetorque.exchange.log_format import LogContext, LogDescription, LogReadi
 from forcetorque.exchange.matlab.log_table import MatlabLog, MatlabSignal, MatlabStream
 from forcetorque.exchange.matlab.row_times import rows_of_another
 from forcetorque.exchange.matlab.variables import MAGIC, is_matlab_file, read_variables
-from forcetorque.recording import QUANTITIES, Finding, Labels, Signal, Stream
+from forcetorque.recording import QUANTITIES, Finding, Labels, Signal, Stream, orientation_signals
 from forcetorque.spatial import si_factor
 
 _SECONDS = {"s": 1.0, "ms": 1e-3, "us": 1e-6, "ns": 1e-9}
@@ -65,18 +65,42 @@ def _stream(
         raise FormatError(f"{path}: no variable {entry.variable!r}; {known_names(entry.variable, variables)}")
     values = variables[entry.variable]
     place = f"{path}: {entry.variable}"
-    signals = {signal.quantity: _signal(place, signal, values) for signal in entry.signal}
-    if len(signals) != len(entry.signal):
-        raise FormatError(f"{place}: expected every quantity once, got one of them twice")
+    signals, doubts = _signals(place, entry, values)
     if entry.time is not None:
         stamps = _stamps(place, _column(place, values, entry.time.column), entry.time.unit)
         counter = None if entry.sequence is None else _whole(place, _column(place, values, entry.sequence))
         stream = Stream(name=entry.name, clock=entry.clock, stamp_ns=stamps, signals=signals, sequence=counter)
-        return stream, ()
+        return stream, doubts
     other = earlier.get(entry.rows_of or "")
     if other is None:
         raise FormatError(f"{place}: rows_of: no earlier stream {entry.rows_of!r}; {known_names('', earlier)}")
-    return rows_of_another(entry.name, signals, other, shift_rows=entry.shift_rows)
+    stream, cropped = rows_of_another(entry.name, signals, other, shift_rows=entry.shift_rows)
+    return stream, (*doubts, *cropped)
+
+
+def _signals(place: str, entry: MatlabStream, values: FloatArray) -> tuple[dict[str, Signal], tuple[Finding, ...]]:
+    stated = [signal.quantity for signal in entry.signal]
+    if len(set(stated)) != len(stated):
+        raise FormatError(f"{place}: expected every quantity once, got one of them twice")
+    if {"orientation", "gravity"} <= set(stated):
+        raise FormatError(f"{place}: expected orientation or gravity, which follows from it, got both; state one")
+    signals: dict[str, Signal] = {}
+    doubts: tuple[Finding, ...] = ()
+    for signal in entry.signal:
+        if signal.orientation is None or signal.frame is None:
+            signals[signal.quantity] = _signal(place, signal, values)
+            continue
+        _column(place, values, signal.columns[1])
+        oriented, doubts = orientation_signals(
+            values[:, signal.columns[0] - 1 : signal.columns[1]],
+            signal.orientation.layout(),
+            unit=signal.unit,
+            frame=signal.frame,
+            stream=entry.name,
+            place=lambda row: f"{place}: row {row + 1}",
+        )
+        signals |= oriented
+    return signals, doubts
 
 
 def _signal(place: str, stated: MatlabSignal, values: FloatArray) -> Signal:

@@ -10,6 +10,7 @@ from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
 from forcetorque.exchange.log_format import LogTable
+from forcetorque.exchange.signal_table import StatedSignal
 from forcetorque.toml_table import Table, Text
 
 ColumnNumber = Annotated[int, Field(ge=1, strict=True)]
@@ -24,17 +25,13 @@ class TimeTable(Table):
     """Unit of the times, since the epoch of the clock."""
 
 
-class MatlabSignal(Table):
+class MatlabSignal(StatedSignal):
     """Columns of a variable that make up one quantity."""
 
-    quantity: Text
-    """Name of the quantity; `forcetorque schema recording` lists them."""
     columns: tuple[ColumnNumber, ColumnNumber]
     """First and last column, from 1 as in MATLAB."""
     unit: Text
     """Unit of the numbers, such as counts or bar."""
-    frame: Text | None = None
-    """Frame along whose axes the values are given."""
 
     @model_validator(mode="after")
     def _in_order(self) -> MatlabSignal:

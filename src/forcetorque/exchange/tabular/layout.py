@@ -6,6 +6,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from forcetorque.errors import FormatError, known_names
+from forcetorque.recording import OrientationLayout
 
 NANOSECOND_DIGITS = {"s": 9, "ms": 6, "us": 3, "ns": 0}
 """Decimal digits from a unit of time to nanoseconds."""
@@ -39,12 +40,16 @@ class TableSignal:
     """Names of the columns in the stream, such as joints; None for those that the quantity has."""
     frame: str | None = None
     """Frame along whose axes the values are given."""
+    orientation: OrientationLayout | None = None
+    """Of an orientation how it is written."""
 
     def __post_init__(self) -> None:
         if len(self.units) != len(self.columns):
             raise FormatError(
                 f"{self.quantity}: expected one unit for each of {len(self.columns)} columns, got {len(self.units)}"
             )
+        if (self.quantity == "orientation") != (self.orientation is not None):
+            raise FormatError(f"{self.quantity}: expected a layout for an orientation, and for nothing else")
         if self.names is not None and len(self.names) != len(self.columns):
             raise FormatError(
                 f"{self.quantity}: expected one name for each of {len(self.columns)} columns, got {len(self.names)}"
@@ -70,3 +75,5 @@ class TableLayout:
         quantities = [signal.quantity for signal in self.signals]
         if not quantities or len(set(quantities)) != len(quantities):
             raise FormatError(f"signals: expected at least one and each quantity once, got {quantities}")
+        if {"orientation", "gravity"} <= set(quantities):
+            raise FormatError("signals: expected orientation or gravity, which follows from it, got both; state one")

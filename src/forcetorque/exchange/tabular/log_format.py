@@ -10,9 +10,9 @@ from pydantic import Field
 
 from forcetorque.errors import FormatError
 from forcetorque.exchange.log_format import LogContext, LogDescription, LogReading, LogTable
+from forcetorque.exchange.signal_table import StatedSignal
 from forcetorque.exchange.tabular.layout import StampColumn, TableLayout, TableSignal
 from forcetorque.exchange.tabular.table import read_table
-from forcetorque.recording import Stream
 from forcetorque.toml_table import Table, Text
 
 
@@ -25,19 +25,15 @@ class StampTable(Table):
     """Unit of the times, since the epoch of the clock."""
 
 
-class SignalTable(Table):
+class SignalTable(StatedSignal):
     """Columns of a table that make up one quantity."""
 
-    quantity: Text
-    """Name of the quantity; `forcetorque schema recording` lists them."""
     columns: Annotated[tuple[Text, ...], Field(min_length=1)]
     """Columns of the table, in the order of the quantity."""
     units: Annotated[tuple[Text, ...], Field(min_length=1)]
     """Unit of each column."""
     names: tuple[Text, ...] | None = None
     """Names in the recording, such as joints of the URDF; those of the quantity if left out."""
-    frame: Text | None = None
-    """Frame along whose axes the values are given."""
 
 
 class TabularStream(Table):
@@ -90,10 +86,14 @@ class TabularFormat:
     def read(self, stated: TabularLog, context: LogContext) -> LogReading:
         """Read every file that is stated."""
         context.folder(stated.path)
-        return LogReading(streams=tuple(_read_stream(k, stated, context) for k in range(len(stated.stream))))
+        readings = [_read_stream(k, stated, context) for k in range(len(stated.stream))]
+        return LogReading(
+            streams=tuple(stream for reading in readings for stream in reading.streams),
+            findings=tuple(finding for reading in readings for finding in reading.findings),
+        )
 
 
-def _read_stream(k: int, stated: TabularLog, context: LogContext) -> Stream:
+def _read_stream(k: int, stated: TabularLog, context: LogContext) -> LogReading:
     entry = stated.stream[k]
     path = context.file(stated.path / entry.file)
     stamp = None if entry.stamp == "row" else StampColumn(column=entry.stamp.column, unit=entry.stamp.unit)
@@ -102,9 +102,17 @@ def _read_stream(k: int, stated: TabularLog, context: LogContext) -> Stream:
             delimiter=entry.delimiter,
             column_names=entry.column_names,
             stamp=stamp,
-            signals=tuple(
-                TableSignal(quantity=s.quantity, columns=s.columns, units=s.units, names=s.names, frame=s.frame)
-                for s in entry.signal
-            ),
+            signals=tuple(_declared(signal) for signal in entry.signal),
         )
         return read_table(path, layout, stream=entry.name, clock=entry.clock)
+
+
+def _declared(signal: SignalTable) -> TableSignal:
+    return TableSignal(
+        quantity=signal.quantity,
+        columns=signal.columns,
+        units=signal.units,
+        names=signal.names,
+        frame=signal.frame,
+        orientation=None if signal.orientation is None else signal.orientation.layout(),
+    )

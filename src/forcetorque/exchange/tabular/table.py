@@ -15,8 +15,17 @@ from forcetorque.arrays import FloatArray, IntArray
 from forcetorque.arrow_numbers import arrow_numbers
 from forcetorque.errors import FormatError, MissingFileError, UnitError, known_names
 from forcetorque.exchange.arrow_text import arrow_text
+from forcetorque.exchange.log_format import LogReading
 from forcetorque.exchange.tabular.layout import NANOSECOND_DIGITS, StampColumn, TableLayout, TableSignal
-from forcetorque.recording import QUANTITIES, Labels, Signal, Stream
+from forcetorque.recording import (
+    QUANTITIES,
+    Finding,
+    Labels,
+    OrientationLayout,
+    Signal,
+    Stream,
+    orientation_signals,
+)
 from forcetorque.spatial import si_factor
 
 ROW_CLOCK = "row"
@@ -27,7 +36,7 @@ LARGEST_FILE = 4 << 30
 _ROW_NS = 1_000_000_000
 
 
-def read_table(path: Path | str, layout: TableLayout, *, stream: str, clock: str) -> Stream:
+def read_table(path: Path | str, layout: TableLayout, *, stream: str, clock: str) -> LogReading:
     """Read a table of numbers.
 
     Empty fields and `nan` are missing values; everything else in a column that is read must be a
@@ -40,7 +49,7 @@ def read_table(path: Path | str, layout: TableLayout, *, stream: str, clock: str
         clock: Name of the clock of its stamps; a table without times has the clock `row`.
 
     Returns:
-        The stream, in SI units.
+        The stream, in SI units, and what is doubtful in it.
 
     Raises:
         MissingFileError: If there is no such file.
@@ -68,13 +77,21 @@ def read_table(path: Path | str, layout: TableLayout, *, stream: str, clock: str
     except pa.ArrowException as error:
         placed = _placed(file, text, layout, names, first_line, str(error))
         raise placed from error
-    signals = {s.quantity: _signal(file, s, table, first_line) for s in layout.signals}
-    return Stream(
+    signals: dict[str, Signal] = {}
+    findings: tuple[Finding, ...] = ()
+    for declared in layout.signals:
+        if declared.orientation is None:
+            signals[declared.quantity] = _signal(file, declared, table, first_line)
+        else:
+            oriented, findings = _orientation(file, declared, declared.orientation, table, first_line, stream)
+            signals |= oriented
+    read = Stream(
         name=stream,
         clock=ROW_CLOCK if layout.stamp is None else clock,
         stamp_ns=_row_stamps(len(table)) if layout.stamp is None else _stamps(file, layout.stamp, table, first_line),
         signals=signals,
     )
+    return LogReading(streams=(read,), findings=findings)
 
 
 def _wanted(layout: TableLayout) -> list[str]:
@@ -158,6 +175,24 @@ def _signal(file: Path, declared: TableSignal, table: Any, first_line: int) -> S
         columns=quantity.columns if fixed else declared.names or declared.columns,
         units=tuple(unit for unit, _ in factors),
         frame=declared.frame,
+    )
+
+
+def _orientation(
+    file: Path, declared: TableSignal, layout: OrientationLayout, table: Any, first_line: int, stream: str
+) -> tuple[dict[str, Signal], tuple[Finding, ...]]:
+    if declared.frame is None or len(set(declared.units)) != 1:
+        raise FormatError(
+            f"{file}: orientation: expected a frame and one unit for all columns, got {declared.frame!r} and "
+            f"{', '.join(declared.units)}"
+        )
+    return orientation_signals(
+        np.column_stack([_floats(file, name, table, first_line) for name in declared.columns]),
+        layout,
+        unit=declared.units[0],
+        frame=declared.frame,
+        stream=stream,
+        place=lambda row: f"{file}:{first_line + row}",
     )
 
 

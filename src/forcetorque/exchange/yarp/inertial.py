@@ -13,7 +13,7 @@ from forcetorque.exchange.yarp.bottle import Bottle
 from forcetorque.exchange.yarp.plain_numbers import expect_numbers
 from forcetorque.exchange.yarp.port_log import read_port_log
 from forcetorque.exchange.yarp.reading import CLOCK, PortReading
-from forcetorque.recording import QUANTITIES, Signal, Stream
+from forcetorque.recording import Signal, Stream
 from forcetorque.spatial import si_factor
 
 _COMPONENTS = ("roll", "pitch", "yaw", "ax", "ay", "az", "gx", "gy", "gz", "mx", "my", "mz")
@@ -41,16 +41,7 @@ def read_inertial(port_dir: str | Path, *, stream: str, frame: str) -> PortReadi
     """
     log = read_port_log(port_dir, stream=stream, choose=_choose)
     logged = {"proper_acceleration": log.values[:, :3], "angular_velocity": log.values[:, 3:] * si_factor("deg/s")[1]}
-    signals = {
-        name: Signal(
-            quantity=name,
-            values=values,
-            columns=QUANTITIES[name].columns,
-            units=QUANTITIES[name].units,
-            frame=frame,
-        )
-        for name, values in logged.items()
-    }
+    signals = {name: Signal.of_fixed(name, values, frame=frame) for name, values in logged.items()}
     return PortReading(
         stream=Stream(name=stream, clock=CLOCK, stamp_ns=log.stamp_ns, signals=signals, sequence=log.sequence),
         findings=log.findings,

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Figures of results, as PNG."""
 
+from forcetorque.report.figures.bench import bench_figure
 from forcetorque.report.figures.compare import index_figure
 from forcetorque.report.figures.comparison import comparison_figure
 from forcetorque.report.figures.contacts import contact_figure
@@ -19,11 +20,13 @@ from forcetorque.report.figures.skin_layout import skin_layout_figure
 from forcetorque.report.figures.skin_wrench import skin_wrench_figure
 from forcetorque.report.figures.sphere import sphere_figure
 from forcetorque.report.figures.taxels import taxel_figure
+from forcetorque.report.figures.thermal import thermal_figure
 from forcetorque.report.figures.torques import torque_figure
 from forcetorque.report.figures.uses import use_figure
 from forcetorque.report.figures.wrench_space import space_figure
 
 __all__ = [
+    "bench_figure",
     "comparison_figure",
     "contact_figure",
     "difference_figure",
@@ -43,6 +46,7 @@ __all__ = [
     "space_figure",
     "sphere_figure",
     "taxel_figure",
+    "thermal_figure",
     "torque_figure",
     "use_figure",
 ]

@@ -8,7 +8,7 @@ from forcetorque.simulation.skin.objects import ClothStrip, FlatWeight, Palm, Sk
 from forcetorque.simulation.skin.recording import Loading, contact_recording
 from forcetorque.simulation.skin.response import NOISE_COUNTS, REFERENCE_PA, REST_COUNTS, SWING_COUNTS, TaxelResponses
 from forcetorque.simulation.skin.true_surface import SurfacePoints, TrueSurface
-from forcetorque.simulation.skin.warmth import HeatResponses, Warmth, warm_recording
+from forcetorque.simulation.skin.warmth import HeatResponses, MotorHeat, Warmth, warm_recording
 
 __all__ = [
     "GRID_M",
@@ -22,6 +22,7 @@ __all__ = [
     "FlatWeight",
     "HeatResponses",
     "Loading",
+    "MotorHeat",
     "Palm",
     "SkinBody",
     "SkinContact",

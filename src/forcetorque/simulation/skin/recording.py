@@ -5,15 +5,20 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from forcetorque.arrays import FloatArray
+from forcetorque.errors import ShapeError
 from forcetorque.recording import Recording, Signal, Stream
 from forcetorque.simulation.skin.contact import ContactTruth
 from forcetorque.simulation.skin.response import REST_COUNTS, TaxelResponses
 from forcetorque.simulation.trace import EPOCH_NS
 from forcetorque.skin import SkinLayout
+
+if TYPE_CHECKING:
+    from forcetorque.simulation.skin.warmth import MotorHeat
 
 RATE_HZ = 50.0
 """Messages per second; Hz."""
@@ -58,6 +63,7 @@ def contact_recording(
     rng: np.random.Generator,
     *,
     loading: Loading | None = None,
+    heat: MotorHeat | None = None,
 ) -> Recording:
     """Record the counts of a patch while objects are put on it and taken off.
 
@@ -67,20 +73,31 @@ def contact_recording(
         truths: What each object does when it rests.
         rng: Source of noise.
         loading: How they are put on; as by default if None.
+        heat: How motors warm the patch meanwhile, at each message; not at all if None.
 
     Returns:
-        The stream `counts`, a column for every number of a message; thermal pads stay at rest, dummies are 0.
+        The stream `counts`, a column for every number of a message; dummies are 0, and without heat thermal pads stay
+        at rest.
+
+    Raises:
+        ShapeError: If the heat is not that of every message.
     """
     seconds, shares = (loading or Loading()).shares(len(truths))
+    if heat is not None and len(heat.rise_K) != len(seconds):
+        raise ShapeError(
+            f"heat: rise_K: expected one for each of {len(seconds)} messages, got {len(heat.rise_K)}; "
+            "`Loading.shares` has their times"
+        )
     pressures = np.stack([truth.pressures for truth in truths])  # (k, n)
     counts = np.zeros((len(seconds), layout.columns))
-    counts[:, layout.thermal_pads] = REST_COUNTS
+    counts[:, layout.thermal_pads] = REST_COUNTS if heat is None else heat.pad_counts(rng)
     rests = shares == 1.0
     was_held = np.maximum.accumulate(rests, axis=0)
     for row in range(len(seconds)):
         peak = was_held[row] * (shares[row] > 0.0) @ pressures
         now = shares[row] @ pressures
-        counts[row, layout.taxels] = responses.counts(now, rng, frames=1, peak=np.maximum(peak, now))[0]
+        warm = 0.0 if heat is None else heat.responses.taxels * heat.rise_K[row]
+        counts[row, layout.taxels] = responses.counts(now, rng, frames=1, peak=np.maximum(peak, now), beside=warm)[0]
     return counts_recording(seconds, counts)
 
 

@@ -77,7 +77,13 @@ class TaxelResponses:
         return fall + self.hysteresis * 4.0 * left * (1.0 - left) * self.fall(peak)
 
     def counts(
-        self, pressure: FloatArray, rng: np.random.Generator, *, frames: int, peak: FloatArray | None = None
+        self,
+        pressure: FloatArray,
+        rng: np.random.Generator,
+        *,
+        frames: int,
+        peak: FloatArray | None = None,
+        beside: FloatArray | float = 0.0,
     ) -> IntArray:
         """Read the taxels, with noise and in whole counts of 8 bits.
 
@@ -86,10 +92,11 @@ class TaxelResponses:
             rng: Source of noise.
             frames: How often to read.
             peak: As in `fall`.
+            beside: Fall that is no pressure, such as by heat; shape (n,); counts.
 
         Returns:
             Readings; shape (frames, n); counts.
         """
-        level = self.rest - self.fall(pressure, peak)
+        level = self.rest - self.fall(pressure, peak) - beside
         noisy = level + self.noise * rng.standard_normal((frames, len(level)))
         return np.clip(np.rint(noisy), 0, 255).astype(np.int64)

@@ -58,6 +58,30 @@ class HeatResponses:
         )
 
 
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class MotorHeat:
+    """Heat from inside, evenly on all of a patch, which its pads feel as its taxels do."""
+
+    responses: HeatResponses
+    """How taxels and pads answer."""
+    rise_K: FloatArray
+    """Rise at each message; shape (k,)."""
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "rise_K", read_only(self.rise_K, name="rise_K", shape=(None,)))
+
+    def pad_counts(self, rng: np.random.Generator) -> FloatArray:
+        """Read the thermal pads.
+
+        Args:
+            rng: Source of noise.
+
+        Returns:
+            Readings; shape (k, t); counts.
+        """
+        return _read(self.responses.pad_rest - self.rise_K[:, None] * self.responses.pads, NOISE_COUNTS, rng)
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Warmth:
     """How a patch is heated while it is recorded."""

@@ -5,12 +5,15 @@ from forcetorque.skin.contact.clusters import NO_CONTACT, clusters
 from forcetorque.skin.contact.contacts import SkinContacts, find_contacts
 from forcetorque.skin.contact.following import PatchFollower
 from forcetorque.skin.contact.frame import PressureFrame
+from forcetorque.skin.contact.lives import ContactLife, ContactLives, followed_places
 from forcetorque.skin.contact.lobes import lobes
 from forcetorque.skin.contact.reading import PatchReader
 from forcetorque.skin.contact.release import Release
 
 __all__ = [
     "NO_CONTACT",
+    "ContactLife",
+    "ContactLives",
     "PatchFollower",
     "PatchReader",
     "PressureFrame",
@@ -18,5 +21,6 @@ __all__ = [
     "SkinContacts",
     "clusters",
     "find_contacts",
+    "followed_places",
     "lobes",
 ]

@@ -57,6 +57,8 @@ class SkinContacts:
     """Share of the normal force on taxels at the edge of the patch: beyond them pressure is not felt; shape (c,)."""
     beyond_range: BoolArray
     """Whether a taxel reads more than it was calibrated for; shape (c,)."""
+    identity: IntArray
+    """Number that each keeps from frame to frame (`ContactLives`); its place from 1 if nobody follows; shape (c,)."""
 
     def __len__(self) -> int:
         return len(self.wrench)
@@ -124,6 +126,7 @@ def find_contacts(patch: SkinPatch, frame: PressureFrame) -> SkinContacts:
         peak_Pa=groups.largest(frame.pressures[groups.taxels]),
         edge_share=push[:, 7] / divisor[:, 0],
         beyond_range=groups.largest(np.where(frame.beyond_range & frame.active, 1.0, 0.0)[groups.taxels]) > 0.0,
+        identity=np.arange(1, len(wrench) + 1),
     )
 
 

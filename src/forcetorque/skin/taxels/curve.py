@@ -88,7 +88,10 @@ def fit_curve(kind: CurveKind, fall: FloatArray, pressure: FloatArray, *, range_
     """
     levels, place, number = np.unique(fall, return_inverse=True, return_counts=True)
     if len(levels) < 6:
-        raise FitError(f"expected counts at 6 levels or more to fit a curve to, got {len(levels)}")
+        raise FitError(
+            f"expected counts at 6 levels or more to fit a curve to, got {len(levels)}: the taxel hardly moves, or too "
+            "little of the rise is left; let the interval hold all of it, at a pressure that is high and rises slowly"
+        )
     mean = np.bincount(place.ravel(), weights=pressure) / number
     weight = np.sqrt(number / number.sum())
     return TaxelCurve(

@@ -9,6 +9,7 @@ import numpy as np
 
 from forcetorque.arrays import BoolArray, FloatArray, read_only, require_shape
 from forcetorque.errors import SkinError
+from forcetorque.skin.messages import require_counts
 
 REST_SHARE = 0.03
 """Share of the highest pressure below which a patch rests."""
@@ -73,15 +74,11 @@ def pressure_cycle(counts: FloatArray, pressure: FloatArray) -> PressureCycle:
         The recording from rest.
 
     Raises:
-        SkinError: If a message is all zero, or the pressure never rises, only rises, or does not begin at rest.
+        SkinError: If a message is all zero or has gaps, or the pressure never rises, only rises, or does not begin at
+            rest.
     """
     require_shape(pressure, name="pressure", shape=(len(counts),))
-    empty = np.flatnonzero(~counts.any(axis=1))
-    if len(empty):
-        raise SkinError(
-            f"row {empty[0]}: expected counts, got a message of zeros ({len(empty)} such of {len(counts)}): the board "
-            "had no power or the message was lost; leave that time out of the interval"
-        )
+    require_counts(counts)
     smooth = _median_filtered(pressure)
     lowest, highest = float(smooth.min()), float(smooth.max())
     if highest - lowest < LEAST_RISE_PA:

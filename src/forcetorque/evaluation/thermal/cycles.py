@@ -1,0 +1,108 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A record of temperature cycles as means over windows that are short against it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from forcetorque.arrays import BoolArray, FloatArray, read_only
+from forcetorque.errors import FitError
+from forcetorque.evaluation.thermal.branches import TURN_SHARE, find_branches
+from forcetorque.noise import WINDOW_S, Timeline, means_over
+
+MEANS = 400.0
+"""Means of a record: offsets that wander within half of it are then among the shapes of noise that are tried."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Cycles:
+    """Means of temperature and signals over windows, in one or several power-ups."""
+
+    line: Timeline
+    """When they were taken, in windows, by power-up."""
+    window_s: float
+    """Length of a window; s."""
+    temperature_degC: FloatArray
+    """Shape (m,); degC."""
+    signals: FloatArray
+    """Shape (m, k)."""
+    heating: FloatArray
+    """1 while it is heated, -1 while it cools; shape (m,)."""
+    settled: BoolArray
+    """Whether it is on one of the branches, not near a turn; shape (m,)."""
+    cycles: float
+    """Cycles of heating and cooling, of all power-ups together."""
+
+    def __post_init__(self) -> None:
+        m = len(self.line)
+        for field, shape in (("temperature_degC", (m,)), ("signals", (m, None)), ("heating", (m,))):
+            object.__setattr__(self, field, read_only(getattr(self, field), name=field, shape=shape))
+
+    @property
+    def time_s(self) -> FloatArray:
+        """Instants; shape (m,); s."""
+        time: FloatArray = self.line.time_s * self.window_s
+        return time
+
+    def on_branches(self) -> Cycles:
+        """Leave out what is near a turn, where the reading changes its branch.
+
+        Returns:
+            The other means.
+        """
+        kept = self.settled
+        line = Timeline.of(self.line.time_s[kept], self.line.recording[kept], self.line.share[kept])
+        return replace(
+            self,
+            line=line,
+            temperature_degC=self.temperature_degC[kept],
+            signals=self.signals[kept],
+            heating=self.heating[kept],
+            settled=kept[kept],
+        )
+
+    @property
+    def range_degC(self) -> float:
+        """How far the temperature went; degC."""
+        return float(np.ptp(self.temperature_degC))
+
+
+def cycles_of(sessions: Sequence[tuple[Any, Any, Any]]) -> Cycles:
+    """Average a record.
+
+    Args:
+        sessions: Of each power-up instants, shape (n,), s, not falling; temperatures, shape (n,), degC; and signals,
+            shape (n, k); all finite.
+
+    Returns:
+        The means.
+
+    Raises:
+        FitError: If there are fewer than ten samples.
+    """
+    samples = sum(len(time) for time, _, _ in sessions)
+    recorded = sum(float(time[-1] - time[0]) for time, _, _ in sessions if len(time))
+    if samples < 10 or not recorded > 0.0:
+        raise FitError(f"expected a record of at least ten samples, got {samples} over {recorded:.3g} s")
+    window = max(WINDOW_S, recorded / MEANS)
+    parts = [means_over(time, np.column_stack([degrees, signals]), window) for time, degrees, signals in sessions]
+    means = np.concatenate([part[1] for part in parts])
+    counts = np.concatenate([part[2] for part in parts])
+    number = np.repeat(np.arange(len(parts)), [len(part[0]) for part in parts])
+    threshold = TURN_SHARE * float(np.ptp(means[:, 0]))
+    branches = [find_branches(part[1][:, 0], threshold) for part in parts]
+    return Cycles(
+        line=Timeline.of(
+            np.concatenate([part[0] for part in parts]) / window, number, share=counts / np.median(counts)
+        ),
+        window_s=window,
+        temperature_degC=means[:, 0],
+        signals=means[:, 1:],
+        heating=np.concatenate([branch.heating for branch in branches]),
+        settled=np.concatenate([branch.settled for branch in branches]),
+        cycles=sum(branch.cycles for branch in branches),
+    )

@@ -1,0 +1,73 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What an experiment file states of a signal whatever the format of its log: quantity, frame, form of orientations."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from pydantic import model_validator
+from pydantic_core import PydanticCustomError
+
+from forcetorque.array_field import ArrayField
+from forcetorque.arrays import FloatArray
+from forcetorque.constants import STANDARD_GRAVITY
+from forcetorque.errors import FormatError
+from forcetorque.recording import EulerAxes, OrientationForm, OrientationLayout, OrientationSense
+from forcetorque.toml_table import Positive, Table, Text
+
+
+class OrientationTable(Table):
+    """How a log writes the orientation of a frame; nothing of it is guessed."""
+
+    form: OrientationForm
+    """quat_xyzw, quat_wxyz, matrix_rows, matrix_columns or euler."""
+    sense: OrientationSense
+    """`sensor_to_world` where it turns vectors along the frame's axes to the world's, else `world_to_sensor`."""
+    axes: Text | None = None
+    """Of Euler angles the axes in the order of the columns, such as `zyx`."""
+    about: EulerAxes | None = None
+    """Of Euler angles `moving` (intrinsic) or `fixed` (extrinsic) axes."""
+    gravity_direction: Annotated[FloatArray, ArrayField((3,))] | None = None
+    """Direction in which things fall, along the world's axes; [0, 0, -1] if left out."""
+    gravity: Positive = STANDARD_GRAVITY
+    """Magnitude of gravity; m/s2."""
+
+    @model_validator(mode="after")
+    def _holds_together(self) -> OrientationTable:
+        try:
+            self.layout()
+        except FormatError as error:
+            raise PydanticCustomError("orientation_rules", "{message}", {"message": str(error)}) from error
+        return self
+
+    def layout(self) -> OrientationLayout:
+        """Give it to a reader.
+
+        Returns:
+            What the numbers mean.
+        """
+        down = {} if self.gravity_direction is None else {"gravity_direction": self.gravity_direction}
+        return OrientationLayout(
+            form=self.form, sense=self.sense, axes=self.axes, about=self.about, gravity=self.gravity, **down
+        )
+
+
+class StatedSignal(Table):
+    """Columns that make up one quantity."""
+
+    quantity: Text
+    """Name of the quantity; `forcetorque schema recording` lists them."""
+    frame: Text | None = None
+    """Frame along whose axes the values are given, or whose orientation it is."""
+    orientation: OrientationTable | None = None
+    """Of the quantity `orientation`, which needs it, how it is written; the stream then has `gravity` too."""
+
+    @model_validator(mode="after")
+    def _orientation_is_stated(self) -> StatedSignal:
+        if (self.quantity == "orientation") != (self.orientation is not None):
+            raise PydanticCustomError(
+                "orientation_rules", "orientation, with form and sense, is for the quantity orientation, which needs it"
+            )
+        if self.orientation is not None and self.frame is None:
+            raise PydanticCustomError("orientation_frame", "an orientation needs frame, the frame that it is of")
+        return self

@@ -1,0 +1,42 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Known loads: loads, biases and mounting of one sensor from readings under loads, in one estimation problem."""
+
+from forcetorque.loads.expected import Guess, instants, load_wrench
+from forcetorque.loads.load import Load
+from forcetorque.loads.open import spanned_directions
+from forcetorque.loads.problem import LoadProblem
+from forcetorque.loads.rows import LoadRows
+from forcetorque.loads.solution import (
+    BiasTest,
+    DisagreeingRow,
+    DriftChoice,
+    Hypothesis,
+    LoadEstimate,
+    LoadSolution,
+    OpenDirection,
+    SessionEstimate,
+    VariableEstimate,
+)
+from forcetorque.loads.solve import solve
+from forcetorque.loads.together import together
+
+__all__ = [
+    "DisagreeingRow",
+    "DriftChoice",
+    "Guess",
+    "Hypothesis",
+    "Load",
+    "LoadEstimate",
+    "LoadProblem",
+    "LoadRows",
+    "LoadSolution",
+    "BiasTest",
+    "OpenDirection",
+    "SessionEstimate",
+    "VariableEstimate",
+    "instants",
+    "load_wrench",
+    "solve",
+    "spanned_directions",
+    "together",
+]

@@ -1,0 +1,330 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the sensor is expected to read, and how that changes with every unknown."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from forcetorque.arrays import FloatArray
+from forcetorque.loads.load import Load
+from forcetorque.loads.problem import LoadProblem
+from forcetorque.loads.rows import LoadRows
+from forcetorque.loads.unknowns import Kind, Parameter, places, six_of
+from forcetorque.spatial import reading_sign, skew
+
+_SMALL = 1e-5
+"""rad: step of the differences that give derivatives by rotations; what is left is of the order of its square."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Guess:
+    """Values of all unknowns, about which the problem is linear enough."""
+
+    parameters: tuple[Parameter, ...]
+    """What they are."""
+    values: FloatArray
+    """Their values; those of the mount are small rotations after `mount`; shape (p,); SI units."""
+    mount: FloatArray
+    """Rotation of the mount, before its small rotations; shape (3, 3)."""
+    index: Mapping[tuple[Kind, int], list[int]]
+    """Places of the unknowns of each kind and owner."""
+
+    @classmethod
+    def zero(cls, parameters: tuple[Parameter, ...], mount: FloatArray | None = None) -> Guess:
+        """Guess that nothing hangs on the sensor.
+
+        Args:
+            parameters: The unknowns.
+            mount: Rotation of the mount; none if left out.
+
+        Returns:
+            The guess.
+        """
+        index: dict[tuple[Kind, int], list[int]] = {}
+        for place, one in enumerate(parameters):
+            index.setdefault((one.kind, one.owner), []).append(place)
+        turn = np.eye(3) if mount is None else mount
+        return cls(parameters=parameters, values=np.zeros(len(parameters)), mount=turn, index=index)
+
+    def of(self, kind: Kind, owner: int = 0) -> FloatArray:
+        """Give the values of a kind.
+
+        Args:
+            kind: The kind.
+            owner: Number of their load or session.
+
+        Returns:
+            Values; none where there are none.
+        """
+        return self.values[self.index.get((kind, owner), [])]
+
+    @cached_property
+    def rotation(self) -> FloatArray:
+        """Rotation of the mount, small rotations included; shape (3, 3)."""
+        small = self.of(Kind.MOUNT)
+        return rotation_by(small) @ self.mount if len(small) else self.mount
+
+    @property
+    def response(self) -> FloatArray:
+        """What the reading says of a load, `1 + E`; shape (6, 6)."""
+        rows = [self.of(Kind.MATRIX, row) for row in range(6)]
+        return np.eye(6) + np.array(rows) if len(rows[0]) else np.eye(6)
+
+    def moved(self, values: FloatArray) -> Guess:
+        """Take other values.
+
+        Args:
+            values: All of them; shape (p,).
+
+        Returns:
+            The guess; small rotations of the mount are taken into its rotation.
+        """
+        values = np.array(values)
+        moved = replace(self, values=values)
+        mount = moved.rotation
+        kept = values.copy()
+        kept[places(self.parameters, Kind.MOUNT)] = 0.0
+        return replace(self, values=kept, mount=mount)
+
+
+def rotation_by(vector: FloatArray) -> FloatArray:
+    """Rotate by a rotation vector (Rodrigues).
+
+    Args:
+        vector: Axis times angle; shape (3,); rad.
+
+    Returns:
+        The rotation; shape (3, 3).
+    """
+    angle = float(np.linalg.norm(vector))
+    hat = skew(vector)
+    if angle < 1e-12:
+        return np.eye(3) + hat
+    rotation: FloatArray = np.eye(3) + np.sin(angle) / angle * hat + (1.0 - np.cos(angle)) / angle**2 * hat @ hat
+    return rotation
+
+
+def load_columns(rows: LoadRows, rotation: FloatArray, tilt: FloatArray) -> FloatArray:
+    """Give what a unit of mass, first moment and inertia adds to the wrench that moves a load.
+
+    Args:
+        rows: How it moves.
+        rotation: `sensor_R_motion`; shape (3, 3).
+        tilt: Rotation vector of gravity about x and y of the world; shape (2,), or none; rad.
+
+    Returns:
+        About the sensor's origin, along its axes; shape (n, 6, 10).
+    """
+    acceleration = rows.proper_acceleration
+    if len(tilt) and rows.orientation is not None:
+        upwards = np.einsum("nij,nj->ni", rows.orientation, acceleration)
+        turned = upwards @ rotation_by(np.append(tilt, 0.0)).T
+        acceleration = np.einsum("nji,nj->ni", rows.orientation, turned)
+    acceleration = acceleration @ rotation.T
+    columns = np.zeros((len(rows), 6, 10))
+    columns[:, :3, 0] = acceleration
+    columns[:, 3:, 1:4] = -skew(acceleration)  # h x a
+    if rows.angular_velocity is None or rows.angular_acceleration is None:
+        return columns
+    velocity, turning = rows.angular_velocity @ rotation.T, rows.angular_acceleration @ rotation.T
+    hat = skew(velocity)
+    columns[:, :3, 1:4] = skew(turning) + hat @ hat
+    columns[:, 3:, 4:] = _second_columns(turning) + hat @ _second_columns(velocity)
+    return columns
+
+
+def _second_columns(vector: FloatArray) -> FloatArray:
+    """`I v` as columns of the six numbers of I; shape (n, 3, 6)."""
+    x, y, z = vector.T
+    none = np.zeros_like(x)
+    lines = [[x, none, none, y, z, none], [none, y, none, x, none, z], [none, none, z, none, x, y]]
+    return np.array(lines).transpose(2, 0, 1)
+
+
+def inertial(load: Load, number: int, guess: Guess) -> tuple[FloatArray, FloatArray]:
+    """Give mass, first moment and inertia of a load, and their change with the load's unknowns.
+
+    Args:
+        load: The load.
+        number: Its number.
+        guess: Values of the unknowns.
+
+    Returns:
+        Shape (10,), about the sensor's origin; and shape (10, q) for its q unknowns in their order.
+    """
+    mass = float(guess.of(Kind.MASS, number)[0]) if load.mass is None else load.mass
+    free_first = load.centre_of_mass is None and load.mass != 0.0
+    centre = np.zeros(3) if load.centre_of_mass is None else load.centre_of_mass
+    first = guess.of(Kind.FIRST_MOMENT, number) if free_first else mass * centre
+    stated = np.zeros((3, 3)) if load.inertia is None or isinstance(load.inertia, str) else load.inertia
+    reach = first / mass if free_first and mass else centre
+    if isinstance(load.inertia, str):
+        six = guess.of(Kind.INERTIA, number)
+    else:
+        six = six_of(stated - mass * skew(reach) @ skew(reach))
+    changes = []
+    if load.mass is None:
+        own = np.zeros(3) if free_first else centre
+        changes.append(np.concatenate([[1.0], own, six_of((1.0 if free_first else -1.0) * skew(reach) @ skew(reach))]))
+    if free_first:
+        for axis in np.eye(3):
+            second = 2.0 * (axis @ reach) * np.eye(3) - np.outer(axis, reach) - np.outer(reach, axis)
+            changes.append(np.concatenate([[0.0], axis, six_of(second)]))
+    if isinstance(load.inertia, str):
+        changes = [np.concatenate([change[:4], np.zeros(6)]) for change in changes]
+        changes += list(np.eye(10)[4:])
+    return np.concatenate([[mass], first, six]), np.array(changes).reshape(-1, 10).T
+
+
+def masses(problem: LoadProblem, guess: Guess) -> tuple[float, ...]:
+    """Give the masses of the loads, stated or not.
+
+    Args:
+        problem: The problem.
+        guess: Values of the unknowns.
+
+    Returns:
+        Masses in the order of the problem; kg; NaN of a load that no row has.
+    """
+    unknown = [guess.of(Kind.MASS, number) for number in range(len(problem.loads))]
+    pairs = zip(problem.loads, unknown, strict=True)
+    return tuple(float(own[0]) if len(own) else np.nan if load.mass is None else load.mass for load, own in pairs)
+
+
+def expected(problem: LoadProblem, guess: Guess) -> FloatArray:
+    """Give what the sensor is expected to read.
+
+    Args:
+        problem: The problem.
+        guess: Values of the unknowns.
+
+    Returns:
+        Readings; shape (n, 6); N, N m.
+    """
+    rows = problem.rows
+    wrench = load_wrench(problem, guess) @ guess.response.T
+    for number in range(len(problem.variables)):
+        wrench = wrench + np.outer(variable_about_mean(rows, number), guess.of(Kind.VARIABLE, number))
+    since = since_middle(rows)
+    for number in range(len(problem.sessions)):
+        mine, drift = rows.session == number, guess.of(Kind.DRIFT, number)
+        if mine.any():
+            wrench[mine] += guess.of(Kind.BIAS, number)
+            wrench[mine] += np.outer(since[mine], drift) if len(drift) else 0.0
+    return wrench
+
+
+def load_wrench(problem: LoadProblem, guess: Guess) -> FloatArray:
+    """Give the wrenches of the loads, as an exact sensor without bias reads them.
+
+    Args:
+        problem: The problem.
+        guess: Values of the unknowns.
+
+    Returns:
+        Wrenches; shape (n, 6); N, N m.
+    """
+    sign = reading_sign(problem.direction, child_is_outboard=True)
+    columns = load_columns(problem.rows, guess.rotation, guess.of(Kind.TILT))
+    wrench = np.zeros((len(problem.rows), 6))
+    for number, load in enumerate(problem.loads):
+        mine = problem.rows.load == number
+        if mine.any():
+            wrench[mine] = sign * columns[mine] @ inertial(load, number, guess)[0]
+    return wrench
+
+
+def changes(problem: LoadProblem, guess: Guess) -> FloatArray:
+    """Give the change of what is expected with every unknown.
+
+    Args:
+        problem: The problem.
+        guess: Values of the unknowns.
+
+    Returns:
+        Shape (n, 6, p).
+    """
+    rows, listed = problem.rows, guess.parameters
+    sign = reading_sign(problem.direction, child_is_outboard=True)
+    columns = sign * guess.response @ load_columns(rows, guess.rotation, guess.of(Kind.TILT))
+    design = np.zeros((len(rows), 6, len(listed)))
+    for number, load in enumerate(problem.loads):
+        mine = rows.load == number
+        places_of_load = [k for kind in _OF_LOAD for k in places(listed, kind, number)]
+        if places_of_load and mine.any():
+            design[np.ix_(mine, range(6), places_of_load)] = columns[mine] @ inertial(load, number, guess)[1]
+    for kind in (Kind.MOUNT, Kind.TILT):
+        for k in places(listed, kind):
+            design[:, :, k] = _difference(problem, guess, k)
+    since = since_middle(rows)
+    wrench = load_wrench(problem, guess) if places(listed, Kind.MATRIX) else None
+    for k, one in enumerate(listed):
+        mine = rows.session == one.owner
+        if one.kind is Kind.BIAS:
+            design[mine, one.component, k] = 1.0
+        elif one.kind is Kind.DRIFT:
+            design[mine, one.component, k] = since[mine]
+        elif one.kind is Kind.VARIABLE:
+            design[:, one.component, k] = variable_about_mean(rows, one.owner)
+        elif one.kind is Kind.MATRIX and wrench is not None:
+            design[:, one.owner, k] = wrench[:, one.component]
+    return design
+
+
+_OF_LOAD = (Kind.MASS, Kind.FIRST_MOMENT, Kind.INERTIA)
+
+
+def _difference(problem: LoadProblem, guess: Guess, place: int) -> FloatArray:
+    """Change by a small rotation, as a central difference; shape (n, 6)."""
+    step = np.zeros(len(guess.values))
+    step[place] = _SMALL
+    ahead, behind = (load_wrench(problem, replace(guess, values=guess.values + side * step)) for side in (1.0, -1.0))
+    change: FloatArray = (ahead - behind) / (2.0 * _SMALL) @ guess.response.T
+    return change
+
+
+def variable_about_mean(rows: LoadRows, number: int) -> FloatArray:
+    """Count a variable from its mean.
+
+    Args:
+        rows: The rows.
+        number: Number of the variable.
+
+    Returns:
+        Shape (n,).
+    """
+    values = np.zeros(len(rows)) if rows.variables is None else rows.variables[:, number]
+    about: FloatArray = values - values.mean()
+    return about
+
+
+def since_middle(rows: LoadRows) -> FloatArray:
+    """Count time from the mean instant of each session.
+
+    Args:
+        rows: The rows; without instants they are a second apart.
+
+    Returns:
+        Shape (n,); s.
+    """
+    time = instants(rows).copy()
+    for number in np.unique(rows.session):
+        mine = rows.session == number
+        time[mine] -= time[mine].mean()
+    return time
+
+
+def instants(rows: LoadRows) -> FloatArray:
+    """Give instants, or the order of rows that have none.
+
+    Args:
+        rows: The rows.
+
+    Returns:
+        Shape (n,); s, or numbers from 0.
+    """
+    return np.arange(float(len(rows))) if rows.time_s is None else rows.time_s

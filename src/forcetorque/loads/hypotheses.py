@@ -1,0 +1,262 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Other accounts of the same rows, by name: what would explain them better, and what is to be changed for it.
+
+Each is fitted by least squares, as the problem as stated is. They are compared by what they leave of the change of the
+readings, forces and moments alike, so that neither a unit nor columns in another order matter.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+import numpy as np
+
+from forcetorque.arrays import FloatArray
+from forcetorque.loads.expected import Guess, load_wrench, masses
+from forcetorque.loads.fit import Fit, plain_fit
+from forcetorque.loads.jump import strongest_jump
+from forcetorque.loads.mounting import first_mount, quarter_turns, turn_words
+from forcetorque.loads.problem import LoadProblem
+from forcetorque.loads.rows import LoadRows
+from forcetorque.loads.solution import Hypothesis
+from forcetorque.loads.unknowns import Kind
+from forcetorque.spatial import WRENCH_COMPONENTS, MeasureDirection
+
+_BETTER = 0.5
+"""A hypothesis is named if it leaves less than this part of what the problem as stated leaves."""
+_CLEARLY = 0.2
+"""One that is tried in twenty-three ways, or with a lag to choose, must leave less."""
+_FAR_M = 2.0
+"""Nobody hangs a load farther from a sensor; m."""
+_POSES = 0.5
+"""Gravity turns by less than this part of itself from row to row where a motion was recorded, not single poses."""
+_LESS_FOR_JUMP = 0.7
+"""A jump is named if it leaves less than this part: slow noise has small ones everywhere."""
+_ROUNDING = 1e-9
+"""Where less than this part of the change of the readings is left, it is rounding."""
+_EXPLAINED = 0.02
+"""Where less than this part of the change of the readings is left, nothing but jumps and lags is looked for."""
+_TURNED = 0.1
+"""Gravity turns if it is by this part of itself from its mean, on average."""
+_LAGS = np.concatenate([-np.arange(0.1, 2.05, 0.1), np.arange(0.1, 2.05, 0.1)])
+"""Lags that are tried; s."""
+
+
+def hypotheses(fitted: Fit, *, drift: bool) -> tuple[Hypothesis, ...]:
+    """Name what explains the rows better than the problem as stated.
+
+    Args:
+        fitted: The problem as stated.
+        drift: Whether biases move evenly in time.
+
+    Returns:
+        The best first.
+    """
+    problem = fitted.problem
+    guess, residual = plain_fit(problem, drift=drift)
+    stated = unexplained(problem.rows, residual)
+    named = [*_of_sizes(problem, guess), *_of_nothing(fitted), *_reversed(fitted)]
+    if stated > _EXPLAINED:
+        for name, words, limit, other in _others(problem):
+            share = unexplained(other.rows, plain_fit(other, drift=drift)[1]) / stated
+            if share < limit:
+                named.append(Hypothesis(name=name, words=words, residual_share=share))
+    named += [*_lag(problem, residual, drift=drift), *_jump(fitted, residual, drift=drift)]
+    return tuple(sorted(named, key=lambda one: one.residual_share))
+
+
+def unexplained(rows: LoadRows, residual: FloatArray) -> float:
+    """Say which part of the change of the readings is left, forces and moments alike.
+
+    Args:
+        rows: The rows.
+        residual: What is left; shape (n, 6); N, N m.
+
+    Returns:
+        Root mean square of both shares; 0 where nothing changes.
+    """
+    moved = rows.wrench.copy()
+    for session in np.unique(rows.session):
+        mine = rows.session == session
+        moved[mine] -= moved[mine].mean(axis=0)
+    shares = []
+    for axes in (slice(3), slice(3, 6)):
+        whole = float((moved[:, axes] ** 2).sum())
+        shares.append(float((residual[:, axes] ** 2).sum()) / whole if whole > 0.0 else 0.0)
+    return float(np.sqrt(np.mean(shares)))
+
+
+def _others(problem: LoadProblem) -> Iterator[tuple[str, str, float, LoadProblem]]:
+    rows = problem.rows
+    swapped = replace(problem, rows=replace(rows, wrench=rows.wrench[:, [3, 4, 5, 0, 1, 2]]))
+    yield "swapped columns", "the columns of force and torque are swapped: list force first", _BETTER, swapped
+    if rows.orientation is not None:
+        world = np.einsum("nij,nj->ni", rows.orientation, rows.proper_acceleration)
+        other = np.einsum("nij,nj->ni", rows.orientation, world)
+        turned = replace(
+            problem, rows=replace(rows, proper_acceleration=other, orientation=rows.orientation.transpose(0, 2, 1))
+        )
+        words = "the rotation is transposed: it is that of the world in the sensor's axes; state the other sense"
+        yield "transposed rotation", words, _BETTER, turned
+        along = np.concatenate(
+            [np.einsum("nji,nj->ni", rows.orientation, rows.wrench[:, axes]) for axes in (slice(3), slice(3, 6))],
+            axis=1,
+        )
+        words = "the wrench is along the axes of the world, not of the sensor: turn it, or state the other frame"
+        yield "wrench in world axes", words, _BETTER, replace(problem, rows=replace(rows, wrench=along))
+    if not problem.mount:
+        turn = min(quarter_turns()[1:], key=lambda turn: float(((turn - first_mount(problem)) ** 2).sum()))
+        words = f"the sensor is turned against the axes of the motion: {turn_words(turn)}; state the frames so"
+        acceleration = rows.proper_acceleration @ turn.T
+        yield "turned axes", words, _CLEARLY, replace(problem, rows=_turned(rows, turn, acceleration))
+
+
+def _turned(rows: LoadRows, turn: FloatArray, acceleration: FloatArray) -> LoadRows:
+    others = {
+        field: getattr(rows, field) @ turn.T
+        for field in ("angular_velocity", "angular_acceleration")
+        if getattr(rows, field) is not None
+    }
+    return replace(rows, proper_acceleration=acceleration, orientation=None, **others)
+
+
+def _reversed(fitted: Fit) -> Iterator[Hypothesis]:
+    """A mass below zero, or a stated one that the readings contradict in sign."""
+    problem = fitted.problem
+    other = {
+        MeasureDirection.CHILD_TO_PARENT: MeasureDirection.PARENT_TO_CHILD,
+        MeasureDirection.PARENT_TO_CHILD: MeasureDirection.CHILD_TO_PARENT,
+    }[problem.direction]
+    words = (
+        f"gravity or the sense of the reading is reversed: state measure_direction = {other.value!r}, or turn gravity"
+    )
+    half = fitted.half_width
+    for k, one in enumerate(fitted.guess.parameters):
+        if one.kind is Kind.MASS and fitted.guess.values[k] + half[k] < 0.0:
+            yield Hypothesis(name="reversed direction", words=words, residual_share=1.0)
+            return
+    if all(load.mass is not None for load in problem.loads):
+        rows, sign = problem.rows, replace(problem, direction=other)
+        stated, turned = (unexplained(rows, plain_fit(one, drift=False)[1]) for one in (problem, sign))
+        if turned < _BETTER * stated:
+            yield Hypothesis(name="reversed direction", words=words, residual_share=turned / stated)
+
+
+def _of_sizes(problem: LoadProblem, guess: Guess) -> Iterator[Hypothesis]:
+    """Numbers of a size that no load has."""
+    rows = problem.rows
+    gravity = float(np.median(np.linalg.norm(rows.proper_acceleration, axis=1)))
+    if rows.angular_velocity is None and not 9.0 < gravity < 10.6:
+        words = f"gravity is {gravity:.4g} m/s2: its unit is another one, such as g; state the unit of the column"
+        yield Hypothesis(name="unit of gravity", words=words, residual_share=1.0)
+    for number, (load, mass) in enumerate(zip(problem.loads, masses(problem, guess), strict=True)):
+        first = guess.of(Kind.FIRST_MOMENT, number)
+        if len(first) and abs(mass) > 0.0 and np.linalg.norm(first) > _FAR_M * abs(mass):
+            far = float(np.linalg.norm(first) / abs(mass))
+            words = (
+                f"the centre of mass of {load.name!r} is {far:.3g} m away: moments may be in N mm, or forces in kg; "
+                "state the units of the columns"
+            )
+            yield Hypothesis(name="mixed units", words=words, residual_share=1.0)
+    yield from _scale(problem)
+    still = ~(rows.wrench != rows.wrench[:1]).any()
+    if len(rows) > 1 and still:
+        words = f"all {len(rows)} rows have the same reading: the log is frozen, or nothing was read"
+        yield Hypothesis(name="frozen log", words=words, residual_share=1.0)
+
+
+_UNITS = {
+    1.0 / 9.80665: "forces are in kg: multiply by 9.80665 m/s2",
+    1e3: "forces are in mN",
+    1e-3: "forces are in kN",
+    4.44822**-1: "forces are in lbf",
+}
+"""What readings are over what they should be, where their unit is another one."""
+
+
+def _of_nothing(fitted: Fit) -> Iterator[Hypothesis]:
+    """Loads that weigh nothing, by what is stated or by the readings."""
+    problem, half = fitted.problem, fitted.half_width
+    if all(load.mass == 0.0 for load in problem.loads):
+        words = "all masses are stated as 0: state those of the weights, or leave them out to estimate them"
+        yield Hypothesis(name="no load", words=words, residual_share=1.0)
+    gravity = problem.rows.proper_acceleration
+    moved = np.linalg.norm(gravity - gravity.mean(axis=0), axis=1).mean()
+    turns = bool(moved > _TURNED * np.linalg.norm(gravity, axis=1).max())
+    for k, one in enumerate(fitted.guess.parameters):
+        if one.kind is Kind.MASS and turns and abs(fitted.guess.values[k]) <= half[k] < np.inf:
+            words = f"the mass of {problem.loads[one.owner].name!r} is not told from 0 although gravity turns"
+            said = f"{words}: nothing hangs on the sensor, or it was not read"
+            yield Hypothesis(name="no load", words=said, residual_share=1.0)
+
+
+def _scale(problem: LoadProblem) -> Iterator[Hypothesis]:
+    """Readings that are a multiple of the weight of stated masses, by a known unit."""
+    if not problem.loads or any(load.mass is None for load in problem.loads):
+        return
+    rows = problem.rows
+    weight = load_wrench(problem, plain_fit(problem, drift=False)[0])[:, :3].copy()
+    force = rows.wrench[:, :3].copy()
+    for session in np.unique(rows.session):
+        mine = rows.session == session
+        weight[mine] -= weight[mine].mean(axis=0)
+        force[mine] -= force[mine].mean(axis=0)
+    square = float((weight**2).sum())
+    scale = float((weight * force).sum()) / square if square > 0.0 else 1.0
+    for unit, words in _UNITS.items():
+        if abs(scale / unit - 1.0) < 0.02:
+            said = (
+                f"readings are {scale:.4g} of the weight of the stated masses: {words}; state the units of the columns"
+            )
+            yield Hypothesis(name="mixed units", words=said, residual_share=1.0)
+
+
+def _lag(problem: LoadProblem, residual: FloatArray, *, drift: bool) -> Iterator[Hypothesis]:
+    """A reading that is behind the motion, or before it, by a filter or another clock."""
+    rows = problem.rows
+    if rows.time_s is None or len(rows) < 3 or not (np.diff(rows.time_s) > 0.0).all():
+        return
+    turned = np.linalg.norm(np.diff(rows.proper_acceleration, axis=0), axis=1)
+    if not 0.0 < float(turned.max()) < _POSES * float(np.linalg.norm(rows.proper_acceleration, axis=1).max()):
+        return  # poses one after the other say nothing of what was in between
+    stated = unexplained(rows, residual)
+    shares = []
+    for lag in _LAGS:
+        then = np.column_stack(
+            [np.interp(rows.time_s - lag, rows.time_s, column) for column in rows.proper_acceleration.T]
+        )
+        late = replace(problem, rows=replace(rows, proper_acceleration=then, orientation=None), tilt=False)
+        shares.append(unexplained(rows, plain_fit(late, drift=drift)[1]) / stated if stated > 0.0 else 1.0)
+    best = int(np.argmin(shares))
+    if shares[best] < _BETTER:
+        side = "behind" if _LAGS[best] > 0.0 else "ahead of"
+        words = (
+            f"the reading is about {abs(_LAGS[best]):.1f} s {side} the motion, as a filter or another clock makes it: "
+            "shift the clock of the stream, or use rows in which nothing moves"
+        )
+        yield Hypothesis(name="lag", words=words, residual_share=float(shares[best]))
+
+
+def _jump(fitted: Fit, residual: FloatArray, *, drift: bool) -> Iterator[Hypothesis]:
+    problem, rows = fitted.problem, fitted.problem.rows
+    stated = unexplained(rows, residual)
+    jump = strongest_jump(fitted) if stated > _ROUNDING else None
+    if jump is None:
+        return
+    session = np.where(
+        (rows.session == rows.session[jump.row]) & (np.arange(len(rows)) >= jump.row),
+        len(problem.sessions),
+        rows.session,
+    )
+    name = problem.sessions[int(rows.session[jump.row])]
+    cut = replace(problem, rows=replace(rows, session=session), sessions=(*problem.sessions, f"{name}, after the jump"))
+    guess, left = plain_fit(cut, drift=drift)
+    mass = ", ".join(f"{value:.4g}" for value in masses(cut, guess))
+    words = (
+        f"the bias jumps in {WRENCH_COMPONENTS[jump.axis]} before {rows.names[jump.row]!r}, as of a sensor that was "
+        f"zeroed or switched off: give what follows a session of its own (the mass is {mass} kg then)"
+    )
+    share = unexplained(rows, left) / stated
+    if share < _LESS_FOR_JUMP:
+        yield Hypothesis(name="jump", words=words, residual_share=share)

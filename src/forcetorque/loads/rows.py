@@ -1,0 +1,109 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Rows of a problem of known loads: what was read, how the load moved, which load it was, and in which power-up."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from forcetorque.arrays import FloatArray, IntArray, read_only, read_only_integers
+from forcetorque.errors import FitError, ShapeError
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class LoadRows:
+    """n readings of one sensor, means or still poses, in the order in which they were taken."""
+
+    wrench: FloatArray
+    """Readings as wrenches in the sensor's frame and direction; shape (n, 6); N, N m."""
+    proper_acceleration: FloatArray
+    """Of the sensor's origin along its axes, `-g` where it is still; shape (n, 3); m/s2."""
+    angular_velocity: FloatArray | None = None
+    """Along the sensor's axes; shape (n, 3); rad/s; None where it stands still or turns slowly."""
+    angular_acceleration: FloatArray | None = None
+    """Along the sensor's axes; shape (n, 3); rad/s2; given if the angular velocity is."""
+    time_s: FloatArray | None = None
+    """Instants, not falling within a session; shape (n,); s; None for poses without instants, whose noise is taken for
+    independent: their order counts for drift only."""
+    session: IntArray
+    """Number of the power-up of each row; shape (n,)."""
+    block: IntArray
+    """Number of the interval or series of each row, within which the bias is surely one; shape (n,)."""
+    load: IntArray
+    """Number of the load on the sensor; shape (n,)."""
+    share: FloatArray
+    """Samples in each row over the usual number; shape (n,)."""
+    variables: FloatArray | None = None
+    """Temperatures, or whatever else moves the bias linearly; shape (n, v)."""
+    orientation: FloatArray | None = None
+    """`world_R_sensor`, z of the world up; shape (n, 3, 3); None where only gravity was logged."""
+    names: tuple[str, ...]
+    """Where each row is from, such as `poses 17`; n words."""
+
+    def __post_init__(self) -> None:
+        wrench = read_only(self.wrench, name="wrench", shape=(None, 6))
+        n = len(wrench)
+        object.__setattr__(self, "wrench", wrench)
+        shapes: dict[str, tuple[int | None, ...]] = {
+            "proper_acceleration": (n, 3),
+            "angular_velocity": (n, 3),
+            "angular_acceleration": (n, 3),
+            "time_s": (n,),
+            "share": (n,),
+            "variables": (n, None),
+            "orientation": (n, 3, 3),
+        }
+        for field, shape in shapes.items():
+            if getattr(self, field) is not None:
+                object.__setattr__(self, field, read_only(getattr(self, field), name=field, shape=shape))
+        for field in ("session", "block", "load"):
+            object.__setattr__(self, field, read_only_integers(getattr(self, field), name=field, shape=(n,)))
+        if len(self.names) != n:
+            raise ShapeError(f"names: expected {n}, one for each row, got {len(self.names)}")
+        if (self.angular_velocity is None) != (self.angular_acceleration is None):
+            raise FitError("angular_velocity and angular_acceleration: expected both or neither")
+        self._require_finite()
+
+    def __len__(self) -> int:
+        return len(self.wrench)
+
+    def _require_finite(self) -> None:
+        for field in ("wrench", "proper_acceleration", "angular_velocity", "angular_acceleration", "variables"):
+            values = getattr(self, field)
+            if values is None:
+                continue
+            lacking = ~np.isfinite(values).all(axis=1)
+            if lacking.any():
+                first = int(np.flatnonzero(lacking)[0])
+                raise FitError(
+                    f"{field}: row {self.names[first]!r} has a value that is no finite number ({int(lacking.sum())} "
+                    "such rows); leave these rows out, or mend the log"
+                )
+
+    @classmethod
+    def of_poses(
+        cls, wrench: Any, proper_acceleration: Any, *, session: Sequence[int] | None = None, **others: Any
+    ) -> LoadRows:
+        """Take still poses, or any rows that are counted alike.
+
+        Args:
+            wrench: As of the class.
+            proper_acceleration: As of the class.
+            session: As of the class; one for all if left out.
+            others: As of the class; blocks are the sessions, the load is the first, rows are numbered from 1.
+
+        Returns:
+            The rows.
+        """
+        n = len(np.asarray(wrench))
+        number = np.zeros(n, dtype=np.int64) if session is None else np.asarray(session)
+        default: dict[str, Any] = {
+            "block": number,
+            "load": np.zeros(n, dtype=np.int64),
+            "share": np.ones(n),
+            "names": tuple(f"row {k}" for k in range(1, n + 1)),
+        }
+        return cls(wrench=wrench, proper_acceleration=proper_acceleration, session=number, **(default | others))

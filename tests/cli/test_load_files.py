@@ -1,0 +1,106 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""`payload` and `tare` write what robots load, say what its program does with it, and refuse what it cannot hold."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+from forcetorque.exchange.load import read_ft_tools, read_mc_rtc
+from forcetorque.exchange.load_format import LoadFormat
+from tests.cli.outcome import Run
+from tests.wrist_postures import BIAS, CENTRE, MASS, SLOW, write_postures
+
+POSTURES = Rotation.random(8, random_state=4)
+POSE = ("0.0", "0.0", "0.05", "0.0", "0.0", "0.0")
+ENOUGH = 5.0
+"""Standard deviations of a slow offset over 60 s or more."""
+
+
+@pytest.fixture(scope="module")
+def weighed(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """An experiment with an unknown load in eight postures."""
+    return write_postures(tmp_path_factory.mktemp("weighed"), seed=5, postures=POSTURES, known=False)
+
+
+def test_payload_writes_what_a_robot_loads(weighed: Path, run: Run) -> None:
+    """The file has the load that the table shows; the program's way with it is a message."""
+    file = weighed.parent / "parameters.yaml"
+    outcome = run("payload", weighed, "--to", "ft-tools", "-o", file, "--format", "json")
+    result = outcome.result()
+    load = read_ft_tools(file, sensor="wrist", frame="tool")
+    assert result["schema"].startswith("forcetorque/payload/")
+    assert repr(load.mass) in json.dumps(result)
+    assert load.mass == pytest.approx(MASS, rel=0.01)
+    np.testing.assert_allclose(load.bias, BIAS, atol=ENOUGH * SLOW.max())
+    assert "force_offset and torque_offset are the bias, and are taken off" in " ".join(outcome.err.split())
+
+
+def test_the_file_may_go_to_standard_output(weighed: Path, run: Run) -> None:
+    """The file in place of the table; not beside a result for programs."""
+    told = run("payload", weighed, "--to", "mc-rtc", "-o", "-", "--sensor-pose", *POSE)
+    assert len(told.out.split()) == 13
+    (weighed.parent / "calib").write_text(told.out)
+    pose = np.eye(4)
+    pose[2, 3] = 0.05
+    load = read_mc_rtc(weighed.parent / "calib", sensor="wrist", frame="tool", body_H_sensor=pose)
+    np.testing.assert_allclose(load.centre_of_mass, CENTRE, atol=0.002)
+    both = run("payload", weighed, "--to", "hrpsys", "-o", "-", "--format", "json")
+    assert (both.code, "standard output for both" in both.err) == (2, True)
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (("--to", "hrpsys"), "expected both --to"),
+        (("-o", "x"), "expected both --to"),
+        (("--to", "gravity-filter", "-o", "x"), "expected --world-frame"),
+        (("--to", "mc-rtc", "-o", "x"), "expected --sensor-pose"),
+        (("--to", "force-torque-tools", "-o", "x"), "turn the sign of the readings"),
+        (("--to", "hrpsys", "-o", "nowhere/x"), "expected an existing folder"),
+    ],
+)
+def test_what_a_file_needs_is_asked_for(
+    weighed: Path, run: Run, words: tuple[str, ...], message: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """One line that says what is missing; nothing is written."""
+    monkeypatch.chdir(tmp_path)
+    outcome = run("payload", weighed, *words)
+    assert (outcome.code, outcome.out) == (2, "")
+    assert message in outcome.err
+    assert not (tmp_path / "x").exists()
+
+
+def test_tare_shows_and_writes_the_offset(tmp_path: Path, run: Run) -> None:
+    """JSON and table have the same numbers; the file has the stated load with the new bias."""
+    path = write_postures(tmp_path, seed=6)
+    file = tmp_path / "parameters.yaml"
+    result = run("tare", path, "--interval", "first", "--to", "ft-tools", "-o", file, "--format", "json").result()
+    assert result["schema"] == "forcetorque/tare/1"
+    (row,) = result["sensors"]
+    assert (np.abs(np.array(row["offset"]) + BIAS) < ENOUGH * SLOW).all()
+    load = read_ft_tools(file, sensor="wrist", frame="tool")
+    assert load.mass == MASS
+    np.testing.assert_allclose(load.bias, -np.array(row["offset"]))
+    table = run("tare", path, "--interval", "first").out
+    assert f"{row['offset'][0]:.4f}" in table
+    assert f"{row['half_width_95'][5]:.4f}" in table
+    lines = run("tare", path, "--interval", "first", "--format", "csv").out.splitlines()
+    assert (len(lines), "offset" in lines[0]) == (2, True)
+
+
+def test_a_calibration_of_another_sensor_is_refused(tmp_path: Path, run: Run) -> None:
+    """Nothing is tared with it."""
+    path = write_postures(tmp_path, seed=7)
+    outcome = run("tare", path, "--interval", "first", "-c", tmp_path / "none.json")
+    assert (outcome.code, "none.json" in outcome.err) == (2, True)
+
+
+def test_the_words_for_every_form_are_in_the_help(run: Run) -> None:
+    """Every form can be chosen."""
+    text = "".join(run("payload", "--help").out.split())
+    assert all(form.value in text for form in LoadFormat)

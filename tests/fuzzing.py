@@ -1,0 +1,22 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""How many random examples a test of damaged or random input draws: a quarter in every run, all in the long one.
+
+Every run draws others, so that a day of runs has met more of them than one long run.
+"""
+
+from __future__ import annotations
+
+SHARE = [4]
+"""One of so many examples is drawn; `--all-examples` makes it 1 before tests are imported."""
+
+
+def examples(count: int) -> int:
+    """Give the number of examples of this run.
+
+    Args:
+        count: Number of the long run.
+
+    Returns:
+        That number, or a quarter of it.
+    """
+    return count // SHARE[0]

@@ -1,0 +1,152 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Bad input is told by name, with what to change; sound input has no name."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+from forcetorque.loads import Load, LoadProblem, solve
+from forcetorque.loads.fit import fit
+from forcetorque.spatial import MeasureDirection
+from tests.payloads import CENTRE, MASS, SIZES, PowerUps, poses, problem_of, weight
+
+BIAS = np.array([5.0, -3.0, 12.0, 0.5, -0.2, 0.1])
+COUNT = 30
+KNOWN = (Load(name="tool", mass=MASS, centre_of_mass=CENTRE),)
+ROTATIONS = Rotation.random(COUNT, random_state=1).as_matrix()
+GRAVITY = np.einsum("nji,j->ni", ROTATIONS, [0.0, 0.0, -9.80665])
+
+
+def _reading(gravity: np.ndarray = GRAVITY) -> np.ndarray:
+    return weight(gravity) + BIAS + SIZES * np.random.default_rng(2).normal(size=(len(gravity), 6))
+
+
+def _world(reading: np.ndarray) -> np.ndarray:
+    pairs = reading.reshape(-1, 2, 3)
+    return np.einsum("nij,nkj->nki", ROTATIONS, pairs).reshape(-1, 6)
+
+
+def _lagging(lag: float) -> LoadProblem:
+    time = np.arange(120.0)
+    angle = 0.5 * np.sin(0.2 * time)[:, None] * [1.0, 0.7, 0.0]
+    gravity = Rotation.from_rotvec(angle).apply([0.0, 0.0, -9.80665])
+    late = Rotation.from_rotvec(0.5 * np.sin(0.2 * (time - lag))[:, None] * [1.0, 0.7, 0.0]).apply([0, 0, -9.80665])
+    reading = weight(late) + BIAS + 0.1 * SIZES * np.random.default_rng(3).normal(size=(120, 6))
+    return problem_of(reading, gravity, time_s=time)
+
+
+def _jumping() -> LoadProblem:
+    rng = np.random.default_rng(4)
+    gravity = poses(60, rng)
+    reading = weight(gravity) + SIZES * rng.normal(size=(60, 6))
+    reading[37:, 2] += 3.0
+    return problem_of(reading, gravity, time_s=np.arange(60.0))
+
+
+CASES: dict[str, tuple[Callable[[], LoadProblem], str, str]] = {
+    "direction": (
+        lambda: problem_of(_reading(), GRAVITY, direction=MeasureDirection.PARENT_TO_CHILD),
+        "reversed direction",
+        "state measure_direction = 'child_to_parent', or turn gravity",
+    ),
+    "direction of a stated load": (
+        lambda: problem_of(_reading(), GRAVITY, loads=KNOWN, direction=MeasureDirection.PARENT_TO_CHILD),
+        "reversed direction",
+        "child_to_parent",
+    ),
+    "swapped": (
+        lambda: problem_of(_reading()[:, [3, 4, 5, 0, 1, 2]], GRAVITY),
+        "swapped columns",
+        "list force first",
+    ),
+    "transposed": (
+        lambda: problem_of(
+            _reading(),
+            np.einsum("nij,j->ni", ROTATIONS, [0.0, 0.0, -9.80665]),
+            orientation=ROTATIONS.transpose(0, 2, 1),
+        ),
+        "transposed rotation",
+        "state the other sense",
+    ),
+    "world": (
+        lambda: problem_of(_world(_reading()), GRAVITY, orientation=ROTATIONS),
+        "wrench in world axes",
+        "along the axes of the world",
+    ),
+    "turned": (
+        lambda: problem_of(_reading(), GRAVITY @ Rotation.from_euler("z", 90, degrees=True).as_matrix().T),
+        "turned axes",
+        "x of the sensor is y of the motion, y is -x, z is z",
+    ),
+    "g": (lambda: problem_of(_reading(), GRAVITY / 9.80665), "unit of gravity", "such as g"),
+    "N mm": (
+        lambda: problem_of(_reading() * np.repeat([1, 1000], 3), GRAVITY),
+        "mixed units",
+        "moments may be in N mm",
+    ),
+    "kg": (
+        lambda: problem_of(_reading() / 9.80665, GRAVITY, loads=KNOWN),
+        "mixed units",
+        "forces are in kg: multiply by 9.80665",
+    ),
+    "frozen": (lambda: problem_of(np.tile(BIAS, (COUNT, 1)), GRAVITY), "frozen log", "30 rows have the same reading"),
+    "nothing": (
+        lambda: problem_of(_reading(0.0 * GRAVITY), GRAVITY),
+        "no load",
+        "nothing hangs on the sensor",
+    ),
+    "lag": (lambda: _lagging(0.6), "lag", "about 0.6 s behind the motion"),
+    "jump": (_jumping, "jump", "the bias jumps in fz before 'row 38'"),
+}
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_bad_input_is_named(name: str) -> None:
+    """The first hypothesis is the fault, and says what to change."""
+    make, wanted, words = CASES[name]
+    named = solve(make()).hypotheses
+    assert named
+    assert named[0].name == wanted
+    assert words in named[0].words
+
+
+@pytest.mark.parametrize(
+    "problem",
+    [
+        lambda: problem_of(_reading(), GRAVITY, orientation=ROTATIONS, time_s=np.arange(float(COUNT))),
+        lambda: problem_of(_reading(), GRAVITY, loads=KNOWN),
+        lambda: _lagging(0.0),
+        lambda: PowerUps(seed=1, length=40).problem,
+    ],
+    ids=["poses", "stated", "motion", "four power-ups"],
+)
+def test_sound_input_has_no_name(problem: Callable[[], LoadProblem]) -> None:
+    """Negative control: slow noise, drift and several power-ups are none of these."""
+    assert solve(problem()).hypotheses == ()
+
+
+def test_a_row_that_disagrees_is_named_and_counts_less() -> None:
+    """A push during one pose moves the mass of plain least squares, not the answer."""
+    reading = _reading()
+    reading[11, :3] += [3.0, -2.0, 4.0]
+    solution = solve(problem_of(reading, GRAVITY))
+    assert [row.name for row in solution.disagreeing] == ["row 12"]
+    np.testing.assert_allclose(solution.disagreeing[0].residual[:3], [3.0, -2.0, 4.0], atol=0.3)
+    assert solution.disagreeing[0].weight < 0.05
+    assert abs(solution.loads[0].mass - MASS) < solution.loads[0].mass_half_width
+    assert abs(solution.drift.mass_without[0] - MASS) > 2.0 * solution.loads[0].mass_half_width
+
+
+def test_sound_rows_are_seldom_named() -> None:
+    """In one of a hundred sound problems; one per problem would be a gate."""
+    rng = np.random.default_rng(5)
+    named = 0
+    for _ in range(40):
+        gravity = poses(20, rng)
+        problem = problem_of(weight(gravity) + SIZES * rng.normal(size=(20, 6)), gravity)
+        named += int((fit(problem, drift=False).weight < 1.0).any())
+    assert named <= 3  # less than one is expected, and three times what is counted of it
