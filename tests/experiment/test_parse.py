@@ -10,6 +10,7 @@ import pytest
 
 from forcetorque.errors import FormatError, MissingFileError
 from forcetorque.exchange.parquet import ParquetLog
+from forcetorque.exchange.tabular.log_format import TabularLog
 from forcetorque.exchange.yarp.log_tables import StateExtPort, YarpLog
 from forcetorque.experiment import ExperimentFile, parse_experiment
 from forcetorque.experiment.schema import Smoothing
@@ -71,7 +72,7 @@ def test_what_may_be_left_out_has_a_default(tmp_path: Path) -> None:
 
 def _documented() -> list[str]:
     blocks = re.findall(r"```toml\n(.*?)```", DOCUMENT.read_text(encoding="utf-8"), re.DOTALL)
-    assert len(blocks) == 7
+    assert len(blocks) == 8
     return blocks
 
 
@@ -103,7 +104,7 @@ def test_the_documented_variables_fit_into_it(tmp_path: Path) -> None:
 
 def test_the_documented_ports_and_imu_fit_into_it(tmp_path: Path) -> None:
     """The other kinds of ports and the moving support are accepted in place of their plain forms."""
-    whole, _, ports, events, moving, _, _ = _documented()
+    whole, _, ports, events, moving, *_ = _documented()
     fixed = whole[whole.index("[[support]]") : whole.index("[processing]")]
     logged = f"{ports}\n{events}\n[[sensor]]"
     parsed = _parse(tmp_path, whole.replace("[[sensor]]", logged).replace(fixed, f"{moving}\n"))
@@ -128,6 +129,21 @@ def test_the_documented_wrist_is_complete_with_a_sensor_and_intervals(tmp_path: 
     assert parsed.load is not None
     assert parsed.load[0].mass_kg == 0.932
     assert parsed.sensor[0].prior == "identity"
+
+
+def test_the_documented_orientation_takes_the_place_of_gravity(tmp_path: Path) -> None:
+    """A pose in the signals of the wrist's table."""
+    head = 'schema = "forcetorque/experiment/1"\nname = "wrist"\n'
+    sensor = '[[sensor]]\nname = "wrist"\nstream = "poses"\nserial = "FT1"\nprior = "identity"\n'
+    interval = '[[interval]]\nlabel = "all"\nstart_s = 0\nuse = "calibration"\n'
+    wrist, orientation = _documented()[5:7]
+    plain = re.sub(r"signal = \[\n.*?\n\]\n", "", wrist, flags=re.DOTALL)
+    assert plain != wrist
+    recording = _parse(tmp_path, f"{head}{plain}\n{orientation}\n{sensor}{interval}").recording
+    assert isinstance(recording, TabularLog)
+    (signal,) = recording.stream[0].signal
+    assert signal.orientation is not None
+    assert signal.orientation.layout().sense == "sensor_to_world"
 
 
 def test_the_documented_contact_fits_into_it(tmp_path: Path) -> None:

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -13,22 +14,24 @@ from forcetorque.errors import ExperimentError
 from forcetorque.exchange.load import RobotLoad, write_load_file
 from forcetorque.exchange.load_format import LoadFormat
 from forcetorque.experiment.wrist_load import LOAD_LINK
+from forcetorque.spatial import WRENCH_COMPONENTS
 
 
-def robot_load(run: SensorRun, bias: FloatArray) -> RobotLoad:
+def robot_load(run: SensorRun, bias: Sequence[float | None] | FloatArray) -> RobotLoad:
     """Give the load of a wrist sensor, estimated or stated, with a bias of the sensor.
 
     Args:
         run: The wrist sensor.
-        bias: Reading without load, such as that of `weigh_load`, or minus the offset of `tare`; shape (6,); N, N m.
+        bias: Reading without load, such as that of `weigh_load`, or minus the offset of `tare`; shape (6,); N, N m;
+            None where the data leave it open.
 
     Returns:
         The load, to write it for a robot (`export_load`).
 
     Raises:
-        ExperimentError: If the experiment is of a robot with links, has several loads, or its data leave the load open.
+        ExperimentError: If the experiment is of a robot with links, has several loads, or leaves load or bias open.
     """
-    experiment = run.experiment
+    experiment, known = run.experiment, np.array(bias, dtype=np.float64)
     if experiment.wrist is None:
         raise ExperimentError("expected [load], of which a robot is told, got the links of [robot]")
     supports = experiment.wrist.supports
@@ -37,6 +40,12 @@ def robot_load(run: SensorRun, bias: FloatArray) -> RobotLoad:
         raise ExperimentError(
             f"expected one [[load]], of which a robot is told, got {names}: leave the others, and their intervals, out "
             "of the experiment file"
+        )
+    if not np.isfinite(known).all():
+        names = ", ".join(np.array(WRENCH_COMPONENTS)[~np.isfinite(known)])
+        raise ExperimentError(
+            f"expected a bias along every axis, of which a robot is told, the data leave {names} open: "
+            "`forcetorque payload` says what to record"
         )
     (support,) = supports.values()
     model = experiment.model_on(support)
@@ -48,7 +57,7 @@ def robot_load(run: SensorRun, bias: FloatArray) -> RobotLoad:
         direction=tag.direction,
         mass=inertia.mass,
         centre_of_mass=inertia.first_moment / inertia.mass if inertia.mass else np.zeros(3),
-        bias=bias,
+        bias=known,
         matrix=np.eye(6) if matrix is None else matrix,
     )
 

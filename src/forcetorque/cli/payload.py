@@ -28,8 +28,6 @@ def payload(
 
     Example: forcetorque payload wrist.toml --to ft-tools -o load.yaml
     """
-    import numpy as np
-
     from forcetorque import analysis
     from forcetorque.analysis.campaign_recording import refuse_a_file_twice
     from forcetorque.experiment import load_experiment
@@ -46,7 +44,7 @@ def payload(
     with stated_in(", ".join(str(path) for path in experiments)):
         load = analysis.weigh_load(runs)
         if output is not None and to is not None:
-            told = analysis.robot_load(runs[-1], np.array(load.sessions[-1].bias))
+            told = analysis.robot_load(runs[-1], load.sessions[-1].bias)
             write_load(told, output, to, world_frame=world_frame, sensor_pose=sensor_pose, log=log)
     if output == STANDARD_OUTPUT:  # the file itself went there
         show_warnings(load)
