@@ -10,6 +10,9 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
+from forcetorque import load_experiment
+from forcetorque.analysis import SensorRun, robot_load
+from forcetorque.errors import ExperimentError
 from forcetorque.exchange.load import read_ft_tools, read_mc_rtc
 from forcetorque.exchange.load_format import LoadFormat
 from tests.cli.outcome import Run
@@ -73,6 +76,26 @@ def test_what_a_file_needs_is_asked_for(
     assert (outcome.code, outcome.out) == (2, "")
     assert message in outcome.err
     assert not (tmp_path / "x").exists()
+
+
+def test_a_robot_is_told_one_load_with_a_whole_bias(weighed: Path, run: Run, tmp_path: Path) -> None:
+    """Neither one of several loads, nor a bias that the data leave open."""
+    content = load_experiment(weighed)
+    sensor = SensorRun(content, content.sensors[0])
+    with pytest.raises(ExperimentError, match="the data leave fz, tx open"):
+        robot_load(sensor, (1.0, 2.0, None, None, 0.0, 0.0))
+    text = weighed.read_text()
+    second = '[[load]]\nname = "other"\n\n[recording]'
+    several = tmp_path / "wrist.toml"
+    several.write_text(
+        text.replace("[load]", '[[load]]\nname = "tool"')
+        .replace("[recording]", second, 1)
+        .replace('use = "calibration"', 'use = "calibration"\nload = "tool"')
+    )
+    (tmp_path / "log.csv").write_bytes((weighed.parent / "log.csv").read_bytes())
+    outcome = run("payload", several, "--to", "hrpsys", "-o", tmp_path / "load")
+    assert (outcome.code, "expected one [[load]]" in outcome.err) == (2, True)
+    assert not (tmp_path / "load").exists()
 
 
 def test_tare_shows_and_writes_the_offset(tmp_path: Path, run: Run) -> None:
