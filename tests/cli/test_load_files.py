@@ -98,6 +98,19 @@ def test_a_robot_is_told_one_load_with_a_whole_bias(weighed: Path, run: Run, tmp
     assert not (tmp_path / "load").exists()
 
 
+def test_a_robot_is_told_what_several_recordings_say_together(weighed: Path, run: Run, tmp_path: Path) -> None:
+    """Not what the last of them says alone; the bias is that of the last, which is said."""
+    other = write_postures(tmp_path, seed=7, postures=POSTURES, known=False)
+    file = tmp_path / "load.yaml"
+    outcome = run("payload", weighed, other, "--to", "ft-tools", "-o", file, "--format", "json")
+    result = outcome.result()
+    load = read_ft_tools(file, sensor="wrist", frame="tool")
+    assert load.mass == result["loads"][0]["mass_kg"]
+    assert load.mass != run("payload", other, "--format", "json").result()["loads"][0]["mass_kg"]
+    assert load.bias.tolist() == result["sessions"][-1]["bias"]
+    assert f"the bias is that of {result['sessions'][-1]['session']!r}" in outcome.err
+
+
 def test_tare_shows_and_writes_the_offset(tmp_path: Path, run: Run) -> None:
     """JSON and table have the same numbers; the file has the stated load with the new bias."""
     path = write_postures(tmp_path, seed=6)

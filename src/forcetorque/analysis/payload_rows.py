@@ -4,11 +4,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from math import isfinite
 from typing import Annotated, Self
 
 from forcetorque.loads import BiasTest, DisagreeingRow, DriftChoice, Hypothesis, LoadEstimate, SessionEstimate
-from forcetorque.result import Row, Shown, ShownWrench, WrenchValues
+from forcetorque.result import Row, Shown, ShownWrench, WrenchValues, finite_or_none
 
 Three = tuple[float | None, float | None, float | None]
 """x, y, z; none where it is open."""
@@ -25,7 +24,7 @@ def three(values: Iterable[float]) -> Three:
     Returns:
         Them; None for what is infinite or NaN.
     """
-    x, y, z = (finite(value) for value in values)
+    x, y, z = (finite_or_none(value) for value in values)
     return x, y, z
 
 
@@ -38,20 +37,8 @@ def six(values: Iterable[float]) -> Six:
     Returns:
         Them; None for what is infinite or NaN.
     """
-    fx, fy, fz, tx, ty, tz = (finite(value) for value in values)
+    fx, fy, fz, tx, ty, tz = (finite_or_none(value) for value in values)
     return fx, fy, fz, tx, ty, tz
-
-
-def finite(value: float) -> float | None:
-    """Give a number that JSON can hold.
-
-    Args:
-        value: The number.
-
-    Returns:
-        It; None where it is infinite or NaN.
-    """
-    return float(value) if isfinite(value) else None
 
 
 class LoadRow(Row):
@@ -88,8 +75,8 @@ class LoadRow(Row):
         return cls(
             load=load.name,
             estimated=load.estimated,
-            mass_kg=finite(load.mass),
-            mass_half_width_95_kg=finite(load.mass_half_width),
+            mass_kg=finite_or_none(load.mass),
+            mass_half_width_95_kg=finite_or_none(load.mass_half_width),
             centre_of_mass_m=three(load.centre_of_mass),
             centre_of_mass_half_width_95_m=three(load.centre_of_mass_half_width),
             inertia_kgm2=None if point else _matrix(load.inertia),
@@ -133,7 +120,7 @@ class BiasRow(Row):
         return cls(
             session=session.name,
             rows=session.rows,
-            at_s=finite(session.at_s),
+            at_s=finite_or_none(session.at_s),
             bias=six(session.bias),
             bias_half_width_95=six(session.bias_half_width),
             drift_per_s=None if session.drift is None else six(session.drift),
@@ -181,10 +168,10 @@ class DriftRow(Row):
         return cls(
             taken=choice.taken,
             chosen=choice.chosen,
-            error_without=finite(choice.error_without),
-            error_with=finite(choice.error_with),
-            plain_mass_without_kg=tuple(finite(mass) for mass in choice.mass_without),
-            plain_mass_with_kg=tuple(finite(mass) for mass in choice.mass_with),
+            error_without=finite_or_none(choice.error_without),
+            error_with=finite_or_none(choice.error_with),
+            plain_mass_without_kg=tuple(finite_or_none(mass) for mass in choice.mass_without),
+            plain_mass_with_kg=tuple(finite_or_none(mass) for mass in choice.mass_with),
         )
 
 
@@ -212,9 +199,9 @@ class BiasTestRow(Row):
         """
         return cls(
             of=test.of,
-            p_value=finite(test.p_value),
+            p_value=finite_or_none(test.p_value),
             largest_difference=six(test.largest_difference),
-            plain_mass_with_one_bias_kg=tuple(finite(mass) for mass in test.mass_with_one),
+            plain_mass_with_one_bias_kg=tuple(finite_or_none(mass) for mass in test.mass_with_one),
         )
 
 

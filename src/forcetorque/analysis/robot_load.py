@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
+from forcetorque.analysis.payload_rows import LoadRow
 from forcetorque.analysis.sensor_run import SensorRun
 from forcetorque.arrays import FloatArray
 from forcetorque.errors import ExperimentError
@@ -17,13 +18,16 @@ from forcetorque.experiment.wrist_load import LOAD_LINK
 from forcetorque.spatial import WRENCH_COMPONENTS
 
 
-def robot_load(run: SensorRun, bias: Sequence[float | None] | FloatArray) -> RobotLoad:
+def robot_load(
+    run: SensorRun, bias: Sequence[float | None] | FloatArray, *, weighed: LoadRow | None = None
+) -> RobotLoad:
     """Give the load of a wrist sensor, estimated or stated, with a bias of the sensor.
 
     Args:
         run: The wrist sensor.
         bias: Reading without load, such as that of `weigh_load`, or minus the offset of `tare`; shape (6,); N, N m;
             None where the data leave it open.
+        weighed: The load by several recordings together, as `weigh_load` gives it; by that of the run alone if None.
 
     Returns:
         The load, to write it for a robot (`export_load`).
@@ -47,16 +51,24 @@ def robot_load(run: SensorRun, bias: Sequence[float | None] | FloatArray) -> Rob
             f"expected a bias along every axis, of which a robot is told, the data leave {names} open: "
             "`forcetorque payload` says what to record"
         )
-    (support,) = supports.values()
-    model = experiment.model_on(support)
-    inertia, tag = model.links[LOAD_LINK], model.sensor(run.sensor.name)
+    if weighed is None:
+        (support,) = supports.values()
+        inertia = experiment.model_on(support).links[LOAD_LINK]
+        mass, centre = inertia.mass, inertia.first_moment / inertia.mass if inertia.mass else np.zeros(3)
+    elif weighed.mass_kg is None or None in weighed.centre_of_mass_m:
+        raise ExperimentError(
+            f"expected a load that the recordings determine, of which a robot is told, they leave {weighed.load!r} "
+            "open: `forcetorque payload` says what to record"
+        )
+    else:
+        mass, centre = weighed.mass_kg, np.array(weighed.centre_of_mass_m, dtype=np.float64)
     matrix = run.sensor.prior if run.sensor.quantity == "raw" else None
     return RobotLoad(
         sensor=run.sensor.name,
-        frame=next(iter(model.links)),
-        direction=tag.direction,
-        mass=inertia.mass,
-        centre_of_mass=inertia.first_moment / inertia.mass if inertia.mass else np.zeros(3),
+        frame=next(iter(experiment.model.links)),
+        direction=experiment.wrist.direction,
+        mass=mass,
+        centre_of_mass=centre,
         bias=known,
         matrix=np.eye(6) if matrix is None else matrix,
     )
