@@ -6,6 +6,7 @@ from __future__ import annotations
 import re
 import subprocess
 import sys
+from functools import cache
 from importlib.util import find_spec
 from pathlib import Path
 
@@ -17,7 +18,12 @@ from docs.site.reference import doors, pages
 
 ROOT = Path(__file__).resolve().parents[1]
 LIBRARY = ROOT / "src"
-PAGES = dict(pages())
+
+
+@cache
+def _pages() -> dict[str, str]:
+    """Written when first asked for: who only collects tests need not wait."""
+    return dict(pages())
 
 
 def _packages_with_a_door() -> set[str]:
@@ -29,21 +35,21 @@ def _packages_with_a_door() -> set[str]:
 def test_every_package_that_offers_names_has_a_page() -> None:
     """Beside them, the errors, and a module that a package offers as a whole."""
     assert _packages_with_a_door() > {"forcetorque", "forcetorque.evaluation.use"}
-    assert PAGES.keys() == _packages_with_a_door() | {"forcetorque.errors", "forcetorque.study.tables"}
+    assert _pages().keys() == _packages_with_a_door() | {"forcetorque.errors", "forcetorque.study.tables"}
 
 
 def test_every_name_is_told_once() -> None:
     """On one page with its docstring; other pages that offer it point there."""
     told: list[str] = []
-    for door, page in PAGES.items():
+    for door, page in _pages().items():
         told += re.findall(r"^\.\. auto(?:class|function):: (\S+)$", page, re.MULTILINE)
         told += [f"{door}.{name}" for name in re.findall(r"^\.\. py:data:: (\w+)\n   :module: ", page, re.MULTILINE)]
     assert len(told) == len(set(told)) > 600
-    pointed = {name for page in PAGES.values() for name in re.findall(r"<(forcetorque\.\S+)>`: ", page, re.M)}
+    pointed = {name for page in _pages().values() for name in re.findall(r"<(forcetorque\.\S+)>`: ", page, re.M)}
     assert pointed < set(told)
     for door, names in doors().items():
         for name in names:
-            shown = re.search(rf":: (?:{re.escape(door)}\.)?{name}$|^- :py:obj:`{name} <", PAGES[door], re.MULTILINE)
+            shown = re.search(rf":: (?:{re.escape(door)}\.)?{name}$|^- :py:obj:`{name} <", _pages()[door], re.MULTILINE)
             assert shown, f"{door}.{name}"
 
 
@@ -91,6 +97,6 @@ def test_the_documentation_builds_without_a_warning(tmp_path: Path) -> None:
     assert done.stderr == ""
     assert done.returncode == 0
     index = (tmp_path / "html" / "index.html").read_text(encoding="utf-8")
-    assert all(f'href="api/{door}.html"' in index for door in PAGES)
+    assert all(f'href="api/{door}.html"' in index for door in _pages())
     use = (tmp_path / "html" / "docs" / "plan.html").read_text(encoding="utf-8")
     assert 'href="use.html#how-often-it-is-right"' in use

@@ -9,6 +9,7 @@ import subprocess
 import sys
 import tomllib
 from collections.abc import Iterable, Iterator
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -45,10 +46,16 @@ LEAVES = {path.stem for path in ROOT.glob("*.py")} - {"__init__", "__main__"}
 """Single modules beside the packages, such as errors: anyone may import them, they import no package."""
 
 
+@cache
+def _nodes(path: Path) -> tuple[ast.AST, ...]:
+    """All of a file; it is parsed once for all that is asked of it."""
+    return tuple(ast.walk(ast.parse(path.read_text(encoding="utf-8"))))
+
+
 def _imports(path: Path) -> set[str]:
     """Names of the library's packages and modules that a file imports."""
     found = set()
-    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+    for node in _nodes(path):
         if isinstance(node, ast.ImportFrom) and node.module and node.module.split(".")[0] == "forcetorque":
             parts = node.module.split(".")[1:]
             found |= {parts[0]} if parts else {alias.name for alias in node.names}
@@ -63,18 +70,24 @@ def _violations(package: str, imported: set[str]) -> set[str]:
 
 
 FILES = sorted(path for path in ROOT.rglob("*.py") if path.parent != ROOT)
+PACKAGES = sorted({path.relative_to(ROOT).parts[0] for path in FILES})
+
+
+def _files(package: str) -> list[Path]:
+    return [path for path in FILES if path.relative_to(ROOT).parts[0] == package]
 
 
 def test_there_are_packages() -> None:
     """The test below looks at something, and every package has its place in the order."""
     assert len(FILES) > 30
-    assert {path.relative_to(ROOT).parts[0] for path in FILES} <= set(ORDER)
+    assert set(PACKAGES) <= set(ORDER)
 
 
-@pytest.mark.parametrize("path", FILES, ids=lambda path: str(path.relative_to(ROOT)))
-def test_imports_go_to_earlier_packages(path: Path) -> None:
+@pytest.mark.parametrize("package", PACKAGES)
+def test_imports_go_to_earlier_packages(package: str) -> None:
     """A file imports its own package, earlier ones, and single modules."""
-    assert not _violations(path.relative_to(ROOT).parts[0], _imports(path))
+    against = {path: _violations(package, _imports(path)) for path in _files(package)}
+    assert {path: names for path, names in against.items() if names} == {}
 
 
 @pytest.mark.parametrize("name", sorted(LEAVES))
@@ -99,7 +112,7 @@ COMPUTING = {"numpy", "scipy", "pyarrow", "pydantic"}
 def _outside(path: Path) -> set[str]:
     """Names of what a file imports from elsewhere, wherever in it."""
     names = set()
-    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+    for node in _nodes(path):
         if isinstance(node, ast.ImportFrom) and node.module:
             names.add(node.module.split(".")[0])
         elif isinstance(node, ast.Import):
@@ -163,8 +176,8 @@ def _foreign(nodes: Iterable[ast.AST]) -> set[str]:
     return {DISTRIBUTIONS.get(name, name) for name in imported - sys.stdlib_module_names - {"forcetorque"}}
 
 
-def _trees() -> list[ast.Module]:
-    return [ast.parse(path.read_text(encoding="utf-8")) for path in ROOT.rglob("*.py")]
+def _sources() -> list[Path]:
+    return sorted(ROOT.rglob("*.py"))
 
 
 RUN_TIME = {
@@ -175,12 +188,14 @@ RUN_TIME = {
 def test_every_import_is_a_declared_dependency() -> None:
     """The library imports only what it declares, and declares only what it imports."""
     declared = _distributions(PROJECT["dependencies"]).union(*RUN_TIME.values())
-    assert set().union(*(_foreign(ast.walk(tree)) for tree in _trees())) == declared
+    assert set().union(*(_foreign(_nodes(path)) for path in _sources())) == declared
 
 
 def test_a_bare_install_imports_every_module() -> None:
     """What an extra brings is imported only inside functions: without it every module can still be imported."""
-    assert set().union(*(_foreign(_at_import(tree)) for tree in _trees())) <= _distributions(PROJECT["dependencies"])
+    assert set().union(*(_foreign(_at_import(_nodes(path)[0])) for path in _sources())) <= _distributions(
+        PROJECT["dependencies"]
+    )
 
 
 def test_the_extra_named_all_holds_every_run_time_extra() -> None:
@@ -199,14 +214,15 @@ def test_an_extra_imported_with_its_module_is_noticed() -> None:
 PRINTING = {"print", "input"}
 
 
-@pytest.mark.parametrize("path", FILES, ids=lambda path: str(path.relative_to(ROOT)))
-def test_nothing_below_report_prints_or_reads_the_clock(path: Path) -> None:
+@pytest.mark.parametrize("package", [name for name in PACKAGES if ORDER.index(name) < ORDER.index("report")])
+def test_nothing_below_report_prints_or_reads_the_clock(package: str) -> None:
     """Results and time stamps are the command line's business."""
-    package = path.relative_to(ROOT).parts[0]
-    if ORDER.index(package) >= ORDER.index("report"):
-        return
-    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
-        if isinstance(node, ast.Call):
-            name = ast.unparse(node.func)
-            assert name not in PRINTING
-            assert not name.endswith(("datetime.now", "date.today", "time.time", "perf_counter"))
+    called = {
+        (path, ast.unparse(node.func))
+        for path in _files(package)
+        for node in _nodes(path)
+        if isinstance(node, ast.Call)
+    }
+    assert called
+    reading = ("datetime.now", "date.today", "time.time", "perf_counter")
+    assert {(path, name) for path, name in called if name in PRINTING or name.endswith(reading)} == set()
