@@ -8,7 +8,10 @@ look at the difference before it is committed.
 from __future__ import annotations
 
 import re
+from collections.abc import Callable, Mapping
+from functools import partial
 from pathlib import Path
+from types import MappingProxyType
 
 import numpy as np
 import pytest
@@ -57,6 +60,45 @@ WITHOUT_TABLE = {"payload", "schema", "simulate"}
 """Shown elsewhere: `payload` needs a wrist, `simulate` minutes; `schema` is JSON."""
 
 
+def _write_limits(arm: Path) -> None:
+    (arm / "limits.toml").write_text(LIMITS, encoding="utf-8")
+
+
+def _write_faulty(arm: Path) -> None:
+    text = (arm / PARQUET).read_text(encoding="utf-8")
+    limited = text.replace('stream = "arm_ft"', 'stream = "arm_ft"\nlimit_counts = 9000')
+    (arm / "faulty.toml").write_text(limited, encoding="utf-8")
+
+
+def _write_touch(arm: Path) -> None:
+    write_chambers(arm)
+    write_touched(arm, broken=25)
+    write_table(arm)
+
+
+def _write_warm_record(arm: Path) -> None:
+    (arm / "chamber").mkdir()
+    write_cycles(arm / "chamber", *record(np.random.default_rng(1), hours=0.2))
+
+
+def _write_patch(arm: Path) -> None:
+    (arm / "patch.txt").write_text(position_text(collapsed(cylinder_patch(), 4)), encoding="utf-8")
+
+
+WRITTEN: Mapping[str, Callable[[Path], object]] = MappingProxyType(
+    {
+        "limits.toml": _write_limits,
+        "faulty.toml": _write_faulty,
+        "fit.toml": write_chambers,
+        "touched.toml": _write_touch,
+        "chamber/chamber.toml": _write_warm_record,
+        "patch.txt": _write_patch,
+        "SIM001.toml": partial(write_bench, faults=BenchFaults(swapped=(3, 8))),
+    }
+)
+"""What writes the files that commands above name, beyond those of the arm."""
+
+
 @pytest.fixture
 def shown_widths(monkeypatch: pytest.MonkeyPatch) -> None:
     """Let a result write itself once for every width."""
@@ -77,22 +119,9 @@ def test_every_command_is_here() -> None:
 @pytest.mark.parametrize("name", COMMANDS)
 def test_the_layout_is_that_which_was_looked_at(arm: Path, run: Run, name: str, request: pytest.FixtureRequest) -> None:
     """Line by line; no line of a table is wider than the terminal."""
-    (arm / "limits.toml").write_text(LIMITS, encoding="utf-8")
-    faulty = (
-        (arm / PARQUET)
-        .read_text(encoding="utf-8")
-        .replace('stream = "arm_ft"', 'stream = "arm_ft"\nlimit_counts = 9000')
-    )
-    (arm / "faulty.toml").write_text(faulty, encoding="utf-8")
-    write_chambers(arm)
-    write_touched(arm, broken=25)
-    write_table(arm)
-    if name == "workbench":
-        write_bench(arm, faults=BenchFaults(swapped=(3, 8)))
-    if name == "thermal":
-        (arm / "chamber").mkdir()
-        write_cycles(arm / "chamber", *record(np.random.default_rng(1), hours=0.2))
-    (arm / "patch.txt").write_text(position_text(collapsed(cylinder_patch(), 4)), encoding="utf-8")
+    for file in COMMANDS[name][1:]:
+        if file in WRITTEN:
+            WRITTEN[file](arm)
     ended = run(*COMMANDS[name])
     assert ended.code in (0, 1), ended.err
     shown = re.sub(
