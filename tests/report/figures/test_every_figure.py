@@ -19,6 +19,10 @@ from forcetorque.report.figures.canvas import png_bytes
 from tests.report.drawing import FIGURES, panels, shown_texts, size_of
 
 every_figure = pytest.mark.parametrize("name", list(FIGURES))
+some_figures = pytest.mark.parametrize(
+    "name", [name if k % 4 == 0 else pytest.param(name, marks=pytest.mark.long) for k, name in enumerate(FIGURES)]
+)
+"""One of four, and in the long run all: what they have in common is written once, in the canvas."""
 
 TOUCHING_PIXELS = 2.0
 """Boxes of texts include room for letters that reach below the line: this much of it may be shared."""
@@ -47,7 +51,7 @@ def test_a_whole_png_of_the_common_width(name: str) -> None:
     assert 300 <= height <= 1200
 
 
-@every_figure
+@some_figures
 def test_the_same_data_give_the_same_bytes(name: str) -> None:
     """Nothing of the moment or of the run is in the file."""
     first, _ = _drawn(name)
