@@ -15,9 +15,10 @@ from pydantic import Field, GetCoreSchemaHandler
 from pydantic_core import CoreSchema
 
 from forcetorque.errors import FormatError
+from forcetorque.exchange.array_file import Hdf5Format, MatlabFormat, NpzFormat
 from forcetorque.exchange.log_format import LogContext, LogFormat, LogReading, LogTable
-from forcetorque.exchange.matlab import MatlabFormat
 from forcetorque.exchange.parquet import ParquetFormat
+from forcetorque.exchange.robometry import RobometryFormat
 from forcetorque.exchange.tabular.log_format import TabularFormat
 from forcetorque.exchange.yarp.log_format import YarpFormat
 
@@ -25,7 +26,10 @@ LOG_FORMATS: tuple[LogFormat[Any], ...] = (
     YarpFormat(),
     ParquetFormat(),
     TabularFormat(),
+    RobometryFormat(),
     MatlabFormat(),
+    Hdf5Format(),
+    NpzFormat(),
 )
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The numbers of a MATLAB file, by their names; a field of a struct is `struct.field`."""
+"""The numbers of MATLAB files of version 5 to 7, by their names; a field of a struct is `struct.field`."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ def read_variables(path: Path) -> dict[str, FloatArray]:
         raise MissingFileError(f"{path}: expected a MATLAB file, there is none")
     if not is_matlab_file(path):
         raise FormatError(
-            f"{path}: expected a MATLAB file of version 5 to 7, got another file; in MATLAB: save(name, ..., '-v7')"
+            f"{path}: expected a MATLAB file of version 5 to 7, got another file; name the file of the log"
         )
     # what the reader of SciPy raises on damaged files is whatever it stumbles over
     stumbles = (ArithmeticError, AttributeError, LookupError, NameError, RuntimeError, TypeError, ValueError)

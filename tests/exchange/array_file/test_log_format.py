@@ -12,9 +12,9 @@ from pydantic import ValidationError
 from scipy.io import savemat
 
 from forcetorque.errors import ForceTorqueError, FormatError, MissingFileError, SkinError, UnitError
+from forcetorque.exchange.array_file import MatlabFormat, MatlabLog
 from forcetorque.exchange.formats import recognised_format
 from forcetorque.exchange.log_format import LogReading
-from forcetorque.exchange.matlab import MatlabFormat, MatlabLog
 from forcetorque.experiment.inputs import Inputs
 from forcetorque.experiment.log_context import ExperimentContext
 
