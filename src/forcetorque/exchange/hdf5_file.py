@@ -122,7 +122,7 @@ def datasets(group: h5py.Group) -> Iterator[h5py.Dataset]:
 
 
 def is_numeric(dataset: Any) -> bool:
-    """Tell whether a dataset holds real numbers; texts of MATLAB are numbers too, but no samples.
+    """Tell whether a dataset holds real numbers; texts and objects of MATLAB are numbers too, but no samples.
 
     Args:
         dataset: A dataset.
@@ -130,7 +130,8 @@ def is_numeric(dataset: Any) -> bool:
     Returns:
         Whether it does.
     """
-    return dataset.dtype.kind in "biuf" and "MATLAB_int_decode" not in dataset.attrs and dataset.shape is not None
+    text = "MATLAB_int_decode" in dataset.attrs or "MATLAB_object_decode" in dataset.attrs
+    return dataset.dtype.kind in "biuf" and not text and dataset.shape is not None
 
 
 def dataset_numbers(dataset: Any) -> FloatArray:
