@@ -19,6 +19,7 @@ from forcetorque.exchange.array_file import Hdf5Format, MatlabFormat, NpzFormat
 from forcetorque.exchange.log_format import LogContext, LogFormat, LogReading, LogTable
 from forcetorque.exchange.parquet import ParquetFormat
 from forcetorque.exchange.robometry import RobometryFormat
+from forcetorque.exchange.ros import RosFormat
 from forcetorque.exchange.tabular.log_format import TabularFormat
 from forcetorque.exchange.yarp.log_format import YarpFormat
 
@@ -30,6 +31,7 @@ LOG_FORMATS: tuple[LogFormat[Any], ...] = (
     MatlabFormat(),
     Hdf5Format(),
     NpzFormat(),
+    RosFormat(),
 )
 
 
