@@ -17,8 +17,8 @@ from numpy.lib import format as npy
 from forcetorque.arrays import FloatArray
 from forcetorque.errors import ForceTorqueError, FormatError, MissingFileError
 
-LARGEST_ARRAY = 2 << 30
-"""Bytes of one array."""
+LARGEST_ARRAY = 1 << 28
+"""Numbers of one array, 2 GiB of float64."""
 MOST_ARRAYS = 10_000
 """Arrays of a file."""
 
@@ -129,11 +129,12 @@ def _array(path: Path, entry: zipfile.ZipInfo, archive: zipfile.ZipFile) -> Floa
         place = f"{path}: {entry.filename}"
         if dtype.kind not in "biuf" or not shape or not math.prod(shape):
             raise FormatError(f"{place}: expected rows of real numbers, got {dtype} of shape {shape}")
-        size = math.prod(shape) * dtype.itemsize
-        if size > min(LARGEST_ARRAY, entry.file_size):
+        count = math.prod(shape)
+        size = count * dtype.itemsize
+        if count > LARGEST_ARRAY or size > entry.file_size:
             raise FormatError(
-                f"{place}: expected at most {LARGEST_ARRAY >> 30} GiB, all of them in the file, got {size} bytes by "
-                f"its shape and {entry.file_size} in the file; split it, or copy it again"
+                f"{place}: expected at most {LARGEST_ARRAY} numbers, all of them in the file, got {size} bytes by its "
+                f"shape and {entry.file_size} in the file; split it, or copy it again"
             )
         data = member.read(size)
         if len(data) != size:

@@ -127,9 +127,11 @@ def _signal(place: str, stated: ArraySignal, values: FloatArray) -> Signal:
                 f"{place}: column {first + k}: expected a unit of {stated.quantity} that converts to "
                 f"{' or '.join(allowed)}, got {labels[k]!r}"
             )
+    with np.errstate(invalid="ignore", over="ignore"):  # damaged files hold signalling NaN
+        scaled = values[:, first - 1 : last] * [factor for _, factor in factors]
     return Signal(
         quantity=stated.quantity,
-        values=values[:, first - 1 : last] * [factor for _, factor in factors],
+        values=scaled,
         columns=quantity.columns if fixed else stated.names or tuple(str(k) for k in range(count)),
         units=tuple(unit for unit, _ in factors),
         frame=stated.frame,

@@ -126,7 +126,9 @@ def _in_si(
             f"{channel.path}: expected one unit for all, or for each of {width} elements, that converts to "
             f"{' or '.join(dict.fromkeys(allowed))}, got {', '.join(labels)}"
         )
-    return channel.values * [factor for _, factor in units], tuple(unit for unit, _ in units)
+    with np.errstate(invalid="ignore", over="ignore"):  # damaged files hold signalling NaN
+        values: FloatArray = channel.values * [factor for _, factor in units]
+    return values, tuple(unit for unit, _ in units)
 
 
 def _known_labels(channel: Channel, stated: Sequence[str] | None) -> tuple[str, ...]:

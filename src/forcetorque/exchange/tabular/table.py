@@ -153,7 +153,8 @@ def _factors(name: str, declared: TableSignal) -> Sequence[tuple[str, float]]:
 
 def _signal(declared: TableSignal, factors: Sequence[tuple[str, float]], values: FloatArray) -> Signal:
     quantity = QUANTITIES[declared.quantity]
-    values *= [factor for _, factor in factors]
+    with np.errstate(invalid="ignore", over="ignore"):  # damaged files hold signalling NaN
+        values *= [factor for _, factor in factors]
     values.setflags(write=False)  # so it is not copied
     return Signal(
         quantity=declared.quantity,
