@@ -46,19 +46,39 @@ def parquet_rows(file: Path, layout: TableLayout) -> Rows:
     Raises:
         FormatError: If it is damaged, or lacks a column that the layout names.
     """
-    import pyarrow.parquet as pq
-
     if layout.column_names is not None:
         raise FormatError(f"{file}: expected no column_names: a Parquet file has its own; delete the key")
+    table = _opened(file)
+    columns = _require_columns(str(file), layout, list(table.schema_arrow.names))
+    return Rows(
+        name=str(file),
+        count=table.metadata.num_rows,
+        batches=_parquet_batches(file, table, columns),
+        place=lambda row: _row(file, row),
+    )
+
+
+def parquet_columns(file: Path) -> list[str]:
+    """Name the columns of a Parquet file.
+
+    Args:
+        file: The file.
+
+    Returns:
+        Their names.
+    """
+    return list(_opened(file).schema_arrow.names)
+
+
+def _opened(file: Path) -> Any:
+    import pyarrow.parquet as pq
+
     try:
         table = pq.ParquetFile(file)
-        names, count = list(table.schema_arrow.names), table.metadata.num_rows
+        table.schema_arrow.names  # noqa: B018 - read here, where its damage is an error of ours
     except _STUMBLES as error:
         raise FormatError(_damaged(file, error)) from error
-    columns = _require_columns(str(file), layout, names)
-    return Rows(
-        name=str(file), count=count, batches=_parquet_batches(file, table, columns), place=lambda row: _row(file, row)
-    )
+    return table
 
 
 def frame_rows(frame: Any, layout: TableLayout) -> Rows:

@@ -16,11 +16,11 @@ import numpy as np
 from forcetorque.arrays import FloatArray, IntArray
 from forcetorque.errors import FormatError, MissingFileError, UnitError, known_names
 from forcetorque.exchange.log_format import LogReading
-from forcetorque.exchange.tabular.columnar import frame_rows, is_parquet_file, parquet_rows
+from forcetorque.exchange.tabular.columnar import frame_rows, is_parquet_file, parquet_columns, parquet_rows
 from forcetorque.exchange.tabular.layout import TableLayout, TableSignal
 from forcetorque.exchange.tabular.numbers import column_floats, column_stamps
 from forcetorque.exchange.tabular.rows import LARGEST_TABLE, Rows
-from forcetorque.exchange.tabular.text import text_rows
+from forcetorque.exchange.tabular.text import text_columns, text_rows
 from forcetorque.recording import QUANTITIES, Finding, Labels, OrientationLayout, Signal, Stream, orientation_signals
 from forcetorque.spatial import si_factor
 
@@ -54,6 +54,18 @@ def read_table(path: Path | str, layout: TableLayout, *, stream: str, clock: str
         raise MissingFileError(f"{file}: expected a table, there is no such file")
     rows = parquet_rows(file, layout) if is_parquet_file(file) else text_rows(file, layout)
     return _reading(rows, layout, stream=stream, clock=clock)
+
+
+def table_columns(path: Path) -> list[str]:
+    """Name the columns of a table.
+
+    Args:
+        path: Text file whose first line has headings between commas, or a Parquet file.
+
+    Returns:
+        Their names.
+    """
+    return parquet_columns(path) if is_parquet_file(path) else text_columns(path)
 
 
 def read_frame(frame: Any, layout: TableLayout, *, stream: str, clock: str) -> LogReading:

@@ -47,19 +47,34 @@ def text_rows(file: Path, layout: TableLayout) -> Rows:
     )
 
 
+def text_columns(file: Path, delimiter: str = ",") -> list[str]:
+    """Name the columns of a text file by its first line.
+
+    Args:
+        file: The file.
+        delimiter: As of a layout.
+
+    Returns:
+        Their names.
+
+    Raises:
+        FormatError: If that is no text.
+    """
+    with file.open("rb") as stream:
+        heading = stream.readline(BLOCK_SIZE).rstrip(b"\r\n")
+    if delimiter == " ":
+        heading = b" ".join(heading.split())
+    try:
+        return [word.strip() for word in heading.decode("utf-8-sig").split(delimiter)]
+    except UnicodeDecodeError as error:
+        raise FormatError(f"{file}:1: expected a line of headings as text, got {error.reason}") from error
+
+
 def _headings(file: Path, layout: TableLayout) -> tuple[tuple[str, ...], int]:
     """Names of the columns, and the line of the first row."""
     names, first_line = layout.column_names, 1
     if names is None:
-        with file.open("rb") as stream:
-            heading = stream.readline(BLOCK_SIZE).rstrip(b"\r\n")
-        if layout.delimiter == " ":
-            heading = b" ".join(heading.split())
-        try:
-            names = tuple(word.strip() for word in heading.decode("utf-8-sig").split(layout.delimiter))
-        except UnicodeDecodeError as error:
-            raise FormatError(f"{file}:1: expected a line of headings as text, got {error.reason}") from error
-        first_line = 2
+        names, first_line = tuple(text_columns(file, layout.delimiter)), 2
     if len(set(names)) != len(names):
         raise FormatError(f"{file}:1: expected every heading once, got {', '.join(map(repr, names[:99]))}")
     return names, first_line
