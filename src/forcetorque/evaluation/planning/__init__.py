@@ -1,7 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What recordings to come would teach of a sensor, and which of them to make: optimal design for the loads of a use."""
 
-from forcetorque.evaluation.planning.before import ASSUMED_DRIFT, ASSUMED_NOISE, unfitted_posterior
+from forcetorque.evaluation.planning.before import (
+    ASSUMED_DRIFT,
+    ASSUMED_NOISE,
+    blank_posterior,
+    unfitted_posterior,
+)
 from forcetorque.evaluation.planning.criterion import Aim, Criterion, Volume
 from forcetorque.evaluation.planning.lesson import Knowledge, Lesson, Nuisance
 from forcetorque.evaluation.planning.picking import Choices, pick
@@ -17,6 +22,7 @@ __all__ = [
     "Lesson",
     "Nuisance",
     "Volume",
+    "blank_posterior",
     "pick",
     "picked_orders",
     "search",

@@ -54,14 +54,14 @@ def search(
         through: From postures in turn to the motion through them.
         drawn: Postures that may be taken; shape (n, j).
         orders: Motions to begin from, as postures in turn.
-        seconds: How long a changed motion may take; s.
+        seconds: How long it may take; s. Only where no motion to begin from is as short may the answer be longer.
         swaps: Changes that are tried.
         rng: Source of the changes.
 
     Returns:
         The best of all that was tried.
     """
-    best = min((through(order) for order in orders), key=lambda motion: motion.value)
+    best = min(map(through, orders), key=lambda motion: (motion.duration_s > seconds, motion.value))
     for _ in range(swaps):
         other = through(_changed(best.postures, drawn, rng))
         if other.duration_s <= seconds and other.value < best.value:
