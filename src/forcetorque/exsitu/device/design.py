@@ -64,7 +64,7 @@ class Designer:
     """Rest at every posture; s."""
     candidates: int = 240
     """Postures to pick from."""
-    swaps: int = 300
+    swaps: int = 1000
     """Postures that are tried in place of others."""
     tolerances: Tolerances = Tolerances()
     """How exact the device is."""
