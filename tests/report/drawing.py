@@ -40,6 +40,7 @@ from forcetorque.report.figures import (
     bench_figure,
     comparison_figure,
     contact_figure,
+    device_figure,
     difference_figure,
     excitation_figure,
     force_space_figure,
@@ -61,6 +62,7 @@ from forcetorque.report.figures import (
     use_figure,
 )
 from forcetorque.report.figures.canvas import png_bytes
+from forcetorque.robot import JointMotion
 from forcetorque.skin.surface import skin_surface, unrolled
 from forcetorque.spatial import WRENCH_COMPONENTS
 from tests.patches import cylinder_patch
@@ -428,10 +430,18 @@ def _bench(rng: np.random.Generator) -> Figure:
     )
 
 
+def _device(rng: np.random.Generator) -> Figure:
+    time = np.linspace(0.0, 120.0, 1200)
+    names = ("pitch", "yaw", "hinge")
+    motion = JointMotion.at_rest(names, np.cumsum(rng.normal(scale=0.02, size=(1200, 3)), axis=0))
+    return device_figure(time, motion, {name: 100.0 * rng.normal(size=1200) for name in names})
+
+
 FIGURES: dict[str, Callable[[np.random.Generator], Figure]] = {
     "bench": _bench,
     "space": _space,
     "force space": _force_space,
+    "device": _device,
     "difference": _difference,
     "lambda difference": _lambda_difference,
     "lambda force": _lambda_force,
