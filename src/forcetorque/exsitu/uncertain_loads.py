@@ -98,6 +98,7 @@ class UncertainLoads:
         moved = (self.wrench - np.average(self.wrench, axis=0, weights=self.count)) / size
         _, values, directions = np.linalg.svd(np.sqrt(self.count)[:, None] * moved, full_matrices=False)
         known = values > RANK_TOLERANCE * values[0]
+        unspanned = np.where(np.abs(directions[~known]) > RANK_TOLERANCE, directions[~known], 0.0)
         # of the inverse second moment, without directions that are not spanned
         root = directions[known].T / values[known]
         worth = moved @ root @ root.T / size * self.count[:, None]  # (n, 6): of every pose for every column of E
@@ -109,7 +110,7 @@ class UncertainLoads:
         for change in self.lasting.values():
             share = change.T @ worth
             covariance = covariance + share[:, :, None, None] * share
-        return MatrixError(covariance=covariance, unspanned=directions[~known] / size)
+        return MatrixError(covariance=covariance, unspanned=unspanned / size)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

@@ -17,9 +17,9 @@ from forcetorque.exsitu.span import RANK_TOLERANCE, load_sizes
 from forcetorque.exsitu.specimens import simulate_specimen
 from forcetorque.simulation import FAMILIES
 
-FORCE_N: Final = 100.0
+HELD_OUT_FORCE_N: Final = 100.0
 """Standard deviation of every component of a held-out force; N."""
-MOMENT_NM: Final = 5.0
+HELD_OUT_MOMENT_NM: Final = 5.0
 """The same of the moment; N m."""
 SAMPLES: Final = 360
 """Samples that a calibration has, however it is made."""
@@ -51,7 +51,7 @@ def held_out_loads(seed: int = 0) -> FloatArray:
     Returns:
         Changes of load; shape (400, 6); N, N m.
     """
-    size = np.repeat([FORCE_N, MOMENT_NM], 3)
+    size = np.repeat([HELD_OUT_FORCE_N, HELD_OUT_MOMENT_NM], 3)
     loads: FloatArray = size * np.random.default_rng(_JUDGED_SEED + seed).standard_normal((_LOADS, 6))
     return loads
 
