@@ -149,7 +149,7 @@ def better_motion(third: Run, sensor: str, *, swaps: int = 1000, tolerances: Tol
         swaps=swaps,
         tolerances=tolerances or Tolerances(),
     )
-    best = designer.best(third.sequence.postures)
+    best = designer.better_than(third.sequence.postures)
     return Run(device=third.device, load=third.load, sequence=best.sequence, hold_s=third.hold_s)
 
 

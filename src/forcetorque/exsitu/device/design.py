@@ -9,7 +9,7 @@ the other.
 from __future__ import annotations
 
 import itertools
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Final
 
 import numpy as np
@@ -17,13 +17,14 @@ import numpy as np
 from forcetorque.arrays import FloatArray
 from forcetorque.evaluation.planning import Choices, Volume, blank_posterior, picked_orders, search
 from forcetorque.exsitu.device.description import Device
-from forcetorque.exsitu.device.held_out import SAMPLES, sample_noise
+from forcetorque.exsitu.device.held_out import SAMPLES, held_out_loads, sample_noise
 from forcetorque.exsitu.device.load import Load
 from forcetorque.exsitu.device.rest_table import RestTable
 from forcetorque.exsitu.device.sequence import Sequence, joint_ranges
 from forcetorque.exsitu.device.tolerances import Tolerances
 from forcetorque.exsitu.device.trajectory import joint_speeds
 from forcetorque.exsitu.span import load_sizes
+from forcetorque.exsitu.uncertain_loads import MatrixError
 from forcetorque.simulation.motions import Waypoints, shortest_moves
 
 _SEED: Final = 22
@@ -46,6 +47,8 @@ class DesignedMotion:
     """How long it takes; s."""
     value: float
     """Logarithm of the volume that the matrix is left in, by noise and by what may be wrong with the device."""
+    squares: tuple[float, float]
+    """Mean squares of the errors of force and moment that are foretold at held-out loads; N^2, (N m)^2."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -74,15 +77,23 @@ class Designer:
     def __post_init__(self) -> None:
         object.__setattr__(self, "rest", RestTable.of(self.device, self.load, self.sensor, self.tolerances))
 
-    def best(self, *begun: FloatArray) -> DesignedMotion:
-        """Find a motion.
+    def better_than(self, begun: FloatArray) -> DesignedMotion:
+        """Find the motion of least volume that foretells no larger mean square errors than another one does.
+
+        Volume alone would trade a moment that is used for a force that is known well already.
 
         Args:
-            *begun: Postures of motions to begin from, beside those that are picked; shapes (k, 3); rad.
+            begun: Postures of the other motion, from which one search begins too; shape (k, 3); rad.
 
         Returns:
             The best of what was tried.
         """
+        most = np.array(self.through(begun).squares)
+
+        def judged(postures: FloatArray) -> DesignedMotion:
+            motion = self.through(postures)
+            return motion if (np.array(motion.squares) <= most).all() else replace(motion, value=np.inf)
+
         rng = np.random.default_rng(_SEED)
         drawn = self._drawn(rng)
         loads = self.rest.loads(drawn)
@@ -95,9 +106,9 @@ class Designer:
         noise = np.diag(sample_noise()) + (loads.fresh**2).sum(axis=2).mean(axis=0)
         posterior = blank_posterior(np.sqrt(noise), load_sizes(loads.wrench))
         return search(
-            self.through,
+            judged,
             drawn,
-            [*picked_orders(posterior, Volume(), choices, drawn), *begun],
+            [*picked_orders(posterior, Volume(), choices, drawn), begun],
             seconds=self.seconds,
             swaps=self.swaps,
             rng=rng,
@@ -126,8 +137,13 @@ class Designer:
             unlocked=tuple(unlocked[1:]),
         )
         line = Waypoints.at_speed(sequence.joints, sequence.postures, self._speeds, hold_s=self.hold_s)
+        error = self._error(sequence, line)
         return DesignedMotion(
-            postures=postures, sequence=sequence, duration_s=line.duration_s, value=self._volume(sequence, line)
+            postures=postures,
+            sequence=sequence,
+            duration_s=line.duration_s,
+            value=error.volume,
+            squares=error.trace(held_out_loads()),
         )
 
     @property
@@ -135,11 +151,11 @@ class Designer:
         speeds = joint_speeds(self.device)
         return np.array([speeds[joint] for joint in self.device.joint_names])
 
-    def _volume(self, sequence: Sequence, line: Waypoints) -> float:
+    def _error(self, sequence: Sequence, line: Waypoints) -> MatrixError:
         seconds = np.linspace(0.0, line.duration_s, SAMPLES)
         way = np.clip(np.searchsorted(line.departures_s, seconds, side="right") - 1, 0, None)
         locked = ~np.array(sequence.unlocked)[way]
-        return self.rest.loads(line(seconds[locked]).position).matrix_error(sample_noise()).volume
+        return self.rest.loads(line(seconds[locked]).position).matrix_error(sample_noise())
 
     def _drawn(self, rng: np.random.Generator) -> FloatArray:
         """Postures to pick from, the start first, each other one at a lock and half of them at ends of pitch."""
