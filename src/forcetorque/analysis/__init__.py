@@ -23,6 +23,8 @@ from forcetorque.analysis.criterion import Bound, Criterion
 from forcetorque.analysis.decide import use_verdicts
 from forcetorque.analysis.device import DeviceDesign, device
 from forcetorque.analysis.device_files import write_device
+from forcetorque.analysis.device_span import DeviceSpan, better_motion, device_span
+from forcetorque.analysis.device_span_rows import DirectionRow
 from forcetorque.analysis.estimate import IntervalEstimates, estimate_experiment
 from forcetorque.analysis.estimate_summary import (
     EstimateSummary,
@@ -127,6 +129,8 @@ __all__ = [
     "Criterion",
     "Demands",
     "DeviceDesign",
+    "DeviceSpan",
+    "DirectionRow",
     "EstimateSummary",
     "Evaluation",
     "ExperimentAssessment",
@@ -192,6 +196,7 @@ __all__ = [
     "accept",
     "assess",
     "assess_experiment",
+    "better_motion",
     "by_sensor",
     "calibrate_for_file",
     "calibrate_jointly",
@@ -208,6 +213,7 @@ __all__ = [
     "criteria_table",
     "data_doubts",
     "device",
+    "device_span",
     "doubtful_spans",
     "estimate_experiment",
     "estimates_of_recordings",
