@@ -62,5 +62,7 @@ def test_an_average_over_time_is_another_number() -> None:
 
 def test_a_motion_that_only_holds_has_no_average() -> None:
     """Its path is nothing."""
+    held = motor_duty("pitch", np.full(10, 131.0), np.zeros(10), np.arange(10.0))
+    assert (held.average_Nm, held.holding_Nm, held.rms_Nm) == (None, 131.0, 131.0)
     with pytest.raises(SensorError, match=r"expected a motion to average over by \(6\.1\), got 10 samples that all"):
         average_torque(np.full(10, 131.0), np.zeros(10))

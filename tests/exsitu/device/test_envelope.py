@@ -34,9 +34,9 @@ def test_a_straight_arm_that_stands_still() -> None:
 def test_the_motion_is_contained_in_a_square_metre_and_a_half() -> None:
     """Seen from the side, where it is largest: half a circle of the farthest corner of the plates, and the arm."""
     swept = _swept(twelve_steps(DEVICE))
-    assert max(one.rectangle_m2 for one in swept.values()) == swept["side"].rectangle_m2 < 1.5
+    assert max(one.rectangle_m2 for one in swept.values()) == swept["the side"].rectangle_m2 < 1.5
     reach = np.hypot(HINGE_M + DEVICE.weights.foot_m + 7 * DEVICE.weights.height_m, DEVICE.weights.radius_m)
-    assert swept["side"].extent_m[1] == pytest.approx(2.0 * reach, rel=0.01)
+    assert swept["the side"].extent_m[1] == pytest.approx(2.0 * reach, rel=0.01)
     for one in swept.values():
         assert one.hull_m2 < one.rectangle_m2
 

@@ -140,38 +140,38 @@ def test_table_6_3_of_a_bare_load_of_35_kg_is_that_by_hand() -> None:
 @pytest.mark.parametrize(("full_width", "force"), [(0.5, 0.61), (0.25, 0.31), (0.1, 0.12)])
 def test_table_6_3_of_encoders_within_five_percent(full_width: float, force: float) -> None:
     """Root mean square of Fx and Fy; the device has 0.2 kg of interface and bracket beside the 35 kg."""
-    rms = _encoders(full_width).at_most.rms
+    rms = _encoders(full_width).errors.at_most.rms
     np.testing.assert_allclose(rms[:2], force, rtol=0.05)
 
 
 @pytest.mark.parametrize(("full_width", "force"), [(0.015, 0.152), (0.03, 0.303)])
 def test_table_6_3_of_an_imu_within_a_percent(full_width: float, force: float) -> None:
     """With interface and bracket."""
-    np.testing.assert_allclose(_imu(full_width).at_most.rms[:3], force, rtol=0.01)
+    np.testing.assert_allclose(_imu(full_width).errors.at_most.rms[:3], force, rtol=0.01)
 
 
 def test_the_largest_errors_of_forces() -> None:
     """0.5 deg full width is 1.5 N per joint; 0.15 deg meets 0.5 N in each component, not as a norm of both joints."""
     assert _encoders(0.5).of_one[0] == pytest.approx(1.5, rel=0.01)
     narrow = _encoders(0.15)
-    assert narrow.at_most.largest[:3].max() < 0.5 < narrow.at_most.largest_norms[0]
-    assert narrow.met_to_kg[0] == 35.0
-    assert _encoders(0.25).at_most.largest[:3].max() > 0.5
-    assert _imu(0.015).at_most.largest_norms[0] < 0.5 < _imu(0.03).at_most.largest[:3].max()
+    assert narrow.errors.at_most.largest[:3].max() < 0.5 < narrow.errors.at_most.largest_norms[0]
+    assert narrow.errors.met_to_kg[0] == 35.0
+    assert _encoders(0.25).errors.at_most.largest[:3].max() > 0.5
+    assert _imu(0.015).errors.at_most.largest_norms[0] < 0.5 < _imu(0.03).errors.at_most.largest[:3].max()
 
 
 def test_no_grade_meets_the_moment_at_a_lever_of_245_mm() -> None:
     """At 35 kg 0.02 N m is 0.06 mm; the finest grades are at three times as much, and meet it up to 10 kg."""
     assert pytest.approx(0.06e-3, rel=0.03) == 0.02 / WEIGHT
     for grade, one in _graded(3).items():
-        assert one.at_most.largest[3:].max() > 0.02, grade
+        assert one.errors.at_most.largest[3:].max() > 0.02, grade
     assert _encoders(0.1, 3).of_one[1] == pytest.approx(0.07, abs=0.005)
     assert _imu(0.015, 3).of_one[1] == pytest.approx(0.06, abs=0.005)
     for finest in (_encoders(0.1, 3), _imu(0.015, 3)):
-        moment_kg = finest.met_to_kg[1]
+        moment_kg = finest.errors.met_to_kg[1]
         assert moment_kg is not None
         assert 10.0 < moment_kg < 11.0
-    assert _encoders(0.5, 3).met_to_kg[1] is None
+    assert _encoders(0.5, 3).errors.met_to_kg[1] is None
 
 
 def test_errors_of_steps_zero_and_noise_count_as_they_are() -> None:

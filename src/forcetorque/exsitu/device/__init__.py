@@ -13,7 +13,9 @@ from forcetorque.exsitu.device.grades import (
     THESIS_GRADES,
     Grade,
     Graded,
+    LoadErrors,
     graded,
+    load_errors,
 )
 from forcetorque.exsitu.device.hanging import hanging
 from forcetorque.exsitu.device.load import Load, device_load, part_inertia
@@ -57,6 +59,7 @@ __all__ = [
     "IMU",
     "LOAD_LENGTH",
     "Load",
+    "LoadErrors",
     "MASS",
     "MOMENT_LIMIT_NM",
     "MotorDuty",
@@ -86,6 +89,7 @@ __all__ = [
     "joint_ranges",
     "joint_speeds",
     "lag_rad",
+    "load_errors",
     "motor_duty",
     "part_inertia",
     "pendulum_Nm",

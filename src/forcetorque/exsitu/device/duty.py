@@ -25,8 +25,8 @@ class MotorDuty:
     """Path of the joint, both ways counted; rad."""
     peak_Nm: float
     """Largest torque; N m."""
-    average_Nm: float
-    """Average by path (6.1); N m."""
+    average_Nm: float | None
+    """Average by path (6.1); N m; None of a motor that only holds, which has none."""
     rms_Nm: float
     """Root mean square over time, holds counted; N m."""
     holding_Nm: float
@@ -75,9 +75,6 @@ def motor_duty(joint: str, torque: Any, position: Any, time: Any) -> MotorDuty:
 
     Returns:
         Its duty.
-
-    Raises:
-        SensorError: If the joint never moves.
     """
     seconds = read_only(time, name="time", shape=(None,))
     angles = read_only(position, name="position", shape=seconds.shape)
@@ -87,7 +84,7 @@ def motor_duty(joint: str, torque: Any, position: Any, time: Any) -> MotorDuty:
         joint=joint,
         path_rad=float(np.abs(np.diff(angles)).sum()),
         peak_Nm=float(np.abs(torques).max()),
-        average_Nm=average_torque(torques, angles),
+        average_Nm=None if held.all() else average_torque(torques, angles),
         rms_Nm=float(np.sqrt(np.diff(seconds) @ _between(torques**2) / (seconds[-1] - seconds[0]))),
         holding_Nm=float(np.abs(torques[held]).max(initial=0.0)),
     )

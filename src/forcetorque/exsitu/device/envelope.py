@@ -16,7 +16,7 @@ from forcetorque.robot import JointMotion, build_tree, link_pose
 ARM_RADIUS_M = 0.06
 """Radius about the axis of the arm that motors, sensors and hinge stay within; the thesis prints none, it is ours."""
 
-VIEWS = {"above": (0, 1), "side": (0, 2), "behind": (1, 2)}
+VIEWS = {"above": (0, 1), "the side": (0, 2), "behind": (1, 2)}
 """Axes of the base that each view shows."""
 
 _RIM = 36

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from collections.abc import Sequence as Several
 from dataclasses import dataclass, replace
 
@@ -66,31 +67,22 @@ DATA_SHEETS = (
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Graded:
-    """What a grade does to the reference of a sensor."""
+class LoadErrors:
+    """Errors of the reference of a sensor at every load."""
 
-    grade: Grade
-    """The grade."""
     loads_kg: FloatArray
     """Mass on the hinge, carrier included, growing; shape (l,); kg."""
-    errors: tuple[ErrorBudget, ...]
+    budgets: tuple[ErrorBudget, ...]
     """Errors at each load."""
 
     def __post_init__(self) -> None:
-        shape = (len(self.errors),)
+        shape = (len(self.budgets),)
         object.__setattr__(self, "loads_kg", read_only(self.loads_kg, name="loads_kg", shape=shape))
 
     @property
     def at_most(self) -> ErrorBudget:
         """Errors at the largest load."""
-        return self.errors[-1]
-
-    @property
-    def of_one(self) -> tuple[float, float]:
-        """Largest error of force and moment at the largest load with one quantity off alone; N, N m."""
-        alone = np.array([self.at_most.only(quantity).largest_norms for quantity in self.grade.quantities])
-        force, moment = alone.max(axis=0)
-        return float(force), float(moment)
+        return self.budgets[-1]
 
     @property
     def met_to_kg(self) -> tuple[float | None, float | None]:
@@ -101,9 +93,47 @@ class Graded:
         Returns:
             Of force and moment; at most the largest load; None where the smallest is too much; kg.
         """
-        largest = np.array([error.largest for error in self.errors])
+        largest = np.array([budget.largest for budget in self.budgets])
         force = _crossing(self.loads_kg, largest[:, :3].max(axis=1), FORCE_LIMIT_N)
         return force, _crossing(self.loads_kg, largest[:, 3:].max(axis=1), MOMENT_LIMIT_NM)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Graded:
+    """What a grade does to the reference of a sensor."""
+
+    grade: Grade
+    """The grade."""
+    errors: LoadErrors
+    """Errors at every load."""
+
+    @property
+    def of_one(self) -> tuple[float, float]:
+        """Largest norms of the errors of force and moment at the largest load, one quantity off alone; N, N m."""
+        alone = np.array([self.errors.at_most.only(quantity).largest_norms for quantity in self.grade.quantities])
+        force, moment = alone.max(axis=0)
+        return float(force), float(moment)
+
+
+def load_errors(device: Device, sensor: str, sequence: Sequence, tolerances: Mapping[str, Tolerance]) -> LoadErrors:
+    """Propagate errors to the reference of a sensor at every load of a device.
+
+    Args:
+        device: The device.
+        sensor: The sensor.
+        sequence: What it does.
+        tolerances: By how much each quantity is off.
+
+    Returns:
+        The errors, over poses that are `SPACING_DEG` from each other at most.
+    """
+    loads = [device_load(device, load) for load in device.loads_kg]
+    budgets = []
+    for load in loads:
+        poses = sequence.still_poses(device, load, spacing_deg=SPACING_DEG)
+        reference = Reference(device=device, load=load, poses=poses, sensor=sensor)
+        budgets.append(ErrorBudget.of(reference, tolerances))
+    return LoadErrors(loads_kg=np.array([load.mass_kg for load in loads]), budgets=tuple(budgets))
 
 
 def graded(device: Device, sensor: str, sequence: Sequence, grades: Several[Grade]) -> tuple[Graded, ...]:
@@ -118,30 +148,17 @@ def graded(device: Device, sensor: str, sequence: Sequence, grades: Several[Grad
     Returns:
         One for each grade.
     """
-    loads = [device_load(device, load) for load in device.loads_kg]
-    references = [
-        Reference(
-            device=device,
-            load=load,
-            poses=sequence.still_poses(device, load, spacing_deg=SPACING_DEG),
-            sensor=sensor,
-        )
-        for load in loads
-    ]
     units = {
-        quantities: [ErrorBudget.of(one, dict.fromkeys(quantities, Tolerance(step=1.0))) for one in references]
+        quantities: load_errors(device, sensor, sequence, dict.fromkeys(quantities, Tolerance(step=1.0)))
         for quantities in {grade.quantities for grade in grades}
     }
-    return tuple(
-        Graded(
-            grade=grade,
-            loads_kg=np.array([load.mass_kg for load in loads]),
-            errors=tuple(
-                replace(unit, tolerances=(grade.tolerance,) * len(unit.quantities)) for unit in units[grade.quantities]
-            ),
-        )
-        for grade in grades
-    )
+    return tuple(Graded(grade=grade, errors=_with_tolerance(units[grade.quantities], grade)) for grade in grades)
+
+
+def _with_tolerance(unit: LoadErrors, grade: Grade) -> LoadErrors:
+    """The same slopes with the tolerance of a grade."""
+    tolerances = (grade.tolerance,) * len(grade.quantities)
+    return replace(unit, budgets=tuple(replace(budget, tolerances=tolerances) for budget in unit.budgets))
 
 
 def _crossing(loads_kg: FloatArray, errors: FloatArray, limit: float) -> float | None:

@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -62,25 +61,35 @@ def hinge_ways(device: Device, load: Load, sequence: Sequence) -> tuple[HingeWay
         One for each way.
     """
     sequence.require_possible(device, load)
-    return tuple(_ways(device, load, sequence))
-
-
-def _ways(device: Device, load: Load, sequence: Sequence) -> Iterator[HingeWay]:
-    for k, unlocked in enumerate(sequence.unlocked):
-        start, end = sequence.postures[k : k + 2]
-        count = 1 + int(np.ceil(np.abs(end - start).max() / _SPACING_RAD))
-        postures = start + np.linspace(0.0, 1.0, count)[:, None] * (end - start)
-        postures[:, -1] = start[-1]
-        moments = -answer_of(device, load, JointMotion.at_rest(sequence.joints, postures)).torque("hinge")
-        at_end = JointMotion.at_rest(sequence.joints, end[None])
-        rest = with_free_hinge(device, load, at_end) if unlocked else at_end
-        yield HingeWay(
+    postures = [
+        _kept_at_start(start, end) for start, end in zip(sequence.postures, sequence.postures[1:], strict=False)
+    ]
+    at_rest = JointMotion.at_rest(sequence.joints, np.concatenate(postures))
+    moments = np.split(
+        -answer_of(device, load, at_rest).torque("hinge"), np.cumsum([len(way) for way in postures])[:-1]
+    )
+    ends = sequence.postures[1:, -1].copy()
+    for k in np.flatnonzero(sequence.unlocked):
+        at_end = JointMotion.at_rest(sequence.joints, sequence.postures[k + 1 : k + 2])
+        ends[k] = with_free_hinge(device, load, at_end).position[0, -1]
+    return tuple(
+        HingeWay(
             step=sequence.steps[k + 1],
             unlocked=unlocked,
-            lock_rad=float(start[-1]),
-            end_rad=float(rest.position[0, -1]),
-            moment=moments,
+            lock_rad=float(sequence.postures[k, -1]),
+            end_rad=float(ends[k]),
+            moment=moments[k],
         )
+        for k, unlocked in enumerate(sequence.unlocked)
+    )
+
+
+def _kept_at_start(start: FloatArray, end: FloatArray) -> FloatArray:
+    """Postures on a way, the hinge where it begins; shape (n, j)."""
+    count = 1 + int(np.ceil(np.abs(end - start).max() / _SPACING_RAD))
+    postures = start + np.linspace(0.0, 1.0, count)[:, None] * (end - start)
+    postures[:, -1] = start[-1]
+    return np.asarray(postures, dtype=np.float64)
 
 
 def lag_rad(device: Device, load: Load, friction_Nm: float) -> float:

@@ -29,6 +29,8 @@ motors and arm give way for each N m (rad)."""
 QUANTITIES = (*ENCODERS, *IMU, MASS, BRACKET_LENGTH, LOAD_LENGTH, COMPLIANCE)
 """All that a reference is computed from."""
 
+_LINEAR = frozenset((MASS, BRACKET_LENGTH, LOAD_LENGTH))
+
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Reference:
@@ -83,8 +85,10 @@ class Reference:
         Returns:
             Change of the wrench per unit of the quantity; shape (n, 6).
         """
-        # angles: the error of a central difference is a 6e-9 of the slope; all else is linear
-        step = 1e-4 if quantity in (*ENCODERS, COMPLIANCE) else 1.0
+        if quantity in _LINEAR:
+            return self._units[quantity]
+        # of an angle, the error of a central difference is 2e-9 of the slope
+        step = 1e-4
         if quantity == COMPLIANCE:
             step /= max(np.abs(torque).max() for torque in self._torques.values())
         slope: FloatArray = (self.wrench({quantity: step}) - self.wrench({quantity: -step})) / (2.0 * step)
@@ -110,18 +114,15 @@ class Reference:
     def _of_load(self, off: Mapping[str, FloatArray]) -> FloatArray:
         """What errors of mass and lengths add; shape (n, 6)."""
         change = np.zeros((len(self.poses), 6))
-        for quantity in self._units.keys() & off.keys():
+        for quantity in _LINEAR & off.keys():
             change += off[quantity][:, None] * self._units[quantity]
         return change
 
     @cached_property
     def _units(self) -> dict[str, FloatArray]:
-        """What one more unit of mass and lengths adds: the wrench is linear in them."""
+        """What one more unit of mass and lengths adds, in which the wrench is linear."""
         true = self._read(self._tree, self.poses)
-        return {
-            quantity: self._read(self._one_more(quantity), self.poses) - true
-            for quantity in (MASS, BRACKET_LENGTH, LOAD_LENGTH)
-        }
+        return {quantity: self._read(self._one_more(quantity), self.poses) - true for quantity in _LINEAR}
 
     def _one_more(self, quantity: str) -> BodyTree:
         """The device with twice the mass on it, or with one metre more of a length."""

@@ -5,6 +5,9 @@ from forcetorque.report.figures.bench import bench_figure
 from forcetorque.report.figures.compare import index_figure
 from forcetorque.report.figures.comparison import comparison_figure
 from forcetorque.report.figures.contacts import contact_figure
+from forcetorque.report.figures.device_envelope import envelope_figure
+from forcetorque.report.figures.device_errors import reference_error_figure
+from forcetorque.report.figures.device_motors import motor_figure
 from forcetorque.report.figures.differences import difference_figure
 from forcetorque.report.figures.excitation import excitation_figure
 from forcetorque.report.figures.force_space import force_space_figure
@@ -30,6 +33,7 @@ __all__ = [
     "comparison_figure",
     "contact_figure",
     "difference_figure",
+    "envelope_figure",
     "excitation_figure",
     "force_space_figure",
     "gain_figure",
@@ -39,10 +43,12 @@ __all__ = [
     "lambda_difference_figure",
     "lambda_force_figure",
     "learnt_figure",
+    "motor_figure",
+    "reference_error_figure",
     "residual_figure",
     "skin_event_figure",
-    "skin_wrench_figure",
     "skin_layout_figure",
+    "skin_wrench_figure",
     "space_figure",
     "sphere_figure",
     "taxel_figure",
