@@ -32,7 +32,7 @@ from forcetorque.analysis import (
     UseVerdict,
     group_trials,
 )
-from forcetorque.analysis.device_demand_rows import GradeRow, MotorRow
+from forcetorque.analysis.device_demand_rows import GradeRow
 from forcetorque.analysis.skin_event_rows import SkinEventPicture
 from forcetorque.analysis.skin_picture import TaxelPicture
 from forcetorque.calibration.joint import PartResidual
@@ -42,6 +42,7 @@ from forcetorque.report.figures import (
     bench_figure,
     comparison_figure,
     contact_figure,
+    device_figure,
     difference_figure,
     envelope_figure,
     excitation_figure,
@@ -52,7 +53,6 @@ from forcetorque.report.figures import (
     lambda_difference_figure,
     lambda_force_figure,
     learnt_figure,
-    motor_figure,
     reference_error_figure,
     residual_figure,
     skin_event_figure,
@@ -66,6 +66,7 @@ from forcetorque.report.figures import (
     use_figure,
 )
 from forcetorque.report.figures.canvas import png_bytes
+from forcetorque.robot import JointMotion
 from forcetorque.skin.surface import skin_surface, unrolled
 from forcetorque.spatial import WRENCH_COMPONENTS
 from tests.patches import cylinder_patch
@@ -405,24 +406,6 @@ def _reference_error(rng: np.random.Generator) -> Figure:
     )
 
 
-def _motor(rng: np.random.Generator) -> Figure:
-    torques = 40.0 * rng.normal(size=(400, 2))
-    rows = [
-        MotorRow(
-            joint=joint,
-            peak_Nm=float(np.abs(torque).max()),
-            moving_peak_Nm=150.0,
-            average_Nm=60.0,
-            average_over_peak=0.5,
-            rms_Nm=50.0,
-            holding_Nm=40.0,
-            limit_Nm=200.0,
-        )
-        for joint, torque in zip(("pitch", "yaw"), torques.T, strict=True)
-    ]
-    return motor_figure(0.1 * np.arange(400), torques, rows)
-
-
 def _thermal(rng: np.random.Generator) -> Figure:
     degrees = np.concatenate([np.linspace(20.0, 40.0, 60), np.linspace(40.0, 20.0, 60)])
     heating = np.repeat([1.0, -1.0], 60)
@@ -482,10 +465,18 @@ def _bench(rng: np.random.Generator) -> Figure:
     )
 
 
+def _device(rng: np.random.Generator) -> Figure:
+    time = np.linspace(0.0, 120.0, 1200)
+    names = ("pitch", "yaw", "hinge")
+    motion = JointMotion.at_rest(names, np.cumsum(rng.normal(scale=0.02, size=(1200, 3)), axis=0))
+    return device_figure(time, motion, {name: 100.0 * rng.normal(size=1200) for name in names})
+
+
 FIGURES: dict[str, Callable[[np.random.Generator], Figure]] = {
     "bench": _bench,
     "space": _space,
     "force space": _force_space,
+    "device": _device,
     "difference": _difference,
     "lambda difference": _lambda_difference,
     "lambda force": _lambda_force,
@@ -498,7 +489,6 @@ FIGURES: dict[str, Callable[[np.random.Generator], Figure]] = {
     "held out": _held_out,
     "joint": _joint,
     "learnt": _learnt,
-    "motor": _motor,
     "reference error": _reference_error,
     "skin event": _skin_event,
     "skin_wrench": _skin_wrench,

@@ -21,6 +21,9 @@ from forcetorque.analysis.contact_forces import (
 from forcetorque.analysis.corrections import corrections_of
 from forcetorque.analysis.criterion import Bound, Criterion
 from forcetorque.analysis.decide import use_verdicts
+from forcetorque.analysis.device import DeviceDesign, device
+from forcetorque.analysis.device_demands import DeviceDemands, device_demands
+from forcetorque.analysis.device_files import write_device
 from forcetorque.analysis.estimate import IntervalEstimates, estimate_experiment
 from forcetorque.analysis.estimate_summary import (
     EstimateSummary,
@@ -125,6 +128,7 @@ __all__ = [
     "torque_picture",
     "frames_of_patches",
     "fuse_experiment",
+    "write_device",
     "write_plan",
     "refuse_full_folder",
     "plan_sentence",
@@ -169,6 +173,8 @@ __all__ = [
     "Correction",
     "Criterion",
     "Demands",
+    "DeviceDemands",
+    "DeviceDesign",
     "Evaluation",
     "ExperimentAssessment",
     "EstimateSummary",
@@ -228,6 +234,8 @@ __all__ = [
     "criteria_table",
     "corrections_of",
     "data_doubts",
+    "device",
+    "device_demands",
     "doubtful_spans",
     "estimate_experiment",
     "estimates_of_recordings",

@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 
 import numpy as np
 from pydantic import Field
@@ -20,7 +19,6 @@ from forcetorque.analysis.device_demand_rows import (
     UnwindingRow,
 )
 from forcetorque.analysis.device_requirements import MOST_SENSORS, requirement_rows
-from forcetorque.arrays import FloatArray
 from forcetorque.exsitu.device import (
     ARM_RADIUS_M,
     BRACKET_LENGTH,
@@ -31,6 +29,7 @@ from forcetorque.exsitu.device import (
     MASS,
     THESIS_GRADES,
     Device,
+    DeviceFile,
     DeviceTrajectory,
     ErrorBudget,
     Graded,
@@ -75,18 +74,6 @@ _UNITS = {"pitch": ("deg", 180.0 / np.pi), "yaw": ("deg", 180.0 / np.pi), MASS: 
 }
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class DemandPicture:
-    """What figures of the demands show."""
-
-    time_s: FloatArray
-    """Instants; shape (n,); s."""
-    torques: FloatArray
-    """Torques of pitch and yaw at rest at the postures of these instants, the largest load; shape (n, 2); N m."""
-    silhouettes: tuple[Silhouette, ...]
-    """What is swept in each view."""
-
-
 class DeviceDemands(Row):
     """What is demanded of a device with the largest stack of sensors, and what it does."""
 
@@ -99,7 +86,7 @@ class DeviceDemands(Row):
     motors: tuple[MotorRow, ...]
     """What motors bear."""
     unwinding: tuple[UnwindingRow, ...]
-    """How their averages depend on how yaw gets back in the 12 steps."""
+    """How their averages depend on how yaw gets back in the 12 steps; none of other motions."""
     hinge: tuple[HingeRow, ...]
     """Moments about the hinge, way by way."""
     locks: tuple[LockRow, ...]
@@ -110,8 +97,8 @@ class DeviceDemands(Row):
     """Errors of references, by sensor and quantity."""
     grades: tuple[GradeRow, ...]
     """Errors by grade of encoders and inertial sensors, of the innermost sensor."""
-    picture: DemandPicture = Field(exclude=True, repr=False)
-    """What figures show."""
+    silhouettes: tuple[Silhouette, ...] = Field(exclude=True, repr=False)
+    """What is swept in each view, for the figure."""
 
     def blocks(self) -> Iterator[Table | str]:
         """Give what people read.
@@ -123,7 +110,8 @@ class DeviceDemands(Row):
         yield table_of(self.requirements, f"requirements (6.2.1), with {stack}")
         yield from (f"{row.number}. {row.verdict}: {row.why}" for row in self.requirements)
         yield table_of(self.motors, f"motors, with {stack}")
-        yield table_of(self.unwinding, "average (6.1) over peak, by how yaw gets back in the 12 steps")
+        if self.unwinding:
+            yield table_of(self.unwinding, "average (6.1) over peak, by how yaw gets back in the 12 steps")
         yield table_of(self.hinge, f"moment of gravity about the hinge, {self.load}")
         yield table_of(self.locks, "locks of the hinge, by load")
         yield table_of(self.envelope, f"space that is swept: plates, and the arm within {ARM_RADIUS_M:g} m of its axis")
@@ -131,33 +119,28 @@ class DeviceDemands(Row):
         yield table_of(self.grades, f"what tells gravity: errors at {self.sensors[0]}, {self.load}")
 
 
-def device_demands(
-    device: Device, sequence: Sequence | None = None, *, tolerances: Mapping[str, Tolerance] = TOLERANCES
-) -> DeviceDemands:
+def device_demands(file: DeviceFile, *, tolerances: Mapping[str, Tolerance] = TOLERANCES) -> DeviceDemands:
     """Check what is demanded of a device, with three sensors in its stack.
 
     Args:
-        device: The device; missing sensors are stacked like its first.
-        sequence: What it does; the 12 steps if left out.
+        file: The device, and what it does; missing sensors are stacked like its first.
         tolerances: What quantities of the reference are off by.
 
     Returns:
         What it does.
     """
-    full = device.with_sensors(MOST_SENSORS)
-    sequence = twelve_steps(full) if sequence is None else sequence
+    full = file.with_sensors(MOST_SENSORS)
+    sequence = full.sequence
     load = device_load(full, max(full.loads_kg))
-    trajectory = DeviceTrajectory(device=full, load=load, sequence=sequence)
-    time, motion = trajectory.sampled(RATE_HZ)
-    at_rest = JointMotion.at_rest(motion.names, motion.position)
+    trajectory = DeviceTrajectory(device=full, load=load, sequence=sequence, hold_s=full.motion.hold_s)
     silhouettes = envelope(full, load, sequence.still_poses(full, load, spacing_deg=_SPACING_DEG))
     errors = {sensor: load_errors(full, sensor, sequence, tolerances) for sensor in full.sensor_names}
     return DeviceDemands(
         sensors=full.sensor_names,
         load=load.name,
-        requirements=requirement_rows(full, sequence, silhouettes, errors),
+        requirements=requirement_rows(full, silhouettes, errors),
         motors=_motor_rows(trajectory),
-        unwinding=tuple(_unwinding(full, yaw_return) for yaw_return in YawReturn),
+        unwinding=tuple(_unwinding(full, one) for one in YawReturn if full.motion.posture is None),
         hinge=_hinge_rows(full, sequence),
         locks=tuple(_lock_row(full, sequence, load_kg) for load_kg in full.loads_kg),
         envelope=tuple(_envelope_row(one) for one in silhouettes),
@@ -165,11 +148,7 @@ def device_demands(
         grades=tuple(
             _grade_row(one) for one in graded(full, full.sensor_names[0], sequence, (*THESIS_GRADES, *DATA_SHEETS))
         ),
-        picture=DemandPicture(
-            time_s=time,
-            torques=np.column_stack([answer_of(full, load, at_rest).torque(joint) for joint in ("pitch", "yaw")]),
-            silhouettes=silhouettes,
-        ),
+        silhouettes=silhouettes,
     )
 
 

@@ -9,16 +9,17 @@ from collections.abc import Sequence as Several
 import numpy as np
 
 from forcetorque.analysis.device_demand_rows import RequirementRow, Verdict
+from forcetorque.exsitu import THESIS_TABLE, read_loads
 from forcetorque.exsitu.device import (
     FORCE_LIMIT_N,
     MOMENT_LIMIT_NM,
-    Device,
+    DeviceFile,
     LoadErrors,
-    Sequence,
     Silhouette,
     answer_of,
     device_load,
 )
+from forcetorque.spatial import MeasureDirection
 
 MOST_SENSORS = 3
 """Sensors at a time, by requirement 7."""
@@ -31,7 +32,6 @@ ENVELOPE_M2 = 1.5
 MOST_LOADINGS = 3
 """How often weights may be put on, by requirement 2."""
 
-_COMPONENTS = 6
 _RANK_SHARE = 1e-9
 _SPACING_DEG = 10.0
 _NOT_COMPUTED = {
@@ -45,13 +45,12 @@ _NOT_COMPUTED = {
 
 
 def requirement_rows(
-    device: Device, sequence: Sequence, silhouettes: Several[Silhouette], errors: Mapping[str, LoadErrors]
+    file: DeviceFile, silhouettes: Several[Silhouette], errors: Mapping[str, LoadErrors]
 ) -> tuple[RequirementRow, ...]:
     """Judge the requirements.
 
     Args:
-        device: The device, with all sensors that it may have.
-        sequence: What it does.
+        file: The device, with all sensors that it may have, and what it does.
         silhouettes: What it sweeps.
         errors: Errors of the references by sensor.
 
@@ -59,17 +58,24 @@ def requirement_rows(
         A row for each requirement, two for forces and moments of the sixth.
     """
     rows = [
-        _excitation(device, sequence),
-        _judged(2, "weights are put on at most 3 times", 1.0, MOST_LOADINGS, "", "the motion takes one load"),
-        *_strength(device, sequence),
+        _excitation(file),
+        _judged(
+            2,
+            "weights are put on at most 3 times",
+            float(len(file.simulation.loads_kg)),
+            MOST_LOADINGS,
+            "",
+            "loads that it calibrates with, each put on at once",
+        ),
+        *_strength(file),
         *_errors(errors),
         _judged(
             10,
             "fewer than 6 degrees of freedom",
-            float(len(device.joint_names)),
+            float(len(file.joint_names)),
             MOST_JOINTS - 1,
             "",
-            f"{', '.join(device.joint_names)}",
+            f"{', '.join(file.joint_names)}",
         ),
         _space(silhouettes),
         *(
@@ -92,41 +98,43 @@ def _judged(number: int, text: str, value: float, limit: float, unit: str, why: 
     )
 
 
-def _excitation(device: Device, sequence: Sequence) -> RequirementRow:
-    load = device_load(device, max(device.loads_kg))
-    poses = sequence.still_poses(device, load, spacing_deg=_SPACING_DEG)
-    wrenches = answer_of(device, load, poses).wrenches
-    ranks = []
-    for name in wrenches.names:
-        wrench = wrenches.of_name(name)
-        scale = np.repeat([np.abs(wrench[:, k : k + 3]).max() for k in (0, 3)], 3)
-        values = np.linalg.svd(wrench / scale, compute_uv=False)
-        ranks.append(int((values > _RANK_SHARE * values[0]).sum()))
-    rank = min(ranks)
+def _excitation(file: DeviceFile) -> RequirementRow:
+    """What a pose tells of the direction that is told worst, over what a position on the workbench tells of it."""
+    bench = np.cov(read_loads(THESIS_TABLE, measure_direction=MeasureDirection.CHILD_TO_PARENT).wrench.T)
+    least = {}
+    for sensor in file.sensor_names:
+        read = []
+        for load_kg in file.simulation.loads_kg:
+            load = device_load(file, load_kg)
+            poses = file.sequence.still_poses(file, load, spacing_deg=_SPACING_DEG)
+            read.append(answer_of(file, load, poses).wrenches.of_name(sensor))
+        ratios = np.linalg.eigvals(np.linalg.solve(bench, np.cov(np.concatenate(read).T))).real
+        least[sensor] = float(ratios.min()) if ratios.min() > _RANK_SHARE * ratios.max() else 0.0
+    worst = min(least, key=lambda sensor: least[sensor])
+    loads = " and ".join(f"{load_kg:g} kg" for load_kg in file.simulation.loads_kg)
     return RequirementRow(
         number=1,
         requirement="excitation at least that of the 24 positions",
-        verdict=Verdict.MET if rank == _COMPONENTS else Verdict.NOT_MET,
-        value=float(rank),
-        limit=float(_COMPONENTS),
-        unit="axes",
-        why="the 24 positions move six axes; a motion with one load that moves five says nothing of the sixth"
-        if rank < _COMPONENTS
-        else "all six axes move; how well each is told is for the covariance to say",
+        verdict=Verdict.MET if least[worst] >= 1.0 else Verdict.NOT_MET,
+        value=least[worst],
+        limit=1.0,
+        unit="of theirs",
+        why=f"information of a pose with {loads} in the direction that {worst} is told worst, over that of a position "
+        "on the workbench, both without errors of the reference; 0 is a direction that nothing tells",
     )
 
 
-def _strength(device: Device, sequence: Sequence) -> Iterator[RequirementRow]:
-    limits = {"pitch": device.pitch.torque_Nm, "yaw": device.yaw.torque_Nm}
+def _strength(file: DeviceFile) -> Iterator[RequirementRow]:
+    limits = {"pitch": file.pitch.torque_Nm, "yaw": file.yaw.torque_Nm}
     met_kg, peaks = None, dict.fromkeys(limits, 0.0)
-    for load_kg in device.loads_kg:
-        load = device_load(device, load_kg)
-        answer = answer_of(device, load, sequence.still_poses(device, load, spacing_deg=_SPACING_DEG))
+    for load_kg in file.loads_kg:
+        load = device_load(file, load_kg)
+        answer = answer_of(file, load, file.sequence.still_poses(file, load, spacing_deg=_SPACING_DEG))
         peaks = {joint: float(np.abs(answer.torque(joint)).max()) for joint in limits}
         if all(peaks[joint] <= limit for joint, limit in limits.items()):
             met_kg = load.mass_kg
     joint = max(limits, key=lambda name: peaks[name] / limits[name])
-    heaviest = max(device.loads_kg)
+    heaviest = max(file.loads_kg)
     why = f"motor of {joint} against its limit at {heaviest:g} kg; strength of parts is not computed"
     row = _judged(5, "bears 35 kg", peaks[joint], limits[joint], "N m", why)
     bears = row.verdict is Verdict.MET and heaviest >= LARGEST_LOAD_KG
@@ -136,7 +144,7 @@ def _strength(device: Device, sequence: Sequence) -> Iterator[RequirementRow]:
         number=7,
         requirement="up to 3 sensors at a time",
         verdict=verdict,
-        value=float(len(device.sensor)),
+        value=float(len(file.sensor)),
         limit=float(MOST_SENSORS),
         unit="sensors",
         met_to_kg=met_kg,

@@ -2,10 +2,11 @@
 """A calibration device (thesis 6.2 to 6.5): what it is made of, how it moves, what its sensors and motors feel."""
 
 from forcetorque.exsitu.device.answer import DeviceAnswer, answer_of
-from forcetorque.exsitu.device.description import Axis, Device, DeviceFile, Hinge, Part, StackedSensor, Turn, Weights
+from forcetorque.exsitu.device.description import Axis, Device, Hinge, Part, StackedSensor, Turn, Weights
 from forcetorque.exsitu.device.duty import MotorDuty, average_torque, motor_duty
 from forcetorque.exsitu.device.envelope import ARM_RADIUS_M, VIEWS, Silhouette, envelope
 from forcetorque.exsitu.device.error_budget import ErrorBudget, drawn_errors
+from forcetorque.exsitu.device.file import DeviceFile, DeviceMotion, DevicePosture, DeviceSimulation
 from forcetorque.exsitu.device.grades import (
     DATA_SHEETS,
     FORCE_LIMIT_N,
@@ -22,6 +23,7 @@ from forcetorque.exsitu.device.load import Load, device_load, part_inertia
 from forcetorque.exsitu.device.locking import HingeWay, hinge_ways, lag_rad, pendulum_Nm
 from forcetorque.exsitu.device.model import BASE, device_model, device_root
 from forcetorque.exsitu.device.read import DEFAULT_DEVICE, read_device
+from forcetorque.exsitu.device.recording import DeviceRecording, DeviceSpecimens, simulate_device
 from forcetorque.exsitu.device.reference import (
     BRACKET_LENGTH,
     COMPLIANCE,
@@ -48,6 +50,11 @@ __all__ = [
     "Device",
     "DeviceAnswer",
     "DeviceFile",
+    "DeviceMotion",
+    "DevicePosture",
+    "DeviceRecording",
+    "DeviceSimulation",
+    "DeviceSpecimens",
     "DeviceTrajectory",
     "ENCODERS",
     "ErrorBudget",
@@ -94,6 +101,7 @@ __all__ = [
     "part_inertia",
     "pendulum_Nm",
     "read_device",
+    "simulate_device",
     "twelve_steps",
     "with_free_hinge",
 ]

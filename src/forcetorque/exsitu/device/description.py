@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import math
-from typing import Annotated, Literal
+from typing import Annotated, Self
 
 from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
@@ -158,7 +158,7 @@ class Device(Table):
         count = math.floor(self.weights.most_kg / self.weights.step_kg + 1e-9)
         return tuple(k * self.weights.step_kg for k in range(count + 1))
 
-    def with_sensors(self, count: int) -> Device:
+    def with_sensors(self, count: int) -> Self:
         """Stack another number of sensors like the first ones.
 
         Args:
@@ -174,7 +174,7 @@ class Device(Table):
         )
         return self.changed(sensor=(*self.sensor, *more)[:count])
 
-    def with_locks(self, *locks_deg: float) -> Device:
+    def with_locks(self, *locks_deg: float) -> Self:
         """Let the hinge lock elsewhere.
 
         Args:
@@ -185,7 +185,7 @@ class Device(Table):
         """
         return self.changed(hinge=self.hinge.model_copy(update={"locks_deg": locks_deg}))
 
-    def changed(self, **fields: object) -> Device:
+    def changed(self, **fields: object) -> Self:
         """Change fields, and check all of it again.
 
         Args:
@@ -214,13 +214,6 @@ class Device(Table):
             )
             raise PydanticCustomError("weights", "{message}", {"message": message})
         return self
-
-
-class DeviceFile(Device):
-    """The file of a device."""
-
-    schema_name: Literal["forcetorque/device-file/1"] = Field(alias="schema")
-    """Form of the file."""
 
 
 def _require_order(bounds: tuple[float, ...], field: str) -> None:

@@ -120,6 +120,11 @@ class Sequence:
     def _require_hinge(self, device: Device, load: Load, way: int, *, free: bool) -> None:
         start, end = self.postures[way : way + 2]
         step = f"sequence {self.name!r}, step {self.steps[way + 1]}"
+        if np.abs(np.deg2rad(device.hinge.locks_deg) - end[-1]).min() > _AT_LOCK_RAD:
+            raise RobotError(
+                f"{step}: expected the hinge at one of hinge.locks_deg = {list(device.hinge.locks_deg)}, got "
+                f"{np.rad2deg(end[-1]):g} deg"
+            )
         if free:
             at_end = with_free_hinge(device, load, JointMotion.at_rest(self.joints, self.postures[way + 1 : way + 2]))
             there = at_end.position[0, -1]
@@ -133,11 +138,6 @@ class Sequence:
             raise RobotError(
                 f"{step}: expected a locked hinge to stay, got a way from {np.rad2deg(start[-1]):g} to "
                 f"{np.rad2deg(end[-1]):g} deg; no motor moves it: unlock it, and let gravity do it"
-            )
-        if np.abs(np.deg2rad(device.hinge.locks_deg) - end[-1]).min() > _AT_LOCK_RAD:
-            raise RobotError(
-                f"{step}: expected the hinge at one of hinge.locks_deg = {list(device.hinge.locks_deg)}, got "
-                f"{np.rad2deg(end[-1]):g} deg"
             )
 
 
