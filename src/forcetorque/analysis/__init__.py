@@ -22,6 +22,7 @@ from forcetorque.analysis.corrections import corrections_of
 from forcetorque.analysis.criterion import Bound, Criterion
 from forcetorque.analysis.decide import use_verdicts
 from forcetorque.analysis.device import DeviceDesign, device
+from forcetorque.analysis.device_demands import DeviceDemands, device_demands
 from forcetorque.analysis.device_files import write_device
 from forcetorque.analysis.estimate import IntervalEstimates, estimate_experiment
 from forcetorque.analysis.estimate_summary import (
@@ -172,6 +173,7 @@ __all__ = [
     "Correction",
     "Criterion",
     "Demands",
+    "DeviceDemands",
     "DeviceDesign",
     "Evaluation",
     "ExperimentAssessment",
@@ -233,6 +235,7 @@ __all__ = [
     "corrections_of",
     "data_doubts",
     "device",
+    "device_demands",
     "doubtful_spans",
     "estimate_experiment",
     "estimates_of_recordings",

@@ -3,20 +3,50 @@
 
 from forcetorque.exsitu.device.answer import DeviceAnswer, answer_of
 from forcetorque.exsitu.device.description import Axis, Device, Hinge, Part, StackedSensor, Turn, Weights
+from forcetorque.exsitu.device.duty import MotorDuty, average_torque, motor_duty
+from forcetorque.exsitu.device.envelope import ARM_RADIUS_M, VIEWS, Silhouette, envelope
+from forcetorque.exsitu.device.error_budget import ErrorBudget, drawn_errors
 from forcetorque.exsitu.device.file import DeviceFile, DeviceMotion, DevicePosture, DeviceSimulation
+from forcetorque.exsitu.device.grades import (
+    DATA_SHEETS,
+    FORCE_LIMIT_N,
+    MOMENT_LIMIT_NM,
+    THESIS_GRADES,
+    Grade,
+    Graded,
+    LoadErrors,
+    graded,
+    load_errors,
+)
 from forcetorque.exsitu.device.hanging import hanging
 from forcetorque.exsitu.device.load import Load, device_load, part_inertia
+from forcetorque.exsitu.device.locking import HingeWay, hinge_ways, lag_rad, pendulum_Nm
 from forcetorque.exsitu.device.model import BASE, device_model, device_root
 from forcetorque.exsitu.device.read import DEFAULT_DEVICE, read_device
 from forcetorque.exsitu.device.recording import DeviceRecording, DeviceSpecimens, simulate_device
+from forcetorque.exsitu.device.reference import (
+    BRACKET_LENGTH,
+    COMPLIANCE,
+    ENCODERS,
+    IMU,
+    LOAD_LENGTH,
+    MASS,
+    QUANTITIES,
+    Reference,
+)
 from forcetorque.exsitu.device.sequence import Sequence, joint_ranges, with_free_hinge
+from forcetorque.exsitu.device.tolerance import NOISE_REACH, Tolerance
 from forcetorque.exsitu.device.trajectory import DeviceTrajectory, joint_speeds
 from forcetorque.exsitu.device.twelve_steps import YawReturn, twelve_steps
 
 __all__ = [
-    "BASE",
-    "DEFAULT_DEVICE",
+    "ARM_RADIUS_M",
     "Axis",
+    "BASE",
+    "BRACKET_LENGTH",
+    "COMPLIANCE",
+    "DATA_SHEETS",
+    "DEFAULT_DEVICE",
     "Device",
     "DeviceAnswer",
     "DeviceFile",
@@ -26,22 +56,50 @@ __all__ = [
     "DeviceSimulation",
     "DeviceSpecimens",
     "DeviceTrajectory",
+    "ENCODERS",
+    "ErrorBudget",
+    "FORCE_LIMIT_N",
+    "Grade",
+    "Graded",
     "Hinge",
+    "HingeWay",
+    "IMU",
+    "LOAD_LENGTH",
     "Load",
+    "LoadErrors",
+    "MASS",
+    "MOMENT_LIMIT_NM",
+    "MotorDuty",
+    "NOISE_REACH",
     "Part",
+    "QUANTITIES",
+    "Reference",
     "Sequence",
+    "Silhouette",
     "StackedSensor",
+    "THESIS_GRADES",
+    "Tolerance",
     "Turn",
+    "VIEWS",
     "Weights",
     "YawReturn",
     "answer_of",
+    "average_torque",
     "device_load",
     "device_model",
     "device_root",
+    "drawn_errors",
+    "envelope",
+    "graded",
     "hanging",
+    "hinge_ways",
     "joint_ranges",
     "joint_speeds",
+    "lag_rad",
+    "load_errors",
+    "motor_duty",
     "part_inertia",
+    "pendulum_Nm",
     "read_device",
     "simulate_device",
     "twelve_steps",
