@@ -8,7 +8,7 @@ import sys
 import numpy as np
 import pytest
 
-from forcetorque.analysis import DeviceDemands, DeviceDesign, device
+from forcetorque.analysis import DeviceDemands, DeviceDesign, DeviceSpan, device
 from forcetorque.exsitu.device import read_device
 
 BALL = 0.01
@@ -20,9 +20,10 @@ GAP_DEG = 3.0
 
 @pytest.fixture(scope="module")
 def design() -> DeviceDesign:
-    """Three sensors in the stack, without what is demanded of it, which has tests of its own."""
+    """Three sensors in the stack, without what it excites and what is demanded of it."""
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(sys.modules[device.__module__], "device_demands", lambda _: DeviceDemands.model_construct())
+        patch.setattr(sys.modules[device.__module__], "device_span", lambda _: DeviceSpan.model_construct())
         return device(read_device().with_sensors(3))
 
 

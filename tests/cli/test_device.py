@@ -5,12 +5,13 @@ from __future__ import annotations
 
 import json
 import sys
+from functools import partial
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from forcetorque.analysis import DeviceDesign, device, write_device
+from forcetorque.analysis import DeviceDesign, device, device_span, write_device
 from forcetorque.calibration import read_calibration
 from forcetorque.exsitu.device import DEFAULT_DEVICE, read_device
 from forcetorque.interactive import design_device
@@ -27,20 +28,24 @@ STACK = _TEXT[_TEXT.index("[[sensor]]") : _TEXT.index("[hinge]")]
 """All that the file says of sensors."""
 
 
+MOTIONS = ("12_steps", "12_steps_axes_swapped", "third_lock", "optimised")
 NOISE_N = 0.5
 """Mean norm of white noise of 3 counts of some 40 N per 1000 counts on three components, with a margin; N."""
 
 
 @pytest.fixture(scope="module")
 def design() -> DeviceDesign:
-    """The answer to the device that comes with the library."""
-    return device(read_device())
+    """The answer to the device that comes with the library, with a motion that is hardly optimised."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(sys.modules[device.__module__], "device_span", partial(device_span, swaps=5))
+        return device(read_device())
 
 
 @pytest.fixture(autouse=True)
 def sections_of_the_default(design: DeviceDesign, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Ask what is demanded of a device but once: it takes seconds, and tests of its own."""
+    """Ask what a device excites and what is demanded of it but once: it takes seconds, and has tests of its own."""
     monkeypatch.setattr(sys.modules[device.__module__], "device_demands", lambda _: design.demands)
+    monkeypatch.setattr(sys.modules[device.__module__], "device_span", lambda _: design.span)
 
 
 @pytest.fixture(scope="module")
@@ -66,11 +71,11 @@ def test_it_writes_what_a_robot_and_a_calibration_need(folder: Path) -> None:
     """URDFs, trajectories of the motors in three forms, logs, experiment files and the truth."""
     assert {file.name for file in folder.iterdir()} == {
         *(f"device_{name}.urdf" for name in ("35_kg", "15_kg", "25_kg", "axes_swapped")),
-        *(f"{stem}{form}" for stem in ("motion", "motion_axes_swapped") for form in (".csv", "_ros.yaml", "_yarp")),
+        *(f"{motion}{form}" for motion in MOTIONS for form in (".csv", "_ros.yaml", "_yarp")),
         *(f"{load}_kg{form}" for load in (35, 15, 25) for form in ("", ".toml")),
         "truth.json",
     }
-    assert (folder / "motion.csv").read_text().startswith("time_s,pitch,yaw\n")
+    assert (folder / "12_steps.csv").read_text().startswith("time_s,pitch,yaw\n")
     assert set(read_urdf(folder / "device_35_kg.urdf").sensors) == {"ft_1"}
 
 

@@ -24,6 +24,7 @@ from forcetorque.analysis.decide import use_verdicts
 from forcetorque.analysis.device import DeviceDesign, device
 from forcetorque.analysis.device_demands import DeviceDemands, device_demands
 from forcetorque.analysis.device_files import write_device
+from forcetorque.analysis.device_span import DeviceSpan, device_span
 from forcetorque.analysis.estimate import IntervalEstimates, estimate_experiment
 from forcetorque.analysis.estimate_summary import (
     EstimateSummary,
@@ -129,6 +130,7 @@ __all__ = [
     "Demands",
     "DeviceDemands",
     "DeviceDesign",
+    "DeviceSpan",
     "EstimateSummary",
     "Evaluation",
     "ExperimentAssessment",
@@ -211,6 +213,7 @@ __all__ = [
     "data_doubts",
     "device",
     "device_demands",
+    "device_span",
     "doubtful_spans",
     "estimate_experiment",
     "estimates_of_recordings",

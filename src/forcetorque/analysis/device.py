@@ -17,6 +17,7 @@ from forcetorque.analysis.device_rows import (
     load_row,
     motion_row,
 )
+from forcetorque.analysis.device_span import DeviceSpan, device_span
 from forcetorque.arrays import FloatArray
 from forcetorque.exsitu.device import DeviceAnswer, DeviceFile, DeviceTrajectory, answer_of, device_load
 from forcetorque.result import Result, Table, table_of
@@ -55,6 +56,8 @@ class DeviceDesign(Result):
     """One per load that it takes."""
     motions: tuple[DeviceMotionRow, ...]
     """Its motion and, of the 12 steps, that with the first two axes swapped."""
+    span: DeviceSpan
+    """What it excites, what would excite more, and a better motion."""
     demands: DeviceDemands
     """What is demanded of it, with the largest stack of sensors."""
     recordings: tuple[DeviceRecordingRow, ...] = ()
@@ -66,7 +69,7 @@ class DeviceDesign(Result):
     file: DeviceFile = Field(exclude=True, repr=False)
     """The device."""
     trajectories: dict[str, DeviceTrajectory] = Field(exclude=True, repr=False)
-    """Motions by the names of `motions`."""
+    """Motions by their names: those of `motions`, then those of `span`."""
     picture: DevicePicture = Field(exclude=True, repr=False)
     """What figures show."""
 
@@ -79,6 +82,7 @@ class DeviceDesign(Result):
         yield f"{self.device} with {len(self.sensors)} sensor{'s' * (len(self.sensors) > 1)}: {', '.join(self.sensors)}"
         yield table_of(self.loads, f"loads: the largest in the motion, at {self.sensors[0]} and on the axes")
         yield table_of(self.motions, "motions")
+        yield from self.span.blocks()
         yield from self.demands.blocks()
         if self.recordings:
             yield table_of(self.recordings, "simulated recordings")
@@ -99,15 +103,17 @@ def device(file: DeviceFile) -> DeviceDesign:
     trajectory, trajectories = _trajectory(file), _trajectories(file)
     loads = [device_load(file, load_kg) for load_kg in file.loads_kg]
     time, motion = trajectory.sampled(PICTURE_HZ)
+    span = device_span(file)
     answers = [answer_of(file, load, motion) for load in loads]
     return DeviceDesign(
         device=file.name,
         sensors=file.sensor_names,
         loads=tuple(load_row(file, load, answer) for load, answer in zip(loads, answers, strict=True)),
         motions=tuple(motion_row(name, one, PICTURE_HZ) for name, one in trajectories.items()),
+        span=span,
         demands=device_demands(file),
         file=file,
-        trajectories=trajectories,
+        trajectories=trajectories | span.trajectories,
         picture=DevicePicture(
             time_s=time,
             motion=motion,
