@@ -53,7 +53,7 @@ class DeviceDesign(Result):
     loads: tuple[DeviceLoadRow, ...]
     """One per load that it takes."""
     motions: tuple[DeviceMotionRow, ...]
-    """Its motion, and that with the first two axes swapped."""
+    """Its motion and, of the 12 steps, that with the first two axes swapped."""
     recordings: tuple[DeviceRecordingRow, ...] = ()
     """Simulated recordings; none where nothing was written."""
     folder: str | None = None
@@ -92,13 +92,10 @@ def device(file: DeviceFile) -> DeviceDesign:
     Returns:
         What its loads do and how it moves.
     """
-    trajectory, swapped = _trajectory(file), _trajectory(file.changed(yaw_first=not file.yaw_first))
-    trajectories = {trajectory.sequence.name: trajectory, f"{swapped.sequence.name}, {_SWAPPED}": swapped}
+    trajectory, trajectories = _trajectory(file), _trajectories(file)
     loads = [device_load(file, load_kg) for load_kg in file.loads_kg]
     time, motion = trajectory.sampled(PICTURE_HZ)
     answers = [answer_of(file, load, motion) for load in loads]
-    of_swapped = answer_of(swapped.device, swapped.load, swapped(time))
-    inner = file.sensor_names[0]
     return DeviceDesign(
         device=file.name,
         sensors=file.sensor_names,
@@ -111,11 +108,20 @@ def device(file: DeviceFile) -> DeviceDesign:
             motion=motion,
             answer=answers[-1],
             clouds={
-                name: answer.wrenches.of_name(inner)
-                for name, answer in zip(trajectories, (answers[-1], of_swapped), strict=True)
+                name: answer_of(one.device, one.load, one.sampled(PICTURE_HZ)[1]).wrenches.of_name(file.sensor_names[0])
+                for name, one in trajectories.items()
             },
         ),
     )
+
+
+def _trajectories(file: DeviceFile) -> dict[str, DeviceTrajectory]:
+    """The motion and, of the 12 steps, what they are with the axes swapped: other postures need not fit that."""
+    motion = _trajectory(file)
+    trajectories = {motion.sequence.name: motion}
+    if file.motion.posture is None:
+        trajectories[f"{motion.sequence.name}, {_SWAPPED}"] = _trajectory(file.changed(yaw_first=not file.yaw_first))
+    return trajectories
 
 
 def _trajectory(file: DeviceFile) -> DeviceTrajectory:
