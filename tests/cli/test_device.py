@@ -4,12 +4,13 @@
 from __future__ import annotations
 
 import json
+import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from forcetorque.analysis import device, write_device
+from forcetorque.analysis import DeviceDesign, device, write_device
 from forcetorque.calibration import read_calibration
 from forcetorque.exsitu.device import DEFAULT_DEVICE, read_device
 from forcetorque.interactive import design_device
@@ -31,21 +32,34 @@ NOISE_N = 0.5
 
 
 @pytest.fixture(scope="module")
-def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """What the command writes of the device that comes with the library; nobody changes it."""
+def design() -> DeviceDesign:
+    """The answer to the device that comes with the library."""
+    return device(read_device())
+
+
+@pytest.fixture(autouse=True)
+def sections_of_the_default(design: DeviceDesign, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Ask what is demanded of a device but once: it takes seconds, and tests of its own."""
+    monkeypatch.setattr(sys.modules[device.__module__], "device_demands", lambda _: design.demands)
+
+
+@pytest.fixture(scope="module")
+def folder(design: DeviceDesign, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """What the command writes of it; nobody changes it."""
     output = tmp_path_factory.mktemp("device") / "simulated"
-    written = write_device(device(read_device()), output)
-    assert written.folder == str(output)
+    assert write_device(design, output).folder == str(output)
     return output
 
 
 def test_it_draws(run: Run, tmp_path: Path) -> None:
-    """The motion, and what the sensor sees of it."""
-    pictures = [tmp_path / "motion.png", tmp_path / "space.png"]
-    asked = run("device", "--figure", pictures[0], "--space", pictures[1])
+    """The motion, what the sensor sees of it, what is swept, and errors of references."""
+    asked = run("device", "--figures", tmp_path / "figures")
     assert asked.code == 0
     assert "12 steps, axes swapped" in asked.out
-    assert all(picture.read_bytes().startswith(b"\x89PNG") for picture in pictures)
+    names = {picture.name for picture in (tmp_path / "figures").iterdir()}
+    assert names == {"motion.png", "space.png", "envelope.png", "errors.png"}
+    assert all(picture.read_bytes().startswith(b"\x89PNG") for picture in (tmp_path / "figures").iterdir())
+    assert run("device", "--figures", tmp_path / "figures").error().endswith("it is there already")
 
 
 def test_it_writes_what_a_robot_and_a_calibration_need(folder: Path) -> None:
@@ -138,6 +152,6 @@ def test_the_example_with_a_third_lock_tells_all_with_one_load(run: Run, tmp_pat
 
 def test_python_says_what_the_command_line_says(run: Run) -> None:
     """In one line, with a table for notebooks."""
-    design = design_device()
-    assert design.text(120) == run("device").out
-    assert "<table" in design._repr_html_()
+    answer = design_device()
+    assert answer.text(120) == run("device").out
+    assert "<table" in answer._repr_html_()

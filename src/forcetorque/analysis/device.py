@@ -9,6 +9,7 @@ from typing import Literal
 
 from pydantic import Field
 
+from forcetorque.analysis.device_demands import DeviceDemands, device_demands
 from forcetorque.analysis.device_rows import (
     DeviceLoadRow,
     DeviceMotionRow,
@@ -54,6 +55,8 @@ class DeviceDesign(Result):
     """One per load that it takes."""
     motions: tuple[DeviceMotionRow, ...]
     """Its motion and, of the 12 steps, that with the first two axes swapped."""
+    demands: DeviceDemands
+    """What is demanded of it, with the largest stack of sensors."""
     recordings: tuple[DeviceRecordingRow, ...] = ()
     """Simulated recordings; none where nothing was written."""
     folder: str | None = None
@@ -76,6 +79,7 @@ class DeviceDesign(Result):
         yield f"{self.device} with {len(self.sensors)} sensor{'s' * (len(self.sensors) > 1)}: {', '.join(self.sensors)}"
         yield table_of(self.loads, f"loads: the largest in the motion, at {self.sensors[0]} and on the axes")
         yield table_of(self.motions, "motions")
+        yield from self.demands.blocks()
         if self.recordings:
             yield table_of(self.recordings, "simulated recordings")
         if self.folder is not None:
@@ -101,6 +105,7 @@ def device(file: DeviceFile) -> DeviceDesign:
         sensors=file.sensor_names,
         loads=tuple(load_row(file, load, answer) for load, answer in zip(loads, answers, strict=True)),
         motions=tuple(motion_row(name, one, PICTURE_HZ) for name, one in trajectories.items()),
+        demands=device_demands(file),
         file=file,
         trajectories=trajectories,
         picture=DevicePicture(

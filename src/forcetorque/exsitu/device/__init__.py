@@ -3,9 +3,11 @@
 
 from forcetorque.exsitu.device.answer import DeviceAnswer, answer_of
 from forcetorque.exsitu.device.description import Axis, Device, Hinge, Part, StackedSensor, Turn, Weights
+from forcetorque.exsitu.device.design import DesignedMotion, Designer
 from forcetorque.exsitu.device.duty import MotorDuty, average_torque, motor_duty
 from forcetorque.exsitu.device.envelope import ARM_RADIUS_M, VIEWS, Silhouette, envelope
 from forcetorque.exsitu.device.error_budget import ErrorBudget, drawn_errors
+from forcetorque.exsitu.device.excitation import least_excitation
 from forcetorque.exsitu.device.file import DeviceFile, DeviceMotion, DevicePosture, DeviceSimulation
 from forcetorque.exsitu.device.grades import (
     DATA_SHEETS,
@@ -19,6 +21,16 @@ from forcetorque.exsitu.device.grades import (
     load_errors,
 )
 from forcetorque.exsitu.device.hanging import hanging
+from forcetorque.exsitu.device.held_out import (
+    HELD_OUT_FORCE_N,
+    HELD_OUT_MOMENT_NM,
+    SAMPLES,
+    HeldOutError,
+    bench_error,
+    device_error,
+    held_out_loads,
+    sample_noise,
+)
 from forcetorque.exsitu.device.load import Load, device_load, part_inertia
 from forcetorque.exsitu.device.locking import HingeWay, hinge_ways, lag_rad, pendulum_Nm
 from forcetorque.exsitu.device.model import BASE, device_model, device_root
@@ -34,8 +46,10 @@ from forcetorque.exsitu.device.reference import (
     QUANTITIES,
     Reference,
 )
+from forcetorque.exsitu.device.remedies import Remedy, Run, remedies, swing_at_yaw_zero, third_lock_steps, uncertain
 from forcetorque.exsitu.device.sequence import Sequence, joint_ranges, with_free_hinge
 from forcetorque.exsitu.device.tolerance import NOISE_REACH, Tolerance
+from forcetorque.exsitu.device.tolerances import Poses, Tolerances
 from forcetorque.exsitu.device.trajectory import DeviceTrajectory, joint_speeds
 from forcetorque.exsitu.device.twelve_steps import YawReturn, twelve_steps
 
@@ -47,6 +61,8 @@ __all__ = [
     "COMPLIANCE",
     "DATA_SHEETS",
     "DEFAULT_DEVICE",
+    "DesignedMotion",
+    "Designer",
     "Device",
     "DeviceAnswer",
     "DeviceFile",
@@ -61,6 +77,9 @@ __all__ = [
     "FORCE_LIMIT_N",
     "Grade",
     "Graded",
+    "HELD_OUT_FORCE_N",
+    "HELD_OUT_MOMENT_NM",
+    "HeldOutError",
     "Hinge",
     "HingeWay",
     "IMU",
@@ -72,19 +91,26 @@ __all__ = [
     "MotorDuty",
     "NOISE_REACH",
     "Part",
+    "Poses",
     "QUANTITIES",
     "Reference",
+    "Remedy",
+    "Run",
+    "SAMPLES",
     "Sequence",
     "Silhouette",
     "StackedSensor",
     "THESIS_GRADES",
     "Tolerance",
+    "Tolerances",
     "Turn",
     "VIEWS",
     "Weights",
     "YawReturn",
     "answer_of",
     "average_torque",
+    "bench_error",
+    "device_error",
     "device_load",
     "device_model",
     "device_root",
@@ -92,16 +118,23 @@ __all__ = [
     "envelope",
     "graded",
     "hanging",
+    "held_out_loads",
     "hinge_ways",
     "joint_ranges",
     "joint_speeds",
     "lag_rad",
+    "least_excitation",
     "load_errors",
     "motor_duty",
     "part_inertia",
     "pendulum_Nm",
     "read_device",
+    "remedies",
+    "sample_noise",
     "simulate_device",
+    "swing_at_yaw_zero",
+    "third_lock_steps",
     "twelve_steps",
+    "uncertain",
     "with_free_hinge",
 ]
