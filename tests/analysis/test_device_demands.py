@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -143,3 +145,23 @@ def test_it_shows_itself(demands: DeviceDemands) -> None:
     captions = " ".join(block.caption for block in blocks if not isinstance(block, str))
     for words in ("requirements", "motors", "hinge", "space", "references", "gravity"):
         assert words in captions
+
+
+def test_the_page_has_these_figures(demands: DeviceDemands) -> None:
+    """Its table of encoders and inertial sensors is that of the command."""
+    shown = {}
+    for row in demands.grades:
+        kilograms = ["-" if load is None else f"{load:.1f} kg" for load in (row.force_met_to_kg, row.moment_met_to_kg)]
+        shown[row.gravity_by, f"{row.full_width:g} {row.unit}"] = [
+            f"{row.rms[0]:.3f} N",
+            f"{row.one_force_N:.2f} N",
+            f"{row.largest_force_N:.2f} N",
+            f"{row.force_norm_N:.2f} N",
+            f"{row.one_moment_Nm:.3f} N m",
+            *kilograms,
+        ]
+    lines = (Path(__file__).parents[2] / "docs" / "device_demands.md").read_text(encoding="utf-8").splitlines()
+    table = [line.strip("| ").split(" | ") for line in lines if line.startswith(("| IMU", "| encoders"))]
+    assert len(table) == 6
+    for gravity_by, width, *cells in table:
+        assert cells == shown[gravity_by, width]

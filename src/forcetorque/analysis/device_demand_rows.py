@@ -124,7 +124,7 @@ class BudgetRow(Row):
     """Sensor."""
     quantity: Annotated[str, Shown("quantity")]
     """Quantity that is off; `all` for all at once."""
-    plus_minus: Annotated[float | None, Shown("off by +-", digits=3)]
+    plus_minus: Annotated[float | None, Shown("+-", digits=3)]
     """How far it is off at most, half of a full width; None for all at once."""
     unit: Annotated[str, Shown("unit")]
     """Unit of that."""

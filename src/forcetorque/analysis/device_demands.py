@@ -66,11 +66,16 @@ and an arm behind the encoders that bends by 0.13 mrad under 131 N m."""
 
 _SPACING_DEG = 5.0
 _ROUNDING_NM = 1e-9
+_GRADES = sorted((*THESIS_GRADES, *DATA_SHEETS), key=lambda grade: (grade.by_imu, grade.full_width))
+_LARGEST = (
+    *("one_force_N", "one_moment_Nm", "largest_force_N", "largest_moment_Nm"),
+    *("force_met_to_kg", "moment_met_to_kg"),
+)
 _ENDLESS_DEG = (-10.0, 1090.0)
 _UNITS = {"pitch": ("deg", 180.0 / np.pi), "yaw": ("deg", 180.0 / np.pi), MASS: ("%", 100.0)} | {
     BRACKET_LENGTH: ("mm", 1e3),
     LOAD_LENGTH: ("mm", 1e3),
-    COMPLIANCE: ("urad/(N m)", 1e6),
+    COMPLIANCE: ("urad/Nm", 1e6),
 }
 
 
@@ -116,7 +121,9 @@ class DeviceDemands(Row):
         yield table_of(self.locks, "locks of the hinge, by load")
         yield table_of(self.envelope, f"space that is swept: plates, and the arm within {ARM_RADIUS_M:g} m of its axis")
         yield table_of(self.budget, f"errors of references, {self.load}")
-        yield table_of(self.grades, f"what tells gravity: errors at {self.sensors[0]}, {self.load}")
+        told = f"at {self.sensors[0]}, {self.load}, by what tells gravity"
+        yield table_of(self.grades, f"root mean square errors {told} (Table 6.3)", leave_out=_LARGEST)
+        yield table_of(self.grades, f"largest errors {told}", leave_out=("rms",))
 
 
 def device_demands(file: DeviceFile, *, tolerances: Mapping[str, Tolerance] = TOLERANCES) -> DeviceDemands:
@@ -145,9 +152,7 @@ def device_demands(file: DeviceFile, *, tolerances: Mapping[str, Tolerance] = TO
         locks=tuple(_lock_row(full, sequence, load_kg) for load_kg in full.loads_kg),
         envelope=tuple(_envelope_row(one) for one in silhouettes),
         budget=tuple(row for sensor, one in errors.items() for row in _budget_rows(sensor, one)),
-        grades=tuple(
-            _grade_row(one) for one in graded(full, full.sensor_names[0], sequence, (*THESIS_GRADES, *DATA_SHEETS))
-        ),
+        grades=tuple(_grade_row(one) for one in graded(full, full.sensor_names[0], sequence, _GRADES)),
         silhouettes=silhouettes,
     )
 

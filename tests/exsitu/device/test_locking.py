@@ -5,9 +5,10 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from scipy.integrate import solve_ivp
 
 from forcetorque.errors import RobotError, SensorError
-from forcetorque.exsitu.device import Sequence, device_load, read_device, twelve_steps
+from forcetorque.exsitu.device import DeviceTrajectory, Load, Sequence, device_load, read_device, twelve_steps
 from forcetorque.exsitu.device.locking import hinge_ways, lag_rad, pendulum_Nm
 
 DEVICE = read_device()
@@ -81,3 +82,37 @@ def test_friction_keeps_light_loads_farther_from_the_lock() -> None:
     assert lag_rad(DEVICE, loads[0], 0.0) == 0.0
     with pytest.raises(SensorError, match="expected a friction from 0 to below 1.77 N m"):
         lag_rad(DEVICE, loads[0], 2.0)
+
+
+def _swung_deg(load: Load, friction_Nm: float) -> tuple[np.ndarray, np.ndarray]:
+    """Angle from hanging straight, and the position of the hinge, in step 11: a pendulum on a moving pivot, by hand."""
+    trajectory = DeviceTrajectory(device=DEVICE, load=load, sequence=twelve_steps(DEVICE))
+    way = trajectory.sequence.unlocked.index(True)
+    start, duration = trajectory.ways.departures_s[way], trajectory.ways.durations_s[way]
+    seconds = np.linspace(0.0, duration + 0.9, 2000)
+    motion = trajectory.ways(start + seconds)
+    positions, speeds, changes = motion.position[:, 0], motion.velocity[:, 0], motion.acceleration[:, 0]
+    arm = DEVICE.pitch.part.height_m + DEVICE.yaw.part.height_m + 0.04 + DEVICE.hinge.bracket.height_m
+    moment, inertia = load.inertia.first_moment[2], load.inertia.second_moment[1, 1]
+
+    def rate(time: float, state: np.ndarray) -> list[float]:
+        pitch, speed, change = (np.interp(time, seconds, values) for values in (positions, speeds, changes))
+        forward = -arm * (np.cos(pitch) * speed**2 + np.sin(pitch) * change)
+        upward = -arm * (np.sin(pitch) * speed**2 - np.cos(pitch) * change)
+        rubbing = friction_Nm * np.tanh((state[1] - speed) / 0.01)
+        pull = (DEVICE.gravity + upward) * np.sin(state[0]) + forward * np.cos(state[0])
+        return [state[1], -(moment * pull + rubbing) / inertia]
+
+    swing = solve_ivp(rate, (0.0, seconds[-1]), [0.0, 0.0], max_step=0.02, rtol=1e-6)
+    return np.rad2deg(swing.y[0]), np.rad2deg(np.interp(swing.t, seconds, positions) - swing.y[0]) + 90.0
+
+
+@pytest.mark.parametrize("load_kg", [0.0, 35.0])
+def test_in_time_the_load_swings_by_half_a_degree_and_comes_to_its_lock(load_kg: float) -> None:
+    """What statics say holds at the speed of the motors, where the hinge has no friction; with some it stops short."""
+    load = device_load(DEVICE, load_kg)
+    angle, hinge = _swung_deg(load, 0.0)
+    assert np.abs(angle).max() < 0.6
+    assert hinge.max() > 90.0
+    angle, hinge = _swung_deg(load, 0.1)
+    assert 0.0 < 90.0 - hinge.max() <= 90.0 - hinge[-1] < np.rad2deg(lag_rad(DEVICE, load, 0.1))
