@@ -89,6 +89,7 @@ def device_span(device: Device, *, tolerances: Tolerances | None = None, swaps: 
     Returns:
         Ranks, remedies, and motions.
     """
+    device = device.changed(turn=None)  # it stays at 0, but where turning is the remedy
     exact = tolerances or Tolerances()
     compared = COMPARED_KG if COMPARED_KG in device.loads_kg else device.loads_kg[-1]
     heaviest = remedies(device, device.loads_kg[-1])

@@ -23,9 +23,14 @@ ENCODERS = ("pitch", "yaw")
 """Joints whose encoders tell where gravity is; error in rad."""
 IMU = ("imu_x", "imu_y", "imu_z")
 """Components of gravity that an inertial sensor beside the sensor tells instead; error in m/s2."""
-MASS, BRACKET_LENGTH, LOAD_LENGTH, COMPLIANCE = "mass", "bracket_length", "load_length", "compliance"
-"""Mass of the load (share of it), lengths from sensor to hinge and from hinge to load (m), and the angle by which
-motors and arm give way for each N m (rad)."""
+MASS = "mass"
+"""Mass of the load; error as a share of it."""
+BRACKET_LENGTH = "bracket_length"
+"""Length from sensor to hinge; error in m."""
+LOAD_LENGTH = "load_length"
+"""Length from hinge to load; error in m."""
+COMPLIANCE = "compliance"
+"""Angle by which motors and arm give way; rad for each N m."""
 QUANTITIES = (*ENCODERS, *IMU, MASS, BRACKET_LENGTH, LOAD_LENGTH, COMPLIANCE)
 """All that a reference is computed from."""
 
