@@ -11,6 +11,7 @@ import pytest
 from forcetorque.analysis.device_demand_rows import RequirementRow, Verdict
 from forcetorque.analysis.device_demands import DeviceDemands, device_demands
 from forcetorque.analysis.device_requirements import requirement_rows
+from forcetorque.errors import RobotError
 from forcetorque.exsitu.device import (
     DeviceMotion,
     DevicePosture,
@@ -127,6 +128,16 @@ def test_a_weak_motor_and_a_motion_of_its_own(demands: DeviceDemands) -> None:
     assert fewer.unwinding == ()
     assert _requirement(fewer, 7)[0].verdict is Verdict.NOT_MET
     assert _requirement(fewer, 1)[0].value == 0.0
+
+
+def test_a_motion_that_only_holds_is_refused() -> None:
+    """There is no path to average torques over."""
+    still = DEVICE.changed(motion=DeviceMotion(posture=(DevicePosture(pitch_deg=0.0, yaw_deg=0.0),) * 2))
+    with pytest.raises(
+        RobotError,
+        match=r"expected pitch or yaw to move, to average torques over by \(6\.1\), got 2 postures that all hold",
+    ):
+        device_demands(still)
 
 
 def test_one_load_in_twelve_steps_tells_nothing_of_one_direction(demands: DeviceDemands) -> None:

@@ -19,6 +19,7 @@ from forcetorque.analysis.device_demand_rows import (
     UnwindingRow,
 )
 from forcetorque.analysis.device_requirements import MOST_SENSORS, requirement_rows
+from forcetorque.errors import RobotError
 from forcetorque.exsitu.device import (
     ARM_RADIUS_M,
     BRACKET_LENGTH,
@@ -135,18 +136,22 @@ def device_demands(file: DeviceFile, *, tolerances: Mapping[str, Tolerance] = TO
 
     Returns:
         What it does.
+
+    Raises:
+        RobotError: If no motor moves, so that there is no path to average torques over.
     """
     full = file.with_sensors(MOST_SENSORS)
     sequence = full.sequence
     load = device_load(full, max(full.loads_kg))
     trajectory = DeviceTrajectory(device=full, load=load, sequence=sequence, hold_s=full.motion.hold_s)
+    motors = _motor_rows(trajectory)
     silhouettes = envelope(full, load, sequence.still_poses(full, load, spacing_deg=_SPACING_DEG))
     errors = {sensor: load_errors(full, sensor, sequence, tolerances) for sensor in full.sensor_names}
     return DeviceDemands(
         sensors=full.sensor_names,
         load=load.name,
         requirements=requirement_rows(full, silhouettes, errors),
-        motors=_motor_rows(trajectory),
+        motors=motors,
         unwinding=tuple(_unwinding(full, one) for one in YawReturn if full.motion.posture is None),
         hinge=_hinge_rows(full, sequence),
         locks=tuple(_lock_row(full, sequence, load_kg) for load_kg in full.loads_kg),
@@ -159,6 +164,13 @@ def device_demands(file: DeviceFile, *, tolerances: Mapping[str, Tolerance] = TO
 
 def _motor_rows(trajectory: DeviceTrajectory) -> tuple[MotorRow, ...]:
     device, load = trajectory.device, trajectory.load
+    duties = _duties(trajectory)
+    if all(duty.average_Nm is None for duty in duties):
+        count = len(trajectory.sequence.postures)
+        raise RobotError(
+            f"sequence {trajectory.sequence.name!r}: expected pitch or yaw to move, to average torques over by (6.1), "
+            f"got {count} postures that all hold; state postures that differ, or none for the 12 steps"
+        )
     moving = answer_of(device, load, trajectory.sampled(RATE_HZ)[1])
     limits = {"pitch": device.pitch.torque_Nm, "yaw": device.yaw.torque_Nm}
     return tuple(
@@ -172,7 +184,7 @@ def _motor_rows(trajectory: DeviceTrajectory) -> tuple[MotorRow, ...]:
             holding_Nm=duty.holding_Nm,
             limit_Nm=limits[duty.joint],
         )
-        for duty in _duties(trajectory)
+        for duty in duties
     )
 
 
