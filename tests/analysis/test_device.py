@@ -3,12 +3,10 @@
 
 from __future__ import annotations
 
-import sys
-
 import numpy as np
 import pytest
 
-from forcetorque.analysis import DeviceDemands, DeviceDesign, DeviceSpan, device
+from forcetorque.analysis import DeviceDemands, DeviceDesign, DeviceSpan, design_device
 from forcetorque.exsitu.device import read_device
 
 BALL = 0.01
@@ -22,9 +20,9 @@ GAP_DEG = 3.0
 def design() -> DeviceDesign:
     """Three sensors in the stack, without what it excites and what is demanded of it."""
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(sys.modules[device.__module__], "device_demands", lambda _: DeviceDemands.model_construct())
-        patch.setattr(sys.modules[device.__module__], "device_span", lambda _: DeviceSpan.model_construct())
-        return device(read_device().with_sensors(3))
+        patch.setattr("forcetorque.analysis.device.device_demands", lambda _: DeviceDemands.model_construct())
+        patch.setattr("forcetorque.analysis.device.device_span", lambda _: DeviceSpan.model_construct())
+        return design_device(read_device().with_sensors(3))
 
 
 def test_a_row_for_each_load(design: DeviceDesign) -> None:

@@ -26,6 +26,9 @@ DEVICE = read_device()
 TWO_TURNS = (4.0 / (3.0 * np.pi) * 0.5) ** (1.0 / 3.0)
 """Average over peak of a motor of which half the path is under a half-sine: 0.5965."""
 
+NOTHING = 1e-6
+"""A root of a second moment that is rounded: the square root of some thousand roundings of 2e-16."""
+
 
 @pytest.fixture(scope="module")
 def demands() -> DeviceDemands:
@@ -47,10 +50,10 @@ def test_every_requirement_has_a_verdict_or_a_reason(demands: DeviceDemands) -> 
 
 
 def test_the_verdicts(demands: DeviceDemands) -> None:
-    """One direction is told far worse than on the workbench, and the moment of the reference is met up to 5 kg only."""
+    """One direction is excited far less than on the workbench, and the moment of the reference is met up to 5 kg only."""
     not_met = [row.requirement for row in demands.requirements if row.verdict is Verdict.NOT_MET]
     assert not_met == ["excitation at least that of the 24 positions", "moment of the reference within 0.02 N m"]
-    assert _requirement(demands, 1)[0].value == pytest.approx(0.004, abs=0.0005)
+    assert _requirement(demands, 1)[0].value == pytest.approx(0.050, abs=0.0005)
     force, moment = _requirement(demands, 6)
     assert force.value is not None
     assert force.value < 0.5
@@ -127,7 +130,7 @@ def test_a_weak_motor_and_a_motion_of_its_own(demands: DeviceDemands) -> None:
     assert fewer.motors[1].average_over_peak is None  # yaw only turns the straight arm, which weighs nothing on it
     assert fewer.unwinding == ()
     assert _requirement(fewer, 7)[0].verdict is Verdict.NOT_MET
-    assert _requirement(fewer, 1)[0].value == 0.0
+    assert _requirement(fewer, 1)[0].value == pytest.approx(0.0, abs=NOTHING)
 
 
 def test_a_motion_that_only_holds_is_refused() -> None:
@@ -146,7 +149,8 @@ def test_one_load_in_twelve_steps_tells_nothing_of_one_direction(demands: Device
     one = DEVICE.changed(simulation=DeviceSimulation(loads_kg=(35.0,)))
     errors = {"ft_1": load_errors(one, "ft_1", one.sequence, {"pitch": Tolerance(step=1e-3)})}
     (alone,) = (row for row in requirement_rows(one, demands.silhouettes, errors) if row.number == 1)
-    assert (alone.value, alone.verdict) == (0.0, Verdict.NOT_MET)
+    assert alone.verdict is Verdict.NOT_MET
+    assert alone.value == pytest.approx(0.0, abs=NOTHING)
 
 
 def test_it_shows_itself(demands: DeviceDemands) -> None:

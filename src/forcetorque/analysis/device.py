@@ -91,7 +91,7 @@ class DeviceDesign(Result):
         yield from (f"drawn to {figure}" for figure in self.figures)
 
 
-def device(file: DeviceFile) -> DeviceDesign:
+def design_device(file: DeviceFile) -> DeviceDesign:
     """Check a calibration device by computation.
 
     Args:

@@ -9,17 +9,22 @@ from collections.abc import Sequence as Several
 import numpy as np
 
 from forcetorque.analysis.device_demand_rows import RequirementRow, Verdict
-from forcetorque.exsitu import THESIS_TABLE, read_loads
+from forcetorque.exsitu import Placement
 from forcetorque.exsitu.device import (
     FORCE_LIMIT_N,
     MOMENT_LIMIT_NM,
+    SAMPLES,
     DeviceFile,
     LoadErrors,
+    Run,
     Silhouette,
+    Tolerances,
     answer_of,
     device_load,
+    least_excitation,
+    uncertain,
+    workbench_loads,
 )
-from forcetorque.spatial import MeasureDirection
 
 MOST_SENSORS = 3
 """Sensors at a time, by requirement 7."""
@@ -32,7 +37,6 @@ ENVELOPE_M2 = 1.5
 MOST_LOADINGS = 3
 """How often weights may be put on, by requirement 2."""
 
-_RANK_SHARE = 1e-9
 _SPACING_DEG = 10.0
 _NOT_COMPUTED = {
     3: ("loading feels neither difficult nor dangerous", "people say so, no geometry"),
@@ -99,19 +103,17 @@ def _judged(number: int, text: str, value: float, limit: float, unit: str, why: 
 
 
 def _excitation(file: DeviceFile) -> RequirementRow:
-    """What a pose tells of the direction that is told worst, over what a position on the workbench tells of it."""
-    bench = np.cov(read_loads(THESIS_TABLE, measure_direction=MeasureDirection.CHILD_TO_PARENT).wrench.T)
-    least = {}
-    for sensor in file.sensor_names:
-        read = []
-        for load_kg in file.simulation.loads_kg:
-            load = device_load(file, load_kg)
-            poses = file.sequence.still_poses(file, load, spacing_deg=_SPACING_DEG)
-            read.append(answer_of(file, load, poses).wrenches.of_name(sensor))
-        ratios = np.linalg.eigvals(np.linalg.solve(bench, np.cov(np.concatenate(read).T))).real
-        least[sensor] = float(ratios.min()) if ratios.min() > _RANK_SHARE * ratios.max() else 0.0
+    """What the motion with the loads of the file excites least, over what the positions of the workbench do."""
+    loads_kg = file.simulation.loads_kg
+    runs = tuple(
+        Run(device=file, load=device_load(file, load_kg), sequence=file.sequence, hold_s=file.motion.hold_s)
+        for load_kg in loads_kg
+    )
+    poses = [run.sampled(SAMPLES // len(runs)) for run in runs]
+    bench = workbench_loads(Placement(angle_rad=0.0, position_m=0.0), SAMPLES)
+    least = {sensor: least_excitation(uncertain(poses, sensor, Tolerances()), bench) for sensor in file.sensor_names}
     worst = min(least, key=lambda sensor: least[sensor])
-    loads = " and ".join(f"{load_kg:g} kg" for load_kg in file.simulation.loads_kg)
+    loads = " and ".join(f"{load_kg:g} kg" for load_kg in loads_kg)
     return RequirementRow(
         number=1,
         requirement="excitation at least that of the 24 positions",
@@ -119,8 +121,7 @@ def _excitation(file: DeviceFile) -> RequirementRow:
         value=least[worst],
         limit=1.0,
         unit="of theirs",
-        why=f"information of a pose with {loads} in the direction that {worst} is told worst, over that of a position "
-        "on the workbench, both without errors of the reference; 0 is a direction that nothing tells",
+        why=f"the motion with {loads}, in the direction in which {worst} is excited least; remedies are above",
     )
 
 

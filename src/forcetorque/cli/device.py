@@ -40,7 +40,7 @@ def device(
     for folder in (output, figures):
         if folder is not None:
             refuse_output_folder(folder)
-    design = analysis.device(read_device(DEFAULT_DEVICE if file is None else file))
+    design = analysis.design_device(read_device(DEFAULT_DEVICE if file is None else file))
     if output is not None:
         design = analysis.write_device(design, output, progress=log.info)
     if figures is not None:

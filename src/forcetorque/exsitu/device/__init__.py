@@ -7,7 +7,7 @@ from forcetorque.exsitu.device.design import DesignedMotion, Designer
 from forcetorque.exsitu.device.duty import MotorDuty, average_torque, motor_duty
 from forcetorque.exsitu.device.envelope import ARM_RADIUS_M, VIEWS, Silhouette, envelope
 from forcetorque.exsitu.device.error_budget import ErrorBudget, drawn_errors
-from forcetorque.exsitu.device.excitation import least_excitation
+from forcetorque.exsitu.device.excitation import least_excitation, workbench_loads
 from forcetorque.exsitu.device.file import DeviceFile, DeviceMotion, DevicePosture, DeviceSimulation
 from forcetorque.exsitu.device.grades import (
     DATA_SHEETS,
@@ -137,4 +137,5 @@ __all__ = [
     "twelve_steps",
     "uncertain",
     "with_free_hinge",
+    "workbench_loads",
 ]

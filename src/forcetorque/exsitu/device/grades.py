@@ -17,8 +17,10 @@ from forcetorque.exsitu.device.reference import ENCODERS, IMU, Reference
 from forcetorque.exsitu.device.sequence import Sequence
 from forcetorque.exsitu.device.tolerance import Tolerance
 
-FORCE_LIMIT_N, MOMENT_LIMIT_NM = 0.5, 0.02
-"""Largest error of a reference by requirement 6 of the thesis (6.2.1); N, N m."""
+FORCE_LIMIT_N = 0.5
+"""Largest error of a reference force by requirement 6 of the thesis (6.2.1); N."""
+MOMENT_LIMIT_NM = 0.02
+"""Largest error of a reference moment by it; N m."""
 
 SPACING_DEG = 5.0
 """How far joints go at most from one pose to the next over which errors are taken, evenly over the path; deg."""
