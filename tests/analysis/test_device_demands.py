@@ -50,7 +50,7 @@ def test_every_requirement_has_a_verdict_or_a_reason(demands: DeviceDemands) -> 
 
 
 def test_the_verdicts(demands: DeviceDemands) -> None:
-    """One direction is excited far less than on the workbench, and the moment of the reference is met up to 5 kg only."""
+    """One direction is excited far less than on the workbench, and the moment of the reference is met to 5 kg only."""
     not_met = [row.requirement for row in demands.requirements if row.verdict is Verdict.NOT_MET]
     assert not_met == ["excitation at least that of the 24 positions", "moment of the reference within 0.02 N m"]
     assert _requirement(demands, 1)[0].value == pytest.approx(0.050, abs=0.0005)

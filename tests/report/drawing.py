@@ -33,6 +33,7 @@ from forcetorque.analysis import (
     group_trials,
 )
 from forcetorque.analysis.device_demand_rows import GradeRow
+from forcetorque.analysis.device_span_rows import DirectionRow
 from forcetorque.analysis.skin_event_rows import SkinEventPicture
 from forcetorque.analysis.skin_picture import TaxelPicture
 from forcetorque.calibration.joint import PartResidual
@@ -54,6 +55,7 @@ from forcetorque.report.figures import (
     lambda_force_figure,
     learnt_figure,
     reference_error_figure,
+    remedies_figure,
     residual_figure,
     skin_event_figure,
     skin_layout_figure,
@@ -472,11 +474,23 @@ def _device(rng: np.random.Generator) -> Figure:
     return device_figure(time, motion, {name: 100.0 * rng.normal(size=1200) for name in names})
 
 
+def _remedies(rng: np.random.Generator) -> Figure:
+    names = ("12 steps", "third lock", "workbench, 0.2 deg and 1 mm")
+    rows = []
+    for error in ("force, N", "moment, N m"):
+        for name in names:
+            values = dict(zip(WRENCH_COMPONENTS, np.exp(rng.normal(size=6)).tolist(), strict=True))
+            unknown = {"fy": np.inf} if name == "12 steps" else {}
+            rows.append(DirectionRow(motion=name, error=error, **(values | unknown)))
+    return remedies_figure(rows)
+
+
 FIGURES: dict[str, Callable[[np.random.Generator], Figure]] = {
     "bench": _bench,
     "space": _space,
     "force space": _force_space,
     "device": _device,
+    "remedies": _remedies,
     "difference": _difference,
     "lambda difference": _lambda_difference,
     "lambda force": _lambda_force,

@@ -7,7 +7,13 @@ from pathlib import Path
 
 from forcetorque.analysis import DeviceDesign
 from forcetorque.new_folder import new_folder
-from forcetorque.report.figures import device_figure, envelope_figure, reference_error_figure, space_figure
+from forcetorque.report.figures import (
+    device_figure,
+    envelope_figure,
+    reference_error_figure,
+    remedies_figure,
+    space_figure,
+)
 from forcetorque.report.figures.canvas import png_bytes
 
 
@@ -17,7 +23,7 @@ def write_device_figures(design: DeviceDesign, output: Path) -> DeviceDesign:
     Args:
         design: The device.
         output: Folder to make, for `motion.png` (figures 6.5 and 6.9 of the thesis), `space.png` (6.6 and 6.7),
-            `envelope.png` (6.13) and `errors.png` (Table 6.3).
+            `remedies.png` (predicted errors by direction), `envelope.png` (6.13) and `errors.png` (Table 6.3).
 
     Returns:
         The design with the names of the files.
@@ -27,6 +33,7 @@ def write_device_figures(design: DeviceDesign, output: Path) -> DeviceDesign:
     figures = {
         "motion.png": device_figure(picture.time_s, picture.motion, torques),
         "space.png": space_figure(picture.clouds),
+        "remedies.png": remedies_figure(design.span.directions),
         "envelope.png": envelope_figure(demands.silhouettes),
         "errors.png": reference_error_figure(demands.grades),
     }

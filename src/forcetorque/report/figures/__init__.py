@@ -17,6 +17,7 @@ from forcetorque.report.figures.joint import joint_figure
 from forcetorque.report.figures.lambda_difference import lambda_difference_figure
 from forcetorque.report.figures.lambda_force import lambda_force_figure
 from forcetorque.report.figures.learnt import learnt_figure
+from forcetorque.report.figures.remedies import remedies_figure
 from forcetorque.report.figures.residuals import residual_figure
 from forcetorque.report.figures.skin_events import skin_event_figure
 from forcetorque.report.figures.skin_layout import skin_layout_figure
@@ -45,6 +46,7 @@ __all__ = [
     "lambda_force_figure",
     "learnt_figure",
     "reference_error_figure",
+    "remedies_figure",
     "residual_figure",
     "skin_event_figure",
     "skin_layout_figure",
