@@ -25,6 +25,7 @@ FILES = (
     "experiment",
     "acceptance",
     "bench",
+    "device_file",
     "scenario",
     "recording",
     "calibration",
@@ -57,6 +58,8 @@ JSON_SCHEMAS = (
     "taxels",
     "bench",
     "workbench",
+    "device",
+    "device_file",
 )
 
 

@@ -35,6 +35,7 @@ COMMANDS = {
     "accept": ("accept", PARQUET, "--spec", "limits.toml", "-c", "fitted.json"),
     "calibrate": ("calibrate", PARQUET, "-o", "new.json", "--lambda", "5"),
     "compare": ("compare", PARQUET, "-c", "fitted.json"),
+    "device": ("device",),
     "estimate": ("estimate", PARQUET, "-o", "contacts.parquet", "-c", "fitted.json"),
     "evaluate": ("evaluate", PARQUET, "-c", "fitted.json"),
     "export": ("export", "fitted.json", "--to", "csv", "-o", "matrix.csv"),

@@ -19,7 +19,6 @@ from matplotlib.text import Text
 
 from forcetorque.analysis import (
     BenchPicture,
-    DirectionRow,
     LearntDirection,
     Reason,
     SensorSphere,
@@ -33,16 +32,20 @@ from forcetorque.analysis import (
     UseVerdict,
     group_trials,
 )
+from forcetorque.analysis.device_demand_rows import GradeRow
+from forcetorque.analysis.device_span_rows import DirectionRow
 from forcetorque.analysis.skin_event_rows import SkinEventPicture
 from forcetorque.analysis.skin_picture import TaxelPicture
 from forcetorque.calibration.joint import PartResidual
 from forcetorque.evaluation.sphere import analyse_sphere
+from forcetorque.exsitu.device import VIEWS, Silhouette
 from forcetorque.report.figures import (
     bench_figure,
     comparison_figure,
     contact_figure,
     device_figure,
     difference_figure,
+    envelope_figure,
     excitation_figure,
     force_space_figure,
     held_out_figure,
@@ -51,6 +54,7 @@ from forcetorque.report.figures import (
     lambda_difference_figure,
     lambda_force_figure,
     learnt_figure,
+    reference_error_figure,
     remedies_figure,
     residual_figure,
     skin_event_figure,
@@ -373,6 +377,37 @@ def _skin_layout(rng: np.random.Generator) -> Figure:
     return skin_layout_figure(patch.positions, {"as written": placeholder, "rebuilt": patch.normals})
 
 
+def _envelope(rng: np.random.Generator) -> Figure:
+    angles = np.sort(rng.uniform(0.0, 2.0 * np.pi, 30))
+    circle = np.column_stack([np.cos(angles), np.sin(angles)])
+    return envelope_figure([Silhouette(view=view, outline=size * circle) for size, view in enumerate(VIEWS, start=1)])
+
+
+def _reference_error(rng: np.random.Generator) -> Figure:
+    widths = rng.uniform(0.01, 1.0, 8)
+    return reference_error_figure(
+        [
+            GradeRow(
+                gravity_by="IMU" if k % 2 else "encoders",
+                full_width=float(width),
+                plus_minus=round(float(0.5 * width), 4),
+                unit="m/s2" if k % 2 else "deg",
+                rms=width * np.array([1.0, 1.1, 1.2, 0.2, 0.2, 0.1]),
+                one_force_N=2.0 * float(width),
+                one_moment_Nm=0.5 * float(width),
+                largest=width * np.array([2.0, 2.1, 2.2, 0.6, 0.6, 0.4]),
+                largest_force_N=2.2 * float(width),
+                largest_moment_Nm=0.6 * float(width),
+                force_norm_N=3.0 * float(width),
+                moment_norm_Nm=0.8 * float(width),
+                force_met_to_kg=None,
+                moment_met_to_kg=5.0,
+            )
+            for k, width in enumerate(widths)
+        ]
+    )
+
+
 def _thermal(rng: np.random.Generator) -> Figure:
     degrees = np.concatenate([np.linspace(20.0, 40.0, 60), np.linspace(40.0, 20.0, 60)])
     heating = np.repeat([1.0, -1.0], 60)
@@ -463,10 +498,12 @@ FIGURES: dict[str, Callable[[np.random.Generator], Figure]] = {
     "comparison": _comparison,
     "sphere": _sphere,
     "residual": _residual,
+    "envelope": _envelope,
     "excitation": _excitation,
     "held out": _held_out,
     "joint": _joint,
     "learnt": _learnt,
+    "reference error": _reference_error,
     "skin event": _skin_event,
     "skin_wrench": _skin_wrench,
     "taxel": _taxel,

@@ -1,5 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Questions to the sensors of experiments: one file per question, each a function and its result."""
+"""Questions to the sensors of experiments: one file per question, each a function and its result.
+
+Those about devices are imported when they are first used: no other question needs what they simulate.
+"""
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
 
 from forcetorque.analysis.acceptance import Acceptance, accept, criteria_table
 from forcetorque.analysis.acceptance_file import AcceptanceFile, read_acceptance
@@ -21,10 +27,6 @@ from forcetorque.analysis.contact_forces import (
 from forcetorque.analysis.corrections import corrections_of
 from forcetorque.analysis.criterion import Bound, Criterion
 from forcetorque.analysis.decide import use_verdicts
-from forcetorque.analysis.device import DeviceDesign, device
-from forcetorque.analysis.device_files import write_device
-from forcetorque.analysis.device_span import DeviceSpan, better_motion, device_span
-from forcetorque.analysis.device_span_rows import DirectionRow
 from forcetorque.analysis.estimate import IntervalEstimates, estimate_experiment
 from forcetorque.analysis.estimate_summary import (
     EstimateSummary,
@@ -107,6 +109,19 @@ from forcetorque.analysis.workbench import workbench
 from forcetorque.analysis.workbench_result import Workbench
 from forcetorque.analysis.workbench_rows import BenchPicture
 
+if TYPE_CHECKING:
+    from forcetorque.analysis.device import DeviceDesign, design_device
+    from forcetorque.analysis.device_demands import DeviceDemands
+    from forcetorque.analysis.device_files import write_device
+    from forcetorque.analysis.device_span import DeviceSpan
+
+_ON_USE = {
+    "device": ("DeviceDesign", "design_device"),
+    "device_demands": ("DeviceDemands",),
+    "device_files": ("write_device",),
+    "device_span": ("DeviceSpan",),
+}
+
 __all__ = [
     "JOINT_FILE",
     "LITTLE_LEARNT",
@@ -128,9 +143,9 @@ __all__ = [
     "Correction",
     "Criterion",
     "Demands",
+    "DeviceDemands",
     "DeviceDesign",
     "DeviceSpan",
-    "DirectionRow",
     "EstimateSummary",
     "Evaluation",
     "ExperimentAssessment",
@@ -196,7 +211,6 @@ __all__ = [
     "accept",
     "assess",
     "assess_experiment",
-    "better_motion",
     "by_sensor",
     "calibrate_for_file",
     "calibrate_jointly",
@@ -212,8 +226,7 @@ __all__ = [
     "corrections_of",
     "criteria_table",
     "data_doubts",
-    "device",
-    "device_span",
+    "design_device",
     "doubtful_spans",
     "estimate_experiment",
     "estimates_of_recordings",
@@ -273,3 +286,10 @@ __all__ = [
     "write_device",
     "write_plan",
 ]
+
+
+def __getattr__(name: str) -> Any:
+    for home, names in _ON_USE.items():
+        if name in names:
+            return getattr(import_module(f"{__name__}.{home}"), name)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

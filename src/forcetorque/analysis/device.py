@@ -9,6 +9,7 @@ from typing import Literal
 
 from pydantic import Field
 
+from forcetorque.analysis.device_demands import DeviceDemands, device_demands
 from forcetorque.analysis.device_rows import (
     DeviceLoadRow,
     DeviceMotionRow,
@@ -16,6 +17,7 @@ from forcetorque.analysis.device_rows import (
     load_row,
     motion_row,
 )
+from forcetorque.analysis.device_span import DeviceSpan, device_span
 from forcetorque.arrays import FloatArray
 from forcetorque.exsitu.device import DeviceAnswer, DeviceFile, DeviceTrajectory, answer_of, device_load
 from forcetorque.result import Result, Table, table_of
@@ -53,7 +55,11 @@ class DeviceDesign(Result):
     loads: tuple[DeviceLoadRow, ...]
     """One per load that it takes."""
     motions: tuple[DeviceMotionRow, ...]
-    """Its motion, and that with the first two axes swapped."""
+    """Its motion and, of the 12 steps, that with the first two axes swapped."""
+    span: DeviceSpan
+    """What it excites, what would excite more, and a better motion."""
+    demands: DeviceDemands
+    """What is demanded of it, with the largest stack of sensors."""
     recordings: tuple[DeviceRecordingRow, ...] = ()
     """Simulated recordings; none where nothing was written."""
     folder: str | None = None
@@ -63,7 +69,7 @@ class DeviceDesign(Result):
     file: DeviceFile = Field(exclude=True, repr=False)
     """The device."""
     trajectories: dict[str, DeviceTrajectory] = Field(exclude=True, repr=False)
-    """Motions by the names of `motions`."""
+    """Motions by their names: those of `motions`, then those of `span`."""
     picture: DevicePicture = Field(exclude=True, repr=False)
     """What figures show."""
 
@@ -76,6 +82,8 @@ class DeviceDesign(Result):
         yield f"{self.device} with {len(self.sensors)} sensor{'s' * (len(self.sensors) > 1)}: {', '.join(self.sensors)}"
         yield table_of(self.loads, f"loads: the largest in the motion, at {self.sensors[0]} and on the axes")
         yield table_of(self.motions, "motions")
+        yield from self.span.blocks()
+        yield from self.demands.blocks()
         if self.recordings:
             yield table_of(self.recordings, "simulated recordings")
         if self.folder is not None:
@@ -83,7 +91,7 @@ class DeviceDesign(Result):
         yield from (f"drawn to {figure}" for figure in self.figures)
 
 
-def device(file: DeviceFile) -> DeviceDesign:
+def design_device(file: DeviceFile) -> DeviceDesign:
     """Check a calibration device by computation.
 
     Args:
@@ -92,30 +100,39 @@ def device(file: DeviceFile) -> DeviceDesign:
     Returns:
         What its loads do and how it moves.
     """
-    trajectory, swapped = _trajectory(file), _trajectory(file.changed(yaw_first=not file.yaw_first))
-    trajectories = {trajectory.sequence.name: trajectory, f"{swapped.sequence.name}, {_SWAPPED}": swapped}
+    trajectory, trajectories = _trajectory(file), _trajectories(file)
     loads = [device_load(file, load_kg) for load_kg in file.loads_kg]
     time, motion = trajectory.sampled(PICTURE_HZ)
+    span = device_span(file)
     answers = [answer_of(file, load, motion) for load in loads]
-    of_swapped = answer_of(swapped.device, swapped.load, swapped(time))
-    inner = file.sensor_names[0]
     return DeviceDesign(
         device=file.name,
         sensors=file.sensor_names,
         loads=tuple(load_row(file, load, answer) for load, answer in zip(loads, answers, strict=True)),
         motions=tuple(motion_row(name, one, PICTURE_HZ) for name, one in trajectories.items()),
+        span=span,
+        demands=device_demands(file),
         file=file,
-        trajectories=trajectories,
+        trajectories=trajectories | span.trajectories,
         picture=DevicePicture(
             time_s=time,
             motion=motion,
             answer=answers[-1],
             clouds={
-                name: answer.wrenches.of_name(inner)
-                for name, answer in zip(trajectories, (answers[-1], of_swapped), strict=True)
+                name: answer_of(one.device, one.load, one.sampled(PICTURE_HZ)[1]).wrenches.of_name(file.sensor_names[0])
+                for name, one in trajectories.items()
             },
         ),
     )
+
+
+def _trajectories(file: DeviceFile) -> dict[str, DeviceTrajectory]:
+    """The motion and, of the 12 steps, what they are with the axes swapped: other postures need not fit that."""
+    motion = _trajectory(file)
+    trajectories = {motion.sequence.name: motion}
+    if file.motion.posture is None:
+        trajectories[f"{motion.sequence.name}, {_SWAPPED}"] = _trajectory(file.changed(yaw_first=not file.yaw_first))
+    return trajectories
 
 
 def _trajectory(file: DeviceFile) -> DeviceTrajectory:

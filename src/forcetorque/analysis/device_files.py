@@ -33,8 +33,9 @@ def write_device(
 ) -> DeviceDesign:
     """Write a device, all or nothing.
 
-    A URDF for every load that is simulated and one of the device with its axes swapped; both trajectories of the
-    motors as a table, for ROS and for YARP; a log and an experiment file for every load; the truth of its sensors.
+    A URDF for every load that is simulated and, for the 12 steps, one of the device with its axes swapped;
+    trajectories of the motors as a table, for ROS and for YARP; a log and an experiment file for every load; the truth
+    of its sensors.
 
     Args:
         design: The device.
@@ -47,16 +48,20 @@ def write_device(
     file, rows = design.file, []
     specimens = DeviceSpecimens.draw(file)
     with new_folder(Path(output)) as folder:
-        for stem, trajectory in zip(("motion", "motion_axes_swapped"), design.trajectories.values(), strict=True):
-            motors = partial(_motors, trajectory)
-            write_trajectory(folder, stem, motors, ("rad",) * (len(file.joint_names) - 1))
-        swapped = trajectory.device
-        write_urdf(folder / "device_axes_swapped.urdf", device_model(swapped, trajectory.load))
+        for name, trajectory in design.trajectories.items():
+            motors = trajectory.device.joint_names[:-1]
+            write_trajectory(folder, _stem(name), partial(_motors, trajectory), ("rad",) * len(motors))
+            if trajectory.device.yaw_first != file.yaw_first:
+                write_urdf(folder / "device_axes_swapped.urdf", device_model(trajectory.device, trajectory.load))
         for simulated in simulate_device(file, specimens):
             progress(f"writing {simulated.load.name}: {simulated.trajectory.duration_s:.0f} s")
             rows.append(_write_recording(folder, file, simulated))
         _write_truth(folder, file, specimens)
     return design.model_copy(update={"recordings": tuple(rows), "folder": str(output)})
+
+
+def _stem(name: str) -> str:
+    return name.replace(",", "").replace(" ", "_")
 
 
 def _motors(trajectory: DeviceTrajectory, rate_hz: float) -> tuple[FloatArray, JointMotion]:
@@ -71,7 +76,7 @@ def _motors(trajectory: DeviceTrajectory, rate_hz: float) -> tuple[FloatArray, J
 
 
 def _write_recording(folder: Path, file: DeviceFile, simulated: DeviceRecording) -> DeviceRecordingRow:
-    stem = simulated.load.name.replace(" ", "_")
+    stem = _stem(simulated.load.name)
     urdf = f"device_{stem}.urdf"
     write_urdf(folder / urdf, simulated.model)
     write_recording(folder / stem, simulated.recording)

@@ -112,6 +112,19 @@ def test_a_lock_that_the_load_does_not_reach_is_refused() -> None:
         _refused([[-90.0, 0.0, 0.0], [-20.0, 0.0, 90.0]], unlocked=True)
 
 
+def test_a_load_that_would_fall_is_refused() -> None:
+    """Unlocked where it does not hang at its lock, it would drop."""
+    with pytest.raises(RobotError, match=r"lock at 0 deg when it is unlocked, it hangs at 45.0 deg and would fall"):
+        _refused([[-45.0, 0.0, 0.0], [0.0, 0.0, 90.0]], unlocked=True)
+
+
+def test_a_way_past_a_stop_is_refused() -> None:
+    """Both ends are well, but in between the load hangs beyond the stop."""
+    hinge = DEVICE.hinge.model_copy(update={"range_deg": (-40.0, 90.0), "locks_deg": (45.0,)})
+    with pytest.raises(RobotError, match=r"hang within hinge.range_deg = \[-40.0, 90.0\], got -"):
+        _refused([[-45.0, 0.0, 45.0], [-45.0, 360.0, 45.0]], unlocked=True, device=DEVICE.changed(hinge=hinge))
+
+
 def test_a_lock_that_is_not_there_is_refused() -> None:
     """The hinge rests at locks only."""
     with pytest.raises(RobotError, match=r"hinge at one of hinge.locks_deg = \[0.0, 90.0\], got -90 deg"):

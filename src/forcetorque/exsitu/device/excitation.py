@@ -6,8 +6,25 @@ from __future__ import annotations
 import numpy as np
 
 from forcetorque.arrays import FloatArray
+from forcetorque.exsitu.bench import Placement
+from forcetorque.exsitu.load_table import THESIS_TABLE, read_loads
 from forcetorque.exsitu.span import load_sizes
 from forcetorque.exsitu.uncertain_loads import UncertainLoads
+from forcetorque.spatial import MeasureDirection
+
+
+def workbench_loads(placement: Placement, samples: int) -> UncertainLoads:
+    """Give the loads of the 24 positions of the thesis' workbench.
+
+    Args:
+        placement: How exactly weights are placed.
+        samples: Samples of all positions together.
+
+    Returns:
+        The loads.
+    """
+    table = read_loads(THESIS_TABLE, measure_direction=MeasureDirection.CHILD_TO_PARENT)
+    return UncertainLoads.of_bench(table, placement, samples=samples)
 
 
 def least_excitation(loads: UncertainLoads, others: UncertainLoads) -> float:

@@ -17,6 +17,8 @@ from forcetorque.robot import JointMotion
 
 _AT_LOCK_RAD = 1e-6
 """How far from a lock the hinge may be when it is said to be locked; rad."""
+_LOOKS = 41
+"""Places on a way at which it is asked where an unlocked hinge hangs."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -98,8 +100,8 @@ class Sequence:
             load: What hangs on its hinge.
 
         Raises:
-            RobotError: If a posture is outside of a range, the hinge rests or is moved where it has no lock, or is
-                to be locked where the load does not hang.
+            RobotError: If a posture is outside of a range, the hinge rests or is moved where it has no lock, it is
+                unlocked or to be locked where the load does not hang, or the load hangs beyond a stop in between.
         """
         if self.joints != device.joint_names:
             raise RobotError(
@@ -126,12 +128,18 @@ class Sequence:
                 f"{np.rad2deg(end[-1]):g} deg"
             )
         if free:
-            at_end = with_free_hinge(device, load, JointMotion.at_rest(self.joints, self.postures[way + 1 : way + 2]))
-            there = at_end.position[0, -1]
-            if abs(there - end[-1]) > _AT_LOCK_RAD:
+            share = np.linspace(0.0, 1.0, _LOOKS)[:, None]
+            hangs = with_free_hinge(device, load, JointMotion.at_rest(self.joints, start + share * (end - start)))
+            first, last = hangs.position[[0, -1], -1]
+            if abs(first - start[-1]) > _AT_LOCK_RAD:
+                raise RobotError(
+                    f"{step}: expected the load to hang at the lock at {np.rad2deg(start[-1]):g} deg when it is "
+                    f"unlocked, it hangs at {np.rad2deg(first):.1f} deg and would fall; unlock it elsewhere"
+                )
+            if abs(last - end[-1]) > _AT_LOCK_RAD:
                 raise RobotError(
                     f"{step}: expected the load to hang at the lock at {np.rad2deg(end[-1]):g} deg when the motion "
-                    f"ends, it hangs at {np.rad2deg(there):.1f} deg and does not reach it; lead it there by the motors"
+                    f"ends, it hangs at {np.rad2deg(last):.1f} deg and does not reach it; lead it there by the motors"
                 )
             return
         if start[-1] != end[-1]:

@@ -6,6 +6,8 @@ from forcetorque.report.figures.compare import index_figure
 from forcetorque.report.figures.comparison import comparison_figure
 from forcetorque.report.figures.contacts import contact_figure
 from forcetorque.report.figures.device import device_figure
+from forcetorque.report.figures.device_envelope import envelope_figure
+from forcetorque.report.figures.device_errors import reference_error_figure
 from forcetorque.report.figures.differences import difference_figure
 from forcetorque.report.figures.excitation import excitation_figure
 from forcetorque.report.figures.force_space import force_space_figure
@@ -33,6 +35,7 @@ __all__ = [
     "contact_figure",
     "device_figure",
     "difference_figure",
+    "envelope_figure",
     "excitation_figure",
     "force_space_figure",
     "gain_figure",
@@ -42,6 +45,7 @@ __all__ = [
     "lambda_difference_figure",
     "lambda_force_figure",
     "learnt_figure",
+    "reference_error_figure",
     "remedies_figure",
     "residual_figure",
     "skin_event_figure",
