@@ -18,6 +18,10 @@ from forcetorque.analysis.contact_forces import (
     ContactForces,
     contact_forces,
 )
+from forcetorque.analysis.contest import Contest, contest
+from forcetorque.analysis.contest_entries import Contestant, ContestRun, Entries, read_entries
+from forcetorque.analysis.contest_file import ContestFile, Method
+from forcetorque.analysis.contest_rows import ContestLoadRow
 from forcetorque.analysis.corrections import corrections_of
 from forcetorque.analysis.criterion import Bound, Criterion
 from forcetorque.analysis.decide import use_verdicts
@@ -261,4 +265,13 @@ __all__ = [
     "study_warnings",
     "summarise_estimates",
     "weigh_load",
+    "Contest",
+    "contest",
+    "Contestant",
+    "ContestRun",
+    "Entries",
+    "read_entries",
+    "ContestFile",
+    "Method",
+    "ContestLoadRow",
 ]

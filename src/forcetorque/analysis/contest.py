@@ -36,10 +36,10 @@ from forcetorque.evaluation.contest import (
 from forcetorque.result import Result, Table, table_of
 
 SAME_LOAD_KG = 0.1
-"""Loads that differ by less are one load; they come in steps of 5 kg."""
+"""A judged load that differs by less from a fitted one was fitted on; they come in steps of 5 kg."""
 
 _RATES = (
-    "pairs of each error hold together with 95 %: of contests without a difference at most 5 % rank anybody, and of "
+    "intervals of all pairs hold together with 95 %: of contests without a difference at most 5 % rank anybody, and of "
     "contests whose errors differ by a quarter or more at most 5 % call a pair equal (no difference); not told apart: "
     "too few, or too unlike, stretches of the motion"
 )
@@ -177,7 +177,7 @@ def _readers(entries: Entries, *, code_version: str, created: str) -> tuple[list
             left_out.append(LeftOutRow(contestant=entry.name, method=entry.method.value, why=str(error)))
     every = {load for reader in readers for load in _loads(reader)}
     for reader in tuple(readers):
-        lacking = sorted(load for load in every if not any(_same(load, own) for own in _loads(reader)))
+        lacking = sorted(load for load in every if load not in _loads(reader))
         if lacking:
             readers.remove(reader)
             why = f"no run judges it under {', '.join(f'{load:g}' for load in lacking)} kg, as others are"
@@ -195,15 +195,11 @@ def _loads(reader: Reader) -> tuple[float, ...]:
     return tuple(sorted({run.load_kg for run, _ in reader.judged}))
 
 
-def _same(one: float, other: float) -> bool:
-    return abs(one - other) < SAME_LOAD_KG
-
-
 def _require_unfitted(readers: Sequence[Reader]) -> tuple[float, ...]:
     """Refuse loads that favour one contestant because it was fitted on them."""
     for reader in readers:
         for load in reader.fitted_loads_kg:
-            runs = [run.name for other in readers for run, _ in other.judged if _same(run.load_kg, load)]
+            runs = [run.name for other in readers for run, _ in other.judged if abs(run.load_kg - load) < SAME_LOAD_KG]
             if runs:
                 raise ExperimentError(
                     f"{runs[0]}: expected loads to judge that nobody was fitted on, got {load:g} kg, on which "

@@ -241,7 +241,7 @@ def score_rows(rows: tuple[ContestantRow, ...]) -> list[ContestScoreRow]:
         ("  ±", "drift_per_degC_half_width_95"),
     )
     shown: list[tuple[str, str, FloatArray | None]] = [
-        (row.contestant, words, getattr(row, field)) for words, field in scores for row in rows
+        (row.contestant, words, getattr(row, field)) for row in rows for words, field in scores
     ]
     return [
         ContestScoreRow(contestant=n, score=words, values=values) for n, words, values in shown if values is not None

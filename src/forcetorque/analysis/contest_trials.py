@@ -58,7 +58,7 @@ class Phases:
 def _motion(run: SensorRun, interval: Interval) -> tuple[IntArray, Sequence[str], FloatArray]:
     """Instants, names and positions of what moves: joints, the direction of gravity, or the wrench that is applied."""
     experiment = run.experiment
-    if interval.support is None:
+    if experiment.wrist is not None and experiment.wrist.table.applied is not None:
         samples = run.interval_samples(interval).samples
         force, moment = samples.reference[:, :3], samples.reference[:, 3:]
         sizes = [max(float(np.sqrt((part**2).mean())), 1e-9) for part in (force, moment)]

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import combinations
 from typing import Literal
 
@@ -19,7 +19,7 @@ import numpy as np
 
 from forcetorque.arrays import BoolArray, FloatArray
 from forcetorque.evaluation.contest.trial import Trial
-from forcetorque.evaluation.paired import CONFIDENCE, PIECES, ErrorRatio, independent_stretches, ratio_over
+from forcetorque.evaluation.paired import ALIKE, CONFIDENCE, PIECES, ErrorRatio, independent_stretches, ratio_over
 
 FAMILY_ERROR = 0.05
 """Share of contests in which any pair may be ranked, or called no different, wrongly: shared by all pairs."""
@@ -105,8 +105,8 @@ def rated_pairs(contestants: Mapping[str, Parts], *, scale: tuple[float, float])
             first=one,
             second=other,
             quantity=quantity,
-            ratio=_ratio(
-                contestants[one].norms(quantity, scale), contestants[other].norms(quantity, scale), confidence
+            ratio=_settled(
+                _ratio(contestants[one].norms(quantity, scale), contestants[other].norms(quantity, scale), confidence)
             ),
         )
         for quantity in QUANTITIES
@@ -122,6 +122,12 @@ def _ratio(first: FloatArray, second: FloatArray, confidence: float) -> ErrorRat
     pooled = 0.5 * math.log(one.mean() / other.mean())
     # derivative of the log ratio of root mean squares by what a phase adds to either; its mean is zero
     return _over(pooled + 0.5 * (one / one.mean() - other / other.mean()), pooled, confidence)
+
+
+def _settled(ratio: ErrorRatio) -> ErrorRatio:
+    """Call equal what differs surely, but by less than any use would see: nobody should be ranked by it."""
+    alike = ALIKE[0] <= ratio.low and ratio.high <= ALIKE[1]
+    return replace(ratio, judgement="no difference") if alike else ratio
 
 
 def _over(contributions: FloatArray, pooled: float, confidence: float) -> ErrorRatio:
