@@ -25,6 +25,7 @@ FILES = (
     "experiment",
     "acceptance",
     "bench",
+    "contestants",
     "scenario",
     "recording",
     "calibration",

@@ -24,6 +24,7 @@ from tests.experiments import PARQUET, TWO
 from tests.patches import collapsed, cylinder_patch, position_text
 from tests.thermal_cycles import record, write_cycles
 from tests.touched import write_table, write_touched
+from tests.wrist_contest import write_contest, write_runs
 
 WIDTHS = (60, 80, 100, 120)
 FOLDER = Path(__file__).parent / "snapshots"
@@ -35,6 +36,7 @@ COMMANDS = {
     "accept": ("accept", PARQUET, "--spec", "limits.toml", "-c", "fitted.json"),
     "calibrate": ("calibrate", PARQUET, "-o", "new.json", "--lambda", "5"),
     "compare": ("compare", PARQUET, "-c", "fitted.json"),
+    "contest": ("contest", "wrist/contest.toml"),
     "estimate": ("estimate", PARQUET, "-o", "contacts.parquet", "-c", "fitted.json"),
     "evaluate": ("evaluate", PARQUET, "-c", "fitted.json"),
     "export": ("export", "fitted.json", "--to", "csv", "-o", "matrix.csv"),
@@ -89,6 +91,10 @@ def test_the_layout_is_that_which_was_looked_at(arm: Path, run: Run, name: str, 
     write_table(arm)
     if name == "workbench":
         write_bench(arm, faults=BenchFaults(swapped=(3, 8)))
+    if name == "contest":
+        (arm / "wrist").mkdir()
+        write_runs(arm / "wrist")
+        write_contest(arm / "wrist", {"masses": 1.0, "judge": 2.0})
     if name == "thermal":
         (arm / "chamber").mkdir()
         write_cycles(arm / "chamber", *record(np.random.default_rng(1), hours=0.2))

@@ -19,6 +19,7 @@ from matplotlib.text import Text
 
 from forcetorque.analysis import (
     BenchPicture,
+    ContestLoadRow,
     LearntDirection,
     Reason,
     SensorSphere,
@@ -40,6 +41,7 @@ from forcetorque.report.figures import (
     bench_figure,
     comparison_figure,
     contact_figure,
+    contest_figure,
     difference_figure,
     excitation_figure,
     force_space_figure,
@@ -428,6 +430,24 @@ def _bench(rng: np.random.Generator) -> Figure:
     )
 
 
+def _contest(rng: np.random.Generator) -> Figure:
+    rows = []
+    for name in ("mini58 as bought", "ours, in situ", "ours, workbench", "in-situ without a prior"):
+        for load in (10.0, 15.0, 20.0, 30.0):
+            rmse = 0.01 * load * np.repeat([1.0, 0.05], 3) * rng.uniform(0.5, 2.0, 6)
+            known = load > 10.0
+            rows.append(
+                ContestLoadRow(
+                    contestant=name,
+                    load_kg=load,
+                    rmse=rmse,
+                    rmse_low=0.8 * rmse if known else None,
+                    rmse_high=1.3 * rmse if known else None,
+                )
+            )
+    return contest_figure(rows)
+
+
 FIGURES: dict[str, Callable[[np.random.Generator], Figure]] = {
     "bench": _bench,
     "space": _space,
@@ -436,6 +456,7 @@ FIGURES: dict[str, Callable[[np.random.Generator], Figure]] = {
     "lambda difference": _lambda_difference,
     "lambda force": _lambda_force,
     "contact": _contact,
+    "contest": _contest,
     "comparison": _comparison,
     "sphere": _sphere,
     "residual": _residual,

@@ -11,6 +11,7 @@ import typer
 from forcetorque.cli.accept import accept
 from forcetorque.cli.calibrate import calibrate
 from forcetorque.cli.compare import compare
+from forcetorque.cli.contest import contest
 from forcetorque.cli.encoding import spell_missing_letters
 from forcetorque.cli.estimate import estimate
 from forcetorque.cli.evaluate import evaluate
@@ -57,6 +58,7 @@ _COMMANDS = (
     accept,
     calibrate,
     compare,
+    contest,
     estimate,
     evaluate,
     export,

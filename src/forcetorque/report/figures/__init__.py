@@ -5,6 +5,7 @@ from forcetorque.report.figures.bench import bench_figure
 from forcetorque.report.figures.compare import index_figure
 from forcetorque.report.figures.comparison import comparison_figure
 from forcetorque.report.figures.contacts import contact_figure
+from forcetorque.report.figures.contest import contest_figure
 from forcetorque.report.figures.differences import difference_figure
 from forcetorque.report.figures.excitation import excitation_figure
 from forcetorque.report.figures.force_space import force_space_figure
@@ -29,6 +30,7 @@ __all__ = [
     "bench_figure",
     "comparison_figure",
     "contact_figure",
+    "contest_figure",
     "difference_figure",
     "excitation_figure",
     "force_space_figure",
