@@ -95,7 +95,7 @@ class Contest(Result):
         if self.winner is not None:
             yield f"{self.winner} errs least, beyond doubt"
         else:
-            yield f"nobody wins: {', '.join(best)} share the first place"
+            yield f"nobody wins beyond doubt; in the first place: {'; '.join(best)}"
         for pair in self.pairs:
             if pair.error_of == "wrench" and pair.judgement == "no difference":
                 yield f"{pair.contestant} and {pair.other} are equal: {pair.ratio:.2f}, {_ends(pair)}"
