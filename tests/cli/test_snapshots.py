@@ -22,6 +22,7 @@ from tests.cli.commands import question_of, typed_commands
 from tests.cli.outcome import Run
 from tests.experiments import PARQUET, TWO
 from tests.patches import collapsed, cylinder_patch, position_text
+from tests.excited_sensors import write_taps
 from tests.thermal_cycles import record, write_cycles
 from tests.touched import write_table, write_touched
 
@@ -42,6 +43,7 @@ COMMANDS = {
     "inspect": ("inspect", "faulty.toml"),
     "plan": ("plan", PARQUET, "-c", "fitted.json", "--clearance-deg", "12", "--seconds", "20", "--recordings", "2"),
     "report": ("report", PARQUET, "fitted.json", "-o", "report.html"),
+    "response": ("response", "excited/taps.toml", "-e", "impact", "--force", "log"),
     "skin calibrate": ("skin", "calibrate", "fit.toml", "kept.toml", "-o", "palm.json"),
     "skin check": ("skin", "check", "patch.txt"),
     "skin wrench": ("skin", "wrench", "touched.toml", "--table", "shank.json"),
@@ -92,6 +94,9 @@ def test_the_layout_is_that_which_was_looked_at(arm: Path, run: Run, name: str, 
     if name == "thermal":
         (arm / "chamber").mkdir()
         write_cycles(arm / "chamber", *record(np.random.default_rng(1), hours=0.2))
+    if name == "response":
+        (arm / "excited").mkdir()
+        write_taps(arm / "excited")
     (arm / "patch.txt").write_text(position_text(collapsed(cylinder_patch(), 4)), encoding="utf-8")
     ended = run(*COMMANDS[name])
     assert ended.code in (0, 1), ended.err

@@ -56,6 +56,7 @@ from forcetorque.report.figures import (
     space_figure,
     sphere_figure,
     taxel_figure,
+    response_figure,
     thermal_figure,
     torque_figure,
     use_figure,
@@ -416,6 +417,53 @@ def _thermal(rng: np.random.Generator) -> Figure:
     return thermal_figure([sensor, sensor])
 
 
+def _response(rng: np.random.Generator) -> Figure:
+    frequency = np.linspace(0.5, 200.0, 400)
+    sensor = SecondOrder(natural_frequency_hz=30.0, damping=0.05, gain=1.0, covariance=1e-4 * np.eye(3))
+    value = sensor.response(frequency) * (1.0 + 0.05 * rng.normal(size=400))
+    time = np.linspace(0.01, 0.6, 300)
+    fitted = np.exp(-9.0 * time) * np.cos(190.0 * time)
+    decays = tuple(
+        DecayCurve(
+            title=f"_taps $of$ {'x' * 40}, {k}.00 s",
+            time_s=time,
+            reading=fitted + 0.02 * rng.normal(size=300),
+            fitted=fitted,
+        )
+        for k in range(5)
+    )
+    curve = ResponseCurve(
+        frequency_hz=frequency,
+        real=value.real,
+        imaginary=value.imag,
+        radius_95=np.full(400, 0.05),
+        coherence=np.linspace(1.0, 0.2, 400),
+        chance=0.4,
+        driven=np.ones(400),
+        explained_share=0.99,
+        averages=8.0,
+    )
+    return response_figure(
+        Response(
+            sensor="_left $wrist$ " + "x" * 70,
+            serial="FT1",
+            reading="the logged wrench",
+            excitation=Excitation.IMPACT,
+            signal="fz",
+            force="hammer",
+            rate_hz=500.0,
+            samples=5000,
+            events=(),
+            numbers=(),
+            curve=curve,
+            inverse=None,
+            refused=(),
+            decays=decays,
+            fitted=sensor,
+        )
+    )
+
+
 def _bench(rng: np.random.Generator) -> Figure:
     directions = rng.standard_normal((24, 3))
     forces = directions / np.linalg.norm(directions, axis=1, keepdims=True)
@@ -446,6 +494,7 @@ FIGURES: dict[str, Callable[[np.random.Generator], Figure]] = {
     "skin event": _skin_event,
     "skin_wrench": _skin_wrench,
     "taxel": _taxel,
+    "response": _response,
     "thermal": _thermal,
     "torque": _torque,
     "index": _index,

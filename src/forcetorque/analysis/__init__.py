@@ -67,6 +67,8 @@ from forcetorque.analysis.population import read_population
 from forcetorque.analysis.prior_comparison import Independence, PriorComparison, compare_with_prior
 from forcetorque.analysis.reading import Correction
 from forcetorque.analysis.recording_moments import recording_moments, store_moments
+from forcetorque.analysis.response import Response, response
+from forcetorque.analysis.response_rows import DecayCurve, EventRow, InverseRow, ResponseCurve, ResponseNumber
 from forcetorque.analysis.robot_load import export_load, robot_load
 from forcetorque.analysis.samples import IntervalSamples
 from forcetorque.analysis.sensor_calibration import (
@@ -104,6 +106,13 @@ from forcetorque.analysis.workbench_result import Workbench
 from forcetorque.analysis.workbench_rows import BenchPicture
 
 __all__ = [
+    "DecayCurve",
+    "EventRow",
+    "InverseRow",
+    "Response",
+    "ResponseCurve",
+    "ResponseNumber",
+    "response",
     "SensorThermal",
     "Tare",
     "Thermal",

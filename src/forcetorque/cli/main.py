@@ -21,6 +21,7 @@ from forcetorque.cli.output import report_error
 from forcetorque.cli.payload import payload
 from forcetorque.cli.plan import plan
 from forcetorque.cli.report import report
+from forcetorque.cli.response import response
 from forcetorque.cli.schema import schema
 from forcetorque.cli.simulate import simulate
 from forcetorque.cli.skin import skin
@@ -65,6 +66,7 @@ _COMMANDS = (
     payload,
     plan,
     report,
+    response,
     schema,
     simulate,
     sphere,

@@ -15,6 +15,7 @@ from forcetorque.report.figures.lambda_difference import lambda_difference_figur
 from forcetorque.report.figures.lambda_force import lambda_force_figure
 from forcetorque.report.figures.learnt import learnt_figure
 from forcetorque.report.figures.residuals import residual_figure
+from forcetorque.report.figures.response import response_figure
 from forcetorque.report.figures.skin_events import skin_event_figure
 from forcetorque.report.figures.skin_layout import skin_layout_figure
 from forcetorque.report.figures.skin_wrench import skin_wrench_figure
@@ -46,6 +47,7 @@ __all__ = [
     "space_figure",
     "sphere_figure",
     "taxel_figure",
+    "response_figure",
     "thermal_figure",
     "torque_figure",
     "use_figure",
