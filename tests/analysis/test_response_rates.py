@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Intervals of natural frequency, damping and gain hold the truth, whatever excited the sensor; what is not driven is
-refused; and what is undone comes nearer to the force."""
+"""Intervals of responses hold the truth, whatever excited the sensor, and what no force drives is refused."""
 
 from __future__ import annotations
 

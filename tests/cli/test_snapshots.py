@@ -20,9 +20,9 @@ from tests.benches import write_bench
 from tests.chambers import write_chambers
 from tests.cli.commands import question_of, typed_commands
 from tests.cli.outcome import Run
+from tests.excited_sensors import write_taps
 from tests.experiments import PARQUET, TWO
 from tests.patches import collapsed, cylinder_patch, position_text
-from tests.excited_sensors import write_taps
 from tests.thermal_cycles import record, write_cycles
 from tests.touched import write_table, write_touched
 

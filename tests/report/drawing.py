@@ -19,8 +19,11 @@ from matplotlib.text import Text
 
 from forcetorque.analysis import (
     BenchPicture,
+    DecayCurve,
     LearntDirection,
     Reason,
+    Response,
+    ResponseCurve,
     SensorSphere,
     SensorThermal,
     SkinWrenchPicture,
@@ -35,6 +38,7 @@ from forcetorque.analysis import (
 from forcetorque.analysis.skin_event_rows import SkinEventPicture
 from forcetorque.analysis.skin_picture import TaxelPicture
 from forcetorque.calibration.joint import PartResidual
+from forcetorque.evaluation.response import Excitation, SecondOrder
 from forcetorque.evaluation.sphere import analyse_sphere
 from forcetorque.report.figures import (
     bench_figure,
@@ -50,13 +54,13 @@ from forcetorque.report.figures import (
     lambda_force_figure,
     learnt_figure,
     residual_figure,
+    response_figure,
     skin_event_figure,
     skin_layout_figure,
     skin_wrench_figure,
     space_figure,
     sphere_figure,
     taxel_figure,
-    response_figure,
     thermal_figure,
     torque_figure,
     use_figure,

@@ -63,9 +63,9 @@ class Response(Result):
     """Impacts or releases in the order of time."""
     numbers: tuple[ResponseNumber, ...]
     """Natural frequency, damping, gain, bandwidth, by what tells them."""
-    curve: ResponseCurve | None
+    curve: ResponseCurve | None = Field(repr=False)
     """Frequency response; null where it is not told."""
-    inverse: InverseRow | None
+    inverse: InverseRow | None = Field(repr=False)
     """Filter that undoes the response; null where it is not told well enough."""
     refused: tuple[str, ...]
     """What is not told, and why."""

@@ -8,12 +8,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from forcetorque.analysis.chosen_intervals import chosen_intervals
 from forcetorque.analysis.reading import Correction, readings_at
 from forcetorque.analysis.sensor_run import SensorRun
 from forcetorque.arrays import FloatArray, IntArray
 from forcetorque.errors import ExperimentError, known_names
 from forcetorque.evaluation.response import EvenRecord, even_record, refuse_clipped
-from forcetorque.recording import Interval, Stream, Use
+from forcetorque.recording import Interval, Stream
 from forcetorque.recording.alignment import require_overlap, seconds_since
 from forcetorque.spatial import WRENCH_COMPONENTS
 
@@ -55,11 +56,15 @@ def excited_records(
     Raises:
         ExperimentError: If an interval is not there, the force has other axes, or rates differ.
     """
-    records = [
-        _record(run, interval, correction, force)
-        for run in runs
-        for interval in _chosen(run, intervals if len(runs) == 1 else _own(run, runs, intervals))
-    ]
+    known = {interval.label for run in runs for interval in run.experiment.recording.intervals}
+    for label in intervals:
+        if label not in known:
+            raise ExperimentError(f"no interval is labelled {label!r}; {known_names(label, known)}")
+    records = []
+    for run in runs:
+        own = [one.label for one in run.experiment.recording.intervals if one.label in intervals]
+        if own or not intervals:  # of several recordings, only some may have the interval
+            records += [_record(run, interval, correction, force) for interval in chosen_intervals(run, own)]
     if not records:
         raise ExperimentError("expected an interval that is not to be ignored, got none; add [[interval]]")
     first = records[0].wrench.rate_hz
@@ -70,24 +75,6 @@ def excited_records(
                 f"{record.wrench.rate_hz:.6g} Hz; ask for each by itself"
             )
     return records
-
-
-def _own(run: SensorRun, runs: Sequence[SensorRun], labels: Collection[str]) -> list[str]:
-    """Labels that a recording has of those that any of several has."""
-    known = {interval.label for one in runs for interval in one.experiment.recording.intervals}
-    for label in labels:
-        if label not in known:
-            raise ExperimentError(f"no interval is labelled {label!r}; {known_names(label, known)}")
-    return [one.label for one in run.experiment.recording.intervals if one.label in labels]
-
-
-def _chosen(run: SensorRun, labels: Collection[str]) -> list[Interval]:
-    known = {interval.label: interval for interval in run.experiment.recording.intervals}
-    for label in labels:
-        if label not in known:
-            raise ExperimentError(f"no interval is labelled {label!r}; {known_names(label, known)}")
-    chosen = [known[label] for label in labels] or [one for one in known.values() if one.use is not Use.IGNORE]
-    return sorted(chosen, key=lambda interval: interval.start_ns)
 
 
 def _record(run: SensorRun, interval: Interval, correction: Correction, force: str | None) -> ExcitedRecord:

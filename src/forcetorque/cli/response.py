@@ -41,7 +41,7 @@ def response(
     figure: Annotated[Path | None, typer.Option("--figure", help="PNG of the response and of the decays.")] = None,
     output_format: FormatOption = Format.TABLE,
 ) -> None:
-    """Tell bandwidth, resonance and damping of a sensor, and a filter that undoes them.
+    """Tell bandwidth and resonance of a sensor, and a filter that undoes them.
 
     Example: forcetorque response taps.toml --excitation impact --force hammer --figure bode.png
     """

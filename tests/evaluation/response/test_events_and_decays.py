@@ -97,7 +97,9 @@ def test_a_record_without_an_impact_is_refused() -> None:
     rng = np.random.default_rng(9)
     time = np.arange(0.0, 6.0, 0.002)
     reading = 10.0 * np.sin(time) + 0.1 * rng.normal(size=len(time))
-    with pytest.raises(RecordingError, match=r"log: expected an impact or a release, got none: .* stands out by [3-6]\."):
+    with pytest.raises(
+        RecordingError, match=r"log: expected an impact or a release, got none: .* stands out by [3-6]\."
+    ):
         find_events(_record(time, reading), name="log")
     with pytest.raises(RecordingError, match=r"expected a record of at least 0.4 s"):
         find_events(_record(time[:50], reading[:50]), name="log")

@@ -123,7 +123,13 @@ def fit_second_order(response: FrequencyResponse, *, name: str) -> SecondOrder:
         error = weight * (model(at) - value)
         return np.concatenate([error.real, error.imag])
 
-    solved = least_squares(left, _start(ratio, value, weight), x_scale="jac", xtol=1e-12, ftol=1e-12)
+    peak = response.liveliest_hz / unit
+    resonance = np.array([abs(value[0]), 0.1 / peak, 1.0 / peak**2])
+    tries = [
+        least_squares(left, start, x_scale="jac", xtol=1e-12, ftol=1e-12)
+        for start in (_start(ratio, value, weight), resonance)
+    ]
+    solved = min(tries, key=lambda one: float(one.cost))
     misfit = 2.0 * float(solved.cost) / max(int(use.sum()) - 1.5, 1.0)
     return _named(solved.x, unit, misfit, name)
 
