@@ -43,7 +43,7 @@ def response(
 ) -> None:
     """Tell bandwidth and resonance of a sensor, and a filter that undoes them.
 
-    Example: forcetorque response taps.toml --excitation impact --force hammer --figure bode.png
+    Example: forcetorque response taps.toml -e impact --force hammer
     """
     from forcetorque import analysis
     from forcetorque.analysis.campaign_recording import refuse_a_file_twice
