@@ -209,6 +209,9 @@ def test_four_real_taps_ring_and_tell_no_transfer_function(data_dir: Path, tmp_p
     assert "no transfer function: the measured force explains" in refusal
     assert "coherence" in refusal
     assert answer.curve is None
+    path.write_text(SKREDE.replace("2-vibrations", "1-baseline").format(folder=folder.as_posix(), clock="log"))
+    with pytest.raises(RecordingError, match="expected an impact or a release, got none"):
+        load_experiment(path)["wrist"].response("impact")
     path.write_text(SKREDE.format(folder=folder.as_posix(), clock="imu"))
     with pytest.raises(RecordingError, match="stamped by the clocks 'log' and 'imu'; bring them to one clock"):
         load_experiment(path)["wrist"].response("impact", component="fy", force="imu")
