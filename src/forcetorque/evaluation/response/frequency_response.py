@@ -23,6 +23,8 @@ HIGHEST_SHARE = 0.4
 
 _HANN_OVERLAP = 1.0 / 36.0
 """Squared correlation of the spectra of Hann windows that overlap by half."""
+_ONE_SIDED = 1.645
+"""Deviations that 95 % of normal numbers do not fall short of."""
 _BINS = 3
 """Frequencies on either side over which the noise is averaged."""
 
@@ -174,17 +176,25 @@ def require_coherence(response: FrequencyResponse, *, name: str) -> None:
 
     Raises:
         FitError: If the force explains less than `LEAST_EXPLAINED` of the power of the reading, or the coherence of the
-            middle frequency up to the liveliest is less.
+            middle frequency up to the liveliest is not surely as much.
     """
     top = response.liveliest_hz
     coherence = response.coherence[response.driven & (response.frequency_hz <= top)]
-    if response.explained >= LEAST_EXPLAINED and np.median(coherence) >= LEAST_EXPLAINED:
+    sure = _sure(float(np.median(coherence)), response.averages)
+    if response.explained >= LEAST_EXPLAINED and sure >= LEAST_EXPLAINED:
         return
     low, high = np.quantile(coherence, [0.25, 0.75])
     raise FitError(
         f"{name}: no transfer function: the measured force explains {100 * max(response.explained, 0.0):.0f} % of "
         f"the power of the reading, and the coherence is {low:.2f} to {high:.2f} (middle half of the frequencies up to "
-        f"{top:.3g} Hz, {response.averages:.3g} averages, of which chance alone gives {1.0 / response.averages:.2f}); "
-        f"expected {100 * LEAST_EXPLAINED:.0f} % and {LEAST_EXPLAINED:g} at least: measure the force itself, at the "
-        "place and in the direction in which it acts"
+        f"{top:.3g} Hz, {response.averages:.3g} averages, of which chance alone gives {1.0 / response.averages:.2f}), "
+        f"surely {sure:.2f}; expected {100 * LEAST_EXPLAINED:.0f} % and {LEAST_EXPLAINED:g} at least: measure the "
+        "force itself, at the place and in the direction in which it acts, or record more events"
     )
+
+
+def _sure(coherence: float, averages: float) -> float:
+    """The coherence that is exceeded with 95 %, by Fisher's transform of its root without its bias."""
+    root = float(np.arctanh(min(np.sqrt(coherence), 1.0 - 1e-12)))
+    lower = root - 1.0 / (2.0 * averages - 2.0) - _ONE_SIDED / np.sqrt(2.0 * averages)
+    return float(np.tanh(max(lower, 0.0)) ** 2)
