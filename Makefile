@@ -38,6 +38,7 @@ compiled: $(VENV)/test.stamp
 
 bench: $(VENV)/test.stamp
 	$(BIN)/python -m benchmarks.yarp_readers --json build/benchmarks/yarp_readers.json
+	$(BIN)/python -m benchmarks.bags --json build/benchmarks/bags.json
 	$(BIN)/python -m benchmarks.calibration --json build/benchmarks/calibration.json
 	$(BIN)/python -m benchmarks.dynamics --json build/benchmarks/dynamics.json
 	$(BIN)/python -m benchmarks.simulation --json build/benchmarks/simulation.json

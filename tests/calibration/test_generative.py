@@ -260,7 +260,7 @@ def test_without_a_prior_a_direction_that_is_not_loaded_is_named() -> None:
 def test_without_a_prior_a_direction_that_is_hardly_loaded_is_named() -> None:
     """A torque that moves less than the reading trembles is as good as none."""
     data = read_by(anyhow() * [1.0, 1.0, 1.0, 1.0, 1.0, 1e-4], noise_counts=20.0)
-    with pytest.raises(FitError, match="the response to tz is not known by half; without a prior"):
+    with pytest.raises(FitError, match="loads hardly move tz, the response to it is not known by half; without"):
         fit_generative([data], None, assumptions())
 
 

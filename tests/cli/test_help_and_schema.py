@@ -25,6 +25,8 @@ FILES = (
     "experiment",
     "acceptance",
     "bench",
+    "device_file",
+    "contestants",
     "scenario",
     "recording",
     "calibration",
@@ -57,6 +59,8 @@ JSON_SCHEMAS = (
     "taxels",
     "bench",
     "workbench",
+    "device",
+    "device_file",
 )
 
 

@@ -37,8 +37,11 @@ def test_a_clean_recording_has_no_findings(arm: Path, run: Run, what: str) -> No
     """The simulated arm has nothing to report, by its experiment and by its folder."""
     result = run("inspect", arm / what, "--format", "json").result()
     assert result["findings"] == []
-    assert result["schema"] == "forcetorque/inspect/1"
-    assert result["streams"]["joints"] > 1000
+    assert result["schema"] == "forcetorque/inspect/2"
+    joints = result["streams"]["joints"]
+    assert joints["samples"] > 1000
+    assert joints["rate_hz"] == pytest.approx(RATE_HZ, rel=0.01)
+    assert joints["holds"][0].startswith("position x ")
 
 
 def test_faults_of_a_stream_are_found_with_time_and_size(arm: Path, run: Run) -> None:
@@ -189,3 +192,15 @@ def test_the_wrist_payload(run: Run, data_dir: Path, tmp_path: Path) -> None:
 def test_a_robot_has_no_payload_to_estimate(arm: Path, run: Run) -> None:
     """The command says which table it needs."""
     assert "expected [load], what hangs on a wrist sensor" in run("payload", arm / PARQUET).error()
+
+
+def test_a_log_of_a_stated_format_is_described(arm: Path, run: Run) -> None:
+    """`--log-format` rules over what is recognised; what a format does not know is an error of that format."""
+    by_content = run("inspect", arm / "recording", "--format", "json").result()
+    stated = run("inspect", arm / "recording", "--log-format", "parquet", "--format", "json").result()
+    assert stated == by_content
+    (arm / "table.csv").write_text("t,fx,fy\n0,1,2\n", encoding="utf-8")
+    error = run("inspect", arm / "table.csv", "--log-format", "tabular").error()
+    assert "got the columns t, fx, fy; state their columns and units" in error
+    assert "no format of logs is called 'ros1'" in run("inspect", arm / "recording", "--log-format", "ros1").error()
+    assert "expected a bag of ROS" in run("inspect", arm / "table.csv", "--log-format", "ros").error()

@@ -23,10 +23,12 @@ from tests.benches import write_bench
 from tests.chambers import write_chambers
 from tests.cli.commands import question_of, typed_commands
 from tests.cli.outcome import Run
+from tests.excited_sensors import write_taps
 from tests.experiments import PARQUET, TWO
 from tests.patches import collapsed, cylinder_patch, position_text
 from tests.thermal_cycles import record, write_cycles
 from tests.touched import write_table, write_touched
+from tests.wrist_contest import write_contest, write_runs
 
 WIDTHS = (60, 80, 100, 120)
 FOLDER = Path(__file__).parent / "snapshots"
@@ -38,6 +40,8 @@ COMMANDS = {
     "accept": ("accept", PARQUET, "--spec", "limits.toml", "-c", "fitted.json"),
     "calibrate": ("calibrate", PARQUET, "-o", "new.json", "--lambda", "5"),
     "compare": ("compare", PARQUET, "-c", "fitted.json"),
+    "device": ("device",),
+    "contest": ("contest", "wrist/contest.toml"),
     "estimate": ("estimate", PARQUET, "-o", "contacts.parquet", "-c", "fitted.json"),
     "evaluate": ("evaluate", PARQUET, "-c", "fitted.json"),
     "export": ("export", "fitted.json", "--to", "csv", "-o", "matrix.csv"),
@@ -45,6 +49,7 @@ COMMANDS = {
     "inspect": ("inspect", "faulty.toml"),
     "plan": ("plan", PARQUET, "-c", "fitted.json", "--clearance-deg", "12", "--seconds", "20", "--recordings", "2"),
     "report": ("report", PARQUET, "fitted.json", "-o", "report.html"),
+    "response": ("response", "excited/taps.toml", "-e", "impact", "--force", "log"),
     "skin calibrate": ("skin", "calibrate", "fit.toml", "kept.toml", "-o", "palm.json"),
     "skin check": ("skin", "check", "patch.txt"),
     "skin wrench": ("skin", "wrench", "touched.toml", "--table", "shank.json"),
@@ -81,6 +86,17 @@ def _write_warm_record(arm: Path) -> None:
     write_cycles(arm / "chamber", *record(np.random.default_rng(1), hours=0.2))
 
 
+def _write_runs(arm: Path) -> None:
+    (arm / "wrist").mkdir()
+    write_runs(arm / "wrist")
+    write_contest(arm / "wrist", {"masses": 1.0, "judge": 2.0})
+
+
+def _write_fast(arm: Path) -> None:
+    (arm / "excited").mkdir()
+    write_taps(arm / "excited")
+
+
 def _write_patch(arm: Path) -> None:
     (arm / "patch.txt").write_text(position_text(collapsed(cylinder_patch(), 4)), encoding="utf-8")
 
@@ -92,6 +108,8 @@ WRITTEN: Mapping[str, Callable[[Path], object]] = MappingProxyType(
         "fit.toml": write_chambers,
         "touched.toml": _write_touch,
         "chamber/chamber.toml": _write_warm_record,
+        "wrist/contest.toml": _write_runs,
+        "excited/taps.toml": _write_fast,
         "patch.txt": _write_patch,
         "SIM001.toml": partial(write_bench, faults=BenchFaults(swapped=(3, 8))),
     }

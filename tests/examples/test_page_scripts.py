@@ -19,6 +19,7 @@ RUN_ELSEWHERE = {
     "recording.md": "tests/experiment/test_written_logs.py",
     "joint.md": "tests/analysis/test_joint_calibration.py",
     "robot_load.md": "tests/analysis/test_tare.py",
+    "contest.md": "tests/cli/test_contest.py",
     "thermal.md": "tests/analysis/test_thermal.py",
     "simulation.md": "tests/examples/test_page_scripts.py",
     "skin_layout.md": "tests/exchange/skin/test_documentation.py",

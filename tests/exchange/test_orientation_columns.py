@@ -14,8 +14,8 @@ from scipy.io import savemat
 from scipy.spatial.transform import Rotation
 
 from forcetorque.errors import FormatError, UnitError
+from forcetorque.exchange.array_file import MatlabFormat, MatlabLog
 from forcetorque.exchange.log_format import LogReading
-from forcetorque.exchange.matlab import MatlabFormat, MatlabLog
 from forcetorque.exchange.tabular.log_format import TabularFormat, TabularLog
 from forcetorque.experiment.inputs import Inputs
 from forcetorque.experiment.log_context import ExperimentContext

@@ -19,8 +19,12 @@ from matplotlib.text import Text
 
 from forcetorque.analysis import (
     BenchPicture,
+    ContestLoadRow,
+    DecayCurve,
     LearntDirection,
     Reason,
+    Response,
+    ResponseCurve,
     SensorSphere,
     SensorThermal,
     SkinWrenchPicture,
@@ -32,15 +36,22 @@ from forcetorque.analysis import (
     UseVerdict,
     group_trials,
 )
+from forcetorque.analysis.device_demand_rows import GradeRow
+from forcetorque.analysis.device_span_rows import DirectionRow
 from forcetorque.analysis.skin_event_rows import SkinEventPicture
 from forcetorque.analysis.skin_picture import TaxelPicture
 from forcetorque.calibration.joint import PartResidual
+from forcetorque.evaluation.response import Excitation, SecondOrder
 from forcetorque.evaluation.sphere import analyse_sphere
+from forcetorque.exsitu.device import VIEWS, Silhouette
 from forcetorque.report.figures import (
     bench_figure,
     comparison_figure,
     contact_figure,
+    contest_figure,
+    device_figure,
     difference_figure,
+    envelope_figure,
     excitation_figure,
     force_space_figure,
     held_out_figure,
@@ -49,7 +60,10 @@ from forcetorque.report.figures import (
     lambda_difference_figure,
     lambda_force_figure,
     learnt_figure,
+    reference_error_figure,
+    remedies_figure,
     residual_figure,
+    response_figure,
     skin_event_figure,
     skin_layout_figure,
     skin_wrench_figure,
@@ -61,6 +75,7 @@ from forcetorque.report.figures import (
     use_figure,
 )
 from forcetorque.report.figures.canvas import png_bytes
+from forcetorque.robot import JointMotion
 from forcetorque.skin.surface import skin_surface, unrolled
 from forcetorque.spatial import WRENCH_COMPONENTS
 from tests.patches import cylinder_patch
@@ -369,6 +384,37 @@ def _skin_layout(rng: np.random.Generator) -> Figure:
     return skin_layout_figure(patch.positions, {"as written": placeholder, "rebuilt": patch.normals})
 
 
+def _envelope(rng: np.random.Generator) -> Figure:
+    angles = np.sort(rng.uniform(0.0, 2.0 * np.pi, 30))
+    circle = np.column_stack([np.cos(angles), np.sin(angles)])
+    return envelope_figure([Silhouette(view=view, outline=size * circle) for size, view in enumerate(VIEWS, start=1)])
+
+
+def _reference_error(rng: np.random.Generator) -> Figure:
+    widths = rng.uniform(0.01, 1.0, 8)
+    return reference_error_figure(
+        [
+            GradeRow(
+                gravity_by="IMU" if k % 2 else "encoders",
+                full_width=float(width),
+                plus_minus=round(float(0.5 * width), 4),
+                unit="m/s2" if k % 2 else "deg",
+                rms=width * np.array([1.0, 1.1, 1.2, 0.2, 0.2, 0.1]),
+                one_force_N=2.0 * float(width),
+                one_moment_Nm=0.5 * float(width),
+                largest=width * np.array([2.0, 2.1, 2.2, 0.6, 0.6, 0.4]),
+                largest_force_N=2.2 * float(width),
+                largest_moment_Nm=0.6 * float(width),
+                force_norm_N=3.0 * float(width),
+                moment_norm_Nm=0.8 * float(width),
+                force_met_to_kg=None,
+                moment_met_to_kg=5.0,
+            )
+            for k, width in enumerate(widths)
+        ]
+    )
+
+
 def _thermal(rng: np.random.Generator) -> Figure:
     degrees = np.concatenate([np.linspace(20.0, 40.0, 60), np.linspace(40.0, 20.0, 60)])
     heating = np.repeat([1.0, -1.0], 60)
@@ -416,6 +462,53 @@ def _thermal(rng: np.random.Generator) -> Figure:
     return thermal_figure([sensor, sensor])
 
 
+def _response(rng: np.random.Generator) -> Figure:
+    frequency = np.linspace(0.5, 200.0, 400)
+    sensor = SecondOrder(natural_frequency_hz=30.0, damping=0.05, gain=1.0, covariance=1e-4 * np.eye(3))
+    value = sensor.response(frequency) * (1.0 + 0.05 * rng.normal(size=400))
+    time = np.linspace(0.01, 0.6, 300)
+    fitted = np.exp(-9.0 * time) * np.cos(190.0 * time)
+    decays = tuple(
+        DecayCurve(
+            title=f"_taps $of$ {'x' * 40}, {k}.00 s",
+            time_s=time,
+            reading=fitted + 0.02 * rng.normal(size=300),
+            fitted=fitted,
+        )
+        for k in range(5)
+    )
+    curve = ResponseCurve(
+        frequency_hz=frequency,
+        real=value.real,
+        imaginary=value.imag,
+        radius_95=np.full(400, 0.05),
+        coherence=np.linspace(1.0, 0.2, 400),
+        chance=0.4,
+        driven=np.ones(400),
+        explained_share=0.99,
+        averages=8.0,
+    )
+    return response_figure(
+        Response(
+            sensor="_left $wrist$ " + "x" * 70,
+            serial="FT1",
+            reading="the logged wrench",
+            excitation=Excitation.IMPACT,
+            signal="fz",
+            force="hammer",
+            rate_hz=500.0,
+            samples=5000,
+            events=(),
+            numbers=(),
+            curve=curve,
+            inverse=None,
+            refused=(),
+            decays=decays,
+            fitted=sensor,
+        )
+    )
+
+
 def _bench(rng: np.random.Generator) -> Figure:
     directions = rng.standard_normal((24, 3))
     forces = directions / np.linalg.norm(directions, axis=1, keepdims=True)
@@ -428,24 +521,66 @@ def _bench(rng: np.random.Generator) -> Figure:
     )
 
 
+def _device(rng: np.random.Generator) -> Figure:
+    time = np.linspace(0.0, 120.0, 1200)
+    names = ("pitch", "yaw", "hinge")
+    motion = JointMotion.at_rest(names, np.cumsum(rng.normal(scale=0.02, size=(1200, 3)), axis=0))
+    return device_figure(time, motion, {name: 100.0 * rng.normal(size=1200) for name in names})
+
+
+def _contest(rng: np.random.Generator) -> Figure:
+    rows = []
+    for name in ("mini58 as bought", "ours, in situ", "ours, workbench", "in-situ without a prior"):
+        for load in (10.0, 15.0, 20.0, 30.0):
+            rmse = 0.01 * load * np.repeat([1.0, 0.05], 3) * rng.uniform(0.5, 2.0, 6)
+            known = load > 10.0
+            rows.append(
+                ContestLoadRow(
+                    contestant=name,
+                    load_kg=load,
+                    rmse=rmse,
+                    rmse_low=0.8 * rmse if known else None,
+                    rmse_high=1.3 * rmse if known else None,
+                )
+            )
+    return contest_figure(rows)
+
+
+def _remedies(rng: np.random.Generator) -> Figure:
+    names = ("12 steps", "third lock", "workbench, 0.2 deg and 1 mm")
+    rows = []
+    for error in ("force, N", "moment, N m"):
+        for name in names:
+            values = dict(zip(WRENCH_COMPONENTS, np.exp(rng.normal(size=6)).tolist(), strict=True))
+            unknown = {"fy": np.inf} if name == "12 steps" else {}
+            rows.append(DirectionRow(motion=name, error=error, **(values | unknown)))
+    return remedies_figure(rows)
+
+
 FIGURES: dict[str, Callable[[np.random.Generator], Figure]] = {
     "bench": _bench,
     "space": _space,
     "force space": _force_space,
+    "device": _device,
+    "remedies": _remedies,
     "difference": _difference,
     "lambda difference": _lambda_difference,
     "lambda force": _lambda_force,
     "contact": _contact,
+    "contest": _contest,
     "comparison": _comparison,
     "sphere": _sphere,
     "residual": _residual,
+    "envelope": _envelope,
     "excitation": _excitation,
     "held out": _held_out,
     "joint": _joint,
     "learnt": _learnt,
+    "reference error": _reference_error,
     "skin event": _skin_event,
     "skin_wrench": _skin_wrench,
     "taxel": _taxel,
+    "response": _response,
     "thermal": _thermal,
     "torque": _torque,
     "index": _index,

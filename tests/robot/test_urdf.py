@@ -144,12 +144,12 @@ def test_a_massless_link_keeps_its_inertia(tmp_path: Path) -> None:
 
 
 def test_what_does_not_matter_is_passed_over(tmp_path: Path) -> None:
-    """Geometry, effort, damping, transmissions and comments change nothing."""
+    """Geometry, damping, friction, transmissions and comments change nothing."""
     noise = (
         "<!-- a comment --><transmission><joint name='j'/></transmission>"
         "<gazebo reference='a'><material>x</material></gazebo>"
     )
-    joint = joint_xml("j", "a", "b", type="revolute", inside="<limit effort='x'/><dynamics damping='nan'/>")
+    joint = joint_xml("j", "a", "b", type="revolute", inside="<dynamics damping='nan' friction='x'/>")
     model = read_text(robot_xml(link_xml("a"), link_xml("b"), joint, noise), tmp_path)
     assert list(model.links) == ["a", "b"]
     assert list(model.joints) == ["j"]

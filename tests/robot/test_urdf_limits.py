@@ -24,7 +24,7 @@ def _limit(kind: str, inside: str, folder: Path) -> JointLimit | None:
         (
             "revolute",
             "<limit lower='-1' upper='2' velocity='3' effort='4'/>",
-            JointLimit(lower=-1, upper=2, velocity=3),
+            JointLimit(lower=-1, upper=2, velocity=3, effort=4),
         ),
         ("prismatic", "<limit lower='0' upper='0.1'/>", JointLimit(lower=0, upper=0.1)),
         ("revolute", "<limit velocity='3'/>", JointLimit(velocity=3)),

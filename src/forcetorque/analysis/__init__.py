@@ -1,5 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Questions to the sensors of experiments: one file per question, each a function and its result."""
+"""Questions to the sensors of experiments: one file per question, each a function and its result.
+
+Those about devices are imported when they are first used: no other question needs what they simulate.
+"""
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
 
 from forcetorque.analysis.acceptance import Acceptance, accept, criteria_table
 from forcetorque.analysis.acceptance_file import AcceptanceFile, read_acceptance
@@ -18,6 +24,10 @@ from forcetorque.analysis.contact_forces import (
     ContactForces,
     contact_forces,
 )
+from forcetorque.analysis.contest import Contest, contest
+from forcetorque.analysis.contest_entries import Contestant, ContestRun, Entries, read_entries
+from forcetorque.analysis.contest_file import ContestFile, Method
+from forcetorque.analysis.contest_rows import ContestLoadRow
 from forcetorque.analysis.corrections import corrections_of
 from forcetorque.analysis.criterion import Bound, Criterion
 from forcetorque.analysis.decide import use_verdicts
@@ -67,6 +77,8 @@ from forcetorque.analysis.population import read_population
 from forcetorque.analysis.prior_comparison import Independence, PriorComparison, compare_with_prior
 from forcetorque.analysis.reading import Correction
 from forcetorque.analysis.recording_moments import recording_moments, store_moments
+from forcetorque.analysis.response import Response, response
+from forcetorque.analysis.response_rows import DecayCurve, EventRow, InverseRow, ResponseCurve, ResponseNumber
 from forcetorque.analysis.robot_load import export_load, robot_load
 from forcetorque.analysis.samples import IntervalSamples
 from forcetorque.analysis.sensor_calibration import (
@@ -103,7 +115,28 @@ from forcetorque.analysis.workbench import workbench
 from forcetorque.analysis.workbench_result import Workbench
 from forcetorque.analysis.workbench_rows import BenchPicture
 
+if TYPE_CHECKING:
+    from forcetorque.analysis.device import DeviceDesign, design_device
+    from forcetorque.analysis.device_demands import DeviceDemands
+    from forcetorque.analysis.device_files import write_device
+    from forcetorque.analysis.device_span import DeviceSpan
+
+_ON_USE = {
+    "device": ("DeviceDesign", "design_device"),
+    "device_demands": ("DeviceDemands",),
+    "device_files": ("write_device",),
+    "device_span": ("DeviceSpan",),
+}
+
 __all__ = [
+    "JOINT_FILE",
+    "DecayCurve",
+    "EventRow",
+    "InverseRow",
+    "Response",
+    "ResponseCurve",
+    "ResponseNumber",
+    "response",
     "SensorThermal",
     "Tare",
     "Thermal",
@@ -133,35 +166,17 @@ __all__ = [
     "PlannedPosture",
     "Plan",
     "LITTLE_LEARNT",
-    "Reason",
-    "UseError",
-    "UseVerdict",
-    "loads_of_use",
-    "use_sentences",
-    "use_verdicts",
-    "LayoutFindingRow",
-    "SkinCheck",
-    "SkinContactRow",
-    "SkinWrench",
-    "SkinWrenchPicture",
-    "WrenchChoice",
-    "skin_wrench",
-    "check_patch",
-    "check_skin",
-    "LearntDirection",
-    "learnt_directions",
-    "learnt_words",
-    "to_learn",
-    "recording_moments",
-    "store_moments",
     "Acceptance",
     "AcceptanceFile",
     "Assessment",
+    "BenchFile",
+    "BenchPicture",
+    "BenchRecording",
     "BestCandidate",
-    "CandidateComparison",
     "Bound",
     "Campaign",
     "CampaignInterval",
+    "CandidateComparison",
     "CandidateErrors",
     "Comparison",
     "ContactForceErrors",
@@ -169,9 +184,12 @@ __all__ = [
     "Correction",
     "Criterion",
     "Demands",
+    "DeviceDemands",
+    "DeviceDesign",
+    "DeviceSpan",
+    "EstimateSummary",
     "Evaluation",
     "ExperimentAssessment",
-    "EstimateSummary",
     "Export",
     "ExportedCalibration",
     "FailureRow",
@@ -183,11 +201,18 @@ __all__ = [
     "IntervalOffset",
     "IntervalQuality",
     "IntervalSamples",
+    "JointPlan",
     "JointTorqueErrors",
     "JointTorques",
     "JudgedCandidate",
     "JudgedWrenches",
+    "LayoutFindingRow",
+    "LearntDirection",
+    "Plan",
+    "PlannedPosture",
+    "PlannedRecording",
     "PriorComparison",
+    "Reason",
     "RecordingErrors",
     "Runs",
     "SensorCalibration",
@@ -196,69 +221,125 @@ __all__ = [
     "SensorRun",
     "SensorSphere",
     "SensorStudy",
+    "SensorThermal",
     "SkinCalibration",
+    "SkinCheck",
+    "SkinContactRow",
+    "SkinWrench",
+    "SkinWrenchPicture",
     "SphereRow",
     "Spheres",
     "StaticChecks",
     "StudiedSensor",
     "Studies",
     "StudyData",
+    "Tare",
+    "TaredSensor",
+    "Thermal",
+    "ThermalCurve",
+    "ThermalDriftRow",
+    "TorqueFusion",
+    "TorquePicture",
     "TrialGroup",
     "TrialSphere",
+    "UseError",
+    "UseVerdict",
     "Validation",
     "VerdictLine",
     "WeighedLoad",
+    "Workbench",
+    "WrenchChoice",
     "accept",
     "assess",
     "assess_experiment",
     "by_sensor",
     "calibrate_for_file",
-    "JOINT_FILE",
     "calibrate_jointly",
-    "plan_jointly",
-    "JointPlan",
-    "calibration_file",
-    "joint_interval",
     "calibrate_sensor",
     "calibrate_skin",
+    "calibration_file",
     "check",
+    "check_patch",
+    "check_skin",
     "compare",
     "compare_with_prior",
     "contact_forces",
-    "criteria_table",
     "corrections_of",
+    "criteria_table",
     "data_doubts",
+    "design_device",
     "doubtful_spans",
     "estimate_experiment",
     "estimates_of_recordings",
     "evaluate",
     "export_coefficients",
     "export_icub_matrix",
+    "export_load",
     "export_table",
     "export_wholebodydynamics",
     "finding_rows",
     "finding_table",
+    "frames_of_patches",
+    "fuse_experiment",
     "group_trials",
     "inspect_experiment",
     "inspect_log",
     "inspect_recording",
+    "joint_interval",
     "joint_torques",
+    "learnt_directions",
+    "learnt_words",
+    "loads_of_use",
     "one_per_sensor",
+    "plan",
+    "plan_jointly",
+    "plan_sentence",
     "read_acceptance",
+    "read_bench",
     "read_patches",
     "read_population",
     "read_study_data",
     "read_trials",
+    "recording_moments",
+    "refuse_full_folder",
+    "robot_load",
     "select_gains",
     "sensor_gains",
     "sensor_spheres",
+    "skin_wrench",
     "sphere_intervals",
     "spheres",
     "spheres_of_sensors",
-    "study_sensor",
-    "validate",
+    "store_moments",
     "studied_sensor",
+    "study_sensor",
     "study_warnings",
     "summarise_estimates",
+    "tare",
+    "thermal",
+    "to_learn",
+    "torque_picture",
+    "use_sentences",
+    "use_verdicts",
+    "validate",
     "weigh_load",
+    "workbench",
+    "write_device",
+    "write_plan",
+    "Contest",
+    "contest",
+    "Contestant",
+    "ContestRun",
+    "Entries",
+    "read_entries",
+    "ContestFile",
+    "Method",
+    "ContestLoadRow",
 ]
+
+
+def __getattr__(name: str) -> Any:
+    for home, names in _ON_USE.items():
+        if name in names:
+            return getattr(import_module(f"{__name__}.{home}"), name)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

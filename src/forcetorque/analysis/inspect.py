@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Inspect a log or the recording of an experiment: what is wrong with it, where and how much."""
+"""Inspect a log or the recording of an experiment: what it holds, and what is wrong with it, where and how much."""
 
 from __future__ import annotations
 
@@ -11,9 +11,10 @@ from typing import Literal
 from pydantic import Field
 
 from forcetorque.analysis.findings import inspect_experiment, inspect_recording
+from forcetorque.analysis.inspected_streams import StreamRow, stream_rows, stream_table
 from forcetorque.analysis.skin_findings import inspect_patches, taxel_findings
 from forcetorque.errors import MissingFileError
-from forcetorque.exchange.formats import not_recognised, recognised_format
+from forcetorque.exchange.formats import format_named, not_recognised, recognised_format
 from forcetorque.experiment import load_experiment, load_patches, load_shown, parse_experiment
 from forcetorque.recording import Finding, Recording
 from forcetorque.result import Result, Row, Table
@@ -51,31 +52,31 @@ class FindingRow(Row):
 
 
 class Inspection(Result):
-    """What is wrong with a log."""
+    """What a log holds, and what is wrong with it."""
 
-    schema_name: Literal["forcetorque/inspect/1"] = Field(default="forcetorque/inspect/1", alias="schema")
+    schema_name: Literal["forcetorque/inspect/2"] = Field(default="forcetorque/inspect/2", alias="schema")
     """Form of the result."""
     source: str
     """What was inspected."""
-    streams: dict[str, int]
-    """Samples per stream."""
+    streams: dict[str, StreamRow]
+    """What there is, by the name of the stream."""
     duration_s: float
     """Time from the earliest to the latest stamp."""
     findings: tuple[FindingRow, ...]
     """Findings in the order of time."""
 
     def blocks(self) -> Iterator[Table | str]:
-        """Give a table, with a few lines of what comes again and again.
+        """Give a table of streams and one of findings, with a few lines of what comes again and again.
 
         Yields:
-            The table and sentences.
+            The tables and sentences.
         """
+        yield stream_table(self.streams, f"{self.source}: streams")
         yield finding_table(self.findings, self.source)
         for (stream, kind, channel), count in Counter(row.likeness for row in self.findings).items():
             if count > _MOST_ALIKE:
                 yield f"{count - _MOST_ALIKE} more of {stream}: {kind} {channel}".rstrip()
-        streams = ", ".join(f"{name} ({count})" for name, count in self.streams.items())
-        yield f"{len(self.findings)} finding(s) in {self.duration_s:.1f} s of {streams}"
+        yield f"{len(self.findings)} finding(s) in {self.duration_s:.1f} s of {', '.join(self.streams)}"
 
     def columns(self) -> list[str]:
         """Name the columns of the CSV.
@@ -86,30 +87,31 @@ class Inspection(Result):
         return list(FindingRow.model_fields)
 
 
-def inspect_log(path: Path | str) -> Inspection:
+def inspect_log(path: Path | str, *, log_format: str | None = None) -> Inspection:
     """Inspect an experiment file, or a log of any format that is recognised by what is there.
 
     Args:
         path: Experiment file, or folder or file of a log.
+        log_format: Name of the format of a log; it is recognised by what is there if left out.
 
     Returns:
-        What is wrong with it.
+        What it holds, and what is wrong with it.
     """
     source = Path(path)
-    recording, findings = _recorded(source)
+    recording, findings = _recorded(source, log_format)
     start, end = recording.span_ns
     return Inspection(
         source=str(source),
-        streams={name: len(stream) for name, stream in recording.streams.items()},
+        streams=stream_rows(recording.streams),
         duration_s=(end - start) * 1e-9,
         findings=finding_rows(start, findings),
     )
 
 
-def _recorded(source: Path) -> tuple[Recording, tuple[Finding, ...]]:
+def _recorded(source: Path, name: str | None) -> tuple[Recording, tuple[Finding, ...]]:
     if not (source.is_dir() or source.is_file()):
         raise MissingFileError(f"{source}: expected an experiment file or the folder of a log, there is none")
-    log_format = recognised_format(source)
+    log_format = recognised_format(source) if name is None else format_named(name)
     if log_format is not None:
         reading = log_format.describe(source).reading
         recording = Recording(streams={stream.name: stream for stream in reading.streams}, findings=reading.findings)

@@ -11,12 +11,9 @@ from forcetorque.analysis.plan import Plan
 from forcetorque.analysis.plan_proposal import Proposal
 from forcetorque.arrays import FloatArray
 from forcetorque.errors import ForceTorqueError
-from forcetorque.exchange.trajectory import ros_trajectory, trajectory_table, write_yarp_positions
+from forcetorque.exchange.trajectory import write_trajectory
 from forcetorque.new_folder import new_folder, refuse_existing
 from forcetorque.robot import JointMotion
-
-_DENSE_HZ, _SPARSE_HZ = 50.0, 10.0
-"""Rates of what is played sample by sample, and of what controllers interpolate."""
 
 
 def refuse_full_folder(output: Path, *, where: str = "") -> None:
@@ -61,13 +58,13 @@ def write_plan(plan: Plan, output: Path) -> Plan:
 
 
 def _write(folder: Path, number: int, proposal: Proposal) -> None:
-    dense, motion = _sampled(proposal, _DENSE_HZ)
-    (folder / f"trajectory_{number}.csv").write_text(trajectory_table(dense, motion), encoding="utf-8")
-    sparse, coarse = _sampled(proposal, _SPARSE_HZ)
-    (folder / f"trajectory_{number}_ros.yaml").write_text(ros_trajectory(sparse, coarse), encoding="utf-8")
     joints = proposal.place.stand.model.joints
-    units = tuple(joints[name].type.unit for name in motion.names)
-    write_yarp_positions(folder / f"trajectory_{number}_yarp", dense, motion, units)
+    write_trajectory(
+        folder,
+        f"trajectory_{number}",
+        lambda rate_hz: _sampled(proposal, rate_hz),
+        tuple(joints[name].type.unit for name in proposal.place.joints),
+    )
 
 
 def _sampled(proposal: Proposal, rate_hz: float) -> tuple[FloatArray, JointMotion]:

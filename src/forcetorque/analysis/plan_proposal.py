@@ -12,7 +12,7 @@ from forcetorque.analysis.plan_workplace import Workplace
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration.posterior import Posterior
 from forcetorque.errors import ExperimentError
-from forcetorque.evaluation.planning import Choices, Criterion, Knowledge, Lesson, pick
+from forcetorque.evaluation.planning import Choices, Criterion, Knowledge, Lesson, picked_orders, search
 from forcetorque.noise import means_over
 from forcetorque.robot import JointMotion
 from forcetorque.simulation.motions import Waypoints, shortest_moves
@@ -24,7 +24,6 @@ _SAME = 1e-6
 _SEED = 31
 _SAMPLED_HZ = 4.0
 """Rate at which loads on the way are averaged over a second: moves take seconds."""
-_HASTES = (1.0, 0.5, 0.0)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -65,6 +64,16 @@ class Proposal:
     """What is known after it."""
     value: float
     """The criterion after it."""
+
+    @property
+    def postures(self) -> FloatArray:
+        """Postures in turn; shape (k, j); rad or m."""
+        return self.trajectory.postures
+
+    @property
+    def duration_s(self) -> float:
+        """How long it takes; s."""
+        return self.trajectory.duration_s
 
 
 def proposals(
@@ -122,13 +131,14 @@ def propose(place: Workplace, known: Knowledge, demand: Demand, temperature: tup
         hold_s=demand.hold_s,
         seconds=demand.seconds - demand.hold_s,
     )
-    orders = [pick(centred, demand.criterion, choices, haste=haste) for haste in _HASTES]
-    best = min((_proposal(place, known, demand, temperature, drawn[order]) for order in orders), key=_value)
-    for _ in range(demand.effort.swaps):
-        other = _proposal(place, known, demand, temperature, _changed(best.trajectory.postures, drawn, rng))
-        if other.trajectory.duration_s <= demand.seconds and other.value < best.value:
-            best = other
-    return best
+    return search(
+        lambda postures: _proposal(place, known, demand, temperature, postures),
+        drawn,
+        picked_orders(centred, demand.criterion, choices, drawn),
+        seconds=demand.seconds,
+        swaps=demand.effort.swaps,
+        rng=rng,
+    )
 
 
 def lesson_of(
@@ -189,25 +199,6 @@ def _proposal(
         after=after,
         value=demand.criterion.value(after.posterior),
     )
-
-
-def _value(proposal: Proposal) -> float:
-    return proposal.value
-
-
-def _changed(postures: FloatArray, drawn: FloatArray, rng: np.random.Generator) -> FloatArray:
-    """Another posture in place of one, between two, or two in another order; the ends stay."""
-    last = len(postures) - 1
-    new = drawn[rng.integers(1, len(drawn))]
-    if last < 2 or rng.uniform() < 0.25:
-        return np.insert(postures, rng.integers(1, last + 1), new, axis=0)
-    changed = postures.copy()
-    first, second = rng.integers(1, last, size=2)
-    if first != second and rng.uniform() < 0.5:
-        changed[[first, second]] = changed[[second, first]]
-    else:
-        changed[first] = new
-    return changed
 
 
 def _travel(place: Workplace, start: FloatArray, postures: FloatArray) -> FloatArray:

@@ -10,6 +10,7 @@ from typing import Literal
 import numpy as np
 from pydantic import Field
 
+from forcetorque.analysis.chosen_intervals import chosen_intervals
 from forcetorque.analysis.reading import Correction, readings_at
 from forcetorque.analysis.sensor_run import SensorRun
 from forcetorque.analysis.thermal_rows import SensorThermal, ThermalCurve, ThermalDriftRow
@@ -20,7 +21,7 @@ from forcetorque.estimation.picked import padded_samples
 from forcetorque.evaluation.thermal import Cycles, DriftFit, LoadStep, cycles_of, find_load_step, fit_drift
 from forcetorque.evaluation.thermal.drift import MIXED_WITH_TIME
 from forcetorque.experiment.content import SensorVariable
-from forcetorque.recording import Interval, Use
+from forcetorque.recording import Interval
 from forcetorque.recording.alignment import seconds_since
 from forcetorque.result import Result, Table
 from forcetorque.spatial import WRENCH_COMPONENTS, WRENCH_UNITS
@@ -91,7 +92,7 @@ def thermal(
     """
     temperature = _temperature(run, variable)
     correction = run.read_by(name, calibration)
-    sessions = _sessions(run, _chosen(run, intervals), temperature, correction)
+    sessions = _sessions(run, chosen_intervals(run, intervals), temperature, correction)
     cycles = cycles_of(sessions)
     settled = cycles.on_branches()
     fit = fit_drift(settled)
@@ -141,15 +142,6 @@ def _temperature(run: SensorRun, wanted: str | None) -> SensorVariable:
         )
         raise ExperimentError(f"sensor {run.sensor.name!r}: expected one [[sensor.variable]] in degC, got {got}")
     return known[wanted] if wanted is not None else next(iter(known.values()))
-
-
-def _chosen(run: SensorRun, labels: Collection[str]) -> list[Interval]:
-    known = {interval.label: interval for interval in run.experiment.recording.intervals}
-    for label in labels:
-        if label not in known:
-            raise ExperimentError(f"no interval is labelled {label!r}; {known_names(label, known)}")
-    chosen = [known[label] for label in labels] or [one for one in known.values() if one.use is not Use.IGNORE]
-    return sorted(chosen, key=lambda interval: interval.start_ns)
 
 
 def _sessions(

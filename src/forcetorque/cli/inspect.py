@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""`forcetorque inspect`: what is wrong with a log or with the recording of an experiment."""
+"""`forcetorque inspect`: what a log or the recording of an experiment holds, and what is wrong with it."""
 
 from __future__ import annotations
 
@@ -16,6 +16,10 @@ def inspect(
     log: Annotated[
         Path, typer.Argument(help="Experiment file, or a log that is recognised, such as a YARP dumper folder.")
     ],
+    log_format: Annotated[
+        str | None,
+        typer.Option(help="Format of a log, such as ros or hdf5, as in [recording]. Default: by what is there."),
+    ] = None,
     output_format: FormatOption = Format.TABLE,
 ) -> None:
     """Find gaps, lost messages, frozen or saturated sensors, steps and contacts.
@@ -25,4 +29,4 @@ def inspect(
     from forcetorque import analysis
 
     start_logging().info("reading %s", log)
-    show(analysis.inspect_log(log), output_format)
+    show(analysis.inspect_log(log, log_format=log_format), output_format)

@@ -11,6 +11,8 @@ import typer
 from forcetorque.cli.accept import accept
 from forcetorque.cli.calibrate import calibrate
 from forcetorque.cli.compare import compare
+from forcetorque.cli.contest import contest
+from forcetorque.cli.device import device
 from forcetorque.cli.encoding import spell_missing_letters
 from forcetorque.cli.estimate import estimate
 from forcetorque.cli.evaluate import evaluate
@@ -21,6 +23,7 @@ from forcetorque.cli.output import report_error
 from forcetorque.cli.payload import payload
 from forcetorque.cli.plan import plan
 from forcetorque.cli.report import report
+from forcetorque.cli.response import response
 from forcetorque.cli.schema import schema
 from forcetorque.cli.simulate import simulate
 from forcetorque.cli.skin import skin
@@ -57,6 +60,8 @@ _COMMANDS = (
     accept,
     calibrate,
     compare,
+    device,
+    contest,
     estimate,
     evaluate,
     export,
@@ -65,6 +70,7 @@ _COMMANDS = (
     payload,
     plan,
     report,
+    response,
     schema,
     simulate,
     sphere,

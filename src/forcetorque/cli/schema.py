@@ -17,8 +17,8 @@ def schema(
     name: Annotated[
         str,
         typer.Argument(
-            help="experiment, acceptance, bench, scenario, recording, calibration, joint, moments, taxels or "
-            "module_frames for a file; a command, with _ for its space, for its result."
+            help="experiment, acceptance, bench, contestants, device_file, scenario, recording, calibration, joint, "
+            "moments, taxels or module_frames for a file; a command, with _ for its space, for its result."
         ),
     ],
 ) -> None:
@@ -37,11 +37,12 @@ def _require(name: str, known: dict[str, Callable[[], dict[str, Any]]]) -> None:
 
 
 def _files() -> dict[str, Callable[[], dict[str, Any]]]:
-    from forcetorque.analysis import AcceptanceFile, BenchFile
+    from forcetorque.analysis import AcceptanceFile, BenchFile, ContestFile
     from forcetorque.calibration import Calibration, RecordingMoments
     from forcetorque.calibration.joint import JointPosterior
     from forcetorque.exchange.skin import ModuleFrames
     from forcetorque.experiment import ExperimentFile
+    from forcetorque.exsitu.device import DeviceFile
     from forcetorque.recording import recording_schema
     from forcetorque.simulation.scenario import ScenarioFile
     from forcetorque.skin import PatchCalibration
@@ -50,6 +51,8 @@ def _files() -> dict[str, Callable[[], dict[str, Any]]]:
         "experiment": ExperimentFile.model_json_schema,
         "acceptance": AcceptanceFile.model_json_schema,
         "bench": BenchFile.model_json_schema,
+        "device_file": DeviceFile.model_json_schema,
+        "contestants": ContestFile.model_json_schema,
         "scenario": ScenarioFile.model_json_schema,
         "recording": recording_schema,
         "calibration": Calibration.model_json_schema,

@@ -32,7 +32,7 @@ MOST_STRETCHES = 10
 FEWEST_STRETCHES = 3
 """Stretches, of all recordings together, below which there is no interval."""
 
-_PIECES = 40
+PIECES = 40
 """Pieces of a recording whose ratios tell how long it repeats itself: four per stretch, so that what lasts as long as a
 stretch is seen, and each long enough that fast noise, which hides slow errors, is averaged away."""
 
@@ -164,23 +164,26 @@ def _ratio(recordings: Sequence[PairedErrors], axes: slice) -> ErrorRatio:
     totals = np.sum([pair.sum(axis=1) for pair in squares], axis=0)
     least = _LEAST**2 * float(totals.max()) / sum(pair.shape[1] for pair in squares)
     if least == 0.0 or all(np.array_equal(*pair) for pair in squares):
-        count = sum(_stretches(np.zeros(min(_PIECES, pair.shape[1])))[0] for pair in squares)
+        count = sum(independent_stretches(np.zeros(min(PIECES, pair.shape[1])))[0] for pair in squares)
         return ErrorRatio(ratio=1.0, low=1.0, high=1.0, stretches=count, judgement="no difference")
     stretches, errors = [], []
     for pair in squares:
-        count, error = _stretches(_log_ratios(pair, _PIECES, least))
+        count, error = independent_stretches(_log_ratios(pair, PIECES, least))
         stretches.append(_log_ratios(pair, count, least))
         errors.append(error)
     return ratio_over(stretches, errors, pooled=0.5 * math.log(max(totals[0], least) / max(totals[1], least)))
 
 
-def ratio_over(stretches: Sequence[FloatArray], errors: Sequence[float], *, pooled: float) -> ErrorRatio:
+def ratio_over(
+    stretches: Sequence[FloatArray], errors: Sequence[float], *, pooled: float, confidence: float = CONFIDENCE
+) -> ErrorRatio:
     """Judge log ratios over independent stretches.
 
     Args:
         stretches: Log ratio of the errors in every stretch, recording by recording; shapes (k,).
         errors: Standard errors of their means by the autocorrelation within each recording; 0 where not known.
         pooled: Log ratio of the root mean square errors over all samples.
+        confidence: Probability with which the interval is to hold the ratio; more than usual where several are judged.
 
     Returns:
         The ratio, its interval, and what it says.
@@ -191,7 +194,7 @@ def ratio_over(stretches: Sequence[FloatArray], errors: Sequence[float], *, pool
     if count >= FEWEST_STRETCHES:
         from scipy.special import stdtrit  # here because importing it takes longer than most commands
 
-        half = float(stdtrit(count - 1, 0.5 + 0.5 * CONFIDENCE)) * _standard_error(stretches, errors, mean)
+        half = float(stdtrit(count - 1, 0.5 + 0.5 * confidence)) * _standard_error(stretches, errors, mean)
     low, high = mean - half, mean + half
     return ErrorRatio(
         ratio=math.exp(mean),
@@ -224,8 +227,15 @@ def _standard_error(stretches: Sequence[FloatArray], errors: Sequence[float], me
     return max(scatter, within, between)
 
 
-def _stretches(pieces: FloatArray) -> tuple[int, float]:
-    """How many independent stretches a recording is worth, and the standard error of its mean log ratio."""
+def independent_stretches(pieces: FloatArray) -> tuple[int, float]:
+    """Say how many independent stretches a recording is worth, and the standard error of its mean log ratio.
+
+    Args:
+        pieces: Log ratios over contiguous pieces of it, in the order of time; shape (k,).
+
+    Returns:
+        The number, at most `MOST_STRETCHES`, and the standard error; 0 where nothing changes.
+    """
     if np.ptp(pieces) < _LEAST:  # what never changes has been seen once
         return 1, 0.0
     effective = autocorrelation(pieces, np.arange(len(pieces), dtype=np.float64)).effective_count

@@ -14,10 +14,12 @@ from typing import Annotated, Any, get_args
 from pydantic import Field, GetCoreSchemaHandler
 from pydantic_core import CoreSchema
 
-from forcetorque.errors import FormatError
+from forcetorque.errors import FormatError, known_names
+from forcetorque.exchange.array_file import Hdf5Format, MatlabFormat, NpzFormat
 from forcetorque.exchange.log_format import LogContext, LogFormat, LogReading, LogTable
-from forcetorque.exchange.matlab import MatlabFormat
 from forcetorque.exchange.parquet import ParquetFormat
+from forcetorque.exchange.robometry import RobometryFormat
+from forcetorque.exchange.ros import RosFormat
 from forcetorque.exchange.tabular.log_format import TabularFormat
 from forcetorque.exchange.yarp.log_format import YarpFormat
 
@@ -25,7 +27,11 @@ LOG_FORMATS: tuple[LogFormat[Any], ...] = (
     YarpFormat(),
     ParquetFormat(),
     TabularFormat(),
+    RobometryFormat(),
     MatlabFormat(),
+    Hdf5Format(),
+    NpzFormat(),
+    RosFormat(),
 )
 
 
@@ -41,6 +47,24 @@ def format_name(known: LogFormat[Any]) -> str:
     return str(get_args(known.table.model_fields["format"].annotation)[0])
 
 
+def format_named(name: str) -> LogFormat[Any]:
+    """Find a format by its name.
+
+    Args:
+        name: As `format` of the `[recording]` table has it.
+
+    Returns:
+        The format.
+
+    Raises:
+        FormatError: If no format is called so.
+    """
+    formats = {format_name(known): known for known in LOG_FORMATS}
+    if name not in formats:
+        raise FormatError(f"no format of logs is called {name!r}; {known_names(name, formats)}")
+    return formats[name]
+
+
 def read_log(stated: LogTable, context: LogContext) -> LogReading:
     """Read the log that an experiment file states, by its format.
 
@@ -51,8 +75,7 @@ def read_log(stated: LogTable, context: LogContext) -> LogReading:
     Returns:
         Streams and findings.
     """
-    (reader,) = (known for known in LOG_FORMATS if format_name(known) == stated.format)
-    return reader.read(stated, context)
+    return format_named(stated.format).read(stated, context)
 
 
 def recognised_format(path: Path) -> LogFormat[Any] | None:
@@ -71,7 +94,7 @@ def recognised_format(path: Path) -> LogFormat[Any] | None:
     if len(formats) > 1:
         raise FormatError(
             f"{path}: expected a log of one format, got signs of {' and '.join(map(format_name, formats))} "
-            f"({', '.join(str(known.sign) for known in formats)}); inspect the folder of one of them"
+            f"({', '.join(str(known.sign) for known in formats)}); inspect one of them, or state --log-format"
         )
     return formats[0] if formats else None
 

@@ -12,8 +12,10 @@ from forcetorque.exsitu.loads import BenchLoads, Weights
 from forcetorque.exsitu.reading_matrix import reading_matrix
 from forcetorque.exsitu.residual import ResidualSpace
 from forcetorque.exsitu.scatter import LEAST_SENSORS, Scatter, own_scatter, scatter_of_sensors, stated_scatter
+from forcetorque.exsitu.span import MissingMoment, Span
 from forcetorque.exsitu.specimens import BenchFaults, Specimen, simulate_specimen
 from forcetorque.exsitu.suspects import FALSE_ALARMS, Suspect, plainest, suspects
+from forcetorque.exsitu.uncertain_loads import MatrixError, UncertainLoads
 
 __all__ = [
     "BIAS",
@@ -29,12 +31,16 @@ __all__ = [
     "BenchLoads",
     "Block",
     "Fault",
+    "MatrixError",
+    "MissingMoment",
     "Placement",
     "ResidualSpace",
     "Scatter",
     "Signatures",
+    "Span",
     "Specimen",
     "Suspect",
+    "UncertainLoads",
     "Weights",
     "block_findings",
     "fit_bench",

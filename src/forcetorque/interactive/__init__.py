@@ -2,6 +2,8 @@
 """What scripts and notebooks hold: an experiment, from a file or from arrays, and its sensors with every question."""
 
 from forcetorque.interactive.arrays import experiment_of_arrays
+from forcetorque.interactive.contests import contest
+from forcetorque.interactive.device import design_device
 from forcetorque.interactive.experiment import Experiment, calibrate_jointly, load_experiment
 from forcetorque.interactive.run import Run
 from forcetorque.interactive.skin import calibrate_skin, skin_wrench
@@ -11,6 +13,8 @@ __all__ = [
     "Run",
     "calibrate_jointly",
     "calibrate_skin",
+    "design_device",
+    "contest",
     "experiment_of_arrays",
     "load_experiment",
     "skin_wrench",

@@ -119,6 +119,20 @@ class Run(SensorRun):
         name = None if calibration is None else NEW
         return analysis.thermal(self, name=name, calibration=calibration, **options)
 
+    def response(self, excitation: str, calibration: Calibration | None = None, **options: Any) -> analysis.Response:
+        """Tell what the sensor does to fast forces: `run.response("impact", force="hammer").corrected(stream)`.
+
+        Args:
+            excitation: What was done to it: impact, release or pendulum.
+            calibration: Reads the sensor; its prior or the logged wrench if left out.
+            options: As of `analysis.response`: component, force, mass_kg, cut_off_hz, intervals.
+
+        Returns:
+            Events and their decays, frequency response, and the filter that undoes it.
+        """
+        name = None if calibration is None else NEW
+        return analysis.response(self, excitation, name=name, calibration=calibration, **options)
+
     def verdicts(self, calibrations: Calibrations) -> tuple[analysis.UseVerdict, ...]:
         """Say whether calibrations may be used for the loads to come.
 

@@ -21,6 +21,7 @@ from forcetorque.loads.solve import solve
 from forcetorque.loads.together import together
 
 __all__ = [
+    "BiasTest",
     "DisagreeingRow",
     "DriftChoice",
     "Guess",
@@ -30,7 +31,6 @@ __all__ = [
     "LoadProblem",
     "LoadRows",
     "LoadSolution",
-    "BiasTest",
     "OpenDirection",
     "SessionEstimate",
     "VariableEstimate",

@@ -7,12 +7,12 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
-from forcetorque.analysis import Assessment, ExperimentAssessment, finding_table
+from forcetorque.analysis import Assessment, Contest, ContestLoadRow, ExperimentAssessment, finding_table
 from forcetorque.errors import ForceTorqueError
 from forcetorque.report import tables
 from forcetorque.report.calibration_sections import origin_words
 from forcetorque.report.document import Block, Document, Figure, List, Picture, Section, Text
-from forcetorque.report.figures import joint_figure
+from forcetorque.report.figures import contest_figure, joint_figure
 from forcetorque.report.judgements import judgement_section
 from forcetorque.report.questions import ERRORS, QUESTIONS
 from forcetorque.report.skin_section import skin_section
@@ -54,7 +54,8 @@ def report_document(
     for file, content in results.items():
         note = Text(text=f"{file}, {content['schema']}")
         shown = tuple(tables.result_tables(content))
-        parts.append(Section(title=f"Result of {content['schema'].split('/')[1]}", blocks=(note, *shown)))
+        drawn = tuple(_drawn(result_figures(content)))
+        parts.append(Section(title=f"Result of {content['schema'].split('/')[1]}", blocks=(note, *drawn, *shown)))
     parts.append(_provenance(experiments))
     sensors = {(sensor.sensor, sensor.serial) for experiment in experiments for sensor in experiment.sensors}
     robots = ", ".join(dict.fromkeys(experiment.robot for experiment in experiments))
@@ -67,6 +68,25 @@ def report_document(
         subtitle=f"{robots}; {counts}; forcetorque {code_version}",
         created=created,
         sections=(*pages, *(replace(part, folded=True) for part in parts if part.blocks or part.sections)),
+    )
+
+
+def result_figures(content: Mapping[str, Any]) -> Iterator[Block]:
+    """Draw the results of other commands whose JSON holds all that is drawn.
+
+    Args:
+        content: The result.
+
+    Yields:
+        Figures; none for most commands.
+    """
+    if content["schema"] != Contest.model_fields["schema_name"].default:
+        return
+    rows = [ContestLoadRow.model_validate(row) for row in content["loads"]]
+    yield Figure(
+        picture=Picture(lambda: contest_figure(rows)),
+        caption="Errors of every contestant over the loads, on which nobody was fitted, with 95 % intervals.",
+        description="Six plots over the load, one per component, with a curve for each contestant.",
     )
 
 

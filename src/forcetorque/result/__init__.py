@@ -13,10 +13,8 @@ from forcetorque.result.text import table_text, wrapped
 from forcetorque.result.vague import VAGUE_WORDS, without_vague
 
 __all__ = [
-    "html_table",
-    "VAGUE_WORDS",
-    "without_vague",
     "COMPONENTS",
+    "VAGUE_WORDS",
     "AxisValues",
     "FloatOrNull",
     "Result",
@@ -27,6 +25,7 @@ __all__ = [
     "Values",
     "WrenchValues",
     "finite_or_none",
+    "html_table",
     "interval",
     "number",
     "result_classes",
@@ -35,5 +34,6 @@ __all__ = [
     "table_text",
     "with_error",
     "with_first_column",
+    "without_vague",
     "wrapped",
 ]

@@ -8,6 +8,7 @@ from forcetorque.robot.newton_euler import expected_wrenches
 from forcetorque.robot.requirements import required_joints
 from forcetorque.robot.tree import BodyTree, build_tree
 from forcetorque.robot.urdf import read_urdf
+from forcetorque.robot.urdf_text import urdf_text, write_urdf
 from forcetorque.robot.wrenches import Wrenches
 
 __all__ = [
@@ -29,4 +30,6 @@ __all__ = [
     "motion_of_link",
     "read_urdf",
     "required_joints",
+    "urdf_text",
+    "write_urdf",
 ]

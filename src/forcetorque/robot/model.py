@@ -46,7 +46,7 @@ class Mimic:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class JointLimit:
-    """How far and how fast a joint goes, as its file says: it need not be plausible, nor in order.
+    """How far, how fast and with what effort a joint goes, as its file says: it need not be plausible, nor in order.
 
     Expected wrenches do not depend on it, so it is judged only where a motion is planned.
     """
@@ -57,6 +57,8 @@ class JointLimit:
     """Highest coordinate; rad or m; None if the file has none or the joint turns without end."""
     velocity: float | None = None
     """Largest speed; rad/s or m/s; None if the file has none; often a 0 that stands for unknown."""
+    effort: float | None = None
+    """Largest torque or force of the motor; N m or N; None if the file has none."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

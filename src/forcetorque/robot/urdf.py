@@ -143,7 +143,9 @@ def _read_mimic(place: UrdfPlace, mimic: Element) -> Mimic:
 
 def _read_limit(place: UrdfPlace, limit: Element, kind: JointType) -> JointLimit:
     # the specification reads an absent bound as 0; real files leave both out where they mean no bound
-    lower, upper, velocity = (optional_number(place, limit, name) for name in ("lower", "upper", "velocity"))
+    lower, upper, velocity, effort = (
+        optional_number(place, limit, name) for name in ("lower", "upper", "velocity", "effort")
+    )
     if kind is JointType.CONTINUOUS:
-        return JointLimit(velocity=velocity)
-    return JointLimit(lower=lower, upper=upper, velocity=velocity)
+        return JointLimit(velocity=velocity, effort=effort)
+    return JointLimit(lower=lower, upper=upper, velocity=velocity, effort=effort)

@@ -3,7 +3,14 @@
 
 from forcetorque.spatial.inertia import Inertia
 from forcetorque.spatial.pose import invert_pose, make_pose, split_pose
-from forcetorque.spatial.rotation import cross, rotation_about_z, rotation_from_rpy, rotation_with_z_along, skew
+from forcetorque.spatial.rotation import (
+    cross,
+    rotation_about_z,
+    rotation_from_rpy,
+    rotation_with_z_along,
+    rpy_from_rotation,
+    skew,
+)
 from forcetorque.spatial.sign import MeasureDirection, reading_sign
 from forcetorque.spatial.twist import transform_twist, twist_matrix
 from forcetorque.spatial.units import SI_FACTORS, si_factor
@@ -22,6 +29,7 @@ __all__ = [
     "rotation_about_z",
     "rotation_from_rpy",
     "rotation_with_z_along",
+    "rpy_from_rotation",
     "si_factor",
     "skew",
     "split_pose",

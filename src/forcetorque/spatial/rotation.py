@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray, require_last_axis
+from forcetorque.arrays import FloatArray, read_only, require_last_axis
 
 _EXACT_ZERO = 1e-15
 """Entries below this are rounding of sin(pi), cos(pi/2): 1e-15 rad turns 1 kN by 1e-12 N."""
@@ -35,6 +35,26 @@ def rotation_from_rpy(rpy: Any) -> FloatArray:
     matrix[..., 2, 0], matrix[..., 2, 1], matrix[..., 2, 2] = -sp, cp * sr, cp * cr
     matrix[np.abs(matrix) < _EXACT_ZERO] = 0.0
     return matrix
+
+
+def rpy_from_rotation(parent_R_child: Any) -> FloatArray:
+    """Give roll, pitch and yaw of a rotation, so that `rotation_from_rpy` builds it again.
+
+    Roll is taken of what is left when the yaw is undone, so that the three fit each other to rounding near a pitch of
+    90 degrees too, where one of them alone says little.
+
+    Args:
+        parent_R_child: Rotation matrix; shape (3, 3).
+
+    Returns:
+        Roll, pitch, yaw about the fixed x, y, z axes; shape (3,); rad.
+    """
+    matrix = read_only(parent_R_child, name="parent_R_child", shape=(3, 3))
+    yaw = np.arctan2(matrix[1, 0], matrix[0, 0])
+    cosine, sine = np.cos(yaw), np.sin(yaw)
+    along = cosine * matrix[0] + sine * matrix[1]  # first and second row of what is left
+    across = cosine * matrix[1] - sine * matrix[0]
+    return np.array([np.arctan2(-across[2], across[1]), np.arctan2(-matrix[2, 0], along[0]), yaw])
 
 
 def rotation_about_z(angle: FloatArray) -> FloatArray:

@@ -20,8 +20,8 @@ from forcetorque.study.validation_set import OFFSET_S, ValidationSet
 __all__ = [
     "CONVENTION",
     "FAR_SD",
-    "SWEEP_LAMBDAS",
     "OFFSET_S",
+    "SWEEP_LAMBDAS",
     "TABLE_FACTOR",
     "TABLE_LAMBDAS",
     "WORKBENCH",

@@ -69,10 +69,11 @@ def require_response(response: FloatArray, covariance: FloatArray, wrench: Float
     if np.linalg.eigvalsh(inverse_root @ total @ inverse_root.T)[-1] > _UNKNOWN**2:
         # the ratio is largest where a wild response to one load cancels that to others, so it does not name the load
         size = _load_sizes(wrench)
-        least_known = np.linalg.eigh(total * np.outer(size, size))[1][:, -1] * size
+        # said as what hardly changes from load to load, which `unmoved_directions` says too
+        least_known = np.linalg.eigh(total * np.outer(size, size))[1][:, -1] / size
         raise FitError(
-            f"the response to {direction_words(least_known)} is not known by half; without a prior matrix every "
-            "direction must be loaded: give prior, or record a load that moves it"
+            f"the loads hardly move {direction_words(least_known)}, the response to it is not known by half; without a "
+            "prior matrix all six directions are needed: give prior, or record a load with its centre of mass elsewhere"
         )
 
 

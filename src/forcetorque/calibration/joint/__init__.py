@@ -15,9 +15,9 @@ from forcetorque.calibration.joint.windows import UNITS, PartWindows, part_windo
 
 __all__ = [
     "EVEN",
-    "ChangeSpread",
     "EXACT",
     "UNITS",
+    "ChangeSpread",
     "ErrorTerm",
     "JointFit",
     "JointPosterior",
@@ -30,10 +30,10 @@ __all__ = [
     "Stretch",
     "Touch",
     "UntouchedStretch",
-    "fit_stretches",
     "delay_terms",
     "error_terms",
     "fit_jointly",
+    "fit_stretches",
     "part_sums",
     "part_windows",
     "read_joint_posterior",

@@ -23,6 +23,9 @@ ASSUMED_DRIFT: Final = 5e-4
 ASSUMED_TIME_S: Final = 15.0
 """How long that offset is assumed to last; s."""
 
+UNKNOWN: Final = 1e5
+"""Standard deviation of what an unknown coefficient makes of the loads to come, over the noise of a reading."""
+
 
 def unfitted_posterior(
     matrix: FloatArray, assumptions: Assumptions, variables: Sequence[LinearVariable] = ()
@@ -80,6 +83,38 @@ def unfitted_posterior(
         accuracy=assumptions.reference_accuracy(matrix),
         repeatability=assumptions.repeatability,
         load_centre=np.zeros(6),
+    )
+
+
+def blank_posterior(noise: FloatArray, load: FloatArray) -> Posterior:
+    """Say that nothing is known of a sensor, not even a prior matrix.
+
+    Args:
+        noise: White noise of a reading, as wrench; shape (6,); N, N m.
+        load: Sizes of the loads to come, by which coefficients are said to be unknown; shape (6,); N, N m.
+
+    Returns:
+        The posterior, whose rows are components of the wrench.
+    """
+    size = LOADS + 1
+    covariance = np.zeros((LOADS, size, size))
+    unknown = (UNKNOWN * noise[:, None] / load) ** 2
+    covariance[:, range(LOADS), range(LOADS)] = unknown
+    covariance[:, LOADS, LOADS] = (UNKNOWN * noise) ** 2
+    return Posterior(
+        space="wrench",
+        variables=(),
+        sessions=("none",),
+        drift=False,
+        mean=np.zeros((LOADS, size)),
+        covariance=covariance,
+        learnt_covariance=covariance[:, :LOADS, :LOADS].copy(),
+        prior_covariance=None,
+        to_wrench=np.eye(LOADS),
+        noise=tuple(RowNoise(white=float(one), time_constant_s=0.0, ratio=0.0) for one in noise),
+        accuracy=np.zeros(LOADS),
+        repeatability=0.0,
+        load_centre=np.zeros(LOADS),
     )
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Postures one after the other, each the one that lowers the criterion most for the time that it takes."""
+"""Postures one after the other, each the one that lowers the aim most for the time that it takes."""
 
 from __future__ import annotations
 
@@ -10,8 +10,7 @@ import numpy as np
 
 from forcetorque.arrays import FloatArray, IntArray
 from forcetorque.calibration.posterior import Posterior
-from forcetorque.evaluation.planning.criterion import Criterion
-from forcetorque.evaluation.use import moment_of_use
+from forcetorque.evaluation.planning.criterion import Aim, Readings
 
 _OPEN = 1e6
 """Standard deviation of an offset that nobody knows, over the noise of a posture."""
@@ -31,7 +30,7 @@ class Choices:
     """How long all may take, the way back to the start included; s."""
 
 
-def pick(posterior: Posterior, criterion: Criterion, choices: Choices, *, haste: float) -> IntArray:
+def pick(posterior: Posterior, aim: Aim, choices: Choices, *, haste: float) -> IntArray:
     """Pick postures greedily.
 
     The slow noise counts by what it moves on the way from one posture to the next; the exact worth of the whole is
@@ -39,7 +38,7 @@ def pick(posterior: Posterior, criterion: Criterion, choices: Choices, *, haste:
 
     Args:
         posterior: What is known of the sensor.
-        criterion: What to lower.
+        aim: What to lower.
         choices: The postures.
         haste: Power of the time by which the gain of a posture is divided: 1 for the most per second, 0 for the most
             per posture.
@@ -59,12 +58,12 @@ def pick(posterior: Posterior, criterion: Criterion, choices: Choices, *, haste:
     known[:, :size, :size] = posterior.covariance[:, :size, :size]
     known[:, :6, :6] = posterior.learnt_covariance
     known[:, size, size] = _OPEN**2 * noise
-    design = np.column_stack([choices.columns - choices.columns.mean(axis=0), np.ones(n)])
-    moment = _moment(posterior, criterion, choices.columns.mean(axis=0))
-    weights = criterion.row_weights(posterior)
+    centre = choices.columns.mean(axis=0)
+    design = np.column_stack([choices.columns - centre, np.ones(n)])
     picked, spent, way_back = [0], 0.0, choices.travel_s(0)
     while True:
-        gain, known = _gains(known, noise, design, moment, weights, picked[-1])
+        known = _taken(known, noise, design[picked[-1]])
+        gain = aim.gains(posterior, centre, _readings(known, noise, design))
         travel = choices.travel_s(picked[-1])
         reachable = spent + travel + way_back <= choices.seconds
         reachable[[0, picked[-1]]] = False
@@ -79,25 +78,14 @@ def _posture_variance(white: float, ratio: float, time_s: float, hold_s: float, 
     return float(max(white, 1e-9) ** 2 * (1.0 / max(hold_s, 1.0) + ratio * wandered))
 
 
-def _moment(posterior: Posterior, criterion: Criterion, centre: FloatArray) -> FloatArray:
-    """Mean products at the loads of use of what the unknowns are multiplied by, for columns about their centre."""
-    use = moment_of_use(posterior, criterion.case)
-    size = len(centre)
-    places = [*range(size), size + len(posterior.sessions) - 1]
-    turned = np.eye(size + 1)
-    turned[:size, size] = -centre
-    moment: FloatArray = turned @ use[np.ix_(places, places)] @ turned.T
-    return moment
+def _taken(known: FloatArray, noise: FloatArray, design: FloatArray) -> FloatArray:
+    """What is known once a reading more is taken; shape (rows, p, p)."""
+    along = known @ design
+    narrowed: FloatArray = known - along[:, :, None] * along[:, None, :] / (noise + along @ design)[:, None, None]
+    return narrowed
 
 
-def _gains(
-    known: FloatArray, noise: FloatArray, design: FloatArray, moment: FloatArray, weights: FloatArray, taken: int
-) -> tuple[FloatArray, FloatArray]:
-    """What every posture would lower the criterion by once one more is taken; shape (n,), and what is then known."""
-    along = known @ design[taken]
-    known = known - along[:, :, None] * along[:, None, :] / (noise + along @ design[taken])[:, None, None]
-    moved = np.einsum("ijk,nk->inj", known, design)
-    lowered = np.einsum("inj,jk,ink->in", moved, moment, moved, optimize=True)
-    spread = np.einsum("inj,nj->in", moved, design) + noise[:, None]
-    gains: FloatArray = weights @ (lowered / spread)
-    return gains, known
+def _readings(known: FloatArray, noise: FloatArray, design: FloatArray) -> Readings:
+    told = np.einsum("ijk,nk->inj", known, design)
+    variance = np.einsum("inj,nj->in", told, design) + noise[:, None]
+    return Readings(with_unknowns=told, variance=variance, noise=noise[:, None])

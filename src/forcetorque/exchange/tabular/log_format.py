@@ -12,7 +12,7 @@ from forcetorque.errors import FormatError
 from forcetorque.exchange.log_format import LogContext, LogDescription, LogReading, LogTable
 from forcetorque.exchange.signal_table import StatedSignal
 from forcetorque.exchange.tabular.layout import StampColumn, TableLayout, TableSignal
-from forcetorque.exchange.tabular.table import read_table
+from forcetorque.exchange.tabular.table import read_table, table_columns
 from forcetorque.toml_table import Table, Text
 
 
@@ -67,7 +67,7 @@ class TabularLog(LogTable):
 
 
 class TabularFormat:
-    """Text tables, which say nothing of their units: none is recognised, all that is read is stated."""
+    """Text tables and Parquet, which say nothing of their units: none is recognised, all that is read is stated."""
 
     table = TabularLog
     sign = None
@@ -78,8 +78,9 @@ class TabularFormat:
 
     def describe(self, path: Path) -> LogDescription:
         """Refuse: nothing is guessed from names or numbers."""
+        names = f"the columns {', '.join(table_columns(path)[:200])}" if path.is_file() else "text tables"
         raise FormatError(
-            f"{path}: expected a log that says what it holds, got text tables; state their columns and units in an "
+            f"{path}: expected a log that says what it holds, got {names}; state their columns and units in an "
             "experiment file"
         )
 

@@ -7,6 +7,7 @@ from forcetorque.exchange.yarp.inertial import read_inertial
 from forcetorque.exchange.yarp.log_folder import read_log_folder
 from forcetorque.exchange.yarp.measures import MeasuresList, MeasuresSensor, read_measures
 from forcetorque.exchange.yarp.reading import PortReading
+from forcetorque.exchange.yarp.skin import read_skin
 from forcetorque.exchange.yarp.skin_events import SkinPart, read_skin_events
 from forcetorque.exchange.yarp.state import read_state
 from forcetorque.exchange.yarp.state_ext import read_state_ext
@@ -29,6 +30,7 @@ __all__ = [
     "read_log_folder",
     "read_measures",
     "read_port",
+    "read_skin",
     "read_skin_events",
     "read_state",
     "read_state_ext",

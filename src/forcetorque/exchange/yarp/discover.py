@@ -3,7 +3,8 @@
 
 Lists say what they are. Plain numbers do not: six may be a force-torque sensor or the positions of
 six joints, twelve an inertial sensor or the positions of twelve. The name decides that: they are
-positions if the name of the port's folder starts with `state`, and a sensor otherwise.
+positions if the name of the port's folder starts with `state`, counts of taxels if it lies in a
+folder `skin`, and a sensor otherwise.
 """
 
 from __future__ import annotations
@@ -24,6 +25,7 @@ from forcetorque.exchange.yarp.message_line import is_number
 from forcetorque.exchange.yarp.port_folder import LOG_NAMES, find_port
 from forcetorque.exchange.yarp.port_log import read_first_message
 from forcetorque.exchange.yarp.reading import PortReading
+from forcetorque.exchange.yarp.skin import holds_skin, read_skin
 from forcetorque.exchange.yarp.skin_events import SkinPart, holds_skin_events, read_skin_events, skin_parts
 from forcetorque.exchange.yarp.state import read_state
 from forcetorque.exchange.yarp.state_ext import count_joints, read_state_ext
@@ -43,6 +45,8 @@ class PortKind(StrEnum):
     """An inertial sensor, see `read_inertial`."""
     STATE = "state"
     """Positions of joints, see `read_state`."""
+    SKIN = "skin"
+    """Counts of taxels, see `read_skin`."""
     SKIN_EVENTS = "skin_events"
     """Contacts on skin, see `read_skin_events`."""
     UNKNOWN = "unknown"
@@ -63,6 +67,8 @@ class FoundPort:
     """Why that is unknown; None if it is known."""
     n_joints: int = 0
     """Joints of a board."""
+    n_taxels: int = 0
+    """Numbers in a message of skin."""
     sensors: tuple[MeasuresSensor, ...] = ()
     """Sensors of a device that can be read."""
     skin_parts: tuple[SkinPart, ...] = ()
@@ -138,6 +144,8 @@ def read_port(found: FoundPort) -> tuple[PortReading, ...]:
             return (read_state_ext(found.folder, stream=found.path, joints=joints),)
         case PortKind.MEASURES:
             return read_measures(found.folder, sensors=found.sensors)
+        case PortKind.SKIN:
+            return (read_skin(found.folder, stream=found.path, taxels=found.n_taxels),)
         case PortKind.SKIN_EVENTS:
             return read_skin_events(found.folder, parts=found.skin_parts)
         case PortKind.UNKNOWN:
@@ -209,6 +217,8 @@ def _skin_events(folder: Path, path: str) -> FoundPort:
 
 
 def _classify_numbers(count: int, folder: Path, path: str) -> FoundPort:
+    if holds_skin(path, count):
+        return FoundPort(folder=folder, path=path, kind=PortKind.SKIN, n_taxels=count)
     kind = PortKind.STATE if path.rpartition("/")[2].startswith("state") else _SENSORS.get(count)
     if kind is None or not count:
         raise FormatError(

@@ -19,11 +19,13 @@ from forcetorque.exchange.yarp.log_tables import (
     MeasuresPort,
     Port,
     SkinEventsPort,
+    SkinPort,
     StatePort,
     YarpLog,
 )
 from forcetorque.exchange.yarp.measures import MeasuresSensor, read_measures
 from forcetorque.exchange.yarp.reading import PortReading
+from forcetorque.exchange.yarp.skin import read_skin
 from forcetorque.exchange.yarp.skin_events import SkinPart, read_skin_events
 from forcetorque.exchange.yarp.state import read_state
 from forcetorque.exchange.yarp.state_ext import read_state_ext
@@ -76,6 +78,8 @@ def _read_port(where: str, port: Port, log: Path, context: LogContext) -> tuple[
         if isinstance(port, SkinEventsPort):
             parts = [SkinPart(number=entry.number, stream=entry.name, frame=entry.frame) for entry in port.part]
             return read_skin_events(folder, parts=parts)
+        if isinstance(port, SkinPort):
+            return (read_skin(folder, stream=port.name, taxels=port.taxels),)
         if isinstance(port, InertialPort):
             return (read_inertial(folder, stream=port.name, frame=port.frame),)
         if isinstance(port, AnalogPort):

@@ -87,6 +87,19 @@ class MeasuresPort(Table):
     """Sensors to read."""
 
 
+class SkinPort(Table):
+    """A YARP port of the counts of a patch of skin."""
+
+    kind: Literal["skin"]
+    """Kind of the port."""
+    name: Text
+    """Name of the stream in the recording."""
+    port: Text
+    """Folder of the port below the log's folder."""
+    taxels: Annotated[int, Field(gt=0, strict=True)]
+    """Numbers of a message, twelve per triangle: gaps and thermal pads count."""
+
+
 class SkinPartEntry(Table):
     """One patch of skin of a YARP port `skin_events:o`."""
 
@@ -110,7 +123,8 @@ class SkinEventsPort(Table):
 
 
 Port = Annotated[
-    AnalogPort | StateExtPort | InertialPort | StatePort | MeasuresPort | SkinEventsPort, Field(discriminator="kind")
+    AnalogPort | StateExtPort | InertialPort | StatePort | MeasuresPort | SkinPort | SkinEventsPort,
+    Field(discriminator="kind"),
 ]
 
 

@@ -15,6 +15,7 @@ from forcetorque.exchange.yarp.log_tables import (
     Port,
     SkinEventsPort,
     SkinPartEntry,
+    SkinPort,
     StateExtPort,
     StatePort,
 )
@@ -48,6 +49,8 @@ def stated_port(found: FoundPort, log: Path) -> Port:
         case PortKind.MEASURES:
             entries = tuple(_stated_sensor(sensor) for sensor in found.sensors)
             return MeasuresPort.model_construct(kind="measures", port=port, sensor=entries)
+        case PortKind.SKIN:
+            return SkinPort.model_construct(kind="skin", name=name, port=port, taxels=found.n_taxels)
         case PortKind.SKIN_EVENTS:
             parts = tuple(
                 SkinPartEntry.model_construct(name=part.stream, number=part.number, frame=part.frame)

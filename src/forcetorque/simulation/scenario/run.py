@@ -19,7 +19,7 @@ from forcetorque.simulation.motions import Movement
 from forcetorque.simulation.robot_errors import RobotErrors
 from forcetorque.simulation.robots import named_robot
 from forcetorque.simulation.scenario.plan import Plan, plan_recordings, validation_loads
-from forcetorque.simulation.scenario.schema import RobotErrorSizes, ScenarioFile
+from forcetorque.simulation.scenario.schema import Imu, RobotErrorSizes, ScenarioFile
 from forcetorque.simulation.scenario.specimen import Specimen, draw_specimen
 from forcetorque.simulation.sensor import SimulatedSensor
 from forcetorque.simulation.trace import Trace
@@ -198,11 +198,21 @@ def _errors(sizes: RobotErrorSizes, model: RobotModel, seed: int) -> RobotErrors
     )
 
 
-def _imu(content: ScenarioFile, model: RobotModel) -> SimulatedImu | None:
-    described = content.imu
-    if described is None:
-        return None
-    rng = np.random.default_rng([content.sensor_seed, _IMU])
+def draw_imu(described: Imu, model: RobotModel, rng: np.random.Generator, *, where: str) -> SimulatedImu:
+    """Draw an IMU.
+
+    Args:
+        described: What is said of it.
+        model: The robot that it is on.
+        rng: Source of its biases.
+        where: What the message says in front.
+
+    Returns:
+        The IMU, on the first of the links that the robot has.
+
+    Raises:
+        RobotError: If the robot has none of the links.
+    """
     for link in described.link:
         if link in model.links:
             return SimulatedImu(
@@ -213,9 +223,16 @@ def _imu(content: ScenarioFile, model: RobotModel) -> SimulatedImu | None:
                 gyroscope_noise=described.gyroscope_noise,
             )
     raise RobotError(
-        f"scenario {content.name!r}: imu: robot {model.name!r} has none of the links {', '.join(described.link)}; "
+        f"{where}: imu: robot {model.name!r} has none of the links {', '.join(described.link)}; "
         f"{known_names(described.link[0], model.links)}"
     )
+
+
+def _imu(content: ScenarioFile, model: RobotModel) -> SimulatedImu | None:
+    if content.imu is None:
+        return None
+    rng = np.random.default_rng([content.sensor_seed, _IMU])
+    return draw_imu(content.imu, model, rng, where=f"scenario {content.name!r}")
 
 
 def _powered_up(scenario: Scenario, power_up: int) -> dict[str, SimulatedSensor]:

@@ -1,0 +1,123 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Files of named arrays as formats of logs: every array, column and unit that is read is stated."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Collection, Mapping
+from pathlib import Path
+from typing import ClassVar
+
+from forcetorque.arrays import FloatArray
+from forcetorque.errors import FormatError, MissingExtraError, known_names
+from forcetorque.exchange.array_file.hdf5 import MAGIC_73, hdf5_shapes, is_matlab_73, labels_itself, read_hdf5
+from forcetorque.exchange.array_file.matlab import MAGIC, is_matlab_file, read_variables
+from forcetorque.exchange.array_file.npz import is_npz_file, npz_shapes, read_npz
+from forcetorque.exchange.array_file.statement import ArrayLog, Hdf5Log, MatlabLog, NpzLog
+from forcetorque.exchange.array_file.streams import array_stream, wanted_arrays
+from forcetorque.exchange.hdf5_file import is_hdf5_file
+from forcetorque.exchange.log_format import LogContext, LogDescription, LogReading
+from forcetorque.recording import Finding, Stream
+
+
+class _ArrayFormat(ABC):
+    """Single files of arrays, which say nothing of units: they are recognised to say what must be stated."""
+
+    sign: ClassVar[str]
+
+    @abstractmethod
+    def recognises(self, path: Path) -> bool:
+        """Look at the first bytes."""
+
+    @abstractmethod
+    def _shapes(self, path: Path) -> Mapping[str, tuple[int, int]]:
+        """Rows and columns of all arrays."""
+
+    @abstractmethod
+    def _arrays(self, path: Path, names: Collection[str]) -> Mapping[str, FloatArray]:
+        """Arrays with these names."""
+
+    def describe(self, path: Path) -> LogDescription:
+        """Refuse: nothing is guessed from names or numbers; say which there are."""
+        names = [f"{name} ({rows} x {columns})" for name, (rows, columns) in self._shapes(path).items()]
+        raise FormatError(
+            f"{path}: expected a log that says what it holds, got the variables {', '.join(names) or 'none'}; state "
+            "their columns and units in an experiment file"
+        )
+
+    def read(self, stated: ArrayLog, context: LogContext) -> LogReading:
+        """Read every array that is stated."""
+        path = context.file(stated.path)
+        wanted = wanted_arrays(stated.stream)
+        arrays = self._arrays(path, wanted)
+        streams: dict[str, Stream] = {}
+        findings: list[Finding] = []
+        for k, entry in enumerate(stated.stream):
+            with context.stated_in(f"stream[{k}]"):
+                for name in wanted_arrays((entry,)):
+                    if name not in arrays:
+                        raise FormatError(f"{path}: no variable {name!r}; {known_names(name, self._shapes(path))}")
+                stream, doubts = array_stream(path, entry, arrays, streams)
+            streams[entry.name] = stream
+            findings += doubts
+        return LogReading(streams=tuple(streams.values()), findings=tuple(findings))
+
+
+class MatlabFormat(_ArrayFormat):
+    """Files of MATLAB, of version 5 to 7.3."""
+
+    table = MatlabLog
+    sign = f"a file that begins with {MAGIC.decode()} or {MAGIC_73.decode()}"
+
+    def recognises(self, path: Path) -> bool:
+        """Look at the first bytes; logs of robometry, which are such files too, label themselves."""
+        return is_matlab_file(path) or (is_hdf5_file(path) and is_matlab_73(path) and not _labels_itself(path))
+
+    def _shapes(self, path: Path) -> Mapping[str, tuple[int, int]]:
+        if is_hdf5_file(path):
+            return hdf5_shapes(path, matlab=True)
+        return {name: (len(values), values.shape[1]) for name, values in read_variables(path).items()}
+
+    def _arrays(self, path: Path, names: Collection[str]) -> Mapping[str, FloatArray]:
+        return read_hdf5(path, names, matlab=True) if path.is_file() and is_hdf5_file(path) else read_variables(path)
+
+
+class Hdf5Format(_ArrayFormat):
+    """Other files of HDF5."""
+
+    table = Hdf5Log
+    sign = "an HDF5 file"
+
+    def recognises(self, path: Path) -> bool:
+        """Look for the signature."""
+        return is_hdf5_file(path) and not is_matlab_73(path) and not _labels_itself(path)
+
+    def _shapes(self, path: Path) -> Mapping[str, tuple[int, int]]:
+        return hdf5_shapes(path, matlab=False)
+
+    def _arrays(self, path: Path, names: Collection[str]) -> Mapping[str, FloatArray]:
+        return read_hdf5(path, names, matlab=False)
+
+
+class NpzFormat(_ArrayFormat):
+    """Arrays that NumPy saved."""
+
+    table = NpzLog
+    sign = "a file of NumPy arrays, .npz"
+
+    def recognises(self, path: Path) -> bool:
+        """Look at the table of contents."""
+        return is_npz_file(path)
+
+    def _shapes(self, path: Path) -> Mapping[str, tuple[int, int]]:
+        return npz_shapes(path)
+
+    def _arrays(self, path: Path, names: Collection[str]) -> Mapping[str, FloatArray]:
+        return read_npz(path, names)
+
+
+def _labels_itself(path: Path) -> bool:
+    try:
+        return labels_itself(path)
+    except (FormatError, MissingExtraError):
+        return False  # said when it is described

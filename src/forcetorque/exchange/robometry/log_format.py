@@ -1,0 +1,152 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Files of robometry as a format of logs."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from forcetorque.errors import ForceTorqueError, FormatError, MissingExtraError, known_names
+from forcetorque.exchange.hdf5_file import is_hdf5_file, opened_hdf5
+from forcetorque.exchange.log_format import LogContext, LogDescription, LogReading
+from forcetorque.exchange.robometry.channel import DESCRIPTION, channel_paths, log_group, read_channel, texts
+from forcetorque.exchange.robometry.log_table import RobometryLog, RobometryStream
+from forcetorque.exchange.robometry.streams import (
+    JOINT_QUANTITIES,
+    JOINTS,
+    joint_stream,
+    sensor_quantity,
+    sensor_stream,
+)
+from forcetorque.recording import QUANTITIES, Finding, Stream
+
+_Reading = tuple[Stream, tuple[Finding, ...]]
+
+
+class RobometryFormat:
+    """Single files that label elements and units: they are described without anyone saying what is in them."""
+
+    table = RobometryLog
+    sign = f"an HDF5 file with {DESCRIPTION}"
+
+    def recognises(self, path: Path) -> bool:
+        """Look for the names of the joints."""
+        if not is_hdf5_file(path):
+            return False
+        try:
+            with opened_hdf5(path) as file:
+                return log_group(file) is not None
+        except (FormatError, MissingExtraError):
+            return False  # said by the format of HDF5 files in general
+
+    def describe(self, path: Path) -> LogDescription:
+        """Read all that is labelled; other channels are findings."""
+        with opened_hdf5(path) as file:
+            group = _group(file)
+            paths = tuple(channel_paths(group))
+            channels = sorted(set(map(_channel_of, paths)))
+            readings: dict[str, _Reading] = {}
+            unread: list[Finding] = []
+            for channel in channels:
+                try:
+                    readings[channel] = _read(
+                        group, paths, RobometryStream(name=channel, channel=channel, frame=channel), units={}
+                    )
+                except ForceTorqueError as error:
+                    unread.append(Finding(stream=channel, kind="not_read", message=str(error), count=0))
+            origin = {"format": "robometry", "path": str(path)} | _robot_name(group)
+        if not readings:
+            reason = unread[0].message if unread else "it has no channel"
+            raise FormatError(f"{path}: expected a log with a channel that can be read, got none: {reason}")
+        return LogDescription(
+            table=RobometryLog.model_construct(
+                format="robometry", path=path, units={}, stream=tuple(map(_stated, readings))
+            ),
+            reading=LogReading(
+                streams=tuple(stream for stream, _ in readings.values()),
+                findings=(*unread, *(finding for _, findings in readings.values() for finding in findings)),
+                origin=origin,
+            ),
+        )
+
+    def read(self, stated: RobometryLog, context: LogContext) -> LogReading:
+        """Read every channel that is stated."""
+        path = context.file(stated.path)
+        units = {channel: (unit,) if isinstance(unit, str) else unit for channel, unit in stated.units.items()}
+        readings = []
+        with opened_hdf5(path) as file:
+            group = _group(file)
+            paths = tuple(channel_paths(group))
+            _require_known(path, "units", units, paths)
+            for k, entry in enumerate(stated.stream):
+                with context.stated_in(f"stream[{k}]"):
+                    framed = entry.model_copy(update={"frame": entry.frame or context.sensors.get(entry.name)})
+                    reading = _read(group, paths, framed, units=units)
+                    _require_rotary(reading[0], context.joint_units)
+                    readings.append(reading)
+        return LogReading(
+            streams=tuple(stream for stream, _ in readings),
+            findings=tuple(finding for _, findings in readings for finding in findings),
+        )
+
+
+def _group(file: Any) -> Any:
+    group = log_group(file)
+    if group is None:
+        raise FormatError(f"{file.filename}: expected a group with {DESCRIPTION}, as robometry writes it, got none")
+    return group
+
+
+def _channel_of(path: str) -> str:
+    """All channels of the joints are one stream."""
+    group, _, name = path.partition("/")
+    return JOINTS if group == JOINTS and name in JOINT_QUANTITIES else path
+
+
+def _read(group: Any, paths: Sequence[str], entry: RobometryStream, *, units: Mapping[str, Sequence[str]]) -> _Reading:
+    file = Path(group.file.filename)
+    if entry.channel == JOINTS:
+        joints = [f"{JOINTS}/{leaf}" for leaf in JOINT_QUANTITIES if f"{JOINTS}/{leaf}" in paths]
+        _require_known(file, "channel", joints[:1] or [JOINTS], paths)
+        channels = [read_channel(group, joint) for joint in joints]
+        return joint_stream(channels, name=entry.name, joints=texts(group[DESCRIPTION]), units=units)
+    _require_known(file, "channel", [entry.channel], paths)
+    quantity = sensor_quantity(entry.channel)
+    if quantity is None:
+        raise FormatError(f"{file}: {entry.channel}: expected a channel of a sensor or {JOINTS}; this is neither")
+    if QUANTITIES[quantity].has_frame and entry.frame is None:
+        raise FormatError(
+            f"{file}: {entry.channel}: expected a frame, or a [[sensor]] that reads {entry.name!r}; state frame"
+        )
+    return sensor_stream(read_channel(group, entry.channel), name=entry.name, frame=entry.frame, units=units), ()
+
+
+def _require_known(file: Path, key: str, wanted: Iterable[str], paths: Sequence[str]) -> None:
+    for channel in wanted:
+        if channel not in paths:
+            names = known_names(channel, set(map(_channel_of, paths)))
+            raise FormatError(f"{file}: {key}: no channel {channel!r}; {names}")
+
+
+def _require_rotary(stream: Stream, joint_units: Mapping[str, str]) -> None:
+    if "position" not in stream.signals:
+        return
+    position = stream.signals["position"]
+    for joint, unit in zip(position.columns, position.units, strict=True):
+        if joint_units.get(joint, unit) != unit:
+            raise FormatError(
+                f"{stream.name}: joint {joint}: the robot has it in {joint_units[joint]}, the log in {unit}; "
+                "loggers label all joints alike, so this one is not read; use a log of its own"
+            )
+
+
+def _stated(channel: str) -> RobometryStream:
+    # a force-torque sensor has its frame from the [[sensor]] that reads it
+    quantity = sensor_quantity(channel)
+    framed = quantity is not None and quantity != "wrench" and QUANTITIES[quantity].has_frame
+    return RobometryStream.model_construct(name=channel, channel=channel, frame=channel if framed else None)
+
+
+def _robot_name(group: Any) -> dict[str, str]:
+    return {"robot": texts(group["yarp_robot_name"])[0]} if "yarp_robot_name" in group else {}

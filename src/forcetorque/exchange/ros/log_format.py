@@ -1,0 +1,100 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Bags of ROS as a format of logs: types of messages say what they hold and in which unit."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+
+from forcetorque.errors import ForceTorqueError, FormatError, known_names
+from forcetorque.exchange.log_format import LogContext, LogDescription, LogReading
+from forcetorque.exchange.ros.bag import Bag, bag_files, is_bag, opened_bag
+from forcetorque.exchange.ros.log_table import RosLog, RosStream
+from forcetorque.exchange.ros.messages import MESSAGES, TF_TYPES
+from forcetorque.exchange.ros.streams import topic_stream
+from forcetorque.recording import Finding, Stream
+
+_Reading = tuple[Stream, tuple[Finding, ...]]
+
+
+class RosFormat:
+    """Bags of ROS 1 (.bag) and of ROS 2 (.db3, .mcap, or the folder of either)."""
+
+    table = RosLog
+    sign = "a bag of ROS"
+
+    def recognises(self, path: Path) -> bool:
+        """Look at the first bytes, or for the index of a folder."""
+        return is_bag(path)
+
+    def describe(self, path: Path) -> LogDescription:
+        """Read every topic of a type that is known; the others are findings."""
+        readings: dict[str, _Reading] = {}
+        unread: list[Finding] = []
+        with opened_bag(path) as bag:
+            for topic, kind in sorted(bag.types.items()):
+                reason = _not_described(kind)
+                if reason is None:
+                    try:
+                        readings[topic] = _read(bag, RosStream(name=topic, topic=topic), {})
+                    except ForceTorqueError as error:
+                        reason = str(error)
+                if reason is not None:
+                    unread.append(Finding(stream=topic, kind="not_read", message=reason, count=0))
+        if not readings:
+            raise FormatError(
+                f"{path}: expected a bag with a topic that can be read, got "
+                f"{'; '.join(f'{finding.stream}: {finding.message}' for finding in unread[:20]) or 'no topic'}"
+            )
+        return LogDescription(
+            table=RosLog.model_construct(
+                format="ros",
+                path=path,
+                stream=tuple(
+                    RosStream.model_construct(name=topic, topic=topic, frame=None, world=None) for topic in readings
+                ),
+            ),
+            reading=LogReading(
+                streams=tuple(stream for stream, _ in readings.values()),
+                findings=(*unread, *(finding for _, findings in readings.values() for finding in findings)),
+                origin={"format": "ros", "path": str(path)},
+            ),
+        )
+
+    def read(self, stated: RosLog, context: LogContext) -> LogReading:
+        """Read every topic that is stated."""
+        is_file = bool(stated.path.suffix in (".bag", ".mcap", ".db3"))
+        path = context.file(stated.path) if is_file else context.below(stated.path, *bag_files())
+        readings = []
+        with opened_bag(path) as bag:
+            for k, entry in enumerate(stated.stream):
+                with context.stated_in(f"stream[{k}]"):
+                    framed = entry.model_copy(update={"frame": entry.frame or context.sensors.get(entry.name)})
+                    readings.append(_read(bag, framed, context.joint_units))
+        return LogReading(
+            streams=tuple(stream for stream, _ in readings),
+            findings=tuple(finding for _, findings in readings for finding in findings),
+        )
+
+
+def _not_described(kind: str) -> str | None:
+    if kind in TF_TYPES:
+        return "transforms: state frame and world for each that is wanted"
+    return None if kind in MESSAGES else f"nothing reads messages of {kind}"
+
+
+def _read(bag: Bag, entry: RosStream, joint_units: Mapping[str, str]) -> _Reading:
+    types = bag.types
+    if entry.topic not in types:
+        raise FormatError(f"{bag.path}: no topic {entry.topic!r}; {known_names(entry.topic, types)}")
+    kind = types[entry.topic]
+    if kind not in MESSAGES:
+        raise FormatError(f"{bag.path}: {entry.topic}: expected messages of {', '.join(MESSAGES)}, got {kind}")
+    is_tf = kind in TF_TYPES
+    if is_tf != (entry.world is not None) or (is_tf and entry.frame is None):
+        raise FormatError(
+            f"{bag.path}: {entry.topic}: expected frame and world for transforms of tf, and world for nothing else"
+        )
+    return topic_stream(
+        bag, entry.topic, name=entry.name, frame=entry.frame, world=entry.world, joint_units=joint_units
+    )

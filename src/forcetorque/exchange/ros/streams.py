@@ -1,0 +1,185 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""From the messages of a topic to a stream: SI units and names are those that ROS fixes for its messages."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from forcetorque.arrays import FloatArray, IntArray
+from forcetorque.errors import FormatError
+from forcetorque.exchange.ros.bag import Bag
+from forcetorque.exchange.ros.decoding import Batch, decode
+from forcetorque.exchange.ros.messages import MESSAGES, TF_TYPES, Fields
+from forcetorque.recording import (
+    QUANTITIES,
+    Finding,
+    OrientationForm,
+    OrientationLayout,
+    OrientationSense,
+    Signal,
+    Stream,
+    orientation_signals,
+)
+
+CLOCK = "ros"
+"""Clock of all streams: the stamps of headers, which ROS demands to be of one time."""
+
+_RATES = {"position": "", "velocity": "/s", "torque": ""}
+_QUATERNION = OrientationLayout(form=OrientationForm.QUAT_XYZW, sense=OrientationSense.SENSOR_TO_WORLD)
+
+
+@dataclass(kw_only=True)
+class Samples:
+    """What was read of a topic, in pieces."""
+
+    stamps: list[IntArray] = field(default_factory=list)
+    received: list[IntArray] = field(default_factory=list)
+    counters: list[IntArray] = field(default_factory=list)
+    numbers: list[dict[str, FloatArray]] = field(default_factory=list)
+    frames: dict[str, None] = field(default_factory=dict)
+    names: dict[str, None] = field(default_factory=dict)
+    piece_names: list[tuple[str, ...]] = field(default_factory=list)
+    order: list[IntArray] = field(default_factory=list)
+
+
+def read_topic(bag: Bag, topic: str, *, child: str | None = None, parent: str | None = None) -> Samples:
+    """Read all messages of a topic.
+
+    Args:
+        bag: The bag.
+        topic: Topic, of a type in `MESSAGES`.
+        child: Of tf, the frame whose transforms are wanted.
+        parent: Of tf, the frame in which they are seen.
+
+    Returns:
+        Its samples.
+
+    Raises:
+        FormatError: If there are none.
+    """
+    kind = bag.types[topic]
+    samples, first, pairs = Samples(), 0, set()
+    for received, messages in bag.messages(topic):
+        for batch in decode(messages, MESSAGES[kind], cdr=bag.cdr, topic=f"{bag.path}: {topic}"):
+            for fields in batch.fields:
+                pairs.add((fields.frame.strip("/"), *fields.names) if kind in TF_TYPES else ())
+                if child is None or (fields.frame.strip("/"), fields.names[0].strip("/")) == (parent, child):
+                    _keep(samples, batch, fields, received, first)
+        first += len(messages)
+    if not samples.stamps:
+        known = ", ".join(sorted(" -> ".join(pair) for pair in pairs if pair)) or "no message"
+        wanted = f"transforms of {child} in {parent}" if child else "messages"
+        raise FormatError(f"{bag.path}: {topic}: expected {wanted}, got {known}")
+    return samples
+
+
+def _keep(samples: Samples, batch: Batch, fields: Fields, received: IntArray, first: int) -> None:
+    samples.stamps.append(batch.stamp_ns(fields.stamp))
+    samples.received.append(received[batch.rows])
+    samples.order.append(first + batch.rows)
+    if fields.counter is not None:
+        samples.counters.append(batch.counters(fields.counter))
+    samples.numbers.append({name: batch.numbers(*place) for name, place in fields.numbers.items()})
+    samples.frames[fields.frame] = None
+    samples.names |= dict.fromkeys(fields.names)
+    samples.piece_names.append(fields.names)
+
+
+def topic_stream(
+    bag: Bag,
+    topic: str,
+    *,
+    name: str,
+    frame: str | None,
+    world: str | None,
+    joint_units: Mapping[str, str],
+) -> tuple[Stream, tuple[Finding, ...]]:
+    """Make the stream of a topic.
+
+    Args:
+        bag: The bag.
+        topic: Topic, of a type in `MESSAGES`.
+        name: Name for the stream.
+        frame: Frame of its readings; that of its messages if None. Of tf the frame whose orientation is wanted.
+        world: Of tf, the frame in which that is seen.
+        joint_units: Unit of joints, rad or m; rad where a joint is missing.
+
+    Returns:
+        The stream, and what is doubtful in it.
+
+    Raises:
+        FormatError: If messages have two frames and none is stated.
+    """
+    is_tf = bag.types[topic] in TF_TYPES
+    samples = read_topic(bag, topic, child=frame if is_tf else None, parent=world if is_tf else None)
+    order = np.argsort(np.concatenate(samples.order), kind="stable")
+    stamps, stamp_findings = _stamps(samples, name, order)
+    if frame is None and len(samples.frames) > 1:
+        frames = ", ".join(map(repr, sorted(samples.frames)))
+        raise FormatError(f"{bag.path}: {topic}: expected messages of one frame, got {frames}; state it")
+    own = next(iter(samples.frames)).strip("/") or name
+    signals, findings = _signals(samples, order, name=name, frame=frame or own, joint_units=joint_units)
+    if not signals:
+        raise FormatError(f"{bag.path}: {topic}: expected messages with numbers, got none that were measured")
+    counters = np.concatenate(samples.counters)[order] if samples.counters else None
+    stream = Stream(
+        name=name,
+        clock=CLOCK,
+        stamp_ns=stamps,
+        signals=signals,
+        # drivers that leave the counter at zero do not count
+        sequence=counters if counters is not None and not is_tf and counters.any() else None,
+    )
+    return stream, (*stamp_findings, *findings)
+
+
+def _stamps(samples: Samples, name: str, order: IntArray) -> tuple[IntArray, tuple[Finding, ...]]:
+    stamps = np.concatenate(samples.stamps)[order]
+    if stamps.any():
+        return stamps, ()
+    text = "no message has a stamp; those of the recorder are used, which are later by the transport"
+    finding = Finding(stream=name, kind="recorder_stamp", message=text, count=len(stamps))
+    return np.concatenate(samples.received)[order], (finding,)
+
+
+def _signals(
+    samples: Samples, order: IntArray, *, name: str, frame: str, joint_units: Mapping[str, str]
+) -> tuple[dict[str, Signal], tuple[Finding, ...]]:
+    signals: dict[str, Signal] = {}
+    for quantity in dict.fromkeys(key for piece in samples.numbers for key in piece if key in QUANTITIES):
+        if quantity == "orientation":
+            rotations = np.concatenate([piece[quantity] for piece in samples.numbers])[order]
+            return orientation_signals(rotations, _QUATERNION, unit="1", frame=frame, stream=name)
+        if quantity in _RATES:
+            units = tuple(_joint_unit(quantity, joint_units.get(joint, "rad")) for joint in samples.names)
+            values = _by_joint(samples, quantity)[order]
+            signals[quantity] = Signal(quantity=quantity, values=values, columns=tuple(samples.names), units=units)
+            continue
+        values = np.concatenate([piece[quantity] for piece in samples.numbers])[order]
+        covariance = f"{quantity} covariance"
+        if covariance in samples.numbers[0] and all((piece[covariance] == -1.0).all() for piece in samples.numbers):
+            continue  # the driver's way to say that it does not measure this
+        has_frame = QUANTITIES[quantity].has_frame
+        signals[quantity] = Signal.of_fixed(quantity, values, frame=frame if has_frame else None)
+    return signals, ()
+
+
+def _joint_unit(quantity: str, unit: str) -> str:
+    if quantity == "torque":
+        return "N m" if unit == "rad" else "N"
+    return unit + _RATES[quantity]
+
+
+def _by_joint(samples: Samples, quantity: str) -> FloatArray:
+    """Columns by name, whatever order and choice of joints a message has; NaN where it lacks one."""
+    columns = {joint: k for k, joint in enumerate(samples.names)}
+    pieces = []
+    for names, numbers, stamps in zip(samples.piece_names, samples.numbers, samples.stamps, strict=True):
+        values = np.full((len(stamps), len(columns)), np.nan)
+        if quantity in numbers:
+            values[:, [columns[joint] for joint in names]] = numbers[quantity]
+        pieces.append(values)
+    return np.concatenate(pieces)

@@ -1,0 +1,134 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Rows of Parquet files and of data frames, whose columns are typed."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pyarrow as pa
+
+from forcetorque.errors import FormatError, known_names
+from forcetorque.exchange.tabular.layout import TableLayout
+from forcetorque.exchange.tabular.rows import LARGEST_TABLE, Rows, wanted_columns
+
+MAGIC = b"PAR1"
+"""What a Parquet file begins with."""
+BATCH_ROWS = 1 << 17
+
+_STUMBLES = (ArithmeticError, LookupError, MemoryError, OSError, RuntimeError, TypeError, ValueError, pa.ArrowException)
+
+
+def is_parquet_file(path: Path) -> bool:
+    """Tell whether a file is one of Parquet, by its first bytes.
+
+    Args:
+        path: A file.
+
+    Returns:
+        Whether it is.
+    """
+    with path.open("rb") as file:
+        return file.read(len(MAGIC)) == MAGIC
+
+
+def parquet_rows(file: Path, layout: TableLayout) -> Rows:
+    """Look at a Parquet file: its columns, and how many rows it has.
+
+    Args:
+        file: The file; it exists.
+        layout: What its columns mean.
+
+    Returns:
+        Its rows.
+
+    Raises:
+        FormatError: If it is damaged, or lacks a column that the layout names.
+    """
+    if layout.column_names is not None:
+        raise FormatError(f"{file}: expected no column_names: a Parquet file has its own; delete the key")
+    table = _opened(file)
+    columns = _require_columns(str(file), layout, list(table.schema_arrow.names))
+    return Rows(
+        name=str(file),
+        count=table.metadata.num_rows,
+        batches=_parquet_batches(file, table, columns),
+        place=lambda row: _row(file, row),
+    )
+
+
+def parquet_columns(file: Path) -> list[str]:
+    """Name the columns of a Parquet file.
+
+    Args:
+        file: The file.
+
+    Returns:
+        Their names.
+    """
+    return list(_opened(file).schema_arrow.names)
+
+
+def _opened(file: Path) -> Any:
+    import pyarrow.parquet as pq
+
+    try:
+        table = pq.ParquetFile(file)
+        table.schema_arrow.names  # noqa: B018 - read here, where its damage is an error of ours
+    except _STUMBLES as error:
+        raise FormatError(_damaged(file, error)) from error
+    return table
+
+
+def frame_rows(frame: Any, layout: TableLayout) -> Rows:
+    """Take the rows of a data frame of pandas.
+
+    Args:
+        frame: The frame.
+        layout: What its columns mean.
+
+    Returns:
+        Its rows.
+
+    Raises:
+        FormatError: If it lacks a column that the layout names, or one holds no numbers.
+    """
+    columns = _require_columns("data frame", layout, list(map(str, frame.columns)))
+    try:
+        table = pa.Table.from_pandas(frame[columns], preserve_index=False)
+    except _STUMBLES as error:
+        raise FormatError(_damaged("data frame", error)) from error
+    batches = iter(table.to_batches(max_chunksize=BATCH_ROWS))
+    return Rows(name="data frame", count=len(table), batches=batches, place=lambda row: _row("data frame", row))
+
+
+def _require_columns(name: str, layout: TableLayout, names: list[str]) -> list[str]:
+    columns = wanted_columns(layout)
+    for column in columns:
+        if names.count(column) != 1:
+            raise FormatError(f"{name}: expected one column {column!r}; {known_names(column, names)}")
+    return columns
+
+
+def _parquet_batches(file: Path, table: Any, columns: list[str]) -> Iterator[Any]:
+    unpacked = sum(table.metadata.row_group(k).total_byte_size for k in range(table.metadata.num_row_groups))
+    if unpacked > 2 * LARGEST_TABLE:
+        raise FormatError(
+            f"{file}: expected at most {2 * LARGEST_TABLE} unpacked bytes, got {unpacked}; split the file"
+        )
+    try:
+        for group in range(table.metadata.num_row_groups):  # one at a time: asked for all, Arrow holds them all
+            yield from table.iter_batches(batch_size=BATCH_ROWS, row_groups=[group], columns=columns)
+    except _STUMBLES as error:
+        raise FormatError(_damaged(file, error)) from error
+
+
+def _damaged(name: Path | str, error: BaseException) -> FormatError:
+    return FormatError(
+        f"{name}: expected a whole table, got one that cannot be read: {' '.join(str(error).split())[:200]}"
+    )
+
+
+def _row(name: Path | str, row: int) -> str:
+    return f"{name}: row {row + 1}"

@@ -1,0 +1,157 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Rows of a text file: counted first, then converted block by block; line by line where an error must be placed."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pyarrow as pa
+import pyarrow.csv as pacsv
+
+from forcetorque.errors import FormatError, known_names
+from forcetorque.exchange.arrow_text import arrow_text
+from forcetorque.exchange.tabular.layout import TableLayout
+from forcetorque.exchange.tabular.rows import Rows, wanted_columns
+
+BLOCK_SIZE = 1 << 24
+"""Bytes that are held as text at a time; no row is longer."""
+
+
+def text_rows(file: Path, layout: TableLayout) -> Rows:
+    """Look at a text file: its headings, and how many rows it has.
+
+    Args:
+        file: The file; it exists.
+        layout: What its columns mean.
+
+    Returns:
+        Its rows.
+
+    Raises:
+        FormatError: If headings or rows are missing, or a column that the layout names.
+    """
+    names, first_line = _headings(file, layout)
+    count = sum(block.count(b"\n") for block in _blocks(file, first_line, len(names)))
+    if not count:
+        raise FormatError(f"{file}:{first_line}: expected rows of numbers, got none")
+    for column in wanted_columns(layout):
+        if column not in names:
+            raise FormatError(f"{file}: no column {column!r}; {known_names(column, names)}")
+    return Rows(
+        name=str(file),
+        count=count,
+        batches=_batches(file, layout, names, first_line),
+        place=lambda row: f"{file}:{first_line + row}",
+    )
+
+
+def text_columns(file: Path, delimiter: str = ",") -> list[str]:
+    """Name the columns of a text file by its first line.
+
+    Args:
+        file: The file.
+        delimiter: As of a layout.
+
+    Returns:
+        Their names.
+
+    Raises:
+        FormatError: If that is no text.
+    """
+    with file.open("rb") as stream:
+        heading = stream.readline(BLOCK_SIZE).rstrip(b"\r\n")
+    if delimiter == " ":
+        heading = b" ".join(heading.split())
+    try:
+        return [word.strip() for word in heading.decode("utf-8-sig").split(delimiter)]
+    except UnicodeDecodeError as error:
+        raise FormatError(f"{file}:1: expected a line of headings as text, got {error.reason}") from error
+
+
+def _headings(file: Path, layout: TableLayout) -> tuple[tuple[str, ...], int]:
+    """Names of the columns, and the line of the first row."""
+    names, first_line = layout.column_names, 1
+    if names is None:
+        names, first_line = tuple(text_columns(file, layout.delimiter)), 2
+    if len(set(names)) != len(names):
+        raise FormatError(f"{file}:1: expected every heading once, got {', '.join(map(repr, names[:99]))}")
+    return names, first_line
+
+
+def _blocks(file: Path, first_line: int, columns: int) -> Iterator[bytes]:
+    """Blocks of whole lines, each ended by a line feed, without the empty lines at the end of the file."""
+    line, empty, rest = first_line, 0, b""
+    with file.open("rb") as stream:
+        if first_line > 1:
+            stream.readline(BLOCK_SIZE)
+        while chunk := stream.read(BLOCK_SIZE):
+            end = chunk.rfind(b"\n") + 1
+            block, rest = rest + chunk[:end], (chunk[end:] if end else rest + chunk)
+            if len(rest) > BLOCK_SIZE:
+                raise FormatError(f"{file}: expected lines of at most {BLOCK_SIZE} bytes, got one that is longer")
+            if not end:
+                continue
+            block = block.replace(b"\r\n", b"\n")
+            kept = block.rstrip(b"\n")
+            if kept:
+                _require_no_gap(file, kept, line, empty, columns)
+                yield kept + b"\n"
+                line += empty + kept.count(b"\n") + 1
+                empty = 0
+            empty += len(block) - len(kept) - bool(kept)
+    if rest.strip(b"\r\n"):
+        _require_no_gap(file, rest, line, empty, columns)
+        yield rest.rstrip(b"\r\n") + b"\n"
+
+
+def _require_no_gap(file: Path, text: bytes, line: int, empty: int, columns: int) -> None:
+    gap = 0 if empty or text.startswith(b"\n") else text.find(b"\n\n") + 1
+    if gap or empty or text.startswith(b"\n"):
+        place = line + text.count(b"\n", 0, gap)
+        raise FormatError(f"{file}:{place}: expected {columns} columns, got an empty line; delete it")
+
+
+def _batches(file: Path, layout: TableLayout, names: tuple[str, ...], first_line: int) -> Iterator[Any]:
+    types = {c: pa.float64() for signal in layout.signals for c in signal.columns}
+    if layout.stamp is not None:
+        types[layout.stamp.column] = pa.string()
+    options = pacsv.ConvertOptions(column_types=types, include_columns=list(types), null_values=["", "nan", "NaN"])
+    line = first_line
+    for block in _blocks(file, first_line, len(names)):
+        text = b"\n".join(b" ".join(row.split()) for row in block.split(b"\n")) if layout.delimiter == " " else block
+        try:
+            yield pacsv.read_csv(
+                arrow_text(text),
+                read_options=pacsv.ReadOptions(column_names=list(names)),
+                parse_options=pacsv.ParseOptions(
+                    delimiter=layout.delimiter, quote_char=False, ignore_empty_lines=False
+                ),
+                convert_options=options,
+            )
+        except pa.ArrowException as error:
+            raise _placed(file, text, layout, names, line, str(error)) from error
+        line += text.count(b"\n")
+
+
+def _placed(
+    file: Path, text: bytes, layout: TableLayout, names: tuple[str, ...], first_line: int, reason: str
+) -> FormatError:
+    """Find the line and column that the fast reader refused."""
+    wanted = {name: k for k, name in enumerate(names) if any(name in s.columns for s in layout.signals)}
+    for number, line in enumerate(text.rstrip(b"\n").split(b"\n"), start=first_line):
+        fields = line.split(layout.delimiter.encode())
+        if len(fields) != len(names):
+            return FormatError(
+                f"{file}:{number}: expected {len(names)} columns separated by {layout.delimiter!r}, got {len(fields)}"
+            )
+        for name, k in wanted.items():
+            field = fields[k].strip()
+            try:
+                float(field or b"nan")
+            except ValueError:
+                return FormatError(
+                    f"{file}:{number}: column {name!r}: expected a number, got {field[:40].decode(errors='replace')!r}"
+                )
+    return FormatError(f"{file}: expected a table of numbers, got {' '.join(reason.split())[:200]}")

@@ -1,0 +1,222 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What a calibration device is made of: two axes, sensors in a stack, a hinge with locks, a carrier and weights."""
+
+from __future__ import annotations
+
+import math
+from typing import Annotated, Self
+
+from pydantic import Field, model_validator
+from pydantic_core import PydanticCustomError
+
+from forcetorque.constants import STANDARD_GRAVITY
+from forcetorque.toml_table import Finite, NotNegative, Positive, Table, Text
+
+_MOST_SENSORS = 3
+
+Three = Annotated[tuple[Finite, ...], Field(min_length=3, max_length=3)]
+Moments = Annotated[tuple[NotNegative, ...], Field(min_length=3, max_length=3)]
+
+
+class Part(Table):
+    """A rigid part; its frame is at its foot, z towards the load when the device is straight."""
+
+    mass_kg: NotNegative
+    """Mass."""
+    centre_of_mass_m: Three = (0.0, 0.0, 0.0)
+    """Centre of mass."""
+    moments_kgm2: Moments = (0.0, 0.0, 0.0)
+    """Rotational inertia about x, y and z through the centre of mass."""
+    height_m: NotNegative = 0.0
+    """From its foot to the foot of what comes next."""
+
+
+class Axis(Table):
+    """A motor, and what it turns before the next axis or the stack."""
+
+    range_deg: Annotated[tuple[Finite, ...], Field(min_length=2, max_length=2)]
+    """Lowest and highest position."""
+    speed_deg_s: Positive
+    """Largest speed."""
+    torque_Nm: Positive
+    """Largest torque, which the motor may give for a moment."""
+    part: Part
+    """What it turns, seen from where the axis is."""
+
+    @model_validator(mode="after")
+    def _in_order(self) -> Axis:
+        _require_order(self.range_deg, "range_deg")
+        return self
+
+
+class StackedSensor(Table):
+    """A sensor between its interfaces; it reads at the face of its body that is turned to the load."""
+
+    name: Text
+    """Name of the sensor."""
+    serial: Text
+    """Serial number."""
+    female: Part
+    """Interface on the side of the motors."""
+    body: Part
+    """The sensor."""
+    male: Part
+    """Interface on the side of the load."""
+
+    @property
+    def height_m(self) -> float:
+        """How much higher it makes the stack."""
+        return self.female.height_m + self.body.height_m + self.male.height_m
+
+
+class Turn(Table):
+    """A joint that turns hinge and load about the axis of the sensors; it is set by hand or by a motor of its own."""
+
+    positions_deg: Annotated[tuple[Finite, ...], Field(min_length=1)] = (0.0, 90.0)
+    """Positions that it can be set to."""
+    speed_deg_s: Positive = 30.0
+    """Largest speed."""
+
+
+class Hinge(Table):
+    """The passive joint; positive where gravity bends it at yaw 0 as pitch comes up from straight down."""
+
+    locks_deg: Annotated[tuple[Finite, ...], Field(min_length=1)] = (0.0, 90.0)
+    """Where it locks by itself."""
+    range_deg: Annotated[tuple[Finite, ...], Field(min_length=2, max_length=2)] = (-95.0, 95.0)
+    """Lowest and highest position that its stops allow."""
+    encoder: bool = False
+    """Whether its position is measured, so that what is read while it swings can be used."""
+    bracket: Part
+    """What holds it, on the side of the sensors; its height ends at the axis of the hinge."""
+
+    @model_validator(mode="after")
+    def _locks_within_the_stops(self) -> Hinge:
+        _require_order(self.range_deg, "range_deg")
+        for lock in self.locks_deg:
+            if not self.range_deg[0] <= lock <= self.range_deg[1]:
+                message = f"lock at {lock:g} deg: expected one within range_deg = {list(self.range_deg)}"
+                raise PydanticCustomError("lock", "{message}", {"message": message})
+        return self
+
+
+class Weights(Table):
+    """Plates on the carrier, one on the other; the first one is lighter by the carrier, so that loads are round."""
+
+    step_kg: Positive
+    """What a plate adds to the load."""
+    most_kg: Positive
+    """Largest load."""
+    foot_m: NotNegative
+    """Distance of the first plate from the axis of the hinge."""
+    height_m: Positive
+    """Height of a plate of `step_kg`."""
+    radius_m: Positive
+    """Radius of the plates."""
+
+
+class Device(Table):
+    """A calibration device; with all joints at 0 its arm is level and straight.
+
+    From the base on: pitch, yaw, the sensors in their stack, the turn if there is one, the hinge, the carrier.
+    """
+
+    name: Text
+    """Name of the device."""
+    gravity: Positive = STANDARD_GRAVITY
+    """Magnitude of gravity; m/s2."""
+    yaw_first: bool = False
+    """Whether yaw comes before pitch, which does not reach all directions of gravity in the 12 steps."""
+    pitch: Axis
+    """The axis that raises the arm; it is level."""
+    yaw: Axis
+    """The axis along the arm."""
+    sensor: Annotated[tuple[StackedSensor, ...], Field(min_length=1, max_length=_MOST_SENSORS)]
+    """Sensors in the stack, from the motors to the load."""
+    turn: Turn | None = None
+    """Joint about the axis of the sensors; none if left out."""
+    hinge: Hinge
+    """The passive joint."""
+    carrier: Part
+    """What the weights are put on, seen from the axis of the hinge."""
+    weights: Weights
+    """The weights."""
+
+    @property
+    def sensor_names(self) -> tuple[str, ...]:
+        """Names of the sensors, from the motors to the load."""
+        return tuple(sensor.name for sensor in self.sensor)
+
+    @property
+    def joint_names(self) -> tuple[str, ...]:
+        """Joints in the order of postures: `pitch`, `yaw`, `turn` if there is one, `hinge`."""
+        return ("pitch", "yaw", *(() if self.turn is None else ("turn",)), "hinge")
+
+    @property
+    def loads_kg(self) -> tuple[float, ...]:
+        """Loads that can be put on; the empty carrier, which is no round number, comes first as 0."""
+        count = math.floor(self.weights.most_kg / self.weights.step_kg + 1e-9)
+        return tuple(k * self.weights.step_kg for k in range(count + 1))
+
+    def with_sensors(self, count: int) -> Self:
+        """Stack another number of sensors like the first ones.
+
+        Args:
+            count: How many.
+
+        Returns:
+            The device with the first of its sensors; more than it has are copies of the first, named with a number.
+        """
+        first = self.sensor[0]
+        more = (
+            first.model_copy(update={"name": f"{first.name}_{k + 1}", "serial": f"{first.serial}-{k + 1}"})
+            for k in range(len(self.sensor), count)
+        )
+        return self.changed(sensor=(*self.sensor, *more)[:count])
+
+    def with_locks(self, *locks_deg: float) -> Self:
+        """Let the hinge lock elsewhere.
+
+        Args:
+            locks_deg: Where it locks.
+
+        Returns:
+            The device with these locks.
+        """
+        return self.changed(hinge=self.hinge.model_copy(update={"locks_deg": locks_deg}))
+
+    def changed(self, **fields: object) -> Self:
+        """Change fields, and check all of it again.
+
+        Args:
+            **fields: Fields with their new values.
+
+        Returns:
+            The device; pydantic's `ValidationError` is raised if it cannot be.
+        """
+        return type(self).model_validate(self.model_copy(update=fields).model_dump(by_alias=True))
+
+    @model_validator(mode="after")
+    def _names_differ(self) -> Device:
+        for field in ("name", "serial"):
+            values = [getattr(sensor, field) for sensor in self.sensor]
+            if len(set(values)) != len(values):
+                message = f"sensors: expected each {field} once, got {', '.join(values)}"
+                raise PydanticCustomError("sensor_names", "{message}", {"message": message})
+        return self
+
+    @model_validator(mode="after")
+    def _the_carrier_is_lighter_than_a_plate(self) -> Device:
+        if not 0.0 < self.carrier.mass_kg < self.weights.step_kg <= self.weights.most_kg:
+            message = (
+                f"expected 0 kg < carrier < weights.step_kg <= weights.most_kg, got a carrier of "
+                f"{self.carrier.mass_kg:g} kg, steps of {self.weights.step_kg:g} kg and {self.weights.most_kg:g} kg"
+            )
+            raise PydanticCustomError("weights", "{message}", {"message": message})
+        return self
+
+
+def _require_order(bounds: tuple[float, ...], field: str) -> None:
+    if not bounds[0] < bounds[1]:
+        message = f"{field}: expected the lowest, then the highest, got {list(bounds)}"
+        raise PydanticCustomError("range", "{message}", {"message": message})

@@ -1,0 +1,203 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""How far a device may be from its description: what its sensors then feel, and what that makes of known loads."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import Final
+
+import numpy as np
+
+from forcetorque.arrays import BoolArray, FloatArray
+from forcetorque.exsitu.device.answer import answer_of
+from forcetorque.exsitu.device.description import Device
+from forcetorque.exsitu.device.load import Load
+from forcetorque.exsitu.uncertain_loads import UncertainLoads
+from forcetorque.robot import JointMotion
+from forcetorque.spatial import Inertia
+
+_STEP: Final = 1e-4
+"""Step of the differences, in rad, m and shares: their own error is 1e-8 of a load."""
+_SAME_RAD: Final = 1e-9
+"""Samples that are no further apart are of one pose."""
+_AT_LOCK_DEG: Final = 1e-4
+"""A hinge that is no further from a lock is in it; deg."""
+_FREE: Final = 999.0
+"""Stands for a lock where the hinge hangs freely; deg."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Tolerances:
+    """How exact a device is."""
+
+    encoder_deg: float = 0.1
+    """Full width of a uniform error of pitch and yaw, as in Table 6.3: one at every pose, one that stays; of the angle
+    of every lock, or of the encoder of the hinge, too; deg."""
+    length_m: float = 1e-4
+    """Standard deviation of the distances from sensor to hinge, and from hinge to the centre of every load; m."""
+    mass_share: float = 5e-4
+    """Standard deviation of the mass of every load, as a share."""
+
+    def size_of(self, error: str) -> float:
+        """Give the size of an error.
+
+        Args:
+            error: One of the names that `Poses.errors` gives.
+
+        Returns:
+            Its standard deviation; rad, m, or a share of the mass.
+        """
+        if error == "height" or error.startswith("distance of "):
+            return self.length_m
+        if error.startswith("mass of "):
+            return self.mass_share
+        return float(np.deg2rad(self.encoder_deg) / np.sqrt(12.0))
+
+    def draw(self, error: str, rng: np.random.Generator) -> float:
+        """Draw an error: uniform for angles, normal for lengths and masses.
+
+        Args:
+            error: One of the names that `Poses.errors` gives.
+            rng: Source of it.
+
+        Returns:
+            True less stated value; rad, m, or a share of the mass.
+        """
+        if error == "height" or error.startswith(("distance of ", "mass of ")):
+            return float(self.size_of(error) * rng.standard_normal())
+        return float(np.deg2rad(self.encoder_deg) * rng.uniform(-0.5, 0.5))
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Poses:
+    """Poses at rest with one load on the hinge."""
+
+    device: Device
+    """The device."""
+    load: Load
+    """The load."""
+    position: FloatArray
+    """Joints of the device; shape (n, j); rad."""
+    count: FloatArray
+    """Samples at every pose; shape (n,)."""
+
+    @classmethod
+    def of_samples(cls, device: Device, load: Load, position: FloatArray) -> Poses:
+        """Take samples that follow each other; those of one hold are one pose.
+
+        Without an encoder at the hinge, samples with an unlocked hinge are left out: nobody knows where the load is.
+
+        Args:
+            device: The device.
+            load: The load.
+            position: Joints at every sample; shape (n, j); rad.
+
+        Returns:
+            The poses.
+        """
+        moved = np.append(True, np.abs(np.diff(position, axis=0)).max(axis=1) > _SAME_RAD)
+        starts = np.flatnonzero(moved)
+        poses = cls(
+            device=device,
+            load=load,
+            position=position[starts],
+            count=np.diff(np.append(starts, len(position))).astype(np.float64),
+        )
+        return poses if device.hinge.encoder else poses.taken(poses._lock != _FREE)
+
+    def taken(self, which: BoolArray) -> Poses:
+        """Give some of the poses.
+
+        Args:
+            which: Whether to take each; shape (n,).
+
+        Returns:
+            These alone.
+        """
+        return replace(self, position=self.position[which], count=self.count[which])
+
+    @property
+    def errors(self) -> tuple[str, ...]:
+        """Names of what may be wrong: joints, locks in use, lengths and mass; those of the load bear its name."""
+        locks = sorted(set(self._lock.tolist()) - {_FREE})
+        hinge = ("hinge",) if (self._lock == _FREE).any() else ()
+        own = (f"distance of {self.load.name}", f"mass of {self.load.name}")
+        return ("pitch", "yaw", *hinge, *(f"lock {lock:g}" for lock in locks), "height", *own)
+
+    def wrench(
+        self, sensor: str, errors: Mapping[str, float] | None = None, fresh_rad: FloatArray | None = None
+    ) -> FloatArray:
+        """Compute what a sensor feels.
+
+        Args:
+            sensor: Name of the sensor.
+            errors: True less stated values of some of `errors`, the mass as a share; rad, m.
+            fresh_rad: True less stated position of pitch, yaw and an unlocked hinge at every pose; shape (n, 3); rad.
+
+        Returns:
+            Wrenches; shape (n, 6); N, N m.
+        """
+        wrong = errors or {}
+        turned = np.zeros((len(self.position), 3)) if fresh_rad is None else np.array(fresh_rad)
+        turned[:, 2] = np.where(self._lock == _FREE, turned[:, 2] + wrong.get("hinge", 0.0), 0.0)
+        for lock in set(self._lock.tolist()) - {_FREE}:
+            turned[self._lock == lock, 2] = wrong.get(f"lock {lock:g}", 0.0)
+        position = self.position.copy()
+        names = self.device.joint_names
+        for column, joint in enumerate(("pitch", "yaw", "hinge")):
+            position[:, names.index(joint)] += turned[:, column] + (0.0 if column == 2 else wrong.get(joint, 0.0))
+        load = _moved(
+            self.load,
+            wrong.get(f"distance of {self.load.name}", 0.0),
+            wrong.get(f"mass of {self.load.name}", 0.0),
+        )
+        device = _raised(self.device, wrong.get("height", 0.0))
+        return answer_of(device, load, JointMotion.at_rest(names, position)).wrenches.of_name(sensor)
+
+    def uncertain(self, sensor: str, tolerances: Tolerances) -> UncertainLoads:
+        """Say what may be wrong with what a sensor is said to feel, to first order.
+
+        Args:
+            sensor: Name of the sensor.
+            tolerances: How exact the device is.
+
+        Returns:
+            The loads.
+        """
+        stated = self.wrench(sensor)
+        lasting = {
+            name: tolerances.size_of(name)
+            * (self.wrench(sensor, {name: _STEP}) - self.wrench(sensor, {name: -_STEP}))
+            / (2.0 * _STEP)
+            for name in self.errors
+        }
+        still = np.zeros_like(stated)
+        return UncertainLoads(
+            wrench=stated,
+            count=self.count,
+            lasting=lasting,
+            fresh=np.stack([lasting.get(joint, still) for joint in ("pitch", "yaw", "hinge")], axis=2),
+        )
+
+    @property
+    def _lock(self) -> FloatArray:
+        """Lock of every pose, `_FREE` where the hinge hangs; shape (n,); deg."""
+        hinge = np.rad2deg(self.position[:, -1])
+        locks = np.array(self.device.hinge.locks_deg)
+        nearest = locks[np.abs(hinge[:, None] - locks).argmin(axis=1)]
+        return np.where(np.abs(hinge - nearest) < _AT_LOCK_DEG, nearest, _FREE)
+
+
+def _moved(load: Load, distance_m: float, mass_share: float) -> Load:
+    """The load with another mass and place; its inertia about its centre does not matter at rest."""
+    mass = load.mass_kg * (1.0 + mass_share)
+    centre = load.centre_of_mass_m + np.array([0.0, 0.0, distance_m])
+    inertia = Inertia.about_centre_of_mass(mass=mass, centre_of_mass=centre, second_moment=np.zeros((3, 3)))
+    return Load(name=load.name, inertia=inertia)
+
+
+def _raised(device: Device, height_m: float) -> Device:
+    bracket = device.hinge.bracket
+    higher = bracket.model_copy(update={"height_m": bracket.height_m + height_m})
+    return device.model_copy(update={"hinge": device.hinge.model_copy(update={"bracket": higher})})

@@ -1,0 +1,24 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Contests as scripts and notebooks ask for them, with a file or without."""
+
+from __future__ import annotations
+
+from datetime import UTC, datetime
+from importlib.metadata import version
+from pathlib import Path
+
+from forcetorque import analysis
+
+
+def contest(entries: analysis.Entries | Path | str) -> analysis.Contest:
+    """Rank sensors and methods on the same loads: `contest("contest.toml")`.
+
+    Args:
+        entries: Runs and contestants, or the file that states them.
+
+    Returns:
+        Ranks, scores and pairs; it shows itself as tables.
+    """
+    stated = entries if isinstance(entries, analysis.Entries) else analysis.read_entries(entries)
+    created = datetime.now(UTC).isoformat(timespec="seconds")
+    return analysis.contest(stated, code_version=version("forcetorque"), created=created)

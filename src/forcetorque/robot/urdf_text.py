@@ -1,0 +1,123 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""URDF text of a robot model: what `read_urdf` reads, written down again."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from pathlib import Path
+from xml.etree.ElementTree import Element, SubElement, indent, tostring
+
+from forcetorque.arrays import FloatArray
+from forcetorque.atomic import write_bytes_atomically
+from forcetorque.errors import RobotError
+from forcetorque.robot.model import ForceTorqueSensor, Joint, JointLimit, RobotModel
+from forcetorque.spatial import Inertia, rpy_from_rotation, skew, split_pose
+
+
+def urdf_text(model: RobotModel) -> str:
+    """Write a robot as URDF.
+
+    `read_urdf` reads the same robot from it: the same names, and numbers that differ by rounding. Sensors are written
+    in the plain form, which readers of models take, and again in that of the simulator.
+
+    Args:
+        model: The robot.
+
+    Returns:
+        The text of the file.
+
+    Raises:
+        RobotError: If a link has a first moment without a mass, which URDF cannot say.
+    """
+    robot = Element("robot", name=model.name)
+    for name, inertia in model.links.items():
+        _add_link(robot, name, inertia)
+    for joint in model.joints.values():
+        _add_joint(robot, joint)
+    for sensor in model.sensors.values():
+        _add_sensor(robot, sensor)
+    indent(robot)
+    return f'<?xml version="1.0"?>\n{tostring(robot, encoding="unicode")}\n'
+
+
+def write_urdf(path: Path | str, model: RobotModel) -> None:
+    """Write a robot to a URDF file, which is there as a whole or not at all.
+
+    Args:
+        path: File to write or to replace.
+        model: The robot.
+    """
+    write_bytes_atomically(Path(path), urdf_text(model).encode())
+
+
+def _add_link(robot: Element, name: str, inertia: Inertia) -> None:
+    link = SubElement(robot, "link", name=name)
+    if inertia.is_zero:
+        return
+    if inertia.mass == 0.0 and inertia.first_moment.any():
+        raise RobotError(
+            f"link {name!r}: expected a mass where there is a first moment, got 0 kg with "
+            f"{inertia.first_moment.tolist()} kg m; URDF states a centre of mass"
+        )
+    centre = inertia.first_moment / (inertia.mass or 1.0)
+    hat = skew(centre)
+    tensor = inertia.second_moment + inertia.mass * hat @ hat
+    inertial = SubElement(link, "inertial")
+    SubElement(inertial, "origin", xyz=_numbers(centre), rpy="0 0 0")
+    SubElement(inertial, "mass", value=_number(inertia.mass))
+    places = {"ixx": (0, 0), "ixy": (0, 1), "ixz": (0, 2), "iyy": (1, 1), "iyz": (1, 2), "izz": (2, 2)}
+    SubElement(inertial, "inertia", {key: _number(tensor[place]) for key, place in places.items()})
+
+
+def _add_joint(robot: Element, joint: Joint) -> None:
+    element = SubElement(robot, "joint", name=joint.name, type=joint.type.value)
+    SubElement(element, "parent", link=joint.parent)
+    SubElement(element, "child", link=joint.child)
+    _add_origin(element, joint.parent_H_child)
+    if not joint.type.moves:
+        return
+    SubElement(element, "axis", xyz=_numbers(joint.axis))
+    if joint.limit is not None:
+        _add_limit(element, joint.limit)
+    if joint.mimic is not None:
+        ratio, offset = _number(joint.mimic.multiplier), _number(joint.mimic.offset)
+        SubElement(element, "mimic", joint=joint.mimic.leader, multiplier=ratio, offset=offset)
+
+
+def _add_limit(joint: Element, limit: JointLimit) -> None:
+    given = {"lower": limit.lower, "upper": limit.upper, "effort": limit.effort, "velocity": limit.velocity}
+    SubElement(joint, "limit", {key: _number(value) for key, value in given.items() if value is not None})
+
+
+def _add_sensor(robot: Element, sensor: ForceTorqueSensor) -> None:
+    plain = SubElement(robot, "sensor", name=sensor.name, type="force_torque")
+    SubElement(plain, "parent", joint=sensor.joint)
+    _add_origin(plain, sensor.child_H_sensor)
+    _add_measurement(plain, sensor)
+    simulated = SubElement(robot, "gazebo", reference=sensor.joint)
+    # without it simulators lump fixed joints, and the sensor with them
+    SubElement(simulated, "preserveFixedJoint").text = "true"
+    rotation, position = split_pose(sensor.child_H_sensor)
+    for name in sensor.aliases or (sensor.name,):
+        tag = SubElement(simulated, "sensor", name=name, type="force_torque")
+        SubElement(tag, "pose").text = f"{_numbers(position)} {_numbers(rpy_from_rotation(rotation))}"
+        _add_measurement(tag, sensor)
+
+
+def _add_measurement(tag: Element, sensor: ForceTorqueSensor) -> None:
+    measurement = SubElement(tag, "force_torque")
+    SubElement(measurement, "frame").text = sensor.frame.value
+    SubElement(measurement, "measure_direction").text = sensor.direction.value
+
+
+def _add_origin(element: Element, pose: FloatArray) -> None:
+    rotation, position = split_pose(pose)
+    SubElement(element, "origin", xyz=_numbers(position), rpy=_numbers(rpy_from_rotation(rotation)))
+
+
+def _numbers(values: Iterable[float]) -> str:
+    return " ".join(_number(value) for value in values)
+
+
+def _number(value: float) -> str:
+    return repr(float(value))  # the shortest text that is read as the same number
