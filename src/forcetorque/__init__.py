@@ -6,8 +6,9 @@ nouns of the equation in the README. They are imported when they are first used,
 `import forcetorque` and the command line's help cost no scientific library.
 """
 
-from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
+
+from forcetorque.door import open_door
 
 if TYPE_CHECKING:
     from forcetorque.analysis import SensorRun, calibrate_sensor, evaluate, plan_jointly
@@ -25,24 +26,6 @@ if TYPE_CHECKING:
     )
     from forcetorque.recording import Recording, read_recording, write_recording
     from forcetorque.robot import RobotModel, expected_wrenches, read_urdf
-
-_HOMES = {
-    "analysis": ("SensorRun", "calibrate_sensor", "evaluate", "plan_jointly"),
-    "calibration": ("Calibration", "DataSet", "calibrate", "read_calibration", "write_calibration"),
-    "errors": ("ForceTorqueError",),
-    "evaluation": ("wrench_errors",),
-    "interactive": (
-        "Experiment",
-        "calibrate_jointly",
-        "calibrate_skin",
-        "contest",
-        "experiment_of_arrays",
-        "load_experiment",
-        "skin_wrench",
-    ),
-    "recording": ("Recording", "read_recording", "write_recording"),
-    "robot": ("RobotModel", "expected_wrenches", "read_urdf"),
-}
 
 __all__ = [
     "Calibration",
@@ -71,13 +54,4 @@ __all__ = [
     "write_recording",
 ]
 
-
-def __getattr__(name: str) -> Any:
-    for home, names in _HOMES.items():
-        if name in names:
-            return getattr(import_module(f"{__name__}.{home}"), name)
-    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-
-
-def __dir__() -> list[str]:
-    return sorted(__all__)
+open_door(__name__)
