@@ -20,6 +20,7 @@ RUN_ELSEWHERE = {
     "joint.md": "tests/analysis/test_joint_calibration.py",
     "robot_load.md": "tests/analysis/test_tare.py",
     "contest.md": "tests/cli/test_contest.py",
+    "response.md": "tests/analysis/test_response.py",
     "thermal.md": "tests/analysis/test_thermal.py",
     "simulation.md": "tests/examples/test_page_scripts.py",
     "skin_layout.md": "tests/exchange/skin/test_documentation.py",

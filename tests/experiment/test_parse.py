@@ -72,7 +72,7 @@ def test_what_may_be_left_out_has_a_default(tmp_path: Path) -> None:
 
 def _documented() -> list[str]:
     blocks = re.findall(r"```toml\n(.*?)```", DOCUMENT.read_text(encoding="utf-8"), re.DOTALL)
-    assert len(blocks) == 8
+    assert len(blocks) == 9
     return blocks
 
 
@@ -104,9 +104,9 @@ def test_the_documented_variables_fit_into_it(tmp_path: Path) -> None:
 
 def test_the_documented_ports_and_imu_fit_into_it(tmp_path: Path) -> None:
     """The other kinds of ports and the moving support are accepted in place of their plain forms."""
-    whole, _, ports, events, moving, *_ = _documented()
+    whole, _, ports, skin, events, moving, *_ = _documented()
     fixed = whole[whole.index("[[support]]") : whole.index("[processing]")]
-    logged = f"{ports}\n{events}\n[[sensor]]"
+    logged = f"{ports}\n{skin}\n{events}\n[[sensor]]"
     parsed = _parse(tmp_path, whole.replace("[[sensor]]", logged).replace(fixed, f"{moving}\n"))
     assert isinstance(parsed.recording, YarpLog)
     assert {port.kind for port in parsed.recording.stream} == {
@@ -115,6 +115,7 @@ def test_the_documented_ports_and_imu_fit_into_it(tmp_path: Path) -> None:
         "measures",
         "inertial",
         "state",
+        "skin",
         "skin_events",
     }
     assert parsed.support[0].imu == ("imu",)
@@ -125,7 +126,7 @@ def test_the_documented_wrist_is_complete_with_a_sensor_and_intervals(tmp_path: 
     head = 'schema = "forcetorque/experiment/1"\nname = "wrist"\n'
     sensor = '[[sensor]]\nname = "wrist"\nstream = "poses"\nserial = "FT1"\nprior = "identity"\n'
     interval = '[[interval]]\nlabel = "all"\nstart_s = 0\nuse = "calibration"\n'
-    parsed = _parse(tmp_path, f"{head}{_documented()[5]}\n{sensor}{interval}")
+    parsed = _parse(tmp_path, f"{head}{_documented()[6]}\n{sensor}{interval}")
     assert parsed.load is not None
     assert parsed.load[0].mass_kg == 0.932
     assert parsed.sensor[0].prior == "identity"
@@ -136,7 +137,7 @@ def test_the_documented_orientation_takes_the_place_of_gravity(tmp_path: Path) -
     head = 'schema = "forcetorque/experiment/1"\nname = "wrist"\n'
     sensor = '[[sensor]]\nname = "wrist"\nstream = "poses"\nserial = "FT1"\nprior = "identity"\n'
     interval = '[[interval]]\nlabel = "all"\nstart_s = 0\nuse = "calibration"\n'
-    wrist, orientation = _documented()[5:7]
+    wrist, orientation = _documented()[6:8]
     plain = re.sub(r"signal = \[\n.*?\n\]\n", "", wrist, flags=re.DOTALL)
     assert plain != wrist
     recording = _parse(tmp_path, f"{head}{plain}\n{orientation}\n{sensor}{interval}").recording
