@@ -148,7 +148,7 @@ def test_a_motion_of_ones_own(run: Run, tmp_path: Path) -> None:
 
 def test_the_example_with_a_third_lock_tells_all_with_one_load(run: Run, tmp_path: Path) -> None:
     """One load of 35 kg is enough, and what it tells holds for another load."""
-    example = Path(__file__).parents[2] / "examples" / "19_device_third_lock.toml"
+    example = Path(__file__).parents[2] / "examples" / "20_device_third_lock.toml"
     assert run("device", example, "-o", tmp_path / "simulated").code == 0
     assert run("calibrate", tmp_path / "simulated/35_kg.toml", "-o", tmp_path / "new.json").code == 0
     judged = run("evaluate", tmp_path / "simulated/25_kg.toml", "-c", tmp_path / "new.json", "--format", "json")
