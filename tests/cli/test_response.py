@@ -7,6 +7,9 @@ from pathlib import Path
 
 import pytest
 
+from forcetorque.report.document import Figure as FigureBlock
+from forcetorque.report.document.small_png import small_png
+from forcetorque.report.sections import result_figures
 from tests.cli.outcome import Run
 from tests.excited_sensors import write_taps
 
@@ -26,6 +29,10 @@ def test_the_response_is_shown_and_drawn(taps: Path, run: Run) -> None:
     assert len(result["inverse"]["numerator"]) == 3
     assert len(result["curve"]["coherence"]) == len(result["curve"]["frequency_hz"])
     assert figure.read_bytes().startswith(b"\x89PNG")
+    # what a report draws of the JSON is what was drawn of the result
+    (picture,) = result_figures(result)
+    assert isinstance(picture, FigureBlock)
+    assert picture.picture.png == small_png(figure.read_bytes())
     lines = run(*words, "--format", "csv").out.splitlines()
     assert (len(lines), lines[0].startswith("sensor,serial,quantity,source,value,half_width_95")) == (7, True)
 

@@ -481,6 +481,8 @@ def _response(rng: np.random.Generator) -> Figure:
         frequency_hz=frequency,
         real=value.real,
         imaginary=value.imag,
+        fitted_real=sensor.response(frequency).real,
+        fitted_imaginary=sensor.response(frequency).imag,
         radius_95=np.full(400, 0.05),
         coherence=np.linspace(1.0, 0.2, 400),
         chance=0.4,
@@ -504,7 +506,6 @@ def _response(rng: np.random.Generator) -> Figure:
             inverse=None,
             refused=(),
             decays=decays,
-            fitted=sensor,
         )
     )
 

@@ -71,10 +71,8 @@ class Response(Result):
     """What is not told, and why."""
     figure: str | None = None
     """File of the figure."""
-    decays: tuple[DecayCurve, ...] = Field(default=(), exclude=True, repr=False)
+    decays: tuple[DecayCurve, ...] = Field(default=(), repr=False)
     """Decays and their fits, for the figure."""
-    fitted: SecondOrder | None = Field(default=None, exclude=True, repr=False)
-    """The second order that the numbers are of, for the figure."""
 
     def blocks(self) -> Iterator[Table | str]:
         """Give events, numbers and filter.
@@ -196,11 +194,10 @@ def response(
         samples=sum(len(record.wrench) for record in records),
         events=() if decays is None else decays.rows,
         numbers=tuple(numbers(decays, fit if told is not None else None, _gain_unit(records, mass_kg))),
-        curve=None if told is None else _curve(told),
+        curve=None if told is None else _curve(told, fit),
         inverse=None if inverse is None else _inverse(inverse, decays),
         refused=tuple(refused),
         decays=() if decays is None else decays.curves,
-        fitted=fit,
     )
     return answer.model_copy(update={"warnings": tuple(_doubts(answer, fit, told, decays))})
 
@@ -240,11 +237,14 @@ def _gain_unit(records: Sequence[ExcitedRecord], mass_kg: float | None) -> str:
     return "kg" if force is not None and force.signals.shape[1] == 3 and mass_kg is None else "1"
 
 
-def _curve(told: FrequencyResponse) -> ResponseCurve:
+def _curve(told: FrequencyResponse, fit: SecondOrder | None) -> ResponseCurve:
+    fitted = None if fit is None else fit.response(told.frequency_hz)
     return ResponseCurve(
         frequency_hz=told.frequency_hz,
         real=told.real,
         imaginary=told.imaginary,
+        fitted_real=None if fitted is None else fitted.real,
+        fitted_imaginary=None if fitted is None else fitted.imag,
         radius_95=told.radius,
         coherence=told.coherence,
         chance=told.chance,

@@ -66,6 +66,10 @@ class ResponseCurve(Row):
     """Real part of the response; shape (m,)."""
     imaginary: Values
     """Imaginary part; shape (m,)."""
+    fitted_real: Values | None = None
+    """Real part of the second order that is fitted to it; shape (m,); null without a fit."""
+    fitted_imaginary: Values | None = None
+    """Imaginary part of that; shape (m,)."""
     radius_95: Values
     """Radius of the circle that holds it with 95 %; shape (m,)."""
     coherence: Values

@@ -7,12 +7,12 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
-from forcetorque.analysis import Assessment, Contest, ContestLoadRow, ExperimentAssessment, finding_table
+from forcetorque.analysis import Assessment, Contest, ContestLoadRow, ExperimentAssessment, Response, finding_table
 from forcetorque.errors import ForceTorqueError
 from forcetorque.report import tables
 from forcetorque.report.calibration_sections import origin_words
 from forcetorque.report.document import Block, Document, Figure, List, Picture, Section, Text
-from forcetorque.report.figures import contest_figure, joint_figure
+from forcetorque.report.figures import contest_figure, joint_figure, response_figure
 from forcetorque.report.judgements import judgement_section
 from forcetorque.report.questions import ERRORS, QUESTIONS
 from forcetorque.report.skin_section import skin_section
@@ -80,14 +80,20 @@ def result_figures(content: Mapping[str, Any]) -> Iterator[Block]:
     Yields:
         Figures; none for most commands.
     """
-    if content["schema"] != Contest.model_fields["schema_name"].default:
-        return
-    rows = [ContestLoadRow.model_validate(row) for row in content["loads"]]
-    yield Figure(
-        picture=Picture(lambda: contest_figure(rows)),
-        caption="Errors of every contestant over the loads, on which nobody was fitted, with 95 % intervals.",
-        description="Six plots over the load, one per component, with a curve for each contestant.",
-    )
+    if content["schema"] == Contest.model_fields["schema_name"].default:
+        rows = [ContestLoadRow.model_validate(row) for row in content["loads"]]
+        yield Figure(
+            picture=Picture(lambda: contest_figure(rows)),
+            caption="Errors of every contestant over the loads, on which nobody was fitted, with 95 % intervals.",
+            description="Six plots over the load, one per component, with a curve for each contestant.",
+        )
+    elif content["schema"] == Response.model_fields["schema_name"].default and (content["curve"] or content["decays"]):
+        response = Response.model_validate(content)
+        yield Figure(
+            picture=Picture(lambda: response_figure(response)),
+            caption="Gain, phase and coherence with 95 % intervals where a force was measured, and decays of events.",
+            description="Plots over frequency, and a plot over time for each of the first events.",
+        )
 
 
 def _counted(count: int, noun: str) -> str:

@@ -82,12 +82,11 @@ def _bode(panels: list[Axes], curve: ResponseCurve, response: Response) -> None:
     panels[2].semilogx(frequency, curve.coherence[driven], **lines)
     panels[2].axhline(curve.chance, color=REFERENCE_COLOUR, linestyle=":", linewidth=1.0)
     panels[2].set_ylim(0.0, 1.05)
-    if response.fitted is not None:
-        fine = np.geomspace(frequency[0], frequency[-1], 400)
-        fitted = response.fitted.response(fine)
+    if curve.fitted_real is not None and curve.fitted_imaginary is not None:
+        fitted = (curve.fitted_real + 1j * curve.fitted_imaginary)[driven]
         style = {"color": _FITTED.colour, "linestyle": _FITTED.dashes, "linewidth": 1.4}
-        panels[0].loglog(fine, np.maximum(np.abs(fitted), floor), **style)
-        panels[1].semilogx(fine, (np.degrees(np.angle(fitted)) - 90.0) % 360.0 - 270.0, **style)
+        panels[0].loglog(frequency, np.maximum(np.abs(fitted), floor), **style)
+        panels[1].semilogx(frequency, (np.degrees(np.angle(fitted)) - 90.0) % 360.0 - 270.0, **style)
     for panel, label in zip(panels, ("gain", "phase, deg", "coherence"), strict=True):
         panel.set_ylabel(label, fontsize=TITLE_POINTS)
         panel.set_xlabel("frequency, Hz", fontsize=TITLE_POINTS)
