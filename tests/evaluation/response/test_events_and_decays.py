@@ -120,6 +120,29 @@ def test_uneven_samples_are_refused_where_they_are() -> None:
     assert even_record(time, np.zeros((200, 1)), name="log").rate_hz == pytest.approx(100.0)
 
 
+def test_a_rate_that_changes_is_refused() -> None:
+    """By 9 % half way, though no step is odd; half a percent, which crystals have, is none."""
+    for change, steady in ((0.09, False), (0.005, True)):
+        time = np.concatenate([[0.0], np.cumsum(np.repeat([1e-3, 1e-3 * (1.0 + change)], 2500))])
+        if steady:
+            assert even_record(time, np.zeros((5001, 1)), name="log").rate_hz == pytest.approx(1000.0, rel=3e-3)
+        else:
+            with pytest.raises(RecordingError, match=r"from 2\.5000 s to 3\.0450 s steps are \+4\.3 % off the mean"):
+                even_record(time, np.zeros((5001, 1)), name="log")
+    with pytest.raises(RecordingError, match="expected instants that increase, got a usual step of 0 ms"):
+        even_record(np.zeros(200), np.zeros((200, 1)), name="log")
+
+
+def test_a_weight_that_hangs_still_is_not_clipped() -> None:
+    """Readings without noise stay at the largest value until it is let go; a top that is jumped to is one."""
+    time = np.arange(300) * 1e-3
+    ringing = 20.0 * np.exp(-8.0 * time) * np.cos(200.0 * time)
+    hung = np.round(np.concatenate([np.linspace(0.0, 20.0, 400), np.full(300, 20.0), ringing[1:]]), 1)
+    assert not flat_tops(hung).any()
+    struck = np.concatenate([np.round(np.linspace(0.0, 1.0, 400), 1), np.full(5, 20.0), ringing[1:]])
+    assert np.flatnonzero(flat_tops(struck)).tolist() == list(range(400, 405))
+
+
 def test_a_clipped_impact_is_refused_where_it_is(taps: EvenRecord) -> None:
     """A top that is cut off, or a reading at its limit; a whole one, and one that is rounded, are none."""
     refuse_clipped(taps, ("fz",), where="log")

@@ -16,6 +16,10 @@ UNEVEN = 0.5
 JITTER = 0.1
 """Share of the median step by which steps may scatter, root mean square: at a tenth of the rate that is a phase of
 0.06 rad."""
+DRIFT = 0.01
+"""Share of the mean rate by which the rate of a tenth of the record may differ: frequencies are off by as much."""
+_PIECES, _LEAST_PIECE = 10, 50
+"""Pieces that have a rate of their own, and samples of a piece at least: jitter of `JITTER` moves its rate by 0.3 %."""
 FLAT = 3
 """Equal samples in a row at an end of the range that are a limit, where the signal jumps there."""
 _JUMP = 5.0
@@ -66,6 +70,8 @@ def even_record(time_s: Any, signals: Any, *, name: str) -> EvenRecord:
         raise RecordingError(f"{name}: expected at least {2 * FLAT} samples, got {len(time)}")
     steps = np.diff(time)
     usual = float(np.median(steps))
+    if not usual > 0.0:
+        raise RecordingError(f"{name}: expected instants that increase, got a usual step of {1e3 * usual:.4g} ms")
     odd = np.flatnonzero(~(np.abs(steps - usual) <= UNEVEN * usual))
     if len(odd):
         raise RecordingError(
@@ -80,6 +86,7 @@ def even_record(time_s: Any, signals: Any, *, name: str) -> EvenRecord:
             f"{name}: uneven sampling: steps scatter by {100 * scatter:.0f} % of the usual {1e3 * usual:.4g} ms, "
             f"most at {time[worst]:.4f} s; expected at most {100 * JITTER:.0f} %: log the sensor's own clock"
         )
+    _refuse_drift(time, name)
     missing = np.flatnonzero(~np.isfinite(values).all(axis=1))
     if len(missing):
         raise RecordingError(
@@ -87,6 +94,19 @@ def even_record(time_s: Any, signals: Any, *, name: str) -> EvenRecord:
             f"{missing[0] + 1}); leave them out of the interval"
         )
     return EvenRecord(start_s=float(time[0]), rate_hz=(len(time) - 1) / float(time[-1] - time[0]), signals=values)
+
+
+def _refuse_drift(time: FloatArray, name: str) -> None:
+    mean = float(time[-1] - time[0]) / (len(time) - 1)
+    edges = np.linspace(0, len(time) - 1, 1 + max(min(_PIECES, len(time) // _LEAST_PIECE), 1)).astype(np.int64)
+    drift = np.diff(time[edges]) / np.diff(edges) / mean - 1.0
+    worst = int(np.abs(drift).argmax())
+    if abs(drift[worst]) > DRIFT:
+        raise RecordingError(
+            f"{name}: uneven sampling: from {time[edges[worst]]:.4f} s to {time[edges[worst + 1]]:.4f} s steps are "
+            f"{100 * drift[worst]:+.1f} % off the mean {1e3 * mean:.4g} ms, expected at most {100 * DRIFT:.0f} %: log "
+            "the sensor's own clock, or choose a stretch of one rate"
+        )
 
 
 def refuse_clipped(record: EvenRecord, names: tuple[str, ...], *, where: str, limits: FloatArray | None = None) -> None:
@@ -132,7 +152,7 @@ def flat_tops(values: FloatArray) -> BoolArray:
     for end in (values.max(), values.min()):
         edges = np.flatnonzero(np.diff(np.concatenate([[0], (values == end).astype(np.int64), [0]])))
         for first, after in edges.reshape(-1, 2):
-            ends = steps[max(first - 1, 0) : first].tolist() + steps[after - 1 : after].tolist()
-            if after - first >= FLAT and max(ends, default=0.0) > jump:
+            # a weight that hangs still is an end of the range too, but it was hung on slowly, and jumps only away
+            if after - first >= FLAT and first > 0 and steps[first - 1] > jump:
                 flat[first:after] = True
     return flat

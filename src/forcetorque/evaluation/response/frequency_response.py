@@ -119,7 +119,7 @@ def frequency_response(
         Response, coherence and intervals [1].
 
     Raises:
-        FitError: If there are fewer than `LEAST_AVERAGES` segments, or nothing drives the sensor.
+        FitError: If there are fewer than `LEAST_AVERAGES - 1` segments, or nothing drives the sensor.
         ShapeError: If force and reading do not have one shape.
 
     References:
@@ -132,7 +132,7 @@ def frequency_response(
         raise ShapeError(f"expected force and reading of one shape, got {force.shape} and {reading.shape}")
     count, segment = force.shape
     if count < LEAST_AVERAGES - 1:  # one may be left out, to see what it tells
-        raise FitError(f"expected at least {LEAST_AVERAGES} segments for a coherence, got {count}")
+        raise FitError(f"expected at least {LEAST_AVERAGES - 1} segments for a coherence, got {count}")
     if not np.ptp(force) > 0.0:
         raise FitError("expected a force that changes, got one that stays: nothing drives the sensor")
     averages = float(count) if events else count / (1.0 + 2.0 * (count - 1) / count * _HANN_OVERLAP)
