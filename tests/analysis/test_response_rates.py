@@ -11,7 +11,7 @@ from forcetorque.analysis.response_force import driven_response
 from forcetorque.analysis.response_records import ExcitedRecord
 from forcetorque.arrays import FloatArray
 from forcetorque.errors import FitError
-from forcetorque.evaluation.response import EvenRecord, Excitation, SecondOrder, inverse_filter
+from forcetorque.evaluation.response import EvenRecord, ExcitationKind, SecondOrder, inverse_filter
 from forcetorque.evaluation.response.second_order import NORMAL_95
 from tests.excited_sensors import GRAVITY, MASS_KG, Spring, released, swung, tapped
 
@@ -34,7 +34,7 @@ def tap(seed: int) -> tuple[Spring, ExcitedRecord, Decays]:
     spring = Spring.drawn(rng)
     _, force, reading = spring.read(rng, tapped(rng, spring))
     record = excited(spring, force, reading, rng)
-    return spring, record, told_decays([record], Excitation.IMPACT, FZ, weight_N=None)
+    return spring, record, told_decays([record], ExcitationKind.IMPACT, FZ, weight_N=None)
 
 
 def _share(held: list[FloatArray]) -> FloatArray:
@@ -57,7 +57,7 @@ def test_taps_hold_the_truth() -> None:
         single += [
             np.abs([one.frequency_hz, one.damping] - spring.truth[:2]) < NORMAL_95 * one.error for one in decays.told
         ]
-        _, fit = driven_response([record], decays, Excitation.IMPACT, FZ, None)
+        _, fit = driven_response([record], decays, ExcitationKind.IMPACT, FZ, None)
         driven.append(_holds(fit, spring.truth))
         ratios.append(held_out_ratio(spring, fit, seed))
     for share in (_share(free), _share(driven)):
@@ -76,7 +76,7 @@ def test_released_weights_hold_the_truth() -> None:
         spring = Spring.drawn(rng)
         _, force, reading = spring.read(rng, released(rng, spring))
         record = excited(spring, force, reading, rng)
-        fit = told_decays([record], Excitation.RELEASE, None, weight_N=MASS_KG * GRAVITY).second_order
+        fit = told_decays([record], ExcitationKind.RELEASE, None, weight_N=MASS_KG * GRAVITY).second_order
         assert fit is not None
         held.append(_holds(fit, spring.truth))
     assert ((_share(held) >= LEAST) & (_share(held) <= MOST)).all(), _share(held)
@@ -91,7 +91,7 @@ def test_swings_hold_the_truth() -> None:
         spring = Spring.drawn(rng, slow=True)
         _, force, reading = spring.read(rng, swung(rng, spring))
         record = excited(spring, force, reading, rng)
-        _, fit = driven_response([record], None, Excitation.PENDULUM, FZ, None)
+        _, fit = driven_response([record], None, ExcitationKind.PENDULUM, FZ, None)
         held.append(_holds(fit, spring.truth))
     assert ((_share(held) >= LEAST) & (_share(held) <= MOST)).all(), _share(held)
 
@@ -134,7 +134,7 @@ def test_a_transfer_function_is_refused_at_known_rates() -> None:
         ):
             case = excited(spring, force, reading, rng)
             try:
-                driven_response([case], decays, Excitation.IMPACT, FZ, None)
+                driven_response([case], decays, ExcitationKind.IMPACT, FZ, None)
             except FitError:
                 refused[name] += 1
     assert refused["measured"] <= 0.01 * DRAWS

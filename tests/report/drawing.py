@@ -41,7 +41,7 @@ from forcetorque.analysis.device_span_rows import DirectionRow
 from forcetorque.analysis.skin_event_rows import SkinEventPicture
 from forcetorque.analysis.skin_picture import TaxelPicture
 from forcetorque.calibration.joint import PartResidual
-from forcetorque.evaluation.response import Excitation, SecondOrder
+from forcetorque.evaluation.response import ExcitationKind, SecondOrder
 from forcetorque.evaluation.sphere import analyse_sphere
 from forcetorque.exsitu.device import VIEWS, Silhouette
 from forcetorque.report.figures import (
@@ -495,7 +495,7 @@ def _response(rng: np.random.Generator) -> Figure:
             sensor="_left $wrist$ " + "x" * 70,
             serial="FT1",
             reading="the logged wrench",
-            excitation=Excitation.IMPACT,
+            excitation=ExcitationKind.IMPACT,
             signal="fz",
             force="hammer",
             rate_hz=500.0,

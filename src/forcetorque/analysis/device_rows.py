@@ -7,7 +7,7 @@ from typing import Annotated
 
 import numpy as np
 
-from forcetorque.exsitu.device import Device, DeviceAnswer, DeviceTrajectory, Load
+from forcetorque.exsitu.device import Device, DeviceAnswer, DeviceTrajectory, HungLoad
 from forcetorque.result import Row, Shown
 
 
@@ -66,7 +66,7 @@ class DeviceRecordingRow(Row):
     """How many of them are saturated."""
 
 
-def load_row(device: Device, load: Load, answer: DeviceAnswer) -> DeviceLoadRow:
+def load_row(device: Device, load: HungLoad, answer: DeviceAnswer) -> DeviceLoadRow:
     """Sum up what a load does.
 
     Args:

@@ -21,7 +21,7 @@ from forcetorque.calibration import Calibration
 from forcetorque.constants import STANDARD_GRAVITY
 from forcetorque.errors import ExperimentError, FitError, known_names
 from forcetorque.evaluation.response import (
-    Excitation,
+    ExcitationKind,
     FrequencyResponse,
     InverseFilter,
     SecondOrder,
@@ -49,7 +49,7 @@ class Response(Result):
     """Its serial number."""
     reading: str
     """What makes a wrench of its reading."""
-    excitation: Excitation
+    excitation: ExcitationKind
     """What was done to it."""
     signal: str
     """Component whose response it is, or the force along the step."""
@@ -127,7 +127,7 @@ class Response(Result):
 
 def response(
     runs: SensorRun | Sequence[SensorRun],
-    excitation: Excitation | str,
+    excitation: ExcitationKind | str,
     *,
     component: str | None = None,
     force: str | None = None,
@@ -164,8 +164,8 @@ def response(
     _refuse_lacking(kind, place, component, force, mass_kg)
     correction = run.read_by(name, calibration)
     records = excited_records(several, correction, intervals=intervals, force=force)
-    weight = None if mass_kg is None or kind is not Excitation.RELEASE else mass_kg * STANDARD_GRAVITY
-    decays = None if kind is Excitation.PENDULUM else told_decays(records, kind, place, weight_N=weight)
+    weight = None if mass_kg is None or kind is not ExcitationKind.RELEASE else mass_kg * STANDARD_GRAVITY
+    decays = None if kind is ExcitationKind.PENDULUM else told_decays(records, kind, place, weight_N=weight)
     refused: list[str] = []
     told, fit = None, None if decays is None else decays.second_order
     if force is not None:
@@ -202,32 +202,32 @@ def response(
     return answer.model_copy(update={"warnings": tuple(_doubts(answer, fit, told, decays))})
 
 
-def _excitation(name: Excitation | str) -> Excitation:
-    if name not in tuple(Excitation):
-        raise ExperimentError(f"no excitation {name!r}; {known_names(str(name), Excitation)}")
-    return Excitation(name)
+def _excitation(name: ExcitationKind | str) -> ExcitationKind:
+    if name not in tuple(ExcitationKind):
+        raise ExperimentError(f"no excitation {name!r}; {known_names(str(name), ExcitationKind)}")
+    return ExcitationKind(name)
 
 
 def _refuse_lacking(
-    kind: Excitation, component: int | None, component_name: str | None, force: str | None, mass_kg: float | None
+    kind: ExcitationKind, component: int | None, component_name: str | None, force: str | None, mass_kg: float | None
 ) -> None:
     if mass_kg is not None and not mass_kg > 0.0:
         raise ExperimentError(f"mass: expected more than 0 kg, got {mass_kg:g}")
-    if kind is Excitation.PENDULUM and (force is None or component is None):
+    if kind is ExcitationKind.PENDULUM and (force is None or component is None):
         raise ExperimentError(
             "pendulum: expected the stream of the measured force or acceleration, --force, and the component that it "
             f"excites, --component, got {force!r} and {component_name!r}: a swing is no event that could tell them"
         )
-    if kind is Excitation.RELEASE and mass_kg is not None and component is not None and component > 2:
+    if kind is ExcitationKind.RELEASE and mass_kg is not None and component is not None and component > 2:
         raise ExperimentError(
             f"release: a weight of known mass is a force; expected fx, fy or fz, got {component_name!r}"
         )
-    if kind is Excitation.IMPACT and mass_kg is not None and force is None:
+    if kind is ExcitationKind.IMPACT and mass_kg is not None and force is None:
         raise ExperimentError("impact: a mass says nothing of a tap without its acceleration; name its stream, --force")
 
 
-def _signal(kind: Excitation, decays: Decays | None) -> str:
-    if decays is None or kind is Excitation.RELEASE:
+def _signal(kind: ExcitationKind, decays: Decays | None) -> str:
+    if decays is None or kind is ExcitationKind.RELEASE:
         return "force along the step"
     return WRENCH_COMPONENTS[int(decays.direction.argmax())]
 

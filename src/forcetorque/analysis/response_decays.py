@@ -15,7 +15,7 @@ from forcetorque.errors import FitError
 from forcetorque.evaluation.response import (
     EvenRecord,
     Event,
-    Excitation,
+    ExcitationKind,
     Pooled,
     RingDown,
     SecondOrder,
@@ -111,7 +111,7 @@ class Decays:
 
 
 def told_decays(
-    records: Sequence[ExcitedRecord], kind: Excitation, component: int | None, *, weight_N: float | None
+    records: Sequence[ExcitedRecord], kind: ExcitationKind, component: int | None, *, weight_N: float | None
 ) -> Decays:
     """Find events and fit the decay behind each.
 
@@ -128,7 +128,7 @@ def told_decays(
     events = [find_events(record.wrench, name=record.name) for record in records]
     if component is not None:
         return _decays(records, events, np.eye(6)[component], weight_N)
-    if kind is Excitation.RELEASE:
+    if kind is ExcitationKind.RELEASE:
         count = [len(own) for own in events]
         steps = [step_direction(record.wrench, own) for record, own in zip(records, events, strict=True)]
         mean = np.average(steps, axis=0, weights=count)

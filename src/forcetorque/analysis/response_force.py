@@ -12,7 +12,7 @@ from forcetorque.analysis.response_records import ExcitedRecord
 from forcetorque.arrays import FloatArray
 from forcetorque.errors import ExperimentError, FitError
 from forcetorque.evaluation.response import (
-    Excitation,
+    ExcitationKind,
     FrequencyResponse,
     SecondOrder,
     frequency_response,
@@ -31,7 +31,7 @@ SWING_SEGMENTS = 9
 def driven_response(
     records: Sequence[ExcitedRecord],
     decays: Decays | None,
-    kind: Excitation,
+    kind: ExcitationKind,
     component: int | None,
     mass_kg: float | None,
 ) -> tuple[FrequencyResponse, SecondOrder]:
@@ -63,7 +63,7 @@ def driven_response(
         force, reading = (overlapping(series, segment) for series in pairs[0])
     else:
         force, reading = _segments(pairs, decays, rate, name)
-        if kind is Excitation.RELEASE:  # a step does not come back: its slope does, of both
+        if kind is ExcitationKind.RELEASE:  # a step does not come back: its slope does, of both
             force, reading = np.diff(force, axis=1), np.diff(reading, axis=1)
     events = decays is not None
     told = frequency_response(force, reading, rate, events=events, highest_hz=highest)

@@ -13,7 +13,7 @@ from forcetorque.exsitu.device import (
     BASE,
     Device,
     DeviceTrajectory,
-    Load,
+    HungLoad,
     answer_of,
     device_load,
     device_model,
@@ -35,7 +35,7 @@ DEVICE = read_device().with_sensors(3)
 DEVICES = {"pitch first": DEVICE, "yaw first": DEVICE.changed(yaw_first=True)}
 
 
-def _motions(device: Device, load: Load) -> dict[str, JointMotion]:
+def _motions(device: Device, load: HungLoad) -> dict[str, JointMotion]:
     """Poses at rest, instants of the 12 steps, and motions as fast as they come."""
     trajectory = DeviceTrajectory(device=device, load=load, sequence=twelve_steps(device))
     return {
@@ -88,8 +88,8 @@ def test_wrenches_and_torques_are_those_of_others(oracle, order: str, tmp_path: 
 
 def test_a_gram_is_noticed(tmp_path: Path) -> None:
     """Negative control: the oracle sees a load that is another by a gram."""
-    load = Load.point(35.0, 0.115)
-    (tmp_path / "device.urdf").write_text(urdf_text(device_model(DEVICE, Load.point(35.001, 0.115))))
+    load = HungLoad.point(35.0, 0.115)
+    (tmp_path / "device.urdf").write_text(urdf_text(device_model(DEVICE, HungLoad.point(35.001, 0.115))))
     motion = _motions(DEVICE, load)["static"]
     wrenches, _ = _idyntree(tmp_path / "device.urdf", DEVICE, motion)
     assert np.abs(wrenches - answer_of(DEVICE, load, motion).wrenches.values).max() > VISIBLE

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from forcetorque.errors import SensorError
-from forcetorque.exsitu.device import Load, device_load, read_device, twelve_steps
+from forcetorque.exsitu.device import HungLoad, device_load, read_device, twelve_steps
 from forcetorque.exsitu.device.error_budget import ErrorBudget, drawn_errors
 from forcetorque.exsitu.device.grades import DATA_SHEETS, THESIS_GRADES, Grade, Graded, graded
 from forcetorque.exsitu.device.reference import (
@@ -124,7 +124,7 @@ def test_drawing_notices_a_wrong_width() -> None:
 
 def test_table_6_3_of_a_bare_load_of_35_kg_is_that_by_hand() -> None:
     """Amplitudes are full widths: a mass of 35 kg times width over root 12; .340 is printed where it is .303."""
-    bare = Load.point(35.0, 0.11495)
+    bare = HungLoad.point(35.0, 0.11495)
     part = ONE.sensor[0].male
     sensor = ONE.sensor[0].model_copy(update={"male": part.model_copy(update={"mass_kg": 0.0})})
     bracket = ONE.hinge.bracket.model_copy(update={"mass_kg": 0.0})

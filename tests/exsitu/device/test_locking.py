@@ -8,7 +8,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from forcetorque.errors import RobotError, SensorError
-from forcetorque.exsitu.device import DeviceTrajectory, Load, Sequence, device_load, read_device, twelve_steps
+from forcetorque.exsitu.device import DeviceTrajectory, HungLoad, Sequence, device_load, read_device, twelve_steps
 from forcetorque.exsitu.device.locking import hinge_ways, lag_rad, pendulum_Nm
 
 DEVICE = read_device()
@@ -84,7 +84,7 @@ def test_friction_keeps_light_loads_farther_from_the_lock() -> None:
         lag_rad(DEVICE, loads[0], 2.0)
 
 
-def _swung_deg(load: Load, friction_Nm: float) -> tuple[np.ndarray, np.ndarray]:
+def _swung_deg(load: HungLoad, friction_Nm: float) -> tuple[np.ndarray, np.ndarray]:
     """Angle from hanging straight, and the position of the hinge, in step 11: a pendulum on a moving pivot, by hand."""
     trajectory = DeviceTrajectory(device=DEVICE, load=load, sequence=twelve_steps(DEVICE))
     way = trajectory.sequence.unlocked.index(True)

@@ -3,7 +3,7 @@
 
 from forcetorque.evaluation.response.even import EvenRecord, even_record, refuse_clipped
 from forcetorque.evaluation.response.events import Event, find_events
-from forcetorque.evaluation.response.excitation import Excitation
+from forcetorque.evaluation.response.excitation import ExcitationKind
 from forcetorque.evaluation.response.frequency_response import (
     FrequencyResponse,
     frequency_response,
@@ -20,7 +20,7 @@ from forcetorque.evaluation.response.second_order import SecondOrder
 __all__ = [
     "EvenRecord",
     "Event",
-    "Excitation",
+    "ExcitationKind",
     "FrequencyResponse",
     "InverseFilter",
     "Pooled",

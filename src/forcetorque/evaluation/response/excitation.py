@@ -6,7 +6,7 @@ from __future__ import annotations
 from enum import StrEnum
 
 
-class Excitation(StrEnum):
+class ExcitationKind(StrEnum):
     """What was done to the sensor."""
 
     IMPACT = "impact"

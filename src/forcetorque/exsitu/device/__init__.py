@@ -31,7 +31,7 @@ from forcetorque.exsitu.device.held_out import (
     held_out_loads,
     sample_noise,
 )
-from forcetorque.exsitu.device.load import Load, device_load, part_inertia
+from forcetorque.exsitu.device.load import HungLoad, device_load, part_inertia
 from forcetorque.exsitu.device.locking import HingeWay, hinge_ways, lag_rad, pendulum_Nm
 from forcetorque.exsitu.device.model import BASE, device_model, device_root
 from forcetorque.exsitu.device.read import DEFAULT_DEVICE, read_device
@@ -84,7 +84,7 @@ __all__ = [
     "HingeWay",
     "IMU",
     "LOAD_LENGTH",
-    "Load",
+    "HungLoad",
     "LoadErrors",
     "MASS",
     "MOMENT_LIMIT_NM",

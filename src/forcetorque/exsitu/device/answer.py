@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from forcetorque.arrays import FloatArray
 from forcetorque.estimation import Question, estimate
 from forcetorque.exsitu.device.description import Device
-from forcetorque.exsitu.device.load import Load
+from forcetorque.exsitu.device.load import HungLoad
 from forcetorque.exsitu.device.model import BASE, device_model, device_root
 from forcetorque.robot import JointMotion, Wrenches, build_tree
 
@@ -36,7 +36,7 @@ class DeviceAnswer:
         return self.torques[:, self.joints.index(joint)]
 
 
-def answer_of(device: Device, load: Load, motion: JointMotion) -> DeviceAnswer:
+def answer_of(device: Device, load: HungLoad, motion: JointMotion) -> DeviceAnswer:
     """Compute what a motion does to sensors and motors.
 
     Args:

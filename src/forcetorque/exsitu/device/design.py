@@ -18,7 +18,7 @@ from forcetorque.arrays import FloatArray
 from forcetorque.evaluation.planning import Choices, Volume, blank_posterior, picked_orders, search
 from forcetorque.exsitu.device.description import Device
 from forcetorque.exsitu.device.held_out import SAMPLES, held_out_loads, sample_noise
-from forcetorque.exsitu.device.load import Load
+from forcetorque.exsitu.device.load import HungLoad
 from forcetorque.exsitu.device.rest_table import RestTable
 from forcetorque.exsitu.device.sequence import Sequence, joint_ranges
 from forcetorque.exsitu.device.tolerances import Tolerances
@@ -57,7 +57,7 @@ class Designer:
 
     device: Device
     """The device, with locks at -90, 0 and 90 degrees and no turn."""
-    load: Load
+    load: HungLoad
     """What hangs on it."""
     sensor: str
     """Sensor that is to be calibrated."""

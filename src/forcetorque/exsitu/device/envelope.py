@@ -9,7 +9,7 @@ import numpy as np
 
 from forcetorque.arrays import FloatArray, read_only
 from forcetorque.exsitu.device.description import Device
-from forcetorque.exsitu.device.load import Load
+from forcetorque.exsitu.device.load import HungLoad
 from forcetorque.exsitu.device.model import BASE, device_model
 from forcetorque.robot import JointMotion, build_tree, link_pose
 
@@ -52,7 +52,7 @@ class Silhouette:
         return float(0.5 * abs(x @ np.roll(y, -1) - y @ np.roll(x, -1)))
 
 
-def envelope(device: Device, load: Load, poses: JointMotion) -> tuple[Silhouette, ...]:
+def envelope(device: Device, load: HungLoad, poses: JointMotion) -> tuple[Silhouette, ...]:
     """Sweep all bodies through a motion: the arm within `ARM_RADIUS_M` of its axis, and the plates as a cylinder.
 
     Args:
@@ -80,7 +80,7 @@ def envelope(device: Device, load: Load, poses: JointMotion) -> tuple[Silhouette
     return tuple(silhouettes)
 
 
-def _plate_rims(device: Device, load: Load) -> FloatArray:
+def _plate_rims(device: Device, load: HungLoad) -> FloatArray:
     """Both rims of the plates that make up a load, in the frame of the carrier; shape (k, 3); m."""
     weights = device.weights
     top = weights.foot_m + weights.height_m * np.ceil(load.mass_kg / weights.step_kg)

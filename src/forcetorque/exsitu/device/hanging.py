@@ -8,7 +8,7 @@ import numpy as np
 from forcetorque.arrays import FloatArray
 from forcetorque.errors import RobotError
 from forcetorque.exsitu.device.description import Device
-from forcetorque.exsitu.device.load import Load
+from forcetorque.exsitu.device.load import HungLoad
 from forcetorque.exsitu.device.model import BASE, device_model, device_root
 from forcetorque.robot import JointMotion, build_tree, motion_of_link
 from forcetorque.spatial import cross
@@ -19,7 +19,7 @@ _SLACK_RAD = 1e-9
 """How far a position computed to be at a stop may be beyond it; rad."""
 
 
-def hanging(device: Device, load: Load, motion: JointMotion) -> JointMotion:
+def hanging(device: Device, load: HungLoad, motion: JointMotion) -> JointMotion:
     """Let the load hang from an unlocked hinge.
 
     Args:
@@ -60,7 +60,9 @@ def hanging(device: Device, load: Load, motion: JointMotion) -> JointMotion:
     )
 
 
-def _gravity_in_bracket(device: Device, load: Load, motion: JointMotion) -> tuple[FloatArray, FloatArray, FloatArray]:
+def _gravity_in_bracket(
+    device: Device, load: HungLoad, motion: JointMotion
+) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Direction of gravity in the axes of the bracket, and its first two derivatives; shapes (n, 3)."""
     tree, root = build_tree(device_model(device, load), BASE), device_root(device)
     still = motion_of_link(tree, JointMotion.at_rest(motion.names, motion.position), root, "bracket")

@@ -14,7 +14,7 @@ from forcetorque.spatial import Inertia
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class Load:
+class HungLoad:
     """A load on the hinge, carrier included."""
 
     name: str
@@ -23,7 +23,7 @@ class Load:
     """In and about the frame of the carrier: at the hinge, y along its axis, z towards the load."""
 
     @classmethod
-    def point(cls, mass_kg: float, distance_m: float) -> Load:
+    def point(cls, mass_kg: float, distance_m: float) -> HungLoad:
         """Put all mass in one place straight in front of the hinge.
 
         Args:
@@ -56,7 +56,7 @@ class Load:
         return self.inertia.first_moment / self.inertia.mass
 
 
-def device_load(device: Device, load_kg: float) -> Load:
+def device_load(device: Device, load_kg: float) -> HungLoad:
     """Put weights on the carrier.
 
     Args:
@@ -77,8 +77,8 @@ def device_load(device: Device, load_kg: float) -> Load:
         )
     carrier = part_inertia(device.carrier)
     if round(steps) == 0:
-        return Load(name="empty carrier", inertia=carrier)
-    return Load(
+        return HungLoad(name="empty carrier", inertia=carrier)
+    return HungLoad(
         name=f"{load_kg:g} kg", inertia=carrier + _plates(device.weights, load_kg, load_kg - device.carrier.mass_kg)
     )
 

@@ -11,7 +11,7 @@ from forcetorque.arrays import FloatArray, read_only
 from forcetorque.errors import SensorError
 from forcetorque.exsitu.device.answer import answer_of
 from forcetorque.exsitu.device.description import Device
-from forcetorque.exsitu.device.load import Load
+from forcetorque.exsitu.device.load import HungLoad
 from forcetorque.exsitu.device.sequence import Sequence, with_free_hinge
 from forcetorque.robot import JointMotion
 
@@ -49,7 +49,7 @@ class HingeWay:
         return bool((self.moment * np.sign(self.end_rad - self.lock_rad) >= -slack).all())
 
 
-def hinge_ways(device: Device, load: Load, sequence: Sequence) -> tuple[HingeWay, ...]:
+def hinge_ways(device: Device, load: HungLoad, sequence: Sequence) -> tuple[HingeWay, ...]:
     """Find the moments of gravity about the hinge.
 
     Args:
@@ -92,7 +92,7 @@ def _kept_at_start(start: FloatArray, end: FloatArray) -> FloatArray:
     return np.asarray(postures, dtype=np.float64)
 
 
-def lag_rad(device: Device, load: Load, friction_Nm: float) -> float:
+def lag_rad(device: Device, load: HungLoad, friction_Nm: float) -> float:
     """Tell by how much a load comes to rest short of hanging straight down, the axis of the hinge level.
 
     The last of the way is the weakest: gravity brings the load to a lock below it with a moment that goes to zero. So
@@ -118,7 +118,7 @@ def lag_rad(device: Device, load: Load, friction_Nm: float) -> float:
     return float(np.arcsin(friction_Nm / straight))
 
 
-def pendulum_Nm(device: Device, load: Load) -> float:
+def pendulum_Nm(device: Device, load: HungLoad) -> float:
     """Give the largest moment of gravity about a level hinge.
 
     Args:

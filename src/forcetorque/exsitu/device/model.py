@@ -7,7 +7,7 @@ import numpy as np
 
 from forcetorque.arrays import FloatArray
 from forcetorque.exsitu.device.description import Axis, Device
-from forcetorque.exsitu.device.load import Load, part_inertia
+from forcetorque.exsitu.device.load import HungLoad, part_inertia
 from forcetorque.robot import ForceTorqueSensor, Joint, JointLimit, JointType, RobotModel, RootMotion, SensorFrame
 from forcetorque.spatial import Inertia, MeasureDirection, make_pose, rotation_from_rpy
 
@@ -20,7 +20,7 @@ _ALONG = np.array([0.0, 0.0, 1.0])
 _BENDING = np.array([0.0, 1.0, 0.0])
 
 
-def device_model(device: Device, load: Load) -> RobotModel:
+def device_model(device: Device, load: HungLoad) -> RobotModel:
     """Describe a device with a load as a robot.
 
     Its joints are `joint_names` of the device; every sensor `s` sits at the fixed joint `s_joint`, reads in the frame

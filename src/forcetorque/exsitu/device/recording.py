@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from forcetorque.exsitu.device.file import DeviceFile
-from forcetorque.exsitu.device.load import Load, device_load
+from forcetorque.exsitu.device.load import HungLoad, device_load
 from forcetorque.exsitu.device.model import BASE, device_model
 from forcetorque.exsitu.device.trajectory import DeviceTrajectory
 from forcetorque.recording import Recording, Use
@@ -40,7 +40,7 @@ class Stretch:
 class DeviceRecording:
     """A recording of one load."""
 
-    load: Load
+    load: HungLoad
     """What hangs on the device."""
     model: RobotModel
     """The device with it."""

@@ -14,7 +14,7 @@ from forcetorque.arrays import FloatArray
 from forcetorque.errors import SensorError, known_names
 from forcetorque.exsitu.device.answer import answer_of
 from forcetorque.exsitu.device.description import Device
-from forcetorque.exsitu.device.load import Load
+from forcetorque.exsitu.device.load import HungLoad
 from forcetorque.exsitu.device.model import BASE, device_model, device_root
 from forcetorque.robot import BodyTree, JointMotion, build_tree, expected_wrenches, link_pose
 from forcetorque.spatial import split_pose
@@ -43,7 +43,7 @@ class Reference:
 
     device: Device
     """The device."""
-    load: Load
+    load: HungLoad
     """What hangs on its hinge."""
     poses: JointMotion
     """Poses of all its joints, at rest; n of them."""

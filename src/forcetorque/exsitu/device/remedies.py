@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from forcetorque.exsitu.device.description import Device, Turn
-from forcetorque.exsitu.device.load import Load, device_load
+from forcetorque.exsitu.device.load import HungLoad, device_load
 from forcetorque.exsitu.device.sequence import Sequence
 from forcetorque.exsitu.device.tolerances import Poses, Tolerances
 from forcetorque.exsitu.device.trajectory import DeviceTrajectory
@@ -32,7 +32,7 @@ class Run:
 
     device: Device
     """The device."""
-    load: Load
+    load: HungLoad
     """What hangs on its hinge."""
     sequence: Sequence
     """The motion."""
@@ -127,11 +127,11 @@ def remedies(device: Device, load_kg: float) -> dict[str, Remedy]:
     """
     load = device_load(device, load_kg)
     alone = Run(device=device, load=load, sequence=twelve_steps(device))
-    nearer = Load.point(SECOND_KG, float(load.centre_of_mass_m[2]) - NEARER_M)
+    nearer = HungLoad.point(SECOND_KG, float(load.centre_of_mass_m[2]) - NEARER_M)
     locked, turned = device.with_locks(-90.0, 0.0, 90.0), device.changed(turn=Turn())
     swinging = device.changed(hinge=device.hinge.model_copy(update={"encoder": True}))
 
-    def as_built(name: str, words: str, other: Load) -> Remedy:
+    def as_built(name: str, words: str, other: HungLoad) -> Remedy:
         return Remedy(name=name, words=words, runs=(alone, Run(device=device, load=other, sequence=alone.sequence)))
 
     def changed(name: str, words: str, other: Device, sequence: Sequence) -> Remedy:

@@ -14,7 +14,7 @@ import numpy as np
 
 from forcetorque.arrays import FloatArray
 from forcetorque.exsitu.device.description import Device
-from forcetorque.exsitu.device.load import Load
+from forcetorque.exsitu.device.load import HungLoad
 from forcetorque.exsitu.device.tolerances import Poses, Tolerances
 from forcetorque.exsitu.uncertain_loads import UncertainLoads
 
@@ -31,7 +31,7 @@ class RestTable:
     """The same of every error that stays."""
 
     @classmethod
-    def of(cls, device: Device, load: Load, sensor: str, tolerances: Tolerances) -> RestTable:
+    def of(cls, device: Device, load: HungLoad, sensor: str, tolerances: Tolerances) -> RestTable:
         """Tabulate a device without a turn.
 
         Args:

@@ -12,7 +12,7 @@ from forcetorque.arrays import FloatArray, read_only
 from forcetorque.errors import RobotError, ShapeError
 from forcetorque.exsitu.device.description import Device
 from forcetorque.exsitu.device.hanging import hanging
-from forcetorque.exsitu.device.load import Load
+from forcetorque.exsitu.device.load import HungLoad
 from forcetorque.robot import JointMotion
 
 _AT_LOCK_RAD = 1e-6
@@ -68,7 +68,7 @@ class Sequence:
             unlocked=(False,) * (len(postures) - 1) if unlocked is None else unlocked,
         )
 
-    def still_poses(self, device: Device, load: Load, *, spacing_deg: float = 30.0) -> JointMotion:
+    def still_poses(self, device: Device, load: HungLoad, *, spacing_deg: float = 30.0) -> JointMotion:
         """Rest at every posture and on the ways between them.
 
         Args:
@@ -92,7 +92,7 @@ class Sequence:
             poses.append(with_free_hinge(device, load, way).position if free and count else way.position)
         return JointMotion.at_rest(self.joints, np.concatenate(poses))
 
-    def require_possible(self, device: Device, load: Load) -> None:
+    def require_possible(self, device: Device, load: HungLoad) -> None:
         """Refuse what the device cannot do.
 
         Args:
@@ -119,7 +119,7 @@ class Sequence:
         for way, free in enumerate(self.unlocked):
             self._require_hinge(device, load, way, free=free)
 
-    def _require_hinge(self, device: Device, load: Load, way: int, *, free: bool) -> None:
+    def _require_hinge(self, device: Device, load: HungLoad, way: int, *, free: bool) -> None:
         start, end = self.postures[way : way + 2]
         step = f"sequence {self.name!r}, step {self.steps[way + 1]}"
         if np.abs(np.deg2rad(device.hinge.locks_deg) - end[-1]).min() > _AT_LOCK_RAD:
@@ -164,7 +164,7 @@ def joint_ranges(device: Device) -> dict[str, tuple[float, float]]:
     return {joint: (float(low), float(high)) for joint, (low, high) in ranges.items()}
 
 
-def with_free_hinge(device: Device, load: Load, motion: JointMotion) -> JointMotion:
+def with_free_hinge(device: Device, load: HungLoad, motion: JointMotion) -> JointMotion:
     """Let the hinge hang freely in a motion.
 
     Args:

@@ -12,7 +12,7 @@ import numpy as np
 from forcetorque.arrays import BoolArray, FloatArray
 from forcetorque.exsitu.device.answer import answer_of
 from forcetorque.exsitu.device.description import Device
-from forcetorque.exsitu.device.load import Load
+from forcetorque.exsitu.device.load import HungLoad
 from forcetorque.exsitu.uncertain_loads import UncertainLoads
 from forcetorque.robot import JointMotion
 from forcetorque.spatial import Inertia
@@ -75,7 +75,7 @@ class Poses:
 
     device: Device
     """The device."""
-    load: Load
+    load: HungLoad
     """The load."""
     position: FloatArray
     """Joints of the device; shape (n, j); rad."""
@@ -83,7 +83,7 @@ class Poses:
     """Samples at every pose; shape (n,)."""
 
     @classmethod
-    def of_samples(cls, device: Device, load: Load, position: FloatArray) -> Poses:
+    def of_samples(cls, device: Device, load: HungLoad, position: FloatArray) -> Poses:
         """Take samples that follow each other; those of one hold are one pose.
 
         Without an encoder at the hinge, samples with an unlocked hinge are left out: nobody knows where the load is.
@@ -189,12 +189,12 @@ class Poses:
         return np.where(np.abs(hinge - nearest) < _AT_LOCK_DEG, nearest, _FREE)
 
 
-def _moved(load: Load, distance_m: float, mass_share: float) -> Load:
+def _moved(load: HungLoad, distance_m: float, mass_share: float) -> HungLoad:
     """The load with another mass and place; its inertia about its centre does not matter at rest."""
     mass = load.mass_kg * (1.0 + mass_share)
     centre = load.centre_of_mass_m + np.array([0.0, 0.0, distance_m])
     inertia = Inertia.about_centre_of_mass(mass=mass, centre_of_mass=centre, second_moment=np.zeros((3, 3)))
-    return Load(name=load.name, inertia=inertia)
+    return HungLoad(name=load.name, inertia=inertia)
 
 
 def _raised(device: Device, height_m: float) -> Device:

@@ -9,7 +9,7 @@ import numpy as np
 
 from forcetorque.arrays import FloatArray, IntArray
 from forcetorque.exsitu.device.description import Device
-from forcetorque.exsitu.device.load import Load
+from forcetorque.exsitu.device.load import HungLoad
 from forcetorque.exsitu.device.sequence import Sequence, with_free_hinge
 from forcetorque.robot import JointMotion
 from forcetorque.simulation.motions import Waypoints
@@ -21,7 +21,7 @@ class DeviceTrajectory:
 
     device: Device
     """The device."""
-    load: Load
+    load: HungLoad
     """What hangs on it, which says where an unlocked hinge hangs."""
     sequence: Sequence
     """Postures in turn."""
