@@ -21,6 +21,8 @@ from forcetorque.spatial import split_pose
 
 ENCODERS = ("pitch", "yaw")
 """Joints whose encoders tell where gravity is; error in rad."""
+HINGE = "hinge"
+"""Joint whose position a lock tells, or an encoder; error in rad."""
 IMU = ("imu_x", "imu_y", "imu_z")
 """Components of gravity that an inertial sensor beside the sensor tells instead; error in m/s2."""
 MASS = "mass"
@@ -31,7 +33,7 @@ LOAD_LENGTH = "load_length"
 """Length from hinge to load; error in m."""
 COMPLIANCE = "compliance"
 """Angle by which motors and arm give way; rad for each N m."""
-QUANTITIES = (*ENCODERS, *IMU, MASS, BRACKET_LENGTH, LOAD_LENGTH, COMPLIANCE)
+QUANTITIES = (*ENCODERS, HINGE, *IMU, MASS, BRACKET_LENGTH, LOAD_LENGTH, COMPLIANCE)
 """All that a reference is computed from."""
 
 _LINEAR = frozenset((MASS, BRACKET_LENGTH, LOAD_LENGTH))
@@ -101,10 +103,10 @@ class Reference:
 
     def _by_encoders(self, off: Mapping[str, FloatArray]) -> FloatArray:
         position = np.array(self.poses.position)
-        for joint in ENCODERS:
+        for joint in (*ENCODERS, HINGE):
             column = self.poses.names.index(joint)
             position[:, column] += off.get(joint, 0.0)
-            if COMPLIANCE in off:  # the motor is ahead of the arm that it holds
+            if COMPLIANCE in off and joint != HINGE:  # the motor is ahead of the arm that it holds
                 position[:, column] += off[COMPLIANCE] * self._torques[joint]
         return self._read(self._tree, JointMotion.at_rest(self.poses.names, position))
 

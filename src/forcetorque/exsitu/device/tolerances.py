@@ -10,12 +10,11 @@ from typing import Final
 import numpy as np
 
 from forcetorque.arrays import BoolArray, FloatArray
-from forcetorque.exsitu.device.answer import answer_of
 from forcetorque.exsitu.device.description import Device
 from forcetorque.exsitu.device.load import HungLoad
+from forcetorque.exsitu.device.reference import BRACKET_LENGTH, HINGE, LOAD_LENGTH, MASS, Reference
 from forcetorque.exsitu.uncertain_loads import UncertainLoads
 from forcetorque.robot import JointMotion
-from forcetorque.spatial import Inertia
 
 _STEP: Final = 1e-4
 """Step of the differences, in rad, m and shares: their own error is 1e-8 of a load."""
@@ -121,7 +120,7 @@ class Poses:
     def errors(self) -> tuple[str, ...]:
         """Names of what may be wrong: joints, locks in use, lengths and mass; those of the load bear its name."""
         locks = sorted(set(self._lock.tolist()) - {_FREE})
-        hinge = ("hinge",) if (self._lock == _FREE).any() else ()
+        hinge = (HINGE,) if (self._lock == _FREE).any() else ()
         own = (f"distance of {self.load.name}", f"mass of {self.load.name}")
         return ("pitch", "yaw", *hinge, *(f"lock {lock:g}" for lock in locks), "height", *own)
 
@@ -138,22 +137,7 @@ class Poses:
         Returns:
             Wrenches; shape (n, 6); N, N m.
         """
-        wrong = errors or {}
-        turned = np.zeros((len(self.position), 3)) if fresh_rad is None else np.array(fresh_rad)
-        turned[:, 2] = np.where(self._lock == _FREE, turned[:, 2] + wrong.get("hinge", 0.0), 0.0)
-        for lock in set(self._lock.tolist()) - {_FREE}:
-            turned[self._lock == lock, 2] = wrong.get(f"lock {lock:g}", 0.0)
-        position = self.position.copy()
-        names = self.device.joint_names
-        for column, joint in enumerate(("pitch", "yaw", "hinge")):
-            position[:, names.index(joint)] += turned[:, column] + (0.0 if column == 2 else wrong.get(joint, 0.0))
-        load = _moved(
-            self.load,
-            wrong.get(f"distance of {self.load.name}", 0.0),
-            wrong.get(f"mass of {self.load.name}", 0.0),
-        )
-        device = _raised(self.device, wrong.get("height", 0.0))
-        return answer_of(device, load, JointMotion.at_rest(names, position)).wrenches.of_name(sensor)
+        return self._reference(sensor).wrench(self._by_quantity(errors or {}, fresh_rad))
 
     def uncertain(self, sensor: str, tolerances: Tolerances) -> UncertainLoads:
         """Say what may be wrong with what a sensor is said to feel, to first order.
@@ -165,10 +149,11 @@ class Poses:
         Returns:
             The loads.
         """
-        stated = self.wrench(sensor)
+        reference = self._reference(sensor)
+        stated = reference.wrench()
         lasting = {
             name: tolerances.size_of(name)
-            * (self.wrench(sensor, {name: _STEP}) - self.wrench(sensor, {name: -_STEP}))
+            * np.subtract(*(reference.wrench(self._by_quantity({name: step})) for step in (_STEP, -_STEP)))
             / (2.0 * _STEP)
             for name in self.errors
         }
@@ -180,6 +165,27 @@ class Poses:
             fresh=np.stack([lasting.get(joint, still) for joint in ("pitch", "yaw", "hinge")], axis=2),
         )
 
+    def _reference(self, sensor: str) -> Reference:
+        poses = JointMotion.at_rest(self.device.joint_names, self.position)
+        return Reference(device=self.device, load=self.load, poses=poses, sensor=sensor)
+
+    def _by_quantity(
+        self, errors: Mapping[str, float], fresh_rad: FloatArray | None = None
+    ) -> dict[str, FloatArray | float]:
+        """Errors of the quantities of a reference."""
+        pitch, yaw, hinge = np.zeros((3, len(self.position))) if fresh_rad is None else fresh_rad.T
+        hinge = np.where(self._lock == _FREE, hinge + errors.get(HINGE, 0.0), 0.0)
+        for lock in set(self._lock.tolist()) - {_FREE}:
+            hinge[self._lock == lock] = errors.get(f"lock {lock:g}", 0.0)
+        return {
+            "pitch": pitch + errors.get("pitch", 0.0),
+            "yaw": yaw + errors.get("yaw", 0.0),
+            HINGE: hinge,
+            BRACKET_LENGTH: errors.get("height", 0.0),
+            LOAD_LENGTH: errors.get(f"distance of {self.load.name}", 0.0),
+            MASS: errors.get(f"mass of {self.load.name}", 0.0),
+        }
+
     @property
     def _lock(self) -> FloatArray:
         """Lock of every pose, `_FREE` where the hinge hangs; shape (n,); deg."""
@@ -187,17 +193,3 @@ class Poses:
         locks = np.array(self.device.hinge.locks_deg)
         nearest = locks[np.abs(hinge[:, None] - locks).argmin(axis=1)]
         return np.where(np.abs(hinge - nearest) < _AT_LOCK_DEG, nearest, _FREE)
-
-
-def _moved(load: HungLoad, distance_m: float, mass_share: float) -> HungLoad:
-    """The load with another mass and place; its inertia about its centre does not matter at rest."""
-    mass = load.mass_kg * (1.0 + mass_share)
-    centre = load.centre_of_mass_m + np.array([0.0, 0.0, distance_m])
-    inertia = Inertia.about_centre_of_mass(mass=mass, centre_of_mass=centre, second_moment=np.zeros((3, 3)))
-    return HungLoad(name=load.name, inertia=inertia)
-
-
-def _raised(device: Device, height_m: float) -> Device:
-    bracket = device.hinge.bracket
-    higher = bracket.model_copy(update={"height_m": bracket.height_m + height_m})
-    return device.model_copy(update={"hinge": device.hinge.model_copy(update={"bracket": higher})})
