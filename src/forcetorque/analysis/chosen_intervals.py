@@ -3,29 +3,33 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
 
 from forcetorque.analysis.sensor_run import SensorRun
 from forcetorque.errors import ExperimentError, known_names
 from forcetorque.recording import Interval, Use
 
 
-def chosen_intervals(run: SensorRun, labels: Collection[str]) -> list[Interval]:
+def chosen_intervals(runs: Sequence[SensorRun], labels: Collection[str]) -> list[tuple[SensorRun, Interval]]:
     """Find the intervals of some labels.
 
     Args:
-        run: The sensor, whose recording has them.
+        runs: The sensor in one or several recordings, of which only some may have a label.
         labels: Their labels; all that are not to be ignored if none is named.
 
     Returns:
-        Intervals in the order of time.
+        Intervals with their recordings, in the order of time within each.
 
     Raises:
-        ExperimentError: If there is none of a label.
+        ExperimentError: If no recording has an interval of a label.
     """
-    known = {interval.label: interval for interval in run.experiment.recording.intervals}
+    known = {interval.label for run in runs for interval in run.experiment.recording.intervals}
     for label in labels:
         if label not in known:
             raise ExperimentError(f"no interval is labelled {label!r}; {known_names(label, known)}")
-    chosen = [known[label] for label in labels] or [one for one in known.values() if one.use is not Use.IGNORE]
-    return sorted(chosen, key=lambda interval: interval.start_ns)
+    return [
+        (run, interval)
+        for run in runs
+        for interval in sorted(run.experiment.recording.intervals, key=lambda interval: interval.start_ns)
+        if (interval.label in labels if labels else interval.use is not Use.IGNORE)
+    ]

@@ -56,15 +56,7 @@ def excited_records(
     Raises:
         ExperimentError: If an interval is not there, the force has other axes, or rates differ.
     """
-    known = {interval.label for run in runs for interval in run.experiment.recording.intervals}
-    for label in intervals:
-        if label not in known:
-            raise ExperimentError(f"no interval is labelled {label!r}; {known_names(label, known)}")
-    records = []
-    for run in runs:
-        own = [one.label for one in run.experiment.recording.intervals if one.label in intervals]
-        if own or not intervals:  # of several recordings, only some may have the interval
-            records += [_record(run, interval, correction, force) for interval in chosen_intervals(run, own)]
+    records = [_record(run, interval, correction, force) for run, interval in chosen_intervals(runs, intervals)]
     if not records:
         raise ExperimentError("expected an interval that is not to be ignored, got none; add [[interval]]")
     first = records[0].wrench.rate_hz

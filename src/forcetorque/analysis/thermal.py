@@ -92,7 +92,7 @@ def thermal(
     """
     temperature = _temperature(run, variable)
     correction = run.read_by(name, calibration)
-    sessions = _sessions(run, chosen_intervals(run, intervals), temperature, correction)
+    sessions = _sessions(run, [one for _, one in chosen_intervals([run], intervals)], temperature, correction)
     cycles = cycles_of(sessions)
     settled = cycles.on_branches()
     fit = fit_drift(settled)
