@@ -47,16 +47,14 @@ class FrequencyResponse:
     """Coherence that nothing but chance exceeds in 5 % of the frequencies."""
     force_power: FloatArray
     """Power density of the force; shape (m,)."""
-    noise_power: FloatArray
-    """Power density of what the force does not explain of the reading; shape (m,)."""
+    reading_power: FloatArray
+    """The same of the reading; shape (m,)."""
     averages: float
     """Independent averages."""
-    explained: float
-    """Share of the power of the reading that the force explains, chance taken off."""
 
     def __post_init__(self) -> None:
         m = len(self.frequency_hz)
-        names = ("frequency_hz", "real", "imaginary", "radius", "coherence", "force_power", "noise_power")
+        names = ("frequency_hz", "real", "imaginary", "radius", "coherence", "force_power", "reading_power")
         for field in names:
             object.__setattr__(self, field, read_only(getattr(self, field), name=field, shape=(m,)))
 
@@ -74,9 +72,19 @@ class FrequencyResponse:
     @property
     def liveliest_hz(self) -> float:
         """Driven frequency at which the slope of the reading has most power; Hz: the resonance, where there is one."""
-        reading = np.abs(self.value) ** 2 * self.force_power + self.noise_power * (1.0 - 1.0 / self.averages)
-        slope = np.where(self.driven, self.frequency_hz**2 * reading, 0.0)
+        slope = np.where(self.driven, self.frequency_hz**2 * self.reading_power, 0.0)
         return float(self.frequency_hz[int(slope.argmax())])
+
+    @property
+    def explained(self) -> float:
+        """Share of the power of the reading that the force explains, chance taken off."""
+        shared = (self.coherence * self.reading_power)[self.driven].sum() / self.reading_power[self.driven].sum()
+        return float((shared - 1.0 / self.averages) / (1.0 - 1.0 / self.averages))
+
+    @property
+    def noise_power(self) -> FloatArray:
+        """Power density of what the force does not explain of the reading; shape (m,)."""
+        return _noise(self.coherence, self.reading_power, self.averages)
 
     @property
     def smooth_noise(self) -> FloatArray:
@@ -149,22 +157,26 @@ def frequency_response(
     kept &= force_power > 0.0
     force_power, reading_power, cross = force_power[kept], reading_power[kept], cross[kept]
     shared = np.abs(cross) ** 2 / force_power
-    noise = np.maximum(reading_power - shared, 0.0) * averages / (averages - 1.0)
+    coherence = np.clip(shared / np.maximum(reading_power, np.finfo(np.float64).tiny), 0.0, 1.0)
+    noise = _noise(coherence, reading_power, averages)
     circle = fdtri(2.0, 2.0 * averages - 2.0, CONFIDENCE) / averages * noise / force_power
-    driven = force_power >= DRIVEN * force_power.max()
-    raw = float(shared[driven].sum() / reading_power[driven].sum())
     return FrequencyResponse(
         frequency_hz=frequency[kept],
         real=(cross / force_power).real,
         imaginary=(cross / force_power).imag,
         radius=np.sqrt(circle),
-        coherence=np.clip(shared / np.maximum(reading_power, np.finfo(np.float64).tiny), 0.0, 1.0),
+        coherence=coherence,
         chance=1.0 - (1.0 - CONFIDENCE) ** (1.0 / (averages - 1.0)),
         force_power=force_power,
-        noise_power=noise,
+        reading_power=reading_power,
         averages=averages,
-        explained=(raw - 1.0 / averages) / (1.0 - 1.0 / averages),
     )
+
+
+def _noise(coherence: FloatArray, reading_power: FloatArray, averages: float) -> FloatArray:
+    """What the force does not explain, for the response has taken some of the noise; shape (m,)."""
+    noise: FloatArray = (1.0 - coherence) * reading_power * averages / (averages - 1.0)
+    return noise
 
 
 def require_coherence(response: FrequencyResponse, *, name: str) -> None:
