@@ -6,7 +6,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from forcetorque.analysis.response_decays import Decays, told_decays
+from forcetorque.analysis.response_decays import Decays, free_decays
 from forcetorque.analysis.response_force import driven_response
 from forcetorque.analysis.response_records import ExcitedRecord
 from forcetorque.arrays import FloatArray
@@ -34,7 +34,7 @@ def tap(seed: int) -> tuple[Spring, ExcitedRecord, Decays]:
     spring = Spring.drawn(rng)
     _, force, reading = spring.read(rng, tapped(rng, spring))
     record = excited(spring, force, reading, rng)
-    return spring, record, told_decays([record], ExcitationKind.IMPACT, FZ, weight_N=None)
+    return spring, record, free_decays([record], ExcitationKind.IMPACT, FZ, weight_N=None)
 
 
 def _share(held: list[FloatArray]) -> FloatArray:
@@ -55,7 +55,8 @@ def test_taps_hold_the_truth() -> None:
         pooled = (decays.frequency, decays.damping)
         free.append([abs(one.mean - true) < one.half_width for one, true in zip(pooled, spring.truth, strict=False)])
         single += [
-            np.abs([one.frequency_hz, one.damping] - spring.truth[:2]) < NORMAL_95 * one.error for one in decays.told
+            np.abs([one.frequency_hz, one.damping] - spring.truth[:2]) < NORMAL_95 * one.error
+            for one in decays.ring_downs
         ]
         _, fit = driven_response([record], decays, ExcitationKind.IMPACT, FZ, None)
         driven.append(_holds(fit, spring.truth))
@@ -76,7 +77,7 @@ def test_released_weights_hold_the_truth() -> None:
         spring = Spring.drawn(rng)
         _, force, reading = spring.read(rng, released(rng, spring))
         record = excited(spring, force, reading, rng)
-        fit = told_decays([record], ExcitationKind.RELEASE, None, weight_N=MASS_KG * GRAVITY).second_order
+        fit = free_decays([record], ExcitationKind.RELEASE, None, weight_N=MASS_KG * GRAVITY).second_order
         assert fit is not None
         held.append(_holds(fit, spring.truth))
     assert ((_share(held) >= LEAST) & (_share(held) <= MOST)).all(), _share(held)

@@ -122,9 +122,9 @@ class DeviceDemands(Row):
         yield table_of(self.locks, "locks of the hinge, by load")
         yield table_of(self.envelope, f"space that is swept: plates, and the arm within {ARM_RADIUS_M:g} m of its axis")
         yield table_of(self.budget, f"errors of references, {self.load}")
-        told = f"at {self.sensors[0]}, {self.load}, by what tells gravity"
-        yield table_of(self.grades, f"root mean square errors {told} (Table 6.3)", leave_out=_LARGEST)
-        yield table_of(self.grades, f"largest errors {told}", leave_out=("rms",))
+        place = f"at {self.sensors[0]}, {self.load}, by what tells gravity"
+        yield table_of(self.grades, f"root mean square errors {place} (Table 6.3)", leave_out=_LARGEST)
+        yield table_of(self.grades, f"largest errors {place}", leave_out=("rms",))
 
 
 def device_demands(file: DeviceFile, *, tolerances: Mapping[str, Tolerance] = TOLERANCES) -> DeviceDemands:

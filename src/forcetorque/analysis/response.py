@@ -10,7 +10,7 @@ from typing import Literal
 import numpy as np
 from pydantic import Field
 
-from forcetorque.analysis.response_decays import Decays, told_decays
+from forcetorque.analysis.response_decays import Decays, free_decays
 from forcetorque.analysis.response_force import driven_response
 from forcetorque.analysis.response_numbers import numbers
 from forcetorque.analysis.response_records import ExcitedRecord, component_index, excited_records
@@ -165,12 +165,12 @@ def response(
     correction = run.read_by(name, calibration)
     records = excited_records(several, correction, intervals=intervals, force=force)
     weight = None if mass_kg is None or kind is not ExcitationKind.RELEASE else mass_kg * STANDARD_GRAVITY
-    decays = None if kind is ExcitationKind.PENDULUM else told_decays(records, kind, place, weight_N=weight)
+    decays = None if kind is ExcitationKind.PENDULUM else free_decays(records, kind, place, weight_N=weight)
     refused: list[str] = []
-    told, fit = None, None if decays is None else decays.second_order
+    transfer, fit = None, None if decays is None else decays.second_order
     if force is not None:
         try:
-            told, fit = driven_response(records, decays, kind, place, mass_kg)
+            transfer, fit = driven_response(records, decays, kind, place, mass_kg)
         except FitError as error:
             if decays is None:
                 raise
@@ -193,13 +193,13 @@ def response(
         rate_hz=rate,
         samples=sum(len(record.wrench) for record in records),
         events=() if decays is None else decays.rows,
-        numbers=tuple(numbers(decays, fit if told is not None else None, _gain_unit(records, mass_kg))),
-        curve=None if told is None else _curve(told, fit),
+        numbers=tuple(numbers(decays, fit if transfer is not None else None, _gain_unit(records, mass_kg))),
+        curve=None if transfer is None else _curve(transfer, fit),
         inverse=None if inverse is None else _inverse(inverse, decays),
         refused=tuple(refused),
         decays=() if decays is None else decays.curves,
     )
-    return answer.model_copy(update={"warnings": tuple(_doubts(answer, fit, told, decays))})
+    return answer.model_copy(update={"warnings": tuple(_doubts(answer, fit, transfer, decays))})
 
 
 def _excitation(name: ExcitationKind | str) -> ExcitationKind:
@@ -237,20 +237,20 @@ def _gain_unit(records: Sequence[ExcitedRecord], mass_kg: float | None) -> str:
     return "kg" if force is not None and force.signals.shape[1] == 3 and mass_kg is None else "1"
 
 
-def _curve(told: FrequencyResponse, fit: SecondOrder | None) -> ResponseCurve:
-    fitted = None if fit is None else fit.response(told.frequency_hz)
+def _curve(transfer: FrequencyResponse, fit: SecondOrder | None) -> ResponseCurve:
+    fitted = None if fit is None else fit.response(transfer.frequency_hz)
     return ResponseCurve(
-        frequency_hz=told.frequency_hz,
-        real=told.real,
-        imaginary=told.imaginary,
+        frequency_hz=transfer.frequency_hz,
+        real=transfer.real,
+        imaginary=transfer.imaginary,
         fitted_real=None if fitted is None else fitted.real,
         fitted_imaginary=None if fitted is None else fitted.imag,
-        radius_95=told.radius,
-        coherence=told.coherence,
-        chance=told.chance,
-        driven=told.driven.astype(np.float64),
-        explained_share=told.explained,
-        averages=told.averages,
+        radius_95=transfer.radius,
+        coherence=transfer.coherence,
+        chance=transfer.chance,
+        driven=transfer.driven.astype(np.float64),
+        explained_share=transfer.explained,
+        averages=transfer.averages,
     )
 
 
@@ -271,7 +271,7 @@ def _inverse(inverse: InverseFilter, decays: Decays | None) -> InverseRow:
 
 
 def _doubts(
-    answer: Response, fit: SecondOrder | None, told: FrequencyResponse | None, decays: Decays | None
+    answer: Response, fit: SecondOrder | None, transfer: FrequencyResponse | None, decays: Decays | None
 ) -> Iterator[str]:
     yield from (row.untold for row in answer.events if row.untold is not None)
     for row in answer.events:
@@ -280,43 +280,43 @@ def _doubts(
                 f"{row.recording}: at {row.time_s:.3f} s it rings at {row.frequency_hz:.4g} Hz, near half of the rate, "
                 f"{0.5 * answer.rate_hz:.4g} Hz: it may be one from above, folded back; sample faster"
             )
-    if decays is not None and decays.told:
+    if decays is not None and decays.ring_downs:
         frequency = decays.frequency
         if frequency.scatter is not None and frequency.scatter > 0.1 * frequency.mean:
+            frequencies = [ring_down.frequency_hz for ring_down in decays.ring_downs]
             yield (
-                f"{answer.sensor}: events ring at {min(one.frequency_hz for one in decays.told):.3g} to "
-                f"{max(one.frequency_hz for one in decays.told):.3g} Hz: they are not one vibration; strike one place "
-                "in one posture, or choose another component"
+                f"{answer.sensor}: events ring at {min(frequencies):.3g} to {max(frequencies):.3g} Hz: they are not "
+                "one vibration; strike one place in one posture, or choose another component"
             )
-    if fit is None or told is None:
+    if fit is None or transfer is None:
         return
     if fit.misfit is not None and fit.misfit > MISFIT:
         yield (
             f"{answer.sensor}: one resonance leaves {fit.misfit:.2g} times the noise: there are more, or a delay; "
             "intervals are widened for it"
         )
-    reached = float(told.frequency_hz[told.driven].max())
+    reached = float(transfer.frequency_hz[transfer.driven].max())
     if fit.natural_frequency_hz > reached:
         yield (
             f"{answer.sensor}: its natural frequency, {fit.natural_frequency_hz:.4g} Hz, lies above what the force "
             f"drove, {reached:.4g} Hz: it is extrapolated by the form of the fit; confirm it by taps"
         )
-    if decays is not None and kept_swing(fit, told) > LEAST_SWING:
+    if decays is not None and kept_swing(fit, transfer) > LEAST_SWING:
         yield (
-            f"{answer.sensor}: {100 * kept_swing(fit, told):.0f} % of a vibration is left when its segment ends, which "
-            "makes damping look larger; leave more time between events"
+            f"{answer.sensor}: {100 * kept_swing(fit, transfer):.0f} % of a vibration is left when its segment ends, "
+            "which makes damping look larger; leave more time between events"
         )
 
 
-def kept_swing(fit: SecondOrder, told: FrequencyResponse) -> float:
+def kept_swing(fit: SecondOrder, transfer: FrequencyResponse) -> float:
     """Tell how much of a vibration is left at the end of a segment.
 
     Args:
         fit: The sensor.
-        told: Its response, whose steps of frequency are one by the length of a segment.
+        transfer: Its response, whose steps of frequency are one by the length of a segment.
 
     Returns:
         Share of its height.
     """
-    length = 1.0 / float(np.diff(told.frequency_hz[:2])[0])
+    length = 1.0 / float(np.diff(transfer.frequency_hz[:2])[0])
     return math.exp(-2.0 * math.pi * fit.damping * fit.natural_frequency_hz * length)

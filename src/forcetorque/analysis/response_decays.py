@@ -43,7 +43,7 @@ class Struck:
     """Decay behind each, or what stands against it."""
 
     @property
-    def told(self) -> list[tuple[Event, RingDown]]:
+    def ring_downs(self) -> list[tuple[Event, RingDown]]:
         """Events with a decay."""
         pairs = zip(self.events, self.decays, strict=True)
         return [(event, decay) for event, decay in pairs if isinstance(decay, RingDown)]
@@ -61,26 +61,26 @@ class Decays:
     """What is read of a newton of a released weight; None where no weight was stated."""
 
     @property
-    def told(self) -> list[RingDown]:
+    def ring_downs(self) -> list[RingDown]:
         """Decays that were told."""
-        return [decay for one in self.struck for _, decay in one.told]
+        return [decay for one in self.struck for _, decay in one.ring_downs]
 
     @property
     def frequency(self) -> Pooled:
         """Natural frequency; Hz."""
-        told = self.told
-        return pool(np.array([one.frequency_hz for one in told]), np.array([one.error[0] for one in told]))
+        ring_downs = self.ring_downs
+        return pool(np.array([one.frequency_hz for one in ring_downs]), np.array([one.error[0] for one in ring_downs]))
 
     @property
     def damping(self) -> Pooled:
         """Damping ratio."""
-        told = self.told
-        return pool(np.array([one.damping for one in told]), np.array([one.error[1] for one in told]))
+        ring_downs = self.ring_downs
+        return pool(np.array([one.damping for one in ring_downs]), np.array([one.error[1] for one in ring_downs]))
 
     @property
     def second_order(self) -> SecondOrder | None:
         """Response, where a released weight told the gain."""
-        if self.gain is None or not self.told:
+        if self.gain is None or not self.ring_downs:
             return None
         half = np.array([self.frequency.half_width, self.damping.half_width, self.gain.half_width])
         return SecondOrder(
@@ -107,10 +107,10 @@ class Decays:
     @property
     def curves(self) -> tuple[DecayCurve, ...]:
         """Decays and fits, for the figure."""
-        return tuple(_curve(one, event, decay) for one in self.struck for event, decay in one.told)
+        return tuple(_curve(one, event, decay) for one in self.struck for event, decay in one.ring_downs)
 
 
-def told_decays(
+def free_decays(
     records: Sequence[ExcitedRecord], kind: ExcitationKind, component: int | None, *, weight_N: float | None
 ) -> Decays:
     """Find events and fit the decay behind each.
@@ -152,9 +152,14 @@ def _decays(
         decays = tuple(ring_downs(signal, own, name=record.name))
         struck.append(Struck(record=record, signal=signal, events=own, decays=decays))
     gain = None
-    if weight_N is not None and any(one.told for one in struck):
+    if weight_N is not None and any(one.ring_downs for one in struck):
         known = [
-            gains(one.signal, tuple(event for event, _ in one.told), [decay for _, decay in one.told], weight_N)
+            gains(
+                one.signal,
+                tuple(event for event, _ in one.ring_downs),
+                [decay for _, decay in one.ring_downs],
+                weight_N,
+            )
             for one in struck
         ]
         values, errors = (np.concatenate(numbers) for numbers in zip(*known, strict=True))
@@ -163,20 +168,20 @@ def _decays(
 
 
 def _row(one: Struck, event: Event, decay: RingDown | FitError) -> EventRow:
-    told = decay if isinstance(decay, RingDown) else None
-    half = None if told is None else NORMAL_95 * told.error
+    ring_down = decay if isinstance(decay, RingDown) else None
+    half = None if ring_down is None else NORMAL_95 * ring_down.error
     return EventRow(
         recording=one.record.name,
         time_s=float(one.signal.time_s[event.peak]),
         height=event.height,
         strongest=WRENCH_COMPONENTS[event.component],
-        frequency_hz=None if told is None else told.frequency_hz,
+        frequency_hz=None if ring_down is None else ring_down.frequency_hz,
         frequency_half_width_95_hz=None if half is None else float(half[0]),
-        damping=None if told is None else told.damping,
+        damping=None if ring_down is None else ring_down.damping,
         damping_half_width_95=None if half is None else float(half[1]),
-        modes=None if told is None else told.modes,
-        left_share=None if told is None else told.left,
-        untold=None if told is not None else str(decay),
+        modes=None if ring_down is None else ring_down.modes,
+        left_share=None if ring_down is None else ring_down.left,
+        untold=None if ring_down is not None else str(decay),
     )
 
 

@@ -66,9 +66,9 @@ def driven_response(
         if kind is ExcitationKind.RELEASE:  # a step does not come back: its slope does, of both
             force, reading = np.diff(force, axis=1), np.diff(reading, axis=1)
     events = decays is not None
-    told = frequency_response(force, reading, rate, events=events, highest_hz=highest)
-    require_coherence(told, name=name)
-    return told, jackknifed(told, force, reading, rate, events=events, highest_hz=highest, name=name)
+    transfer = frequency_response(force, reading, rate, events=events, highest_hz=highest)
+    require_coherence(transfer, name=name)
+    return transfer, jackknifed(transfer, force, reading, rate, events=events, highest_hz=highest, name=name)
 
 
 def _force_along(record: ExcitedRecord, direction: FloatArray, mass_kg: float | None) -> FloatArray:

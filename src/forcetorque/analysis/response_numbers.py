@@ -23,7 +23,7 @@ def numbers(decays: Decays | None, fit: SecondOrder | None, gain_unit: str) -> I
     Yields:
         The rows.
     """
-    if decays is not None and decays.told:
+    if decays is not None and decays.ring_downs:
         yield _pooled("natural frequency", decays.frequency, DECAYS, "Hz")
         yield _pooled("damping ratio", decays.damping, DECAYS, "1")
         if decays.gain is not None:

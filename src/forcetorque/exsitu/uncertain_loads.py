@@ -148,8 +148,8 @@ class MatrixError:
         """
         loads = np.asarray(load, dtype=np.float64)
         variance = np.einsum("iaib,...a,...b->...i", self.covariance, loads, loads)
-        told = np.abs(loads[..., None, :] * self.unspanned)
-        beyond = (np.abs(loads @ self.unspanned.T) > RANK_TOLERANCE * told.sum(axis=-1)).any(axis=-1)
+        terms = np.abs(loads[..., None, :] * self.unspanned)
+        beyond = (np.abs(loads @ self.unspanned.T) > RANK_TOLERANCE * terms.sum(axis=-1)).any(axis=-1)
         error: FloatArray = np.where(beyond[..., None], np.inf, np.sqrt(np.maximum(variance, 0.0)))
         return error
 

@@ -40,22 +40,22 @@ def _random(noise: float, *, seed: int = 0) -> tuple[FrequencyResponse, tuple[np
 
 def test_a_response_is_that_of_the_system() -> None:
     """H1 lies within its circles as often as they say, and the coherence is near 1."""
-    told, _ = _random(0.2)
-    turn = np.exp(-2j * np.pi * told.frequency_hz / RATE)
+    transfer, _ = _random(0.2)
+    turn = np.exp(-2j * np.pi * transfer.frequency_hz / RATE)
     true = np.polyval(B[::-1], turn) / np.polyval(A[::-1], turn)
-    off_resonance = np.abs(told.frequency_hz - 20.0) > 4.0  # there a window smears what turns fast
-    held = np.abs(told.value - true)[off_resonance] < told.radius[off_resonance]
+    off_resonance = np.abs(transfer.frequency_hz - 20.0) > 4.0  # there a window smears what turns fast
+    held = np.abs(transfer.value - true)[off_resonance] < transfer.radius[off_resonance]
     assert held.mean() > 0.85
-    assert np.median(told.coherence[told.frequency_hz < 25.0]) > 0.9
-    assert told.explained > 0.9
-    require_coherence(told, name="log")
+    assert np.median(transfer.coherence[transfer.frequency_hz < 25.0]) > 0.9
+    assert transfer.explained > 0.9
+    require_coherence(transfer, name="log")
 
 
 def test_want_of_coherence_is_refused() -> None:
     """Noise of three times the reading leaves no response; one segment less than four neither."""
-    told, parts = _random(6.0)
+    transfer, parts = _random(6.0)
     with pytest.raises(FitError, match=r"no transfer function: the measured force explains \d+ % of the power"):
-        require_coherence(told, name="log")
+        require_coherence(transfer, name="log")
     with pytest.raises(FitError, match="at least 3 segments"):
         frequency_response(parts[0][:2], parts[1][:2], RATE, events=True, highest_hz=60.0)
     with pytest.raises(ShapeError, match="of one shape"):
@@ -66,8 +66,8 @@ def test_want_of_coherence_is_refused() -> None:
 
 def test_a_fit_is_near_and_knows_how_near() -> None:
     """To a response with noise; what only falls has no resonance and is refused."""
-    told, parts = _random(0.5)
-    fit = jackknifed(told, *parts, RATE, events=False, highest_hz=60.0, name="log")
+    transfer, parts = _random(0.5)
+    fit = jackknifed(transfer, *parts, RATE, events=False, highest_hz=60.0, name="log")
     assert fit.determined
     assert fit.natural_frequency_hz == pytest.approx(20.0, abs=0.5)
     assert 0.0 < fit.half_width[0] < 1.0

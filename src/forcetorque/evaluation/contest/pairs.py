@@ -183,9 +183,9 @@ class Standing:
         Returns:
             Their ranks; those that cannot be told apart may share one.
         """
-        told = [pair for pair in pairs if pair.ratio.judgement in ("better", "worse")]
-        lost = [(p.quantity, p.second if p.ratio.judgement == "better" else p.first) for p in told]
-        won = [p.first if p.ratio.judgement == "better" else p.second for p in told if p.quantity == "wrench"]
+        ranked = [pair for pair in pairs if pair.ratio.judgement in ("better", "worse")]
+        lost = [(p.quantity, p.second if p.ratio.judgement == "better" else p.first) for p in ranked]
+        won = [p.first if p.ratio.judgement == "better" else p.second for p in ranked if p.quantity == "wrench"]
         places = {name: tuple(1 + lost.count((quantity, name)) for quantity in QUANTITIES) for name in names}
         return cls(
             places={name: (wrench, force, moment) for name, (wrench, force, moment) in places.items()},

@@ -118,8 +118,8 @@ class Criterion:
         Returns:
             The gains; shape (n,).
         """
-        moment, told = self._moment(posterior, centre), readings.with_unknowns
-        lowered = np.einsum("inj,jk,ink->in", told, moment, told, optimize=True)
+        moment, covariance = self._moment(posterior, centre), readings.with_unknowns
+        lowered = np.einsum("inj,jk,ink->in", covariance, moment, covariance, optimize=True)
         gains: FloatArray = self.row_weights(posterior) @ (lowered / readings.variance)
         return gains
 

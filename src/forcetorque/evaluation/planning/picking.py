@@ -86,6 +86,6 @@ def _taken(known: FloatArray, noise: FloatArray, design: FloatArray) -> FloatArr
 
 
 def _readings(known: FloatArray, noise: FloatArray, design: FloatArray) -> Readings:
-    told = np.einsum("ijk,nk->inj", known, design)
-    variance = np.einsum("inj,nj->in", told, design) + noise[:, None]
-    return Readings(with_unknowns=told, variance=variance, noise=noise[:, None])
+    covariance = np.einsum("ijk,nk->inj", known, design)
+    variance = np.einsum("inj,nj->in", covariance, design) + noise[:, None]
+    return Readings(with_unknowns=covariance, variance=variance, noise=noise[:, None])
