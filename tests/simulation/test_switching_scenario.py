@@ -20,31 +20,16 @@ from forcetorque.simulation.scenario import (
     trace_recordings,
 )
 from forcetorque.toml_table import read_toml
+from tests.switchings import short_switching
 
 READ_N = 1e-6
 """What the readings of perfect channels may differ from `(1 + E) w + bias`; biases are up to 1000 N."""
 
 
 @cache
-def bundled() -> ScenarioFile:
-    """The bundled file, with less to do in its motions."""
-    content = read_toml(bundled_scenario("switching"), ScenarioFile, what="a scenario")
-    short = tuple(
-        entry.model_copy(
-            update={
-                "motion": entry.motion.model_copy(update={"postures": 2, "still_s": 1.0, "speed": 1.0}),
-                "rate_hz": 50.0,
-            }
-        )
-        for entry in content.recording
-    )
-    return content.model_copy(update={"recording": short})
-
-
-@cache
 def exact() -> Scenario:
     """The same without anything that disturbs it."""
-    return build_scenario(bundled().exact())
+    return build_scenario(short_switching().exact())
 
 
 def test_the_bundled_scenario_has_two_days() -> None:
@@ -54,7 +39,7 @@ def test_the_bundled_scenario_has_two_days() -> None:
         ("day 1", "calibration"),
         ("day 2", "validation"),
     ]
-    scenario = build_scenario(bundled())
+    scenario = build_scenario(short_switching())
     assert scenario.robot_errors is not None
     kinds = ["hanging", "landing", "double_support", "single_support"]
     traces, count = trace_recordings(scenario), 0
@@ -145,7 +130,7 @@ def test_the_error_of_the_matrix_has_its_stated_size() -> None:
 )
 def test_sensors_that_make_no_sense_are_refused(sensors: dict[str, Any], match: str) -> None:
     """Two sources of one error, negative sizes, no lever."""
-    content = bundled().model_dump(by_alias=True)
+    content = short_switching().model_dump(by_alias=True)
     content["sensors"] = sensors
     with pytest.raises(ValueError, match=match):
         ScenarioFile.model_validate(content)
@@ -153,7 +138,7 @@ def test_sensors_that_make_no_sense_are_refused(sensors: dict[str, Any], match: 
 
 def test_what_the_motion_lacks_is_named() -> None:
     """An IMU, without which nobody could tell what double support is; an error that no mounting makes."""
-    content = bundled().model_dump(by_alias=True)
+    content = short_switching().model_dump(by_alias=True)
     with pytest.raises(ValueError, match="no foot stands all the time in a contact_switching motion; it needs"):
         ScenarioFile.model_validate({**content, "imu": None})
     with pytest.raises(FormatError, match=r"matrix_error: .* a share of 0.9, with which a load would be read with the"):

@@ -73,7 +73,7 @@ def root_poses(
             if isinstance(support, MovingSupport):
                 notes.append(f"support {support.frame!r} moves: it is kept in its place, and upright as its IMU says")
         values[chosen] = _standing(model, posture, support.frame, world_R_support, chosen)
-    return RootPoses(values=values, notes=tuple(notes))
+    return RootPoses(values=values, notes=tuple(dict.fromkeys(notes)))
 
 
 def upright(gravity_direction: FloatArray) -> FloatArray:
