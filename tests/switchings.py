@@ -14,7 +14,7 @@ def short_switching(**sensors: Any) -> ScenarioFile:
     content = read_toml(bundled_scenario("switching"), ScenarioFile, what="a scenario")
     motion = {"postures": 2, "still_s": 1.0, "speed": 1.0}
     entries = tuple(
-        entry.model_copy(update={"motion": entry.motion.model_copy(update=motion), "rate_hz": 50.0})
+        entry.model_copy(update={"motion": entry.motion.model_copy(update=motion), "rate_hz": 25.0})
         for entry in content.recording
     )
     return content.model_copy(update={"recording": entries}).with_sensors(**sensors)

@@ -17,7 +17,8 @@ from forcetorque.spatial import cross, transform_wrench
 from tests.simulation.stances import IMU_LINKS, stance
 from tests.simulation.stands import ROBOTS, on_pole, require_exact_derivatives, require_inside_limits, robot
 
-HOOKS = {"biped": "torso", "iCubGazeboV2_7": "chest", "iCubGenova02": "chest"}
+HUMANOIDS = ("biped", "iCubGazeboV2_7")
+HOOKS = {"biped": "torso", "iCubGazeboV2_7": "chest"}
 LABELS = ("hanging", "landing", "double_1", "l_sole", "double_2", "r_sole", "double_3")
 ROUNDING_N = 1e-9
 """Rounding of 300 N over 40 bodies."""
@@ -73,7 +74,7 @@ def _momentum(movement: Movement, at: FloatArray) -> FloatArray:
     return total
 
 
-@pytest.mark.parametrize("name", ROBOTS)
+@pytest.mark.parametrize("name", HUMANOIDS)
 def test_phases_follow_each_other_from_hook_to_feet(name: str) -> None:
     """Their order, kinds and links, without gaps; and what touches in none of them bears nothing."""
     movement = switching(name)
@@ -95,7 +96,7 @@ def test_phases_follow_each_other_from_hook_to_feet(name: str) -> None:
     assert free == 2 + 3 * 1 + 2 * 2
 
 
-@pytest.mark.parametrize("name", ROBOTS)
+@pytest.mark.parametrize("name", HUMANOIDS)
 def test_links_that_touch_stand_still(name: str) -> None:
     """In each phase to rounding; both soles on one level floor, and the free foot leaves it by far."""
     movement = switching(name)
@@ -114,7 +115,7 @@ def test_links_that_touch_stand_still(name: str) -> None:
         np.testing.assert_allclose(pose[2, :3], [0.0, 0.0, 1.0], rtol=0, atol=1e-8)
 
 
-@pytest.mark.parametrize("name", ROBOTS)
+@pytest.mark.parametrize("name", HUMANOIDS)
 def test_nothing_jumps(name: str) -> None:
     """Joints with their derivatives, readings, the IMU's motion and the wrench of every touch go on at each border."""
     movement = switching(name)
@@ -138,7 +139,7 @@ def test_nothing_jumps(name: str) -> None:
     assert np.abs(apart).max() > 50.0
 
 
-@pytest.mark.parametrize("name", ROBOTS)
+@pytest.mark.parametrize("name", HUMANOIDS)
 def test_contacts_bear_weight_and_inertia(name: str) -> None:
     """All that touches the robot adds up to what its motion demands: the carried trunk bears nothing, to 1e-9."""
     movement = switching(name)
@@ -207,7 +208,7 @@ def test_it_may_start_on_both_feet_and_take_more_steps() -> None:
     assert np.abs(movement.base_pose(at, "l_sole")[0] - movement.base_pose(at, "l_sole")[-1]).max() < 1e-13
 
 
-@pytest.mark.parametrize("name", ROBOTS)
+@pytest.mark.parametrize("name", HUMANOIDS)
 def test_contacts_move_the_robot_of_pinocchio(name: str) -> None:
     """Another library moves the whole robot with a free base, which needs the sum of the contacts' wrenches."""
     pinocchio = pytest.importorskip("pinocchio")

@@ -48,9 +48,9 @@ def test_the_bundled_scenario_has_two_days() -> None:
         assert [phase.kind.value for phase in movement.phases][:4] == kinds
         for name in ("imu", "joints", *scenario.specimens):
             stamps = simulated.recording.stream(name).stamp_ns
-            assert np.diff(stamps).max() < 0.03e9, name  # 0.02 s and jitter
-            assert stamps[0] - simulated.start_ns < 0.03e9
-            assert simulated.start_ns + movement.duration_s * 1e9 - stamps[-1] < 0.05e9
+            assert np.diff(stamps).max() < 0.06e9, name  # 0.04 s and jitter
+            assert stamps[0] - simulated.start_ns < 0.06e9
+            assert simulated.start_ns + movement.duration_s * 1e9 - stamps[-1] < 0.1e9
             count += 1
     assert count == 2 * 8
 
