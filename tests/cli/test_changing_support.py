@@ -96,6 +96,18 @@ def test_all_sensors_are_calibrated_jointly_over_all_phases(inside: Path, tmp_pa
     assert labels == ["hanging", "double_1", "l_sole", "double_2", "r_sole", "double_3"]
 
 
+def test_one_leg_is_calibrated_jointly_where_it_hangs_or_bears_alone(inside: Path, tmp_path: Path, run: Run) -> None:
+    """By itself it has no untouched part beside it on both feet: these intervals are left out by name."""
+    outcome = run("calibrate", "switching_day1.toml", "--jointly", "--sensor", "l_leg_ft", "-o", tmp_path / "joint")
+    assert outcome.code == 0
+    for label in DOUBLE:
+        assert (
+            f"interval {label!r} is left out: no part of the robot between the sensors l_leg_ft is free" in outcome.err
+        )
+    (file,) = (tmp_path / "joint").glob("l_leg_ft*.json")
+    assert [interval.label for interval in read_calibration(file).provenance.intervals] == KNOWN
+
+
 def test_estimate_finds_the_feet_of_each_phase(inside: Path, tmp_path: Path, run: Run) -> None:
     """Contacts of an interval are the links that touch in it."""
     result = run("estimate", "switching_day2.toml", "-o", tmp_path / "est.parquet", "--format", "json").result()
