@@ -170,6 +170,24 @@ def test_contacts_change_the_momentum() -> None:
     assert np.abs(slope).max() > 1.0  # negative control: weight alone would not do
 
 
+def test_a_foot_reads_what_it_bears_less_its_own_weight_by_hand() -> None:
+    """At rest on both feet, from the numbers of the URDF: the sole is 10 mm before and 35 mm below the sensor."""
+    movement = switching("biped")
+    double = movement.phases[2]
+    at = np.linspace(double.start_s, double.end_s, 50)
+    sole_from_sensor, centre, mass = np.array([0.01, 0.0, -0.035]), np.array([0.02, 0.002, -0.02]), 0.5
+    for side in ("l", "r"):
+        ground = movement.external_wrenches(at).of_name(f"{side}_sole")
+        own = np.array([0.0, 0.0, -movement.gravity * mass])
+        force = ground[:, :3] + own  # axes of sensor and sole are the same, and level
+        moment = ground[:, 3:] + np.cross(sole_from_sensor, ground[:, :3]) + np.cross(centre, own)
+        if side == "r":
+            moment += np.cross([0.0, -0.004, 0.0], own)  # its centre of mass is on the other side
+        read = movement.readings(at, [f"{side}_foot_ft"]).of_name(f"{side}_foot_ft")
+        np.testing.assert_allclose(read, np.hstack([force, moment]), rtol=0, atol=1e-6)  # soles are level to 1e-8
+        assert np.abs(read - ground).max() > 4.0  # negative control
+
+
 def test_inner_forces_have_the_stated_size() -> None:
     """At rest each foot pushes the other along the ground by what is stated at most; none where none is stated."""
     made = {
