@@ -132,6 +132,7 @@ def test_gains_and_view_take_it(inside: Path, tmp_path: Path, run: Run) -> None:
     shown = run("view", "switching_day1.toml", "--sensor", "l_leg_ft", "-o", tmp_path / "page.html")
     assert shown.code == 0
     assert shown.err.count("support 'l_sole' moves") == 1
+    assert "sensor 'l_leg_ft': no expected wrench in double_1, double_2, double_3, where r_sole touches" in shown.err
 
 
 @pytest.mark.long  # figures, and postures to choose from, take seconds each
