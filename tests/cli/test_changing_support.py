@@ -33,7 +33,7 @@ force_mean_N = 4.0
 
 @pytest.fixture(scope="session")
 def switched(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Folder of two days, each one recording, with the sensors of both legs; nobody changes it."""
+    """Folder of two days, each one recording, with the sensors of both legs; files may be added to it, none is changed."""
     folder = tmp_path_factory.mktemp("switched") / "out"
     write_scenario(build_scenario(short_switching(names=LEGS)), folder)
     (folder / "limits.toml").write_text(ACCEPTANCE, encoding="utf-8")
@@ -85,6 +85,20 @@ def test_one_sensor_is_calibrated_and_judged_over_its_known_phases(inside: Path,
     rows = run("validate", "switching_day2.toml", "-c", fitted, "--format", "json").result()
     assert "l_leg_ft" in json.dumps(rows)
     assert run("export", fitted, "--to", "wholebodydynamics", "-o", tmp_path / "export").code == 0
+
+
+def test_both_feet_down_without_touched_are_refused_by_name(inside: Path, tmp_path: Path, run: Run) -> None:
+    """Where the other foot is a contact beside a support at rest, a fit that cannot be says what may have touched."""
+    text = (inside / "switching_day1.toml").read_text(encoding="utf-8")
+    text = text.replace('touched = ["l_sole", "r_sole"]', 'support = "l_sole"')
+    labels = ", ".join(f'"{label}"' for label in DOUBLE)
+    stated = inside / "stated.toml"
+    stated.write_text(f'{text}\n[[contact]]\nframe = "r_sole"\nintervals = [{labels}]\n', encoding="utf-8")
+    refused = run("calibrate", stated, "--sensor", "l_leg_ft", "-o", tmp_path / "leg.json")
+    assert refused.code == 2
+    assert "by [[contact]] r_sole may touch the robot beyond the sensor in 'double_1', 'double_2'" in refused.err
+    assert "name all links that touched in touched of [[interval]], with an IMU" in refused.err
+    assert not (tmp_path / "leg.json").exists()
 
 
 def test_all_sensors_are_calibrated_jointly_over_all_phases(inside: Path, tmp_path: Path, run: Run) -> None:

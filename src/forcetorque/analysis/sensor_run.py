@@ -22,7 +22,7 @@ from forcetorque.estimation.samples import robot_motion_at
 from forcetorque.experiment import Experiment, ExperimentSensor
 from forcetorque.experiment.contacts import contacts_in, touched_otherwise
 from forcetorque.experiment.content import ExperimentContact
-from forcetorque.recording import Interval, MovingSupport, Stream, Use
+from forcetorque.recording import Interval, MovingSupport, Stream, Support, Use
 from forcetorque.robot import JointMotion, RootMotion, build_tree
 from forcetorque.robot.sub_model import path_to_root
 
@@ -112,6 +112,19 @@ class SensorRun:
         if not present or not isinstance(support, MovingSupport):
             return ()
         return self._once(("touched", _key(interval)), lambda: self._beyond(support, present))
+
+    def possibly_touched(self, interval: Interval) -> tuple[str, ...]:
+        """Name the contacts beyond the sensor that may come while the support stands still.
+
+        Args:
+            interval: An interval.
+
+        Returns:
+            Names of contacts; none where the support moves, since there they are `touched_beyond`.
+        """
+        present = contacts_in(interval, self.experiment.contacts)
+        support = interval.support
+        return self._beyond(support, present) if present and isinstance(support, Support) else ()
 
     def known(self, intervals: Sequence[Interval], which: str = "an interval") -> tuple[Interval, ...]:
         """Leave out intervals in which nobody knows what the sensor must read.
@@ -320,7 +333,7 @@ class SensorRun:
     def _known_intervals(self, use: Use) -> tuple[Interval, ...]:
         return self.known(self.experiment.intervals(use), f'an interval with use = "{use}"')
 
-    def _beyond(self, support: MovingSupport, contacts: Sequence[ExperimentContact]) -> tuple[str, ...]:
+    def _beyond(self, support: Support | MovingSupport, contacts: Sequence[ExperimentContact]) -> tuple[str, ...]:
         tree = build_tree(self.experiment.model, support.frame)
         cut = tree.cuts[self.sensor.name].body
         return tuple(
