@@ -103,7 +103,7 @@ class WorkbenchError(Table):
         return self.mean_force_N + self.mean_moment_Nm
 
 
-class MatrixError(Table):
+class MatrixErrorSize(Table):
     """How wrong the workbench matrix of every mounted sensor is, in place of all that mounting does.
 
     It reads a true wrench w as `(1 + E) w`; E is drawn for each sensor, and has this size for each.
@@ -159,7 +159,7 @@ class Sensors(Table):
     """Magnitude at which a channel is saturated."""
     workbench_error: WorkbenchError | None = None
     """How much the workbench matrix of one sensor errs; as it is drawn if left out."""
-    matrix_error: MatrixError | None = None
+    matrix_error: MatrixErrorSize | None = None
     """Size of the error of every workbench matrix; what mounting makes of it if left out."""
 
     @model_validator(mode="after")
