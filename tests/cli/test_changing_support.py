@@ -33,7 +33,7 @@ force_mean_N = 4.0
 
 @pytest.fixture(scope="session")
 def switched(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Folder of two days, each one recording, with the sensors of both legs; files may be added to it, none is changed."""
+    """Folder of two days, each one recording, with the sensors of both legs; none of its files is changed."""
     folder = tmp_path_factory.mktemp("switched") / "out"
     write_scenario(build_scenario(short_switching(names=LEGS)), folder)
     (folder / "limits.toml").write_text(ACCEPTANCE, encoding="utf-8")
