@@ -272,9 +272,12 @@ def test_five_channels_are_refused() -> None:
 
 
 def test_masses_in_grams_are_no_sensor() -> None:
-    """By loads a thousand times too large the sensor would hardly answer; mounting does not do that."""
+    """By loads a thousand times too large the sensor would hardly answer; mounting does not do that.
+
+    The gain is a thousandth, not what rounding makes of noise that few means leave nothing of.
+    """
     data = read_by(anyhow())
-    with pytest.raises(FitError, match="mounting does not do that"):
+    with pytest.raises(FitError, match="with 0.00 of what its prior says; mounting does not do that"):
         fit_generative([replace(data, reference=1000.0 * data.reference)], PRIOR, assumptions())
 
 

@@ -11,6 +11,8 @@ import pytest
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration import DataSet
 from forcetorque.calibration.gate import examine
+from forcetorque.calibration.gate.movement import Movement
+from forcetorque.calibration.gate.sign import require_same_sign
 from forcetorque.errors import FitError, ShapeError
 
 RNG = np.random.default_rng(5)
@@ -85,6 +87,16 @@ def test_one_axis_that_is_reversed_is_named() -> None:
     """A left-handed prior: the other forces run with the reference."""
     with pytest.raises(FitError, match=r"fy of the prior's reading run\(s\) against the reference, other forces do"):
         examine([_data()], np.diag([1.0, -1.0, 1.0, 1.0, 1.0, 1.0]) @ PRIOR)
+
+
+def test_an_axis_that_rounding_leaves_less_than_nothing_of_is_no_axis_against() -> None:
+    """What a drift explains is taken out by subtraction: an axis at rest then has a moment of -1e-17 now and then."""
+    moved = np.diag([9.0, 4.0, -1e-17, 0.1, 0.1, 0.1])
+    movement = Movement(count=1000, second=np.tile(moved, (2, 2)), lasting=np.zeros((12, 12)), size=np.full(6, 3.0))
+    require_same_sign(movement, np.eye(6))
+    backwards = np.tile(moved, (2, 2)) * np.kron([[1.0, -1.0], [-1.0, 1.0]], np.ones((6, 6)))
+    with pytest.raises(FitError, match="runs against the reference"):
+        require_same_sign(replace(movement, second=backwards), np.eye(6))
 
 
 def test_a_reference_beyond_the_full_scale_is_refused() -> None:

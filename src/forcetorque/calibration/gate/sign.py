@@ -34,7 +34,8 @@ def require_same_sign(movement: Movement, prior: FloatArray) -> None:
             "of [[support]] the direction in which things fall, and measure_direction of [[sensor]], [load] or the "
             "URDF's sensor tag the right way round?"
         )
-    change = np.sqrt(np.diag(movement.second)[6:9])
+    # taking out what variables explain may leave less than nothing of an axis that does not move
+    change = np.sqrt(np.maximum(np.diag(movement.second)[6:9], 0.0))
     against = [
         f"f{axis}"
         for axis, gain, deviation, moved in zip("xyz", gains.components, gains.deviations, change, strict=False)

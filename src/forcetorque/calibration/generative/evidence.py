@@ -24,6 +24,9 @@ _LEAST_TIME_S = 15.0
 """An error of the reference that no averaging removes lasts at least this long; s."""
 _LEAST, _LARGEST = 1e-5, 1e4
 _TINY = 1e-18
+_ROUNDING = 1e-13
+"""Share of the whole response below which nothing that is left of it is told from rounding: where there are fewer means
+than unknowns they may leave nothing, and noise far below its rounding would make coefficients of that."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -52,9 +55,10 @@ class _Row:
         self.log_determinant = np.array([one.log_determinant for one in data])
         ratio = np.array([one.noise.ratio for one in data])
         lasting = np.array([one.noise.time_constant_s >= _LEAST_TIME_S for one in data])
-        self.least = np.full(len(data), _TINY)
+        self.least = np.maximum(_ROUNDING * self.response, _TINY)
         if accuracy > 0.0:
-            np.divide(accuracy**2, ratio, out=self.least, where=ratio > 0.0)
+            of_reference = np.divide(accuracy**2, ratio, out=np.zeros(len(data)), where=ratio > 0.0)
+            self.least = np.maximum(self.least, of_reference)
         self.allowed: BoolArray = lasting & (ratio > 0.0) if accuracy > 0.0 else np.ones(len(data), dtype=bool)
         self.variance = np.maximum(self.response, _TINY)
 
