@@ -172,5 +172,6 @@ def _touched(run: SensorRun) -> Iterator[str]:
         if names := run.touched_beyond(interval):
             yield (
                 f"interval {interval.label!r} is left out: {', '.join(names)} touches the robot beyond the sensor, by "
-                "[[contact]], so that nobody knows what it must read; calibrate all sensors at once, --jointly"
+                "[[contact]] or touched, so that nobody knows what it must read; calibrate all sensors at once, "
+                "--jointly"
             )
