@@ -26,6 +26,7 @@ from forcetorque.analysis.balance_rows import (
 from forcetorque.analysis.interval_balance import BalanceOptions, IntervalBalance
 from forcetorque.analysis.reading import Correction
 from forcetorque.errors import ExperimentError
+from forcetorque.estimation.balance import NO_FOOT, require_support
 from forcetorque.exchange.sample_table import SampleSpan, write_samples
 from forcetorque.experiment import Experiment, FootForces
 from forcetorque.experiment.inputs import stated_in
@@ -33,6 +34,9 @@ from forcetorque.result import Result, Table, table_of
 
 SAMPLES = "forcetorque/balance-samples/1"
 """Name and version of the table of samples."""
+
+_DOUBTED_SHARE = 0.1
+"""Share of the weight that feet may seem to bear more or less before it is a warning: sensors err by some percent."""
 
 
 class Balance(Result):
@@ -131,6 +135,7 @@ def balance(
 
     Raises:
         ExperimentError: If there is no recording, or one has no sole.
+        EstimationError: If no foot is down in any interval, or thresholds cross.
     """
     asked = BalanceOptions() if options is None else options
     if not recordings:
@@ -161,8 +166,12 @@ def _summed_up(
     weights = {interval.weight_N for interval in intervals}
     weight_N = weights.pop() if len(weights) == 1 else None
     thresholds = options.thresholds(intervals[0].weight_N)
+    require_support(
+        [interval.phases for interval in intervals], [interval.forces for interval in intervals], thresholds
+    )
     robots = [(interval, interval.robot) for interval in intervals if interval.robot is not None]
     refused = tuple(dict.fromkeys(words for interval in intervals for words in interval.refused))
+    phases = tuple(phase_rows(intervals))
     feet = tuple(foot_row(interval, foot) for interval in intervals for foot in interval.feet)
     return Balance(
         experiments=names,
@@ -171,7 +180,7 @@ def _summed_up(
         release_N=thresholds.release_N,
         dwell_s=thresholds.dwell_s,
         least_load_N=options.least_load_N(intervals[0].weight_N),
-        phases=tuple(phase_rows(intervals)),
+        phases=phases,
         feet=feet,
         robot=tuple(robot_row(interval, robot) for interval, robot in robots),
         pendulum=tuple(
@@ -181,8 +190,21 @@ def _summed_up(
         ),
         refused=refused,
         intervals=intervals,
-        warnings=(*twice, *refused, *_doubts(feet)),
+        warnings=(*twice, *refused, *_doubts(feet), *_doubted_weights(phases, weight_N)),
     )
+
+
+def _doubted_weights(phases: Sequence[SupportPhaseRow], weight_N: float | None) -> Iterator[str]:
+    """Phases in which feet bear so much more or less than the robot weighs that their readings cannot be right."""
+    for row in phases:
+        if weight_N is None or row.net_N is None or row.phase == NO_FOOT:
+            continue
+        if abs(row.net_N - weight_N) > _DOUBTED_SHARE * weight_N:
+            yield (
+                f"{row.phase}: the feet bear {row.net_N:.1f} N in the mean, the robot weighs {weight_N:.1f} N: an "
+                "offset was not removed, a matrix is wrong, or something else bears the robot; phases and points are "
+                "as wrong"
+            )
 
 
 def _doubts(feet: Sequence[FootPressureRow]) -> Iterator[str]:

@@ -10,7 +10,13 @@ from hypothesis import strategies as st
 
 from forcetorque.arrays import FloatArray
 from forcetorque.errors import EstimationError, ShapeError
-from forcetorque.estimation.balance import ContactThresholds, contact_state, support_phases
+from forcetorque.estimation.balance import (
+    NO_FOOT,
+    ContactThresholds,
+    contact_state,
+    require_support,
+    support_phases,
+)
 
 PERIOD_S = 0.01
 THRESHOLDS = ContactThresholds(touch_N=50.0, release_N=20.0)
@@ -86,16 +92,25 @@ def test_what_cannot_be_a_phase_is_refused() -> None:
         ContactThresholds(touch_N=20.0, release_N=50.0)
     with pytest.raises(EstimationError, match="dwell time"):
         ContactThresholds(touch_N=50.0, release_N=20.0, dwell_s=-1.0)
-    with pytest.raises(EstimationError, match="no support phase found.*left 30 N"):
-        support_phases({"left": np.full(9, 30.0)}, _times(9), THRESHOLDS)
-    with pytest.raises(EstimationError, match="sign that of the ground"):
-        support_phases({"left": np.full(9, -300.0)}, _times(9), THRESHOLDS)
-    with pytest.raises(EstimationError, match="no force that is known"):
-        support_phases({"left": np.full(9, np.nan)}, _times(9), THRESHOLDS)
     with pytest.raises(EstimationError, match="got none"):
         support_phases({}, _times(9), THRESHOLDS)
     with pytest.raises(ShapeError, match="instants that rise"):
         contact_state([1.0, 2.0], [0.0, 0.0], THRESHOLDS)
+
+
+def test_a_robot_may_hang_but_not_all_the_time() -> None:
+    """No foot down in one recording is a phase, in all of them a refusal that says what was borne at most."""
+    forces = [{"left": np.full(9, force)} for force in (30.0, -300.0, np.nan, 60.0)]
+    phases = [support_phases(force, _times(9), THRESHOLDS) for force in forces]
+    assert [one.names for one in phases] == [(NO_FOOT,), (NO_FOOT,), (), ("left",)]
+    require_support(phases, forces, THRESHOLDS)
+    for k, words in enumerate(
+        ("no support phase found.*left 30 N", "sign that of the ground", "no force that is known")
+    ):
+        with pytest.raises(EstimationError, match=words):
+            require_support(phases[k : k + 1], forces[k : k + 1], THRESHOLDS)
+    with pytest.raises(EstimationError, match="left 30 N"):
+        require_support(phases[:3], forces[:3], THRESHOLDS)
 
 
 def test_thresholds_as_shares_of_the_weight() -> None:

@@ -20,7 +20,13 @@ from forcetorque.estimation.balance.contact_state import (
 from forcetorque.estimation.balance.force_limit import ForceLimit
 from forcetorque.estimation.balance.ground import PlaneTolerance, coplanar, wrench_on_ground
 from forcetorque.estimation.balance.sole import Sole
-from forcetorque.estimation.balance.support_phases import NO_FOOT, SupportPhase, SupportPhases, support_phases
+from forcetorque.estimation.balance.support_phases import (
+    NO_FOOT,
+    SupportPhase,
+    SupportPhases,
+    require_support,
+    support_phases,
+)
 
 __all__ = [
     "HALF_95",
@@ -43,6 +49,7 @@ __all__ = [
     "coplanar",
     "mass_of",
     "pendulum_acceleration",
+    "require_support",
     "stays_in_band",
     "support_phases",
     "wrench_on_ground",

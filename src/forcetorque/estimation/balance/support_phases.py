@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -98,7 +98,7 @@ def support_phases(forces: Mapping[str, Any], time_s: Any, thresholds: ContactTh
         of the log.
 
     Raises:
-        EstimationError: If there is no foot, no force is known, or no foot ever is down.
+        EstimationError: If there is no foot.
     """
     time = np.asarray(time_s, dtype=np.float64)
     if not forces:
@@ -110,9 +110,35 @@ def support_phases(forces: Mapping[str, Any], time_s: Any, thresholds: ContactTh
     down = np.stack([contact_state(column, time, thresholds) for column in columns], axis=1)
     known: BoolArray = np.all(np.isfinite(np.stack(columns, axis=1)), axis=1)
     phases = tuple(_phases(feet, time, down, known))
-    if not any(phase.feet for phase in phases):
-        raise EstimationError(_nothing_down(feet, columns, thresholds))
     return SupportPhases(feet=feet, time_s=time, down=down & known[:, None], known=known, phases=phases)
+
+
+def require_support(
+    phases: Sequence[SupportPhases], forces: Sequence[Mapping[str, FloatArray]], thresholds: ContactThresholds
+) -> None:
+    """Refuse recordings in which no foot is ever down; in one of several the robot may hang.
+
+    Args:
+        phases: The phases of each.
+        forces: The forces that they are of, as `support_phases` takes them.
+        thresholds: Which forces make a contact.
+
+    Raises:
+        EstimationError: If no foot is down in any.
+    """
+    if any(phase.feet for one in phases for phase in one.phases):
+        return
+    largest: dict[str, float] = {}
+    for foot, force in ((foot, force) for by_foot in forces for foot, force in by_foot.items()):
+        largest[foot] = float(np.nanmax(np.append(force, largest.get(foot, -np.inf))))
+    most = ", ".join(
+        f"{foot} {force:.3g} N" if np.isfinite(force) else f"{foot} no force that is known"
+        for foot, force in largest.items()
+    )
+    raise EstimationError(
+        f"no support phase found: expected a foot that bears {thresholds.touch_N:.3g} N at some time, got at most "
+        f"{most}; is the sign that of the ground on the foot, or the robot in the air? Lower the thresholds otherwise"
+    )
 
 
 def _phases(feet: tuple[str, ...], time: FloatArray, down: BoolArray, known: BoolArray) -> Iterator[SupportPhase]:
@@ -126,14 +152,3 @@ def _phases(feet: tuple[str, ...], time: FloatArray, down: BoolArray, known: Boo
                 start_s=float(time[first]),
                 end_s=float(time[last]),
             )
-
-
-def _nothing_down(feet: tuple[str, ...], columns: list[FloatArray], thresholds: ContactThresholds) -> str:
-    most = ", ".join(
-        f"{foot} {np.nanmax(column):.3g} N" if np.isfinite(column).any() else f"{foot} no force that is known"
-        for foot, column in zip(feet, columns, strict=True)
-    )
-    return (
-        f"no support phase found: expected a foot that bears {thresholds.touch_N:.3g} N at some time, got at most "
-        f"{most}; is the sign that of the ground on the foot, or the robot in the air? Lower the thresholds otherwise"
-    )
