@@ -25,6 +25,7 @@ from tests.cli.commands import question_of, typed_commands
 from tests.cli.outcome import Run
 from tests.excited_sensors import write_taps
 from tests.experiments import PARQUET, TWO
+from tests.foot_forces import write_foot_forces
 from tests.patches import collapsed, cylinder_patch, position_text
 from tests.thermal_cycles import record, write_cycles
 from tests.touched import write_table, write_touched
@@ -38,6 +39,7 @@ LIMITS = (
 SHORT = ("--type", "OnTdTO", "--type", "CnTdTO", "--lambda", "0", "--lambda", "100")
 COMMANDS = {
     "accept": ("accept", PARQUET, "--spec", "limits.toml", "-c", "fitted.json"),
+    "balance": ("balance", "feet/standing.toml", "--touch", "50N", "--release", "20N"),
     "calibrate": ("calibrate", PARQUET, "-o", "new.json", "--lambda", "5"),
     "compare": ("compare", PARQUET, "-c", "fitted.json"),
     "device": ("device",),
@@ -97,6 +99,11 @@ def _write_fast(arm: Path) -> None:
     write_taps(arm / "excited")
 
 
+def _write_feet(arm: Path) -> None:
+    (arm / "feet").mkdir()
+    write_foot_forces(arm / "feet")
+
+
 def _write_patch(arm: Path) -> None:
     (arm / "patch.txt").write_text(position_text(collapsed(cylinder_patch(), 4)), encoding="utf-8")
 
@@ -111,6 +118,7 @@ WRITTEN: Mapping[str, Callable[[Path], object]] = MappingProxyType(
         "wrist/contest.toml": _write_runs,
         "excited/taps.toml": _write_fast,
         "patch.txt": _write_patch,
+        "feet/standing.toml": _write_feet,
         "SIM001.toml": partial(write_bench, faults=BenchFaults(swapped=(3, 8))),
     }
 )

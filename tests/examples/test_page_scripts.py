@@ -14,6 +14,7 @@ from tests.page_scripts import marked, unmarked
 ROOT = Path(__file__).resolve().parents[2]
 PAGES = sorted([ROOT / "README.md", *(ROOT / "docs").glob("*.md")])
 RUN_ELSEWHERE = {
+    "balance.md": "tests/analysis/test_balance.py",
     "calibration.md": "tests/examples/test_calibration_page.py",
     "estimation.md": "tests/estimation/test_documentation.py",
     "recording.md": "tests/experiment/test_written_logs.py",

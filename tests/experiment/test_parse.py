@@ -243,7 +243,7 @@ TABLES = {
     'name = "small arm"': (
         "top level",
         "calibration, contact, estimation, fusion, interval, load, load_case, motor, name, patch, plan, processing, "
-        "recording, robot, schema, sensor, support, trial",
+        "recording, robot, schema, sensor, sole, support, trial",
     ),
 }
 

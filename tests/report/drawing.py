@@ -38,13 +38,16 @@ from forcetorque.analysis import (
 )
 from forcetorque.analysis.device_demand_rows import GradeRow
 from forcetorque.analysis.device_span_rows import DirectionRow
+from forcetorque.analysis.interval_balance import FootPressure, IntervalBalance, RobotBalance
 from forcetorque.analysis.skin_event_rows import SkinEventPicture
 from forcetorque.analysis.skin_picture import TaxelPicture
 from forcetorque.calibration.joint import PartResidual
+from forcetorque.estimation.balance import ContactThresholds, Sole, centre_of_pressure, support_phases
 from forcetorque.evaluation.response import ExcitationKind, SecondOrder
 from forcetorque.evaluation.sphere import analyse_sphere
 from forcetorque.exsitu.device import VIEWS, Silhouette
 from forcetorque.report.figures import (
+    balance_figure,
     bench_figure,
     comparison_figure,
     contact_figure,
@@ -88,6 +91,42 @@ TYPES = ("SnTdTO", "SwTdTO", "SwTrTO", "OnTdTO", "OwTdTO", "OwTrTO")
 
 def _wrenches(rng: np.random.Generator, count: int = 400) -> np.ndarray:
     return np.cumsum(rng.normal(size=(count, 6)), axis=0) * [2.0, 2.0, 4.0, 0.1, 0.1, 0.05]
+
+
+def _balance(rng: np.random.Generator) -> Figure:
+    time_s = 0.02 * np.arange(400)
+    share = np.clip(0.5 + 0.5 * np.minimum(time_s - 2.0, 6.0 - time_s), 0.5, 1.0)
+    forces = {"l_sole": 300.0 * share, "r_sole": 300.0 * (1.0 - share)}
+    feet = []
+    for frame, force in forces.items():
+        wrench = np.zeros((400, 6))
+        wrench[:, 2], wrench[:, 3:5] = force, force[:, None] * rng.normal(0.0, 0.01, (400, 2))
+        sole = Sole(frame=frame, outline=np.array([[-0.05, -0.04], [0.1, -0.04], [0.1, 0.04], [-0.05, 0.04]]))
+        pressure = centre_of_pressure(wrench, least_load_N=45.0)
+        feet.append(
+            FootPressure(
+                sole=sole,
+                sensors=(f"{frame[0]}_foot_ft",),
+                wrench=wrench,
+                covariance=None,
+                pressure=pressure,
+                reading_alone=None,
+            )
+        )
+    return balance_figure(
+        IntervalBalance(
+            recording="biped",
+            label="standing",
+            stamp_ns=(time_s * 1e9).astype(np.int64),
+            time_s=time_s,
+            weight_N=300.0,
+            forces=forces,
+            net_N=np.full(400, 300.0),
+            phases=support_phases(forces, time_s, ContactThresholds(touch_N=45.0, release_N=18.0)),
+            feet=tuple(feet),
+            robot=RobotBalance(frame="l_sole", pressure=feet[0].pressure),
+        )
+    )
 
 
 def _space(rng: np.random.Generator) -> Figure:
@@ -559,6 +598,7 @@ def _remedies(rng: np.random.Generator) -> Figure:
 
 
 FIGURES: dict[str, Callable[[np.random.Generator], Figure]] = {
+    "balance": _balance,
     "bench": _bench,
     "space": _space,
     "force space": _force_space,

@@ -8,13 +8,14 @@ from dataclasses import fields
 from datetime import UTC, datetime
 from importlib.metadata import version
 from pathlib import Path
-from typing import Self
+from typing import Any, Self
 
 from forcetorque import analysis
 from forcetorque import experiment as experiments
 from forcetorque.analysis import SensorCalibrations
 from forcetorque.calibration.joint import ModelTolerance
-from forcetorque.interactive.run import Run
+from forcetorque.estimation.balance import ForceLimit
+from forcetorque.interactive.run import Calibrations, Run, named
 from forcetorque.result import Table, html_table
 
 
@@ -48,6 +49,27 @@ class Experiment(experiments.Experiment):
             ExperimentError: If the experiment has none of that name.
         """
         return Run(self, self.sensor(sensor))
+
+    def balance(
+        self, calibrations: Calibrations | None = None, *, touch: str = "15%", release: str = "6%", **options: Any
+    ) -> analysis.Balance:
+        """Say which feet bear the robot, and where, over all intervals that are not to be ignored.
+
+        Args:
+            calibrations: How sensors are read; as logged or by their prior if left out.
+            touch: Force that a contact reaches, as `50N` or a share of the weight, as `15%`.
+            release: Force above which it lasts.
+            options: `dwell_s`, `least_load`, `height_band_m`, `plane` of `forcetorque.analysis.BalanceOptions`.
+
+        Returns:
+            Phases, centres of pressure and of mass, with every sample in `intervals`.
+
+        Raises:
+            ExperimentError: If the file has no sole.
+            EstimationError: If no foot is down, or thresholds cross.
+        """
+        asked = analysis.BalanceOptions(touch=ForceLimit.of(touch), release=ForceLimit.of(release), **options)
+        return analysis.balance([self], [analysis.corrections_of(self, named(calibrations))], asked)
 
     def _repr_html_(self) -> str:
         start = self.recording.start_ns
