@@ -105,6 +105,22 @@ def test_neither_a_slope_nor_acceleration_enters(tilted: Standing) -> None:
     assert np.abs(slope - true[:, 0]).max() > 0.002
 
 
+def test_a_sensor_in_the_leg_tells_the_same_point(standing: Standing) -> None:
+    """Without the sensors of the feet those of the legs do, two joints and a shank above the sole, within 1e-9 m."""
+    legs = {name: reading for name, reading in standing.corrections.items() if "leg" in name}
+    sensors = tuple(sensor for sensor in standing.experiment.sensors if sensor.name in legs)
+    result = balance([replace(standing.experiment, sensors=sensors)], [legs])
+    compared = 0
+    for interval in result.intervals:
+        for foot in interval.feet:
+            known = foot.pressure.known
+            assert foot.sensors == (f"{foot.sole.frame[0]}_leg_ft",)
+            true = standing.true_points(foot.sole.frame, interval.stamp_ns)
+            np.testing.assert_allclose(foot.pressure.points[known], true[known], rtol=0, atol=EXACT_M)
+            compared += int(known.any())
+    assert compared == 8
+
+
 def _noisy(like: Standing, seed: int) -> Standing:
     """The same with white noise in all readings, whose size the file states."""
     rng = np.random.default_rng(seed)
