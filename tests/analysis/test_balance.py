@@ -78,6 +78,10 @@ def test_points_are_those_of_the_ground_in_every_phase(standing: Standing) -> No
     free = next(row for row in result.feet if (row.interval, row.sole) == ("l_sole", "r_sole"))
     assert (free.samples, free.load_N, free.x_mm) == (0, None, None)
     assert any("never bears the least load" in warning for warning in result.warnings)
+    hanging = next(interval.robot for interval in result.intervals if interval.label == "hanging")
+    assert hanging is not None
+    assert hanging.zero_moment_point is not None
+    assert np.isnan(hanging.zero_moment_point).all()
 
 
 def test_the_net_force_is_the_weight_where_nothing_moves(standing: Standing) -> None:
