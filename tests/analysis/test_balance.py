@@ -78,6 +78,10 @@ def test_points_are_those_of_the_ground_in_every_phase(standing: Standing) -> No
     free = next(row for row in result.feet if (row.interval, row.sole) == ("l_sole", "r_sole"))
     assert (free.samples, free.load_N, free.x_mm) == (0, None, None)
     assert any("never bears the least load" in warning for warning in result.warnings)
+    hanging = next(interval.robot for interval in result.intervals if interval.label == "hanging")
+    assert hanging is not None
+    assert hanging.zero_moment_point is not None
+    assert np.isnan(hanging.zero_moment_point).all()
 
 
 def test_the_net_force_is_the_weight_where_nothing_moves(standing: Standing) -> None:
@@ -103,6 +107,22 @@ def test_neither_a_slope_nor_acceleration_enters(tilted: Standing) -> None:
     assert interval.robot.com is not None
     slope = interval.robot.com[:, 0] + np.tan(np.radians(TILT_DEG)) * interval.robot.com[:, 2]
     assert np.abs(slope - true[:, 0]).max() > 0.002
+
+
+def test_a_sensor_in_the_leg_tells_the_same_point(standing: Standing) -> None:
+    """Without the sensors of the feet those of the legs do, two joints and a shank above the sole, within 1e-9 m."""
+    legs = {name: reading for name, reading in standing.corrections.items() if "leg" in name}
+    sensors = tuple(sensor for sensor in standing.experiment.sensors if sensor.name in legs)
+    result = balance([replace(standing.experiment, sensors=sensors)], [legs])
+    compared = 0
+    for interval in result.intervals:
+        for foot in interval.feet:
+            known = foot.pressure.known
+            assert foot.sensors == (f"{foot.sole.frame[0]}_leg_ft",)
+            true = standing.true_points(foot.sole.frame, interval.stamp_ns)
+            np.testing.assert_allclose(foot.pressure.points[known], true[known], rtol=0, atol=EXACT_M)
+            compared += int(known.any())
+    assert compared == 8
 
 
 def _noisy(like: Standing, seed: int) -> Standing:

@@ -143,7 +143,7 @@ def balance(
     by_place = tuple(corrections) or ({},) * len(recordings)
     names: dict[str, str] = {}
     counted: list[IntervalBalance] = []
-    twice = []
+    doubts = []
     for content, reading in zip(recordings, by_place, strict=True):
         with stated_in(str(content.file)):
             intervals = tuple(
@@ -153,15 +153,21 @@ def balance(
             )
         mark = _fingerprint(intervals)
         if mark in names:
-            twice.append(f"{content.name}: its forces are those of {names[mark]}, sample for sample; counted once")
+            doubts.append(f"{content.name}: its forces are those of {names[mark]}, sample for sample; counted once")
             continue
         names[mark] = content.name
+        doubts += [
+            f"{content.name}: {sensor}: no offset was removed, so that forces and points have whatever offset it has; "
+            "give a calibration, or an interval for calibration"
+            for sensor, correction in reading.items()
+            if not correction.removes_offset
+        ]
         counted += intervals
-    return _summed_up(tuple(counted), tuple(names.values()), asked, twice)
+    return _summed_up(tuple(counted), tuple(names.values()), asked, doubts)
 
 
 def _summed_up(
-    intervals: tuple[IntervalBalance, ...], names: tuple[str, ...], options: BalanceOptions, twice: Sequence[str]
+    intervals: tuple[IntervalBalance, ...], names: tuple[str, ...], options: BalanceOptions, doubts: Sequence[str]
 ) -> Balance:
     weights = {interval.weight_N for interval in intervals}
     weight_N = weights.pop() if len(weights) == 1 else None
@@ -190,7 +196,7 @@ def _summed_up(
         ),
         refused=refused,
         intervals=intervals,
-        warnings=(*twice, *refused, *_doubts(feet), *_doubted_weights(phases, weight_N)),
+        warnings=(*doubts, *refused, *_doubts(feet), *_doubted_weights(phases, weight_N)),
     )
 
 

@@ -13,9 +13,12 @@ from forcetorque.arrays import BoolArray, FloatArray
 from forcetorque.estimation.balance import ComAcceleration, PressureCentres
 from forcetorque.evaluation import autocorrelation
 from forcetorque.noise import mean_error, one_after_another
+from forcetorque.noise.regression import half_width
 from forcetorque.result import Row, Shown, finite_or_none
 
 _MM = 1e3
+_FEWEST_STRETCHES = 3
+"""Stretches of which two differences at least tell how much one differs from the next."""
 
 
 class SupportPhaseRow(Row):
@@ -32,7 +35,8 @@ class SupportPhaseRow(Row):
     net_N: Annotated[float | None, Shown("net force", "N", digits=1, error="half_width_95_N")]
     """Mean upward force on all feet together."""
     half_width_95_N: float | None
-    """Half of its 95 % interval, of noise that is white and slow; None where it cannot be told."""
+    """Half of its 95 % interval: the wider of that of noise that is white and slow, and of three stretches or more that
+    each have an offset of their own, as of another foothold; None where it cannot be told."""
     deviation_N: Annotated[float | None, Shown("deviation", "N", digits=1)]
     """Standard deviation of a sample."""
     independent: Annotated[float | None, Shown("independent", digits=0)]
@@ -137,17 +141,18 @@ def phase_rows(intervals: Sequence[IntervalBalance]) -> Iterator[SupportPhaseRow
     for name in dict.fromkeys(name for interval in intervals for name in interval.phases.names):
         parts = [(interval, interval.phases.holds(name)) for interval in intervals]
         parts = [(interval, inside) for interval, inside in parts if inside.any()]
-        phases = [phase for interval in intervals for phase in interval.phases.phases if phase.name == name]
+        phases = [(interval, phase) for interval, _ in parts for phase in interval.phases.phases if phase.name == name]
+        stretches = [interval.net_N[phase.samples][interval.phases.known[phase.samples]] for interval, phase in phases]
         net = np.concatenate([interval.net_N[inside] for interval, inside in parts])
         time = one_after_another([interval.time_s[inside] for interval, inside in parts])
         weights = {interval.weight_N for interval, _ in parts}
         weight_N = weights.pop() if len(weights) == 1 else None
         mean = float(net.mean())
-        half = float(mean_error(net[:, None], time).half_width[0])
+        half = max(float(mean_error(net[:, None], time).half_width[0]), _half_width_of_stretches(stretches))
         yield SupportPhaseRow(
             phase=name,
             stretches=len(phases),
-            duration_s=sum(phase.duration_s for phase in phases),
+            duration_s=sum(phase.duration_s for _, phase in phases),
             samples=len(net),
             net_N=mean,
             half_width_95_N=finite_or_none(half),
@@ -155,6 +160,16 @@ def phase_rows(intervals: Sequence[IntervalBalance]) -> Iterator[SupportPhaseRow
             independent=finite_or_none(autocorrelation(net, time).effective_count) if len(net) > 1 else None,
             from_weight_N=None if weight_N is None else mean - weight_N,
         )
+
+
+def _half_width_of_stretches(stretches: Sequence[FloatArray]) -> float:
+    """Half of the 95 % interval of the mean over all samples if every stretch has an offset of its own; 0 for few."""
+    if len(stretches) < _FEWEST_STRETCHES:
+        return 0.0
+    means, shares = np.array([(net.mean(), len(net)) for net in stretches]).T
+    # the deviation of means has their own noise in it too, so that it is rather too wide than too narrow
+    error = means.std(ddof=1) * np.linalg.norm(shares / shares.sum())
+    return float(half_width(np.array([error]), np.array([len(stretches) - 1.0]))[0])
 
 
 def foot_row(interval: IntervalBalance, foot: FootPressure) -> FootPressureRow:

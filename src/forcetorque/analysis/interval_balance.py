@@ -98,8 +98,8 @@ class RobotBalance:
     pressure: PressureCentres
     """Centre of pressure of all feet that are down."""
     zero_moment_point: FloatArray | None = None
-    """Where weight and inertia of the moving robot press, as its joints have it; shape (n, 2); m; None where joints
-    that carry a mass were not logged."""
+    """Where weight and inertia of the moving robot press, as its joints have it; shape (n, 2); m; NaN while no
+    foot is down; None where joints that carry a mass were not logged."""
     com: FloatArray | None = None
     """Centre of mass; shape (n, 3); m."""
     com_acceleration: ComAcceleration | None = None

@@ -10,7 +10,7 @@ import numpy as np
 
 from forcetorque.analysis.balance_scene import BalanceScene
 from forcetorque.analysis.interval_balance import BalanceOptions, FootPressure, RobotBalance
-from forcetorque.arrays import FloatArray
+from forcetorque.arrays import BoolArray, FloatArray
 from forcetorque.errors import EstimationError
 from forcetorque.estimation.balance import (
     ComAcceleration,
@@ -69,6 +69,7 @@ def robot_balance(
             f"centre of mass and zero moment point: the log has no position of {', '.join(scene.missing)}, which carry "
             "a mass; log them, or take them as fixed joints of the model"
         )
+    borne: BoolArray = np.any(phases.down, axis=1)  # what hangs presses nowhere
     pendulum = None
     if options.height_band_m is not None and motion is not None:
         try:
@@ -78,7 +79,7 @@ def robot_balance(
     robot = RobotBalance(
         frame=scene.ground.frame,
         pressure=pressure,
-        zero_moment_point=None if motion is None else motion.zero_moment_point,
+        zero_moment_point=None if motion is None else np.where(borne[:, None], motion.zero_moment_point, np.nan),
         com=None if motion is None else motion.com,
         com_acceleration=pendulum,
         com_acceleration_of_joints=None if motion is None else motion.acceleration,

@@ -47,7 +47,8 @@ def balance(
         Path | None, typer.Option("--output", "-o", help="File for every sample, .parquet or .csv.")
     ] = None,
     figure: Annotated[
-        Path | None, typer.Option("--figure", help="PNG of phases, loads and points of the first interval.")
+        Path | None,
+        typer.Option("--figure", help="PNG of phases, loads and points of the first interval that it stands in."),
     ] = None,
     output_format: FormatOption = Format.TABLE,
 ) -> None:
@@ -79,7 +80,8 @@ def balance(
         from forcetorque.report.figures import balance_figure
         from forcetorque.report.figures.canvas import png_bytes
 
-        write_bytes_atomically(figure, png_bytes(balance_figure(result.intervals[0])))
+        standing = next(one for one in result.intervals if one.phases.down.any())
+        write_bytes_atomically(figure, png_bytes(balance_figure(standing)))
     show(result, output_format)
 
 
