@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from forcetorque.analysis.acceptance_file import AcceptanceFile, read_acceptance
     from forcetorque.analysis.applicability import by_sensor, one_per_sensor
     from forcetorque.analysis.assessment import Assessment, Demands, assess
+    from forcetorque.analysis.balance import Balance, balance
     from forcetorque.analysis.bench_file import BenchFile
     from forcetorque.analysis.bench_recording import BenchRecording, read_bench
     from forcetorque.analysis.best_candidate import BestCandidate, CandidateComparison
@@ -47,6 +48,7 @@ if TYPE_CHECKING:
     from forcetorque.analysis.findings import doubtful_spans, inspect_experiment, inspect_recording
     from forcetorque.analysis.gains import Gains, SensorGains, select_gains, sensor_gains
     from forcetorque.analysis.inspect import FindingRow, Inspection, finding_rows, finding_table, inspect_log
+    from forcetorque.analysis.interval_balance import BalanceOptions, IntervalBalance
     from forcetorque.analysis.interval_quality import IntervalQuality
     from forcetorque.analysis.joint_calibration import calibrate_jointly, calibration_file
     from forcetorque.analysis.joint_data import JOINT_FILE
@@ -106,6 +108,8 @@ __all__ = [
     "Acceptance",
     "AcceptanceFile",
     "Assessment",
+    "Balance",
+    "BalanceOptions",
     "BenchFile",
     "BenchPicture",
     "BenchRecording",
@@ -142,6 +146,7 @@ __all__ = [
     "Gains",
     "Independence",
     "Inspection",
+    "IntervalBalance",
     "IntervalEstimates",
     "IntervalOffset",
     "IntervalQuality",
@@ -204,6 +209,7 @@ __all__ = [
     "accept",
     "assess",
     "assess_experiment",
+    "balance",
     "by_sensor",
     "calibrate_for_file",
     "calibrate_jointly",

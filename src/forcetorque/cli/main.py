@@ -9,6 +9,7 @@ from typing import Annotated
 import typer
 
 from forcetorque.cli.accept import accept
+from forcetorque.cli.balance import balance
 from forcetorque.cli.calibrate import calibrate
 from forcetorque.cli.compare import compare
 from forcetorque.cli.contest import contest
@@ -58,6 +59,7 @@ def _version(
 
 _COMMANDS = (
     accept,
+    balance,
     calibrate,
     compare,
     device,

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Figures of results, as PNG."""
 
+from forcetorque.report.figures.balance import balance_figure
 from forcetorque.report.figures.bench import bench_figure
 from forcetorque.report.figures.compare import index_figure
 from forcetorque.report.figures.comparison import comparison_figure
@@ -32,6 +33,7 @@ from forcetorque.report.figures.uses import use_figure
 from forcetorque.report.figures.wrench_space import space_figure
 
 __all__ = [
+    "balance_figure",
     "bench_figure",
     "comparison_figure",
     "contact_figure",
