@@ -98,7 +98,7 @@ def settlings(signal: EvenedSignal, steps_s: Sequence[float], *, band_share: flo
     if not 0.0 < band_share < 1.0:
         raise RecordingError(f"band: expected a share of the step between 0 and 1, got {band_share:g}")
     time = signal.time_s + 0.5 / signal.rate_hz  # instants of samples are rounded: a step is between two of them
-    ends = [*steps_s[1:], math.inf]
+    ends = [*steps_s[1:], math.inf][: len(steps_s)]
     rows: list[Settling] = []
     begin = -math.inf
     for start, end in zip(steps_s, ends, strict=True):
