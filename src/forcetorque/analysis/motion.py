@@ -171,29 +171,41 @@ def _steps(signal: MotionSignal, steps_s: Sequence[float]) -> tuple[list[float],
 
 
 def _rows(signal: MotionSignal, name: str, even: EvenedSignal, search: OscillationSearch) -> Iterator[OscillationRow]:
-    found = search.oscillations
-    for oscillation in found or (None,):
-        frequency, amplitude, damping = (None, None, None) if oscillation is None else oscillation.half_width.tolist()
-        yield OscillationRow(
-            interval=signal.interval,
-            column=name,
-            oscillates=oscillation is not None,
-            frequency_hz=None if oscillation is None else oscillation.frequency_hz,
-            frequency_half_width_95_hz=frequency,
-            amplitude=None if oscillation is None else oscillation.amplitude,
-            amplitude_half_width_95=amplitude,
-            unit=signal.unit,
-            damping=None if oscillation is None else oscillation.damping,
-            damping_half_width_95=damping,
-            seen_amplitude=(
-                float(search.sensitivity.amplitude.max())
-                if oscillation is None
-                else search.seen_amplitude(oscillation.frequency_hz)
-            ),
-            lowest_hz=search.lowest_hz,
-            highest_hz=search.highest_hz,
-            samples=len(signal.values),
-            duration_s=even.duration_s,
+    nothing = OscillationRow(
+        interval=signal.interval,
+        column=name,
+        oscillates=False,
+        frequency_hz=None,
+        frequency_half_width_95_hz=None,
+        amplitude=None,
+        amplitude_half_width_95=None,
+        unit=signal.unit,
+        damping=None,
+        damping_half_width_95=None,
+        phase_kept_s=None,
+        seen_amplitude=float(search.sensitivity.amplitude.max()),
+        lowest_hz=search.lowest_hz,
+        highest_hz=search.highest_hz,
+        samples=len(signal.values),
+        duration_s=even.duration_s,
+    )
+    if not search.oscillations:
+        yield nothing
+    for one in search.oscillations:
+        frequency, amplitude, damping = one.half_width.tolist()
+        steady = math.isfinite(one.damping)
+        yield nothing.model_copy(
+            update={
+                "oscillates": True,
+                "frequency_hz": one.frequency_hz,
+                "frequency_half_width_95_hz": frequency,
+                "amplitude": one.amplitude,
+                "amplitude_half_width_95": amplitude,
+                "damping": one.damping if steady else None,
+                "damping_half_width_95": damping if steady else None,
+                "phase_kept_s": one.coherence_s,
+                "seen_amplitude": search.seen_amplitude(one.frequency_hz),
+            }
         )
 
 
@@ -260,7 +272,13 @@ def _doubts(signal: MotionSignal, name: str, even: EvenedSignal, search: Oscilla
             f"to {even.highest_hz:.3g} Hz are looked at; log without pauses to see faster ones"
         )
     for one in search.oscillations:
-        if one.amplitude < NEAR_LIMIT * search.seen_amplitude(one.frequency_hz):
+        if not math.isfinite(one.damping):
+            yield (
+                f"{where}: the swing of {one.frequency_hz:.4g} Hz keeps its phase for some {one.coherence_s:.3g} s "
+                "only, or comes and goes: no damping is told, and its amplitude is that of what keeps its phase so "
+                "long; choose a shorter interval to see more"
+            )
+        elif one.amplitude < NEAR_LIMIT * search.seen_amplitude(one.frequency_hz):
             yield (
                 f"{where}: the swing of {one.frequency_hz:.4g} Hz hardly stands out of the noise: what is seen at that "
                 "limit is larger than it is, as a smaller one would not have been seen; record longer"

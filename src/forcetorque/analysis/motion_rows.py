@@ -28,9 +28,12 @@ class OscillationRow(Row):
     unit: Annotated[str, Shown("unit")]
     """Unit of the column."""
     damping: Annotated[float | None, Shown("damping", digits=4, error="damping_half_width_95")]
-    """Damping ratio; about 0 of a swing that stays, below 0 of one that grows."""
+    """Damping ratio; about 0 of a swing that stays, below 0 of one that grows; null of one that does not keep its
+    phase."""
     damping_half_width_95: float | None
     """Half-width of that."""
+    phase_kept_s: Annotated[float | None, Shown("phase kept", "s", digits=1)]
+    """Time over which it keeps its phase: that of the interval, or of a part of it."""
     seen_amplitude: Annotated[FloatOrNull, Shown("seen from", digits=5)]
     """Amplitude from which on a further steady swing of that frequency would be seen in 95 % of such records; where
     nothing swings, one of any frequency that was looked at."""

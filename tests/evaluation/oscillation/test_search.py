@@ -141,3 +141,21 @@ def test_what_is_too_short_for_a_period_is_refused() -> None:
     time = np.concatenate([np.arange(400) / 100.0, 5.0 + np.arange(300) / 100.0])
     with pytest.raises(RecordingError, match=r"at least 3.3 periods .* got 8 s .* up to 1.01 s apart, .* 0.099 Hz"):
         find_oscillations(evened(time, np.sin(time), name="com_y"), name="com_y")
+
+
+@pytest.mark.parametrize("case", ["second half", "a third", "wandering phase"])
+def test_a_swing_that_does_not_last_is_told_in_parts(case: str) -> None:
+    """It is seen although it keeps its phase for a part of the record only; what cannot be told is not."""
+    rng, time = np.random.default_rng(9), np.arange(3000) / RATE_HZ
+    swings = {
+        "second half": swing(time, 1.3, 4.0, 0.7) * (time > 15.0),
+        "a third": swing(time, 1.3, 4.0, 0.7) * ((time > 10.0) & (time < 20.0)),
+        "wandering phase": 4.0 * np.cos(2.0 * np.pi * 1.3 * time + 0.1 * np.cumsum(rng.standard_normal(3000))),
+    }
+    (oscillation,) = _search(swings[case] + noise("ar 0.9", 3000, rng)).oscillations
+    assert oscillation.coherence_s < 16.0
+    assert np.isnan(oscillation.damping)
+    assert abs(oscillation.frequency_hz - 1.3) < oscillation.half_width[0] < 0.15
+    # what does not keep its phase within a part is not in the amplitude
+    assert 0.7 < oscillation.amplitude / (np.sqrt(2.0) * swings[case].std()) < 1.1
+    assert np.isnan(oscillation.half_width[2])

@@ -2,8 +2,10 @@
 """Where in its spectrum a signal swings more than its noise would by chance.
 
 At every frequency the share that a swing explains of the tapers' numbers is held against what noise would give it
-(Thomson's F test), for swings that stay, grow or die. Frequencies count by a prior that gives every octave the same
-weight, so that many cycles need not pay for few, nor few for many.
+(Thomson's F test), for swings that stay, grow or die. A swing that comes and goes, or whose phase wanders, does not
+last over the whole record: where none does, it is looked for in halves, quarters and so on, with an amplitude and a
+phase of its own in each. Frequencies count by a prior that gives every octave the same weight, so that many cycles need
+not pay for few, nor few for many.
 """
 
 from __future__ import annotations
@@ -26,8 +28,12 @@ from forcetorque.evaluation.oscillation.tapers import (
 CHANCE = 1e-3
 """Weighed p-value below which a swing is one. Several growths and dense frequencies are looked at, which makes of it
 about 2 % of records of noise that seem to swing."""
+PARTS = (1, 2, 4, 8, 16, 32)
+"""Parts of the record within which a swing may keep its phase."""
 GROWTHS = (0.0, 1.5, -1.5, 3.0, -3.0, 6.0, -6.0)
 """Logarithms of amplitude at the end over the start that are tried; a single step or spike looks like larger ones."""
+_LEAST_PIECE = 64
+"""Samples of a part."""
 POWER = 0.95
 """Probability with which a swing of the stated size is seen."""
 
@@ -38,8 +44,10 @@ class Candidate:
 
     cycles: float
     """Cycles in the record."""
+    parts: int
+    """Parts of the record in which it keeps its phase."""
     growth: float
-    """Logarithm of the amplitude at the end over that at the start."""
+    """Logarithm of the amplitude at the end over that at the start; 0 of a swing in parts."""
     chance: float
     """Its weighed p-value."""
     family: TaperFamily
@@ -70,29 +78,77 @@ def strongest_candidate(values: FloatArray, highest: float, excluded: Sequence[t
         excluded: Lowest and highest cycles of bands that are left out.
 
     Returns:
-        The candidate, whether it stands out or not.
+        The candidate, whether it stands out or not; one that keeps its phase throughout if
+            that does.
     """
-    best: Candidate | None = None
-    for family, low, high in _ranges(highest):
-        tapers = family.tapers(len(values))
-        cycles, transforms = tapered_spectrum(values, tapers)
-        chosen = _inside(cycles, low, high, excluded)
-        if not chosen.any():
-            continue
-        cycles, transforms = cycles[chosen], transforms[:, chosen]
-        energy = (np.abs(transforms) ** 2).sum(axis=0)
-        for growth in GROWTHS:
-            pattern = growth_pattern(tapers, growth)
-            explained = np.abs(pattern @ transforms) ** 2 / (pattern @ pattern)
-            left = np.clip(1.0 - explained / np.where(energy > 0.0, energy, 1.0), 1e-15, 1.0)
-            # P(F > f) of 2 and 2 (k - 1) degrees of freedom is the share that is left to the power k - 1
-            chance = left ** (family.count - 1) / _weight(cycles, highest)
-            k = int(chance.argmin())
-            if best is None or chance[k] < best.chance:
-                best = Candidate(cycles=float(cycles[k]), growth=growth, chance=float(chance[k]), family=family)
-    if best is None:  # all is excluded
-        return Candidate(cycles=math.nan, growth=0.0, chance=1.0, family=FAMILIES[-1])
+    best = Candidate(cycles=math.nan, parts=1, growth=0.0, chance=math.inf, family=FAMILIES[-1])
+    levels = _levels(len(values), highest)
+    for parts in levels:
+        for family, low, high in _ranges(highest / parts):
+            cycles, shares = _shares_left(values, parts, family)
+            chosen = _inside(parts * cycles, parts * low, parts * high, excluded)
+            weight = _weight(cycles[chosen], highest / parts) / len(levels)
+            for growth, left in shares:
+                chance = _chance(left[chosen], parts, family) / weight
+                if len(chance) and chance.min() < best.chance:
+                    k = int(chance.argmin())
+                    best = Candidate(
+                        cycles=float(parts * cycles[chosen][k]),
+                        parts=parts,
+                        growth=growth,
+                        chance=float(chance[k]),
+                        family=family,
+                    )
+        if parts == 1 and best.stands_out:  # it keeps its phase throughout, and has a damping
+            break
     return best
+
+
+def pieces(values: FloatArray, parts: int) -> FloatArray:
+    """Cut a signal in parts without mean and trend.
+
+    Args:
+        values: The signal; shape (n,).
+        parts: How many; samples that are left over at the end belong to none.
+
+    Returns:
+        Shape (parts, n // parts).
+    """
+    from scipy.signal import detrend  # here because importing it takes longer than most commands
+
+    length = len(values) // parts
+    cut: FloatArray = detrend(values[: parts * length].reshape(parts, length), axis=1)
+    return cut
+
+
+def _levels(n: int, highest: float) -> list[int]:
+    """Numbers of parts that are long enough for a swing."""
+    return [parts for parts in PARTS if parts == 1 or (n // parts >= _LEAST_PIECE and _ranges(highest / parts))]
+
+
+def _shares_left(
+    values: FloatArray, parts: int, family: TaperFamily
+) -> tuple[FloatArray, list[tuple[float, FloatArray]]]:
+    """Cycles per part, and for every growth the share of the tapers' numbers that a swing leaves."""
+    cut = pieces(values, parts) if parts > 1 else values[None, :]
+    tapers = family.tapers(cut.shape[1])
+    cycles, transforms = tapered_spectrum(cut, tapers)
+    energy = (np.abs(transforms) ** 2).sum(axis=(0, 1))
+    energy[energy == 0.0] = 1.0
+    shares = []
+    for growth in GROWTHS if parts == 1 else (0.0,):
+        pattern = growth_pattern(tapers, growth)
+        explained = (np.abs(np.einsum("k,pkm->pm", pattern, transforms)) ** 2).sum(axis=0) / (pattern @ pattern)
+        shares.append((growth, np.clip(1.0 - explained / energy, 1e-15, 1.0)))
+    return cycles, shares
+
+
+def _chance(left: FloatArray, parts: int, family: TaperFamily) -> FloatArray:
+    """Probability that noise leaves no more: the share has a beta distribution, which is that of the F test."""
+    from scipy.special import betainc
+
+    chance: FloatArray = betainc(float(parts * (family.count - 1)), float(parts), left)
+    return chance
 
 
 def sensitivity(noise: FloatArray, highest: float) -> Sensitivity:
@@ -111,13 +167,14 @@ def sensitivity(noise: FloatArray, highest: float) -> Sensitivity:
     places, amplitudes = [np.empty(0)], [np.empty(0)]
     for family, low, high in _ranges(highest):
         tapers = family.tapers(len(noise))
-        cycles, transforms = tapered_spectrum(noise, tapers)
-        power = (np.abs(transforms) ** 2).mean(axis=0)
+        cycles, transforms = tapered_spectrum(noise[None, :], tapers)
+        power = (np.abs(transforms) ** 2).mean(axis=(0, 1))
         band = max(1, round(2.0 * family.half_bandwidth / cycles[1]))
         chosen = _inside(cycles, low, high, ())
         cycles, power = cycles[chosen], uniform_filter1d(power, band, mode="nearest")[chosen]
         degrees, steady = family.count - 1, growth_pattern(tapers, 0.0)
-        threshold = degrees * ((CHANCE * _weight(cycles, highest)) ** (-1.0 / degrees) - 1.0)
+        chance = CHANCE * _weight(cycles, highest) / len(_levels(len(noise), highest))
+        threshold = degrees * (chance ** (-1.0 / degrees) - 1.0)
         noncentral = ncfdtrinc(2.0, 2.0 * degrees, 1.0 - POWER, threshold)
         places.append(cycles)
         amplitudes.append(2.0 * np.sqrt(0.5 * noncentral * power / (steady @ steady)))

@@ -27,18 +27,21 @@ _STEP = 1e-4
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Oscillation:
-    """A swing that keeps its phase."""
+    """A swing, over the whole record or in parts of it."""
 
     frequency_hz: float
     """Frequency; Hz."""
     amplitude: float
     """Amplitude of a steady swing with the same mean square; half of peak to peak; in the unit of the signal."""
     damping: float
-    """Damping ratio, decay over angular frequency; 0 of a steady swing, below 0 of one that grows."""
+    """Damping ratio, decay over angular frequency; 0 of a steady swing, below 0 of one that grows; NaN of one that does
+    not keep its phase over the whole record."""
     standard_error: FloatArray
     """Of frequency, amplitude and damping; shape (3,)."""
     degrees_of_freedom: int
     """Of Student's t of their intervals."""
+    coherence_s: float
+    """Time over which it keeps its phase: that of the record, or of a part; s."""
     chance: float
     """Weighed p-value with which it was found."""
     fitted: FloatArray
@@ -55,7 +58,7 @@ class Oscillation:
 
 
 def fit_oscillation(values: FloatArray, rate_hz: float, candidate: Candidate) -> Oscillation:
-    """Fit a swing about a candidate.
+    """Fit a swing about a candidate that keeps its phase over the whole record.
 
     Args:
         values: The signal without mean and trend; shape (n,).
@@ -117,6 +120,7 @@ def fit_oscillation(values: FloatArray, rate_hz: float, candidate: Candidate) ->
         damping=float(told[2]),
         standard_error=np.sqrt(np.einsum("ip,pq,iq->i", gradient, covariance, gradient)),
         degrees_of_freedom=degrees,
+        coherence_s=n / rate_hz,
         chance=candidate.chance,
         fitted=swings(shape) @ np.array([cosine, sine]),
     )

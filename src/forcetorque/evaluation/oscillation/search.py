@@ -12,6 +12,7 @@ from forcetorque.evaluation.oscillation.candidate import Sensitivity, sensitivit
 from forcetorque.evaluation.oscillation.evened import EvenedSignal
 from forcetorque.evaluation.oscillation.oscillation import Oscillation, fit_oscillation
 from forcetorque.evaluation.oscillation.tapers import FAMILIES, LEAST_CYCLES
+from forcetorque.evaluation.oscillation.wandering import fit_wandering
 
 MOST_OSCILLATIONS = 3
 """Oscillations that are told apart."""
@@ -78,9 +79,10 @@ def find_oscillations(signal: EvenedSignal, *, name: str) -> OscillationSearch:
         candidate = strongest_candidate(left, highest, bands)
         if not candidate.stands_out:
             break
-        oscillation = fit_oscillation(left, signal.rate_hz, candidate)
+        fit = fit_oscillation if candidate.parts == 1 else fit_wandering
+        oscillation = fit(left, signal.rate_hz, candidate)
         left = left - oscillation.fitted
-        reach, cycles = candidate.family.half_bandwidth, oscillation.frequency_hz * duration
+        reach, cycles = candidate.parts * candidate.family.half_bandwidth, oscillation.frequency_hz * duration
         bands.append((cycles - reach, cycles + reach))
         oscillations.append(oscillation)
     largest = max((one.amplitude for one in oscillations), default=0.0)

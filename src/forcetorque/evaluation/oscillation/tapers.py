@@ -59,21 +59,21 @@ LEAST_CYCLES = FAMILIES[0].from_cycles
 
 
 def tapered_spectrum(values: FloatArray, tapers: FloatArray) -> tuple[FloatArray, ComplexArray]:
-    """Transform a signal under every taper.
+    """Transform signals under every taper.
 
     Args:
-        values: The signal; shape (n,).
+        values: Signals; shape (p, n).
         tapers: Shape (k, n).
 
     Returns:
-        Cycles in the record, shape (m,), and the complex transforms, shape (k, m).
+        Cycles in n samples, shape (m,), and the complex transforms, shape (p, k, m).
     """
     from scipy import fft
 
-    n = len(values)
+    n = values.shape[1]
     size = fft.next_fast_len(_PADDING * n, real=True)
-    transforms: ComplexArray = fft.rfft(tapers * values, size, axis=1)
-    cycles: FloatArray = np.arange(transforms.shape[1], dtype=np.float64) * (n / size)
+    transforms: ComplexArray = fft.rfft(tapers * values[:, None, :], size, axis=2)
+    cycles: FloatArray = np.arange(transforms.shape[2], dtype=np.float64) * (n / size)
     return cycles, transforms
 
 
