@@ -101,10 +101,12 @@ def motion(signals: Sequence[MotionSignal], *, steps_s: Sequence[float] = (), ba
 
     Raises:
         ExperimentError: If there is no signal, or a step lies in no interval.
-        RecordingError: If a column never changes, is too short for a period, or does not go anywhere at a step.
+        RecordingError: If a column never changes, or is too short for a period.
     """
     if not signals:
         raise ExperimentError("expected a column at least, got none")
+    if not 0.0 < band_share < 1.0:
+        raise ExperimentError(f"band: expected more than 0 and less than 100 % of the step, got {100 * band_share:g} %")
     for step in steps_s:
         if not any(len(one.time_s) and one.time_s[0] <= step <= one.time_s[-1] for one in signals):
             raise ExperimentError(
@@ -142,32 +144,35 @@ class _Answer:
                 name = f"{signal.column} - {signal.desired}"
                 left = evened(signal.time_s, error, name=f"{signal.interval}: {name}")
                 searched.append((name, left, find_oscillations(left, name=f"{signal.interval}: {name}")))
-        steps, untold = _steps(signal, steps_s)
+        settling, untold = _settled(signal, own, steps_s, band_share)
         return cls(
             oscillations=tuple(row for name, even, search in searched for row in _rows(signal, name, even, search)),
-            settling=tuple(
-                _settling(signal, row) for row in settlings(own, steps, band_share=band_share, name=signal.name)
-            ),
+            settling=tuple(_settling(signal, row) for row in settling),
             tracking=None if desired is None else _tracking(signal, desired),
             curves=tuple(_curve(signal, name, even, search) for name, even, search in searched),
             doubts=(*(doubt for entry in searched for doubt in _doubts(signal, *entry)), *untold),
         )
 
 
-def _steps(signal: MotionSignal, steps_s: Sequence[float]) -> tuple[list[float], list[str]]:
-    """Instants of steps in the interval, and why a command has none."""
-    if steps_s:
-        return [step for step in steps_s if signal.time_s[0] <= step <= signal.time_s[-1]], []
-    if signal.desired_values is None:
-        return [], []
-    known = np.isfinite(signal.desired_values)
+def _settled(
+    signal: MotionSignal, even: EvenedSignal, steps_s: Sequence[float], band_share: float
+) -> tuple[list[Settling], list[str]]:
+    """What it did after each step, or why that is not told."""
     try:
-        instants = command_steps(
-            signal.time_s[known], signal.desired_values[known], name=f"{signal.interval}: {signal.desired}"
-        )
+        return settlings(even, _steps(signal, steps_s), band_share=band_share, name=signal.name), []
     except RecordingError as error:
         return [], [f"no settling time: {error}"]
-    return instants.tolist(), []
+
+
+def _steps(signal: MotionSignal, steps_s: Sequence[float]) -> list[float]:
+    """Instants of steps in the interval: those that are stated, else those of what was wanted."""
+    if steps_s:
+        return [step for step in steps_s if signal.time_s[0] <= step <= signal.time_s[-1]]
+    if signal.desired_values is None:
+        return []
+    known = np.isfinite(signal.desired_values)
+    name = f"{signal.interval}: {signal.desired}"
+    return [float(at) for at in command_steps(signal.time_s[known], signal.desired_values[known], name=name)]
 
 
 def _rows(signal: MotionSignal, name: str, even: EvenedSignal, search: OscillationSearch) -> Iterator[OscillationRow]:

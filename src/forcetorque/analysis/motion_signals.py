@@ -21,7 +21,7 @@ from forcetorque.experiment.recorded_log import RecordedLog, load_recorded
 from forcetorque.experiment.recorded_span import RecordedSpan
 from forcetorque.recording import Use
 from forcetorque.recording.alignment import require_overlap, seconds_since, usable_samples
-from forcetorque.recording.column import column_words, find_column
+from forcetorque.recording.column import column_units, find_column, known_columns
 
 _POINTS = ("cop", "zmp", "com", "com_acceleration")
 """What begins the names of columns that `balance` may refuse to compute."""
@@ -133,7 +133,7 @@ def motion_signals(
     """
     log = load_recorded(path)
     if not columns:
-        raise ExperimentError(f"{path}: expected a column, got none; {known_names('', column_words(log.recording))}")
+        raise ExperimentError(f"{path}: expected a column, got none; {known_columns('', column_units(log.recording))}")
     if desired and len(desired) != len(columns):
         raise ExperimentError(
             f"desired: expected a column for each of {', '.join(columns)}, or none, got {', '.join(desired)}"
@@ -220,11 +220,10 @@ def _computed(
         interval = by_label[span.label]
         columns = {name: (unit, values) for name, unit, values in interval.columns()}
         if column not in columns:
-            known = [f"{name} ({unit})" for name, (unit, _) in columns.items()]
+            known = column_units(log.recording) | {name: unit for name, (unit, _) in columns.items()}
             untold = "".join(f"{words}; " for words in interval.refused if column.split(".")[0] in _POINTS)
             raise ExperimentError(
-                f"interval {span.label!r}: no column {column!r}; {untold}"
-                f"{known_names(column, [*column_words(log.recording), *known])}"
+                f"interval {span.label!r}: no column {column!r}; {untold}{known_columns(column, known)}"
             )
         unit, values = columns[column]
         yield MotionSignal(

@@ -4,7 +4,8 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
+from difflib import get_close_matches
 
 from forcetorque.errors import RecordingError, known_names
 from forcetorque.recording.recording import Recording
@@ -51,26 +52,44 @@ def find_column(recording: Recording, name: str) -> ScalarSource:
         return columns[fitting[0]]
     if fitting:
         raise RecordingError(f"column {name!r}: expected one column, got {', '.join(fitting)}; choose one of them")
-    raise RecordingError(f"no column {name!r}; {known_names(name, column_words(recording))}")
+    raise RecordingError(f"no column {name!r}; {known_columns(name, column_units(recording))}")
 
 
-def column_words(recording: Recording) -> list[str]:
+def known_columns(wanted: str, units: Mapping[str, str]) -> str:
+    """List columns with their units, the likeliest one first.
+
+    Args:
+        wanted: Name that was not found.
+        units: Units by name of the column.
+
+    Returns:
+        Text to append to a message.
+    """
+    # somebody who wrote com_z for robot.com_y meant the last part
+    spelled = {part.lower(): name for name in units for part in (name.rpartition(".")[2], name)}
+    close = get_close_matches(wanted.lower(), spelled, n=1)
+    hint = f'did you mean "{spelled[close[0]]}"? ' if close else ""
+    return hint + known_names("", [f"{name} ({unit})" for name, unit in units.items()])
+
+
+def column_units(recording: Recording) -> dict[str, str]:
     """List the columns as people may name them, with their units.
 
     Args:
         recording: The recording.
 
     Returns:
-        `stream` where that is enough, `stream.column` else, and the full name where that is another's too.
+        Units by name: `stream` where that is enough, `stream.column` else, and the full name where that is another's
+        too.
     """
     columns = list(named_columns(recording))
     shorter = Counter(f"{source.stream}.{source.column}" for _, source in columns)
-    words = []
+    units = {}
     for full, source in columns:
         short = f"{source.stream}.{source.column}"
         name = full if shorter[short] > 1 else source.stream if _alone(recording, source, source.stream) else short
-        words.append(f"{name} ({source.unit(recording)})")
-    return words
+        units[name] = source.unit(recording)
+    return units
 
 
 def _alone(recording: Recording, source: ScalarSource, name: str) -> bool:
