@@ -34,6 +34,8 @@ GROWTHS = (0.0, 1.5, -1.5, 3.0, -3.0, 6.0, -6.0)
 """Logarithms of amplitude at the end over the start that are tried; a single step or spike looks like larger ones."""
 _LEAST_PIECE = 64
 """Samples of a part."""
+_GRID = 50
+"""p-values at which the size of a swing is computed that passes the test."""
 POWER = 0.95
 """Probability with which a swing of the stated size is seen."""
 
@@ -162,7 +164,6 @@ def sensitivity(noise: FloatArray, highest: float) -> Sensitivity:
         Amplitudes by frequency; the power of the noise is taken as even over the band of the tapers.
     """
     from scipy.ndimage import uniform_filter1d  # here because importing it takes longer than most commands
-    from scipy.special import ncfdtrinc
 
     places, amplitudes = [np.empty(0)], [np.empty(0)]
     for family, low, high in _ranges(highest):
@@ -172,13 +173,23 @@ def sensitivity(noise: FloatArray, highest: float) -> Sensitivity:
         band = max(1, round(2.0 * family.half_bandwidth / cycles[1]))
         chosen = _inside(cycles, low, high, ())
         cycles, power = cycles[chosen], uniform_filter1d(power, band, mode="nearest")[chosen]
-        degrees, steady = family.count - 1, growth_pattern(tapers, 0.0)
+        steady = growth_pattern(tapers, 0.0)
         chance = CHANCE * _weight(cycles, highest) / len(_levels(len(noise), highest))
-        threshold = degrees * (chance ** (-1.0 / degrees) - 1.0)
-        noncentral = ncfdtrinc(2.0, 2.0 * degrees, 1.0 - POWER, threshold)
+        noncentral = _noncentrality(chance, family.count - 1)
         places.append(cycles)
         amplitudes.append(2.0 * np.sqrt(0.5 * noncentral * power / (steady @ steady)))
     return Sensitivity(cycles=np.concatenate(places), amplitude=np.concatenate(amplitudes))
+
+
+def _noncentrality(chance: FloatArray, degrees: int) -> FloatArray:
+    """Size of a swing over the noise with which the F test is passed with the probability `POWER`."""
+    from scipy.special import ncfdtrinc
+
+    # it is smooth, and takes long: some of it, and lines between
+    grid = np.linspace(float(np.log(chance.min())), float(np.log(chance.max())), _GRID)
+    threshold = degrees * (np.exp(-grid / degrees) - 1.0)
+    needed: FloatArray = np.interp(np.log(chance), grid, ncfdtrinc(2.0, 2.0 * degrees, 1.0 - POWER, threshold))
+    return needed
 
 
 def _ranges(highest: float) -> list[tuple[TaperFamily, float, float]]:
