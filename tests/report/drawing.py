@@ -475,7 +475,8 @@ def _motion(rng: np.random.Generator) -> Figure:
     signals = motion_signals_of_arrays(time, columns, dict.fromkeys(columns, "m"))
     still = motion(signals[:2])
     stepped = motion(signals[2:], steps_s=[8.0])
-    return motion_figure(stepped.model_copy(update={"curves": (*still.curves, *stepped.curves)}))
+    rows, curves = (*still.oscillations, *stepped.oscillations), (*still.curves, *stepped.curves)
+    return motion_figure(stepped.model_copy(update={"oscillations": rows, "curves": curves}))
 
 
 def _response(rng: np.random.Generator) -> Figure:

@@ -61,9 +61,11 @@ class Motion(Result):
         yield table_of(self.oscillations, "oscillations; ±: half a 95 % interval")
         for row in self.oscillations:
             if not row.oscillates:
+                middle_hz = math.sqrt(row.lowest_hz * row.highest_hz)
                 yield (
                     f"{row.interval}: {row.column}: no oscillation from {row.lowest_hz:.3g} to {row.highest_hz:.4g} "
-                    f"Hz; a steady one of {row.seen_amplitude:.3g} {row.unit} or more would be seen"
+                    f"Hz; a steady one of {row.seen_amplitude:.3g} {row.unit} or more would be seen, at "
+                    f"{middle_hz:.2g} Hz one of {row.seen_amplitude_middle:.2g} {row.unit}"
                 )
         if self.settling:
             yield table_of(
@@ -189,6 +191,7 @@ def _rows(signal: MotionSignal, name: str, even: EvenedSignal, search: Oscillati
         damping_half_width_95=None,
         phase_kept_s=None,
         seen_amplitude=float(search.sensitivity.amplitude.max()),
+        seen_amplitude_middle=search.seen_amplitude(math.sqrt(search.lowest_hz * search.highest_hz)),
         lowest_hz=search.lowest_hz,
         highest_hz=search.highest_hz,
         samples=len(signal.values),

@@ -37,6 +37,8 @@ class OscillationRow(Row):
     seen_amplitude: Annotated[FloatOrNull, Shown("seen from", digits=5)]
     """Amplitude from which on a further steady swing of that frequency would be seen in 95 % of such records; where
     nothing swings, one of any frequency that was looked at."""
+    seen_amplitude_middle: float
+    """The same at the geometric middle of the frequencies that were looked at: slow drift hides slow swings most."""
     lowest_hz: float
     """Lowest frequency that was looked at."""
     highest_hz: float
