@@ -27,6 +27,15 @@ def test_of_noise_at_most_one_record_in_twenty_swings(colour: str, n: int) -> No
     assert alarms <= 0.05 * DRAWS
 
 
+@pytest.mark.parametrize("envelope", ["burst", "growing"])
+def test_of_noise_in_bursts_at_most_one_record_in_twenty_swings(envelope: str) -> None:
+    """Noise ten times as large for a second, or by 20 times larger at the end than at the start; rates as above."""
+    time = np.arange(2000) / 100.0
+    size = np.exp(3.0 * time / 20.0) if envelope == "growing" else np.where((time > 8.0) & (time < 9.0), 10.0, 1.0)
+    records = (size * noise("ar 0.9", 2000, np.random.default_rng([98, k])) for k in range(DRAWS))
+    assert sum(bool(_search(values).oscillations) for values in records) <= 0.05 * DRAWS
+
+
 @pytest.mark.parametrize("colour", ["ar 0.9", "ar 0.99", "walk and white"])
 def test_a_planted_swing_is_found_and_lies_in_its_intervals(colour: str) -> None:
     """1.3 Hz and 4 mm: found in all but a twentieth; each interval holds the truth in 90 to 98 % of draws."""

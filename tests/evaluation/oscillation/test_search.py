@@ -159,3 +159,19 @@ def test_a_swing_that_does_not_last_is_told_in_parts(case: str) -> None:
     # what does not keep its phase within a part is not in the amplitude
     assert 0.7 < oscillation.amplitude / (np.sqrt(2.0) * swings[case].std()) < 1.1
     assert np.isnan(oscillation.half_width[2])
+
+
+@pytest.mark.parametrize("case", ["burst", "growing", "spike", "step"])
+def test_noise_that_comes_and_goes_has_no_oscillation(case: str) -> None:
+    """A burst, noise that grows, a spike and a step look alike at all frequencies, which no swing does."""
+    time = np.arange(2000) / RATE_HZ
+    for seed in range(3):
+        rng = np.random.default_rng([12, seed])
+        values = noise("ar 0.9", 2000, rng)
+        cases = {
+            "burst": values * np.where((time > 8.0) & (time < 9.0), 10.0, 1.0),
+            "growing": values * np.exp(3.0 * time / 20.0),
+            "spike": values + 100.0 * (time == time[rng.integers(0, 2000)]),
+            "step": values + 10.0 * (time > rng.uniform(2.0, 18.0)),
+        }
+        assert _search(cases[case]).oscillations == ()

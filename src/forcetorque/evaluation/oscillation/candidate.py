@@ -34,6 +34,8 @@ GROWTHS = (0.0, 1.5, -1.5, 3.0, -3.0, 6.0, -6.0)
 """Logarithms of amplitude at the end over the start that are tried; a single step or spike looks like larger ones."""
 _LEAST_PIECE = 64
 """Samples of a part."""
+_LEAST_RANGE = 30.0
+"""Cycles from the lowest to the highest frequency that tell how noise comes and goes."""
 _GRID = 50
 """p-values at which the size of a swing is computed that passes the test."""
 POWER = 0.95
@@ -87,18 +89,19 @@ def strongest_candidate(values: FloatArray, highest: float, excluded: Sequence[t
     levels = _levels(len(values), highest)
     for parts in levels:
         for family, low, high in _ranges(highest / parts):
-            cycles, shares = _shares_left(values, parts, family)
+            cycles, chances = _chances(values, parts, family)
             chosen = _inside(parts * cycles, parts * low, parts * high, excluded)
+            looked = (cycles >= family.from_cycles) & (cycles < highest / parts)
             weight = _weight(cycles[chosen], highest / parts) / len(levels)
-            for growth, left in shares:
-                chance = _chance(left[chosen], parts, family) / weight
-                if len(chance) and chance.min() < best.chance:
-                    k = int(chance.argmin())
+            for growth, chance in chances:
+                weighed = chance[chosen] ** (1.0 / _inflation(chance[looked], cycles[looked])) / weight
+                if len(weighed) and weighed.min() < best.chance:
+                    k = int(weighed.argmin())
                     best = Candidate(
                         cycles=float(parts * cycles[chosen][k]),
                         parts=parts,
                         growth=growth,
-                        chance=float(chance[k]),
+                        chance=float(weighed[k]),
                         family=family,
                     )
         if parts == 1 and best.stands_out:  # it keeps its phase throughout, and has a damping
@@ -128,29 +131,45 @@ def _levels(n: int, highest: float) -> list[int]:
     return [parts for parts in PARTS if parts == 1 or (n // parts >= _LEAST_PIECE and _ranges(highest / parts))]
 
 
-def _shares_left(
-    values: FloatArray, parts: int, family: TaperFamily
-) -> tuple[FloatArray, list[tuple[float, FloatArray]]]:
-    """Cycles per part, and for every growth the share of the tapers' numbers that a swing leaves."""
+def _chances(values: FloatArray, parts: int, family: TaperFamily) -> tuple[FloatArray, list[tuple[float, FloatArray]]]:
+    """Cycles per part, and for every growth the probability that noise leaves as little of the tapers' numbers."""
+    from scipy.special import gammaincc  # here because importing it takes longer than most commands
+
     cut = pieces(values, parts) if parts > 1 else values[None, :]
     tapers = family.tapers(cut.shape[1])
     cycles, transforms = tapered_spectrum(cut, tapers)
-    energy = (np.abs(transforms) ** 2).sum(axis=(0, 1))
+    energy = (np.abs(transforms) ** 2).sum(axis=1)
     energy[energy == 0.0] = 1.0
-    shares = []
+    chances = []
     for growth in GROWTHS if parts == 1 else (0.0,):
         pattern = growth_pattern(tapers, growth)
-        explained = (np.abs(np.einsum("k,pkm->pm", pattern, transforms)) ** 2).sum(axis=0) / (pattern @ pattern)
-        shares.append((growth, np.clip(1.0 - explained / energy, 1e-15, 1.0)))
-    return cycles, shares
+        explained = np.abs(np.einsum("k,pkm->pm", pattern, transforms)) ** 2 / (pattern @ pattern)
+        left = np.clip(1.0 - explained / energy, 1e-15, 1.0)
+        # of each part P(F > f) is the share that is left to the power k - 1; parts are combined by Fisher's method, so
+        # that one with more noise than others counts as one
+        chances.append((growth, gammaincc(float(parts), -(family.count - 1) * np.log(left).sum(axis=0))))
+    return cycles, chances
 
 
-def _chance(left: FloatArray, parts: int, family: TaperFamily) -> FloatArray:
-    """Probability that noise leaves no more: the share has a beta distribution, which is that of the F test."""
-    from scipy.special import betainc
+def _inflation(chance: FloatArray, cycles: FloatArray) -> float:
+    """Tell how much more than by chance all frequencies seem to swing, where noise comes in bursts or grows.
 
-    chance: FloatArray = betainc(float(parts * (family.count - 1)), float(parts), left)
-    return chance
+    Such noise looks alike under several tapers, at all frequencies. Logarithms of p-values are divided by what makes
+    their upper tenth that of chance, as genomic control does [1]; too few frequencies cannot tell it.
+
+    Args:
+        chance: p-values of all frequencies; shape (m,).
+        cycles: The frequencies; shape (m,).
+
+    Returns:
+        The divisor, 1 or more.
+
+    References:
+        [1] B. Devlin, K. Roeder, Genomic control for association studies, Biometrics 55 (1999).
+    """
+    if cycles.size == 0 or cycles[-1] - cycles[0] < _LEAST_RANGE:
+        return 1.0
+    return max(1.0, float(np.quantile(-np.log(np.maximum(chance, 1e-300)), 0.9)) / math.log(10.0))
 
 
 def sensitivity(noise: FloatArray, highest: float) -> Sensitivity:
