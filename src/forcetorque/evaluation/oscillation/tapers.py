@@ -11,6 +11,7 @@ References:
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 import numpy.typing as npt
@@ -43,10 +44,20 @@ class TaperFamily:
         Returns:
             Of unit length and orthogonal; shape (count, n).
         """
-        from scipy.signal.windows import dpss  # here because importing it takes longer than most commands
+        return (_kept if n <= _MOST_KEPT else _slepian)(n, self.half_bandwidth, self.count)
 
-        windows: FloatArray = dpss(n, self.half_bandwidth, Kmax=self.count)
-        return windows
+
+def _slepian(n: int, half_bandwidth: int, count: int) -> FloatArray:
+    from scipy.signal.windows import dpss  # here because importing it takes longer than most commands
+
+    windows: FloatArray = dpss(n, half_bandwidth, Kmax=count)
+    windows.setflags(write=False)
+    return windows
+
+
+_MOST_KEPT = 20_000
+"""Samples up to which tapers are kept for the next record: of simulations there are many of one length."""
+_kept = lru_cache(maxsize=32)(_slepian)
 
 
 FAMILIES = (
