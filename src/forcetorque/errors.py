@@ -51,6 +51,10 @@ class SensorError(ForceTorqueError, ValueError):
     """A part of a sensor was described, or used, as no such part can be."""
 
 
+class ControlError(ForceTorqueError, ValueError):
+    """A controller, or a loop that it closes, was described or fed as none can be."""
+
+
 class SkinError(ForceTorqueError, ValueError):
     """A patch of skin, or what it reads, is not what such a patch can be."""
 

@@ -58,6 +58,9 @@ if TYPE_CHECKING:
     from forcetorque.analysis.judged import JudgedWrenches
     from forcetorque.analysis.learnt import LITTLE_LEARNT, LearntDirection, learnt_directions, learnt_words, to_learn
     from forcetorque.analysis.loads_of_use import loads_of_use
+    from forcetorque.analysis.motion import Motion, motion
+    from forcetorque.analysis.motion_rows import MotionCurve, OscillationRow, SettlingRow, TrackingRow
+    from forcetorque.analysis.motion_signals import MotionSignal, motion_signals, motion_signals_of_arrays
     from forcetorque.analysis.payload import WeighedLoad, weigh_load
     from forcetorque.analysis.plan import Plan, plan, plan_sentence
     from forcetorque.analysis.plan_files import refuse_full_folder, write_plan
@@ -162,6 +165,10 @@ __all__ = [
     "LayoutFindingRow",
     "LearntDirection",
     "Method",
+    "Motion",
+    "MotionCurve",
+    "MotionSignal",
+    "OscillationRow",
     "Plan",
     "PlannedPosture",
     "PlannedRecording",
@@ -179,6 +186,7 @@ __all__ = [
     "SensorSphere",
     "SensorStudy",
     "SensorThermal",
+    "SettlingRow",
     "SkinCalibration",
     "SkinCheck",
     "SkinContactRow",
@@ -197,6 +205,7 @@ __all__ = [
     "ThermalDriftRow",
     "TorqueFusion",
     "TorquePicture",
+    "TrackingRow",
     "TrialGroup",
     "TrialSphere",
     "UseError",
@@ -251,6 +260,9 @@ __all__ = [
     "learnt_directions",
     "learnt_words",
     "loads_of_use",
+    "motion",
+    "motion_signals",
+    "motion_signals_of_arrays",
     "one_per_sensor",
     "plan",
     "plan_jointly",

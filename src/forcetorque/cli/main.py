@@ -20,6 +20,7 @@ from forcetorque.cli.evaluate import evaluate
 from forcetorque.cli.export import export
 from forcetorque.cli.gains import gains
 from forcetorque.cli.inspect import inspect
+from forcetorque.cli.motion import motion
 from forcetorque.cli.output import report_error
 from forcetorque.cli.payload import payload
 from forcetorque.cli.plan import plan
@@ -69,6 +70,7 @@ _COMMANDS = (
     export,
     gains,
     inspect,
+    motion,
     payload,
     plan,
     report,

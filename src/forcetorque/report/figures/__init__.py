@@ -19,6 +19,7 @@ from forcetorque.report.figures.joint import joint_figure
 from forcetorque.report.figures.lambda_difference import lambda_difference_figure
 from forcetorque.report.figures.lambda_force import lambda_force_figure
 from forcetorque.report.figures.learnt import learnt_figure
+from forcetorque.report.figures.motion import motion_figure
 from forcetorque.report.figures.remedies import remedies_figure
 from forcetorque.report.figures.residuals import residual_figure
 from forcetorque.report.figures.response import response_figure
@@ -50,6 +51,7 @@ __all__ = [
     "lambda_difference_figure",
     "lambda_force_figure",
     "learnt_figure",
+    "motion_figure",
     "reference_error_figure",
     "remedies_figure",
     "residual_figure",
