@@ -8,6 +8,8 @@ from collections.abc import Collection, Mapping
 from pathlib import Path
 from typing import ClassVar
 
+import numpy as np
+
 from forcetorque.arrays import FloatArray
 from forcetorque.errors import FormatError, MissingExtraError, known_names
 from forcetorque.exchange.array_file.hdf5 import MAGIC_73, hdf5_shapes, is_matlab_73, labels_itself, read_hdf5
@@ -17,6 +19,7 @@ from forcetorque.exchange.array_file.statement import ArrayLog, Hdf5Log, MatlabL
 from forcetorque.exchange.array_file.streams import array_stream, wanted_arrays
 from forcetorque.exchange.hdf5_file import is_hdf5_file
 from forcetorque.exchange.log_format import LogContext, LogDescription, LogReading
+from forcetorque.exchange.log_sketch import LogSketch, SketchedColumns
 from forcetorque.recording import Finding, Stream
 
 
@@ -37,12 +40,21 @@ class _ArrayFormat(ABC):
     def _arrays(self, path: Path, names: Collection[str]) -> Mapping[str, FloatArray]:
         """Arrays with these names."""
 
+    def sketch(self, path: Path) -> LogSketch:
+        """Look at names and shapes of all arrays, and at the numbers of those that may be times."""
+        shapes = self._shapes(path)
+        single = self._arrays(path, [name for name, (rows, columns) in shapes.items() if columns == 1 < rows])
+        return LogSketch(
+            path=path,
+            columns=tuple(_sketched(name, rows, columns, single.get(name)) for name, (rows, columns) in shapes.items()),
+        )
+
     def describe(self, path: Path) -> LogDescription:
         """Refuse: nothing is guessed from names or numbers; say which there are."""
         names = [f"{name} ({rows} x {columns})" for name, (rows, columns) in self._shapes(path).items()]
         raise FormatError(
             f"{path}: expected a log that says what it holds, got the variables {', '.join(names) or 'none'}; state "
-            "their columns and units in an experiment file"
+            "their columns and units in an experiment file; `forcetorque init` begins one"
         )
 
     def read(self, stated: ArrayLog, context: LogContext) -> LogReading:
@@ -114,6 +126,16 @@ class NpzFormat(_ArrayFormat):
 
     def _arrays(self, path: Path, names: Collection[str]) -> Mapping[str, FloatArray]:
         return read_npz(path, names)
+
+
+def _sketched(name: str, rows: int, columns: int, values: FloatArray | None) -> SketchedColumns:
+    """An array, with range and step where it may be times: it rises from number to number."""
+    steps = np.zeros(1) if values is None or values.shape[1] != 1 else np.diff(values[:, 0])
+    if values is None or not len(steps) or not (steps > 0.0).all():
+        return SketchedColumns(name=name, rows=rows, columns=columns)
+    first, last = float(values[0, 0]), float(values[-1, 0])
+    step = float(np.median(steps))
+    return SketchedColumns(name=name, rows=rows, columns=columns, smallest=first, largest=last, step=step)
 
 
 def _labels_itself(path: Path) -> bool:

@@ -70,6 +70,33 @@ def parquet_columns(file: Path) -> list[str]:
     return list(_opened(file).schema_arrow.names)
 
 
+def parquet_size(file: Path) -> tuple[list[str], int]:
+    """Name the columns of a Parquet file, and count its rows.
+
+    Args:
+        file: The file.
+
+    Returns:
+        Names, and number of rows.
+    """
+    table = _opened(file)
+    return list(table.schema_arrow.names), int(table.metadata.num_rows)
+
+
+def first_batch(file: Path) -> Any:
+    """Read the first rows of a Parquet file.
+
+    Args:
+        file: The file.
+
+    Returns:
+        At most `BATCH_ROWS` rows with all columns; None where it has none.
+    """
+    table = _opened(file)
+    columns = list(table.schema_arrow.names)
+    return next(_parquet_batches(file, table, columns), None)
+
+
 def _opened(file: Path) -> Any:
     import pyarrow.parquet as pq
 

@@ -1,0 +1,63 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Units as questions: those that are usual, and what a unit of time would make of a log."""
+
+from __future__ import annotations
+
+from forcetorque.analysis.draft.text import line, question
+from forcetorque.exchange.log_sketch import SketchedColumns
+
+TIME_UNITS = {"s": 1.0, "ms": 1e-3, "us": 1e-6, "ns": 1e-9}
+"""Units of time, in seconds."""
+USUAL_UNITS = {
+    "wrench": '["N", "N", "N", "N m", "N m", "N m"]',
+    "position": "rad or deg",
+    "velocity": "rad/s or deg/s",
+    "acceleration": "rad/s2 or deg/s2",
+    "torque": "N m",
+    "motor_current": "A or mA",
+    "proper_acceleration": "m/s2 or g",
+    "angular_velocity": "rad/s or deg/s",
+    "gravity": "m/s2",
+    "temperature": "degC",
+    "raw": "counts, or V of an analog output",
+}
+"""Units that quantities usually have, for questions; nothing is taken for granted."""
+
+_PLAUSIBLE_HZ = (1.0, 50_000.0)
+
+
+def time_words(column: SketchedColumns) -> str:
+    """Say what each unit would make of a column of times.
+
+    Args:
+        column: The column, or the array.
+
+    Returns:
+        Words for the question.
+    """
+    rates = {unit: 1.0 / (column.step * factor) for unit, factor in TIME_UNITS.items()} if column.step else {}
+    low, high = _PLAUSIBLE_HZ
+    choices = [
+        f"{unit} makes {rate:.4g} Hz and {(column.rows - 1) / rate:.4g} s"
+        for unit, rate in rates.items()
+        if low <= rate <= high
+    ]
+    return f"s, ms, us or ns: {'; '.join(choices) or 'none makes a usual rate'}"
+
+
+def axes_line(quantity: str, sensor: str | None) -> str:
+    """State or ask for the frame of a signal.
+
+    Args:
+        quantity: Its quantity.
+        sensor: Name of the sensor that reads the stream; None for none.
+
+    Returns:
+        The line.
+    """
+    if quantity in ("wrench", "applied_wrench") and sensor is not None:
+        return line("frame", sensor)
+    words = "link of the URDF, or name of the frame, along whose axes it is"
+    if sensor is not None:
+        words += f'; "{sensor}" for those of the sensor'
+    return question("frame", words)
