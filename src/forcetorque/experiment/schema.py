@@ -63,6 +63,20 @@ class Variable(Table):
     one full scale over the range that was seen."""
 
 
+class PriorTable(Table):
+    """A file with a calibration, and what it does not say itself."""
+
+    path: Path
+    """The file."""
+    force_unit: Text | None = None
+    """Unit of the forces of a plain table, such as N."""
+    moment_unit: Text | None = None
+    """Unit of the moments of a plain table, such as N m."""
+    volts_per_count: Positive | None = None
+    """Of a matrix per volt, what one count of the log is worth: span of the converter over its steps; 1 for a log in
+    volts."""
+
+
 class Sensor(Table):
     """A force-torque sensor to calibrate or evaluate."""
 
@@ -72,9 +86,10 @@ class Sensor(Table):
     """Stream of the recording that holds its reading."""
     serial: Text
     """Serial number."""
-    prior: Literal["identity"] | Path | None = None
-    """Matrix file that the sensor was calibrated with before, and whose counts a calibrated stream recovers;
-    `identity` if that matrix is not known: the calibrated reading then takes the place of counts."""
+    prior: Literal["identity"] | Path | PriorTable | None = None
+    """File of the calibration that the sensor came with, and whose counts a calibrated stream recovers: a matrix file
+    of iCub, .dat of FirmwareUpdater, .cal of ATI, or a plain table; `identity` if that matrix is not known: the
+    calibrated reading then takes the place of counts."""
     limit_counts: Positive = 32767.0
     """Largest magnitude of a raw reading; counts."""
     full_scale: Annotated[tuple[Positive, ...], Field(min_length=6, max_length=6)] | None = None
