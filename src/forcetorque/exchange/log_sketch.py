@@ -38,6 +38,8 @@ class LogSketch:
     """The file."""
     columns: tuple[SketchedColumns, ...]
     """Its columns or arrays, in their order."""
+    is_table: bool = True
+    """Whether its columns are those of one table, not arrays of a file."""
     delimiter: str | None = None
     """Of a text table the character between columns; a space for any run of blanks."""
     has_headings: bool = True

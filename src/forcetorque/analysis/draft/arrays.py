@@ -35,7 +35,7 @@ def array_streams(sketch: LogSketch, joints: Sequence[str]) -> tuple[DraftedStre
     streams: list[DraftedStream] = []
     for rows in dict.fromkeys(column.rows for column in sketch.columns):
         members = [column for column in sketch.columns if column.rows == rows]
-        groups = tuple(_array_groups(members, joints))
+        groups = tuple(array_groups(members, joints))
         if rows > 1 and groups:
             streams.append(
                 DraftedStream(
@@ -48,8 +48,16 @@ def array_streams(sketch: LogSketch, joints: Sequence[str]) -> tuple[DraftedStre
     return tuple(streams)
 
 
-def _array_groups(members: Sequence[SketchedColumns], joints: Sequence[str]) -> Iterable[Likeness]:
-    """Arrays by the words in their names, as far as their width fits; each quantity once."""
+def array_groups(members: Sequence[SketchedColumns], joints: Sequence[str]) -> Iterable[Likeness]:
+    """Say what arrays look like by the words in their names, as far as their width fits; each quantity once.
+
+    Args:
+        members: Arrays with the same number of rows.
+        joints: Joints of the robot that move; none if it is not known.
+
+    Yields:
+        What they look like.
+    """
     taken: set[str] = set()
     for k, array in enumerate(members):
         words = set(_words(array.name))
@@ -88,7 +96,7 @@ def array_lines(log: DraftedLog, folder: Path, model: RobotModel | None, frames:
         names = [column.name for column in sketch.columns]
         lines += ["", "[[recording.stream]]", line("name", stream.name)]
         lines.append(line("variable", names[stream.groups[0].columns[0]]))
-        lines.append(_array_time(sketch))
+        lines.append(_time_line(sketch))
         for group in stream.groups:
             lines += _array_signal(group, sketch.columns[group.columns[0]], model, frames.get(stream.name))
         used = {names[k] for group in stream.groups for k in group.columns}
@@ -103,12 +111,24 @@ def array_lines(log: DraftedLog, folder: Path, model: RobotModel | None, frames:
     return lines
 
 
-def _array_time(sketch: LogSketch) -> str:
-    rising = [column for column in sketch.columns if column.step is not None]
+def array_time(columns: Sequence[SketchedColumns]) -> SketchedColumns | None:
+    """Find the array that looks like the time.
+
+    Args:
+        columns: Arrays.
+
+    Returns:
+        One that rises all along, the first that is called so if any is; None for none.
+    """
+    rising = [column for column in columns if column.step is not None]
     named = [
         column for column in rising if {"time", "stamp", "timestamps", "timestamp", "t"} & set(_words(column.name))
     ]
-    chosen = next(iter([*named, *rising]), None)
+    return next(iter([*named, *rising]), None)
+
+
+def _time_line(sketch: LogSketch) -> str:
+    chosen = array_time(sketch.columns)
     if chosen is None:
         words = 'no array rises as a time does: { variable = "...", unit = "s" }'
         return question("time", f'{words}, or {{ column = 1, unit = "s" }} of the array')

@@ -12,7 +12,7 @@ from forcetorque.analysis.draft.boards import joints_question
 from forcetorque.analysis.draft.paths import relative
 from forcetorque.analysis.draft.streams import DraftedLog, DraftedStream
 from forcetorque.analysis.draft.tables import table_lines, table_streams
-from forcetorque.analysis.draft.text import line, listed, question, toml_value
+from forcetorque.analysis.draft.text import line, question, toml_value
 from forcetorque.errors import FormatError, MissingFileError
 from forcetorque.exchange.formats import format_name, format_named, not_recognised, recognised_format
 from forcetorque.exchange.log_format import LogDescription, LogFormat
@@ -92,7 +92,7 @@ def _require_one_recording(paths: Sequence[Path], formats: Sequence[LogFormat[An
     known: list[LogFormat[Any]] = []
     for path, form in zip(paths, formats, strict=True):
         if form is None:
-            raise _folder_of_several(path) or not_recognised(path)
+            raise not_recognised(path)
         if len(paths) > 1 and format_name(form) != "tabular":
             raise FormatError(
                 f"{path}: expected tables (CSV, TSV, Parquet) where several files are one recording, got "
@@ -100,14 +100,6 @@ def _require_one_recording(paths: Sequence[Path], formats: Sequence[LogFormat[An
             )
         known.append(form)
     return known[0]
-
-
-def _folder_of_several(path: Path) -> FormatError | None:
-    if not path.is_dir():
-        return None
-    logs = [entry.name for entry in sorted(path.iterdir()) if entry.is_file() and recognised_format(entry) is not None]
-    words = f"{path}: expected a log, got a folder of several: {listed(logs, 12)}; name the files of one recording"
-    return FormatError(words) if logs else None
 
 
 def _described_lines(description: LogDescription, folder: Path, model: RobotModel | None) -> list[str]:

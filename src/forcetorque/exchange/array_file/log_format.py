@@ -46,6 +46,7 @@ class _ArrayFormat(ABC):
         single = self._arrays(path, [name for name, (rows, columns) in shapes.items() if columns == 1 < rows])
         return LogSketch(
             path=path,
+            is_table=False,
             columns=tuple(_sketched(name, rows, columns, single.get(name)) for name, (rows, columns) in shapes.items()),
         )
 

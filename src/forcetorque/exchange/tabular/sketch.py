@@ -31,11 +31,14 @@ def is_table(path: Path) -> bool:
 
     Returns:
         Whether it is a Parquet file, or a text with at least two columns, and numbers below at most one line of
-        headings.
+        headings. Numbers between blanks alone, without headings, may be anything, such as messages of a port.
     """
     if not path.is_file():
         return False
-    return is_parquet_file(path) or _form(_beginning(path)) is not None
+    if is_parquet_file(path):
+        return True
+    form = _form(_beginning(path))
+    return form is not None and (form[2] or form[0] != " ")
 
 
 def sketch_table(path: Path) -> LogSketch:
