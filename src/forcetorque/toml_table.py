@@ -46,6 +46,7 @@ OPEN = "?"
 """Value of a key that is still a question: whoever fills the file in answers it, and no command runs before."""
 
 _OPEN_KEY = re.compile(r"""(?P<key>[\w.-]+|"[^"]*")\s*=\s*[\[\s]*["']\?["']""")
+_TEXT = re.compile(r""""(?:[^"\\]|\\.)*"|'[^']*'""")
 _MOST_LINES = 12
 """Lines of further questions in a message."""
 
@@ -74,7 +75,7 @@ def open_questions(text: str) -> tuple[OpenQuestion, ...]:
     questions = []
     for number, line in enumerate(text.splitlines(), start=1):
         match = _OPEN_KEY.search(line)
-        if match and "#" not in line[: match.start()]:
+        if match and "#" not in _TEXT.sub("", line[: match.start()]):
             words = line[match.end() :].partition("#")[2].strip()
             questions.append(OpenQuestion(line=number, key=match["key"].strip('"'), words=words))
     return tuple(questions)

@@ -11,7 +11,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field, ValidationError
 
-from forcetorque.analysis.draft.hanging import Hanging, hanging, reading_link
+from forcetorque.analysis.draft.hanging import Hanging, hanging
 from forcetorque.analysis.draft.log import draft_log, recording_lines
 from forcetorque.analysis.draft.paths import relative
 from forcetorque.analysis.draft.sensors import DraftedSensor, draft_sensors, sensor_lines
@@ -21,6 +21,7 @@ from forcetorque.analysis.draft.supports import base_of_arm, has_no_tool, interv
 from forcetorque.analysis.draft.text import line, listed, question
 from forcetorque.analysis.inspected_streams import StreamRow, stream_rows, stream_table
 from forcetorque.atomic import STANDARD_OUTPUT, write_bytes_atomically
+from forcetorque.constants import STANDARD_GRAVITY
 from forcetorque.errors import ExperimentError, ForceTorqueError
 from forcetorque.exchange.formats import format_named
 from forcetorque.experiment.inputs import Inputs
@@ -74,7 +75,7 @@ class Draft(Result):
             yield stream_table(self.streams, f"{self.file}: streams")
         yield from self.told
         if not self.questions:
-            yield f"{self.file}: nothing is left to ask; read it, then `forcetorque calibrate {self.file} -o new.json`"
+            yield f"{self.file}: nothing is left to ask; read it, then `forcetorque {self._next} {self.file}`"
             return
         yield table_of(self.questions, f'{self.file}: questions, one a line, in place of each "?"')
         count = len(self.questions)
@@ -82,6 +83,10 @@ class Draft(Result):
             f"{count} line{'' if count == 1 else 's'} to fill in; `forcetorque inspect {self.file}` says which is "
             "next, and then what is wrong with the log"
         )
+
+    @property
+    def _next(self) -> str:
+        return "calibrate -o new.json" if "[[sensor]]" in self.content else "inspect"
 
     def columns(self) -> list[str]:
         """Name the columns of the CSV.
@@ -209,14 +214,11 @@ def _with_evidence(
     """Hold the reading against the orientation of each link that it may be along."""
     if recording is None or model is None or base is None or sensor.is_raw or sensor.tags:
         return sensor
+    joints = (sensor.joint,) if sensor.joint else sensor.joints[:_MOST_JOINTS]
     if sensor.name in model.sensors:
-        tag = model.sensors[sensor.name]
-        places = {tag.joint: reading_link(model, tag.joint, tag.frame)}
-    else:
-        joints = (sensor.joint,) if sensor.joint else sensor.joints[:_MOST_JOINTS]
-        places = {joint: reading_link(model, joint) for joint in joints}
+        joints = (model.sensors[sensor.name].joint,)
     stream = recording.stream(sensor.stream)
-    said = {joint: hanging(model, link, base, recording, stream) for joint, link in places.items()}
+    said = {joint: hanging(model, joint, base, recording, stream) for joint in joints}
     evidence = {joint: told for joint, told in said.items() if told is not None and told.says_something}
     return replace(sensor, evidence=evidence)
 
@@ -235,6 +237,8 @@ def _told(log: DraftedLog, sensors: Sequence[DraftedSensor], model: RobotModel |
     if model is None:
         return
     moving = {name for name, joint in model.joints.items() if joint.type is not JointType.FIXED and joint.mimic is None}
+    weight = sum(link.mass for link in model.links.values())
+    yield f"the robot of the URDF weighs {weight:.2f} kg, {weight * STANDARD_GRAVITY:.1f} N"
     known = {joint for stream in log.streams for joint in stream.joints}
     if known:
         missing = sorted(moving - known)
@@ -279,7 +283,8 @@ def _wrist_lines(log: DraftedLog, sensors: Sequence[DraftedSensor]) -> list[str]
     """What hangs on a wrist sensor whose pose is logged."""
     if not sensors:
         return []
-    poses = [s.name for s in log.streams if {"orientation", "gravity", "proper_acceleration"} & set(s.quantities)]
+    posed = [s.name for s in log.streams if {"orientation", "gravity"} & set(s.quantities)]
+    poses = posed or [s.name for s in log.streams if "proper_acceleration" in s.quantities]
     motion = line("motion", poses) if poses else question("motion", "streams with gravity, orientation or acceleration")
     words = "child_to_parent if a hanging load reads down, parent_to_child if the opposite"
     return ["", "[load]", line("frame", sensors[0].name), motion, question("measure_direction", words)]

@@ -82,6 +82,8 @@ class ColumnRow(Row):
     """Smallest of the numbers that were looked at; None where none was."""
     largest: Annotated[float | None, Shown("largest", digits=4)]
     """Largest of the numbers that were looked at; None where none was."""
+    mean: Annotated[float | None, Shown("mean", digits=4)]
+    """Mean of the numbers that were looked at; None where none was."""
     looks_like: Annotated[str | None, Shown("looks like")]
     """What it looks like by its name; None for nothing. Nothing is read by that."""
 
@@ -150,5 +152,6 @@ def _column_row(column: SketchedColumns, looks_like: str | None) -> ColumnRow:
         unit=column.unit,
         smallest=column.smallest,
         largest=column.largest,
+        mean=column.mean,
         looks_like=looks_like if column.is_number else "a text",
     )

@@ -26,6 +26,8 @@ class SketchedColumns:
     """Smallest of the numbers that were looked at; None for none."""
     largest: float | None = None
     """Largest of the numbers that were looked at; None for none."""
+    mean: float | None = None
+    """Mean of the numbers that were looked at; None for none."""
     step: float | None = None
     """Median step, where every number that was looked at is larger than the one before, as times are; else None."""
 
@@ -44,6 +46,8 @@ class LogSketch:
     """Of a text table the character between columns; a space for any run of blanks."""
     has_headings: bool = True
     """Whether the file itself names them; without, they are called by their number, from 1."""
+    quaternion: tuple[int, ...] = ()
+    """Places of the first columns of four that have norm 1 in every row, as quaternions do."""
     rows_looked_at: int | None = None
     """How many rows were looked at from the first; None where no number was."""
 

@@ -98,7 +98,7 @@ def array_lines(log: DraftedLog, folder: Path, model: RobotModel | None, frames:
         lines.append(line("variable", names[stream.groups[0].columns[0]]))
         lines.append(_time_line(sketch))
         for group in stream.groups:
-            lines += _array_signal(group, sketch.columns[group.columns[0]], model, frames.get(stream.name))
+            lines += _array_signal(group, sketch.columns[group.columns[0]], model, stream.name, frames)
         used = {names[k] for group in stream.groups for k in group.columns}
         rest = [f"{c.name} ({c.rows} x {c.columns})" for c in sketch.columns if c.name not in used and c.step is None]
         if rest:
@@ -135,7 +135,9 @@ def _time_line(sketch: LogSketch) -> str:
     return f"time = {toml_value({'variable': chosen.name, 'unit': OPEN})}  # {time_words(chosen)}"
 
 
-def _array_signal(group: Likeness, array: SketchedColumns, model: RobotModel | None, sensor: str | None) -> list[str]:
+def _array_signal(
+    group: Likeness, array: SketchedColumns, model: RobotModel | None, stream: str, frames: Mapping[str, str]
+) -> list[str]:
     quantity = QUANTITIES[group.quantity]
     usual = USUAL_UNITS.get(group.quantity, "")
     lines = ["", "[[recording.stream.signal]]", line("quantity", group.quantity), line("variable", array.name)]
@@ -144,5 +146,5 @@ def _array_signal(group: Likeness, array: SketchedColumns, model: RobotModel | N
     if quantity.labels is Labels.JOINTS:
         lines.append(joints_question(array.columns, "", model, key="names"))
     if quantity.has_frame:
-        lines.append(axes_line(group.quantity, sensor))
+        lines.append(axes_line(group.quantity, stream, frames))
     return lines

@@ -9,6 +9,8 @@ from forcetorque.analysis.draft.text import listed, question, toml_value
 from forcetorque.robot import RobotModel
 
 _MOST_ROWS = 2
+_SIDES = {"left", "right"}
+"""Words of which joints have the first letter."""
 
 
 def joints_question(count: int, where: str, model: RobotModel | None, *, key: str = "joints") -> str:
@@ -46,8 +48,8 @@ def joint_rows(model: RobotModel, count: int, where: str = "") -> list[list[str]
         Rows of joints, each from the inner to the outer one.
     """
     rows = [row for row in _limbs(model) if len(row) == count]
-    initials = {word[0] for word in re.findall(r"[a-z]+", where.lower())}
     words = set(re.findall(r"[a-z]+", where.lower()))
+    initials = {side[0] for side in _SIDES & words}
     named = [row for row in rows if all(_begins(joint, words, initials) for joint in row)]
     return named or rows
 

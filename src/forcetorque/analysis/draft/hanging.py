@@ -2,13 +2,14 @@
 """What a reading says of gravity by itself: force as the weight of whatever hangs on the sensor, plus a bias.
 
 A sensor that nothing touches reads `f = R h + mu R a + b` along its axes: R turns vectors of the support to those of
-the sensor, a is the acceleration of the sensor, h the weight in the axes of the support (up or down, by who acts on
-whom), mu the mass with that sign. Neither mass nor direction need be known, and a contact shows as what is left.
+the sensor, a is the acceleration of the centre of mass of what hangs on it, h the weight in the axes of the support (up
+or down, by who acts on whom), mu the mass with that sign. Neither mass nor direction need be known, and a contact shows
+as what is left, once the matrix of a sensor that is not calibrated yet is allowed for.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.optimize import least_squares
@@ -18,29 +19,31 @@ from forcetorque.recording import Recording, SavitzkyGolay, Stream
 from forcetorque.recording.alignment import interpolate, usable_samples
 from forcetorque.recording.joints import joint_motion_at
 from forcetorque.recording.quality import spans
-from forcetorque.robot import (
-    RobotModel,
-    RootMotion,
-    SensorFrame,
-    build_tree,
-    joints_between,
-    link_pose,
-    motion_of_link,
-)
-from forcetorque.spatial import split_pose
+from forcetorque.robot import JointMotion, RobotModel, RootMotion, build_tree, expected_wrenches, required_joints
+from forcetorque.spatial import Inertia, MeasureDirection
 
 WINDOW_S = 0.2
 """Readings are averaged over so long, against noise and vibration; s."""
+MARGIN_S = 0.4
+"""So long before and after what does not seem free nothing is offered: a push begins and ends gently; s."""
 SHORTEST_S = 2.0
 """Shortest span that is offered; s."""
 LARGE_SHARE = 0.02
 """What is left may be this share of the weight, for a sensor that is not calibrated yet."""
 
+CROSS_TALK = 0.1
+"""What is expected of the errors of a matrix that a sensor came with: share of a load that another component shows."""
+LIGHT_KG = 1e-3
+"""Less than this beyond a joint is no load."""
+
+_PROBE = "probe"
 _FEWEST = 20
 _MOST_WINDOWS = 20_000
 _DEVIATIONS = 5.0
 _MAD = 1.4826
 """Standard deviation of normal errors over their median magnitude."""
+_MEDIAN_OF_NORM = 1.538
+"""Median of the norm of three normal errors of deviation 1."""
 _SURE = 5.0
 _FILTER = SavitzkyGolay(window_s=0.3, order=3)
 
@@ -90,22 +93,23 @@ class Hanging:
         return "child_to_parent" if self.inertia < 0.0 else "parent_to_child"
 
 
-def hanging(model: RobotModel, link: str, support: str, recording: Recording, stream: Stream) -> Hanging | None:
-    """Hold the forces of a stream against the orientation of a link.
+def hanging(model: RobotModel, joint: str, support: str, recording: Recording, stream: Stream) -> Hanging | None:
+    """Hold the forces of a stream against the orientation of a sensor that may sit in a joint.
 
     Args:
-        model: The robot.
-        link: Link in whose axes the sensor may read.
+        model: The robot; where it has no mass beyond the joint a point mass at the child link stands for it.
+        joint: Fixed joint, with a sensor or without.
         support: Link that is taken to stand still.
-        recording: Streams with the joints between them.
+        recording: Streams with the joints between them, and those that move what is beyond.
         stream: Stream with the wrench.
 
     Returns:
         What the readings say; None where too few windows have all joints.
     """
-    tree = build_tree(model, support)
+    probe = _probe(model, joint)
+    tree = build_tree(probe, support)
     at_ns, force = _windows(stream)
-    joints = joints_between(tree, link)
+    joints = required_joints(tree, _PROBE)
     if len(at_ns) < _FEWEST or not set(joints) <= set(recording.joint_signals("position")):
         return None
     motion = joint_motion_at(recording, joints, at_ns, window=_FILTER)
@@ -113,28 +117,54 @@ def hanging(model: RobotModel, link: str, support: str, recording: Recording, st
     whole &= np.isfinite(force).all(axis=1)
     if int(whole.sum()) < _FEWEST:
         return None
-    at_ns, force = at_ns[whole], force[whole]
-    motion = joint_motion_at(recording, joints, at_ns, window=_FILTER)
-    rotation, _ = split_pose(link_pose(tree, motion, link))  # (n, 3, 3), or one
-    link_R_support = np.broadcast_to(np.swapaxes(rotation, -1, -2), (len(at_ns), 3, 3))
-    still = RootMotion(proper_acceleration=np.zeros(3), angular_velocity=np.zeros(3), angular_acceleration=np.zeros(3))
-    moved = np.broadcast_to(motion_of_link(tree, motion, still, link).proper_acceleration, (len(at_ns), 3))
-    return _fitted(at_ns, force, link_R_support, moved)
+    moving = motion.samples(np.flatnonzero(whole))
+    mass = mass_beyond(probe, joint)
+
+    def read(motion: JointMotion, pull: FloatArray) -> FloatArray:
+        """Force by the acceleration of free fall, which is what a probe reads as child_to_parent; per kg."""
+        root = RootMotion(proper_acceleration=-pull, angular_velocity=np.zeros(3), angular_acceleration=np.zeros(3))
+        return expected_wrenches(tree, motion, root, [_PROBE])[_PROBE][:, :3] / mass
+
+    still = JointMotion.at_rest(moving.names, moving.position)
+    link_R_support = np.stack([read(still, axis) for axis in np.eye(3)], axis=-1)
+    return _fitted(at_ns[whole], force[whole], link_R_support, -read(moving, np.zeros(3)))
 
 
-def reading_link(model: RobotModel, joint: str, frame: SensorFrame | None = None) -> str:
-    """Give the link in whose axes a sensor at a fixed joint reads.
+def _probe(model: RobotModel, joint: str) -> RobotModel:
+    """The robot with one sensor, at the joint, read as child_to_parent, and something that hangs on it."""
+    tags = [sensor for sensor in model.sensors.values() if sensor.joint == joint]
+    bare = replace(model, sensors={})
+    if tags:
+        place = replace(tags[0], name=_PROBE, direction=MeasureDirection.CHILD_TO_PARENT, aliases=())
+        bare = replace(bare, sensors={_PROBE: place})
+    else:
+        bare = bare.with_sensor(_PROBE, joint=joint, direction=MeasureDirection.CHILD_TO_PARENT)
+    if mass_beyond(model, joint) >= LIGHT_KG:
+        return bare
+    child = model.joints[joint].child
+    point = Inertia.about_centre_of_mass(mass=1.0, centre_of_mass=np.zeros(3), second_moment=np.zeros((3, 3)))
+    return replace(bare, links={**bare.links, child: point})
+
+
+def mass_beyond(model: RobotModel, joint: str) -> float:
+    """Add up what hangs on a joint.
 
     Args:
         model: The robot.
-        joint: The joint.
-        frame: Frame of the sensor; child if None.
+        joint: One of its joints.
 
     Returns:
-        The link.
+        Mass of all links beyond it; kg.
     """
-    placed = model.joints[joint]
-    return placed.parent if frame is SensorFrame.PARENT else placed.child
+    outward: dict[str, list[str]] = {}
+    for entry in model.joints.values():
+        outward.setdefault(entry.parent, []).append(entry.child)
+    total, waiting = 0.0, [model.joints[joint].child]
+    while waiting:
+        link = waiting.pop()
+        total += model.links[link].mass
+        waiting += outward.get(link, ())
+    return total
 
 
 def _windows(stream: Stream) -> tuple[IntArray, FloatArray]:
@@ -157,35 +187,55 @@ def _fitted(at_ns: IntArray, force: FloatArray, link_R_support: FloatArray, move
     design = np.concatenate([link_R_support, moved[:, :, None], np.broadcast_to(np.eye(3), (n, 3, 3))], axis=2).reshape(
         3 * n, 7
     )
-    reading = force.reshape(-1)
+    coefficients = _robust(design, force.reshape(-1))
+    load = (design[:, :4] @ coefficients[:4]).reshape(n, 3)
+    left = np.linalg.norm(_without_cross_talk(force, load), axis=1)
+    weight = coefficients[:3]
+    deviation = float(np.median(left)) / _MEDIAN_OF_NORM
+    tolerance = max(_DEVIATIONS * deviation, LARGE_SHARE * float(np.linalg.norm(weight)))
+    information = design[np.repeat(left <= tolerance, 3)]
+    covariance = np.linalg.pinv(information.T @ information) * deviation**2
+    turned = link_R_support @ weight
+    return Hanging(
+        stamp_ns=at_ns,
+        weight=weight,
+        inertia=float(coefficients[3]),
+        inertia_deviation=float(np.sqrt(covariance[3, 3])),
+        left=left,
+        turned=float(np.sqrt(turned.var(axis=0).sum())),
+        tolerance=float(tolerance),
+    )
+
+
+def _without_cross_talk(force: FloatArray, load: FloatArray) -> FloatArray:
+    """What is left when the sensor may multiply forces by a matrix near one, which it has before it is calibrated."""
+    n = len(force)
+    rest = force - load
+    noise = max(_MAD * float(np.median(np.abs(rest - np.median(rest, axis=0)))), 1e-9)
+    design = np.concatenate([load, np.ones((n, 1))], axis=1)
+    # as if as many samples said that the matrix is one, as it takes to hold it within its expected errors
+    expected = np.diag([noise / CROSS_TALK] * 3 + [0.0])
+    left = np.empty_like(force)
+    for k in range(3):
+        fitted = _robust(np.vstack([design, expected]), np.append(rest[:, k], np.zeros(4)))
+        left[:, k] = rest[:, k] - design @ fitted
+    return left
+
+
+def _robust(design: FloatArray, reading: FloatArray) -> FloatArray:
+    """Coefficients by which few large errors do not move the others."""
     scale = np.maximum(np.abs(design).max(axis=0), 1e-9)
-    start = np.linalg.lstsq(design / scale, reading, rcond=None)[0]
     scaled: FloatArray = design / scale
-    noise = max(_MAD * float(np.median(np.abs(scaled @ start - reading))), 1e-6)
+    start = np.linalg.lstsq(scaled, reading, rcond=None)[0]
+    noise = max(_MAD * float(np.median(np.abs(scaled @ start - reading))), 1e-9)
 
     def residual(x: FloatArray) -> FloatArray:
         rest: FloatArray = scaled @ x - reading
         return rest
 
     fit = least_squares(residual, start, loss="cauchy", f_scale=noise)  # linear: finite differences are exact
-    coefficients = fit.x / scale
-    rest = (reading - design @ coefficients).reshape(n, 3)
-    left = np.linalg.norm(rest, axis=1)
-    weight = coefficients[:3]
-    spread = _MAD * float(np.median(left))
-    tolerance = max(_DEVIATIONS * spread / np.sqrt(2.0), LARGE_SHARE * float(np.linalg.norm(weight)))
-    information = scaled[np.repeat(left <= tolerance, 3)]
-    covariance = np.linalg.pinv(information.T @ information) * spread**2
-    turned = link_R_support @ weight
-    return Hanging(
-        stamp_ns=at_ns,
-        weight=weight,
-        inertia=float(coefficients[3]),
-        inertia_deviation=float(np.sqrt(covariance[3, 3]) / scale[3]),
-        left=left,
-        turned=float(np.sqrt(turned.var(axis=0).sum())),
-        tolerance=float(tolerance),
-    )
+    coefficients: FloatArray = fit.x / scale
+    return coefficients
 
 
 def free_spans(stamp_ns: IntArray, free: BoolArray) -> list[tuple[int, int]]:
@@ -204,7 +254,9 @@ def free_spans(stamp_ns: IntArray, free: BoolArray) -> list[tuple[int, int]]:
     breaks = np.flatnonzero(np.diff(stamp_ns) > 5.0 * step) + 1
     runs: list[tuple[int, int]] = []
     for part in np.split(np.arange(len(stamp_ns)), breaks):
-        runs += [(int(stamp_ns[part[a]]), int(stamp_ns[part[b]])) for a, b in spans(free[part])]
+        for a, b in spans(free[part]):
+            early, late = (0 if edge else int(MARGIN_S * 1e9) for edge in (a == 0, b == len(part) - 1))
+            runs.append((int(stamp_ns[part[a]]) + early, int(stamp_ns[part[b]]) - late))
     return [(first, last) for first, last in runs if last - first >= SHORTEST_S * 1e9]
 
 

@@ -136,7 +136,7 @@ def _entry_line(entry: Mapping[str, Any], model: RobotModel | None) -> str:
     """A table among several in a list, on one line, so that a question in it has a line of its own."""
     frame = None if "frame" not in entry else _link_in(str(entry["frame"]), model) or OPEN
     stated = dict(entry) if frame is None else {**entry, "frame": frame}
-    words = "  # frame: link of the URDF along whose axes it reads" if frame == OPEN else ""
+    words = "  # link of the URDF along whose axes it reads" if frame == OPEN else ""
     return f"  {toml_value(stated)},{words}"
 
 

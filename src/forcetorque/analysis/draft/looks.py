@@ -25,5 +25,6 @@ def looks(sketch: LogSketch) -> dict[int, str]:
         return named if chosen is None else {**named, sketch.columns.index(chosen): "time"}
     headings = [read_heading(column.name) for column in sketch.columns]
     looking = {k: group.words or group.quantity for group in likenesses(headings, ()) for k in group.columns}
+    looking |= {k: "orientation" for first in sketch.quaternion for k in range(first, first + 4) if k not in looking}
     time = time_column(headings, [column.step for column in sketch.columns])
     return looking if time is None else {**looking, time: "time"}

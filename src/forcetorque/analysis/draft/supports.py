@@ -3,15 +3,15 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 
-from forcetorque.analysis.draft.hanging import Hanging
+from forcetorque.analysis.draft.hanging import LIGHT_KG, Hanging, mass_beyond
 from forcetorque.analysis.draft.sensors import DraftedSensor, weight_words
 from forcetorque.analysis.draft.text import line, listed, question
 from forcetorque.robot import Joint, RobotModel
 
-_LIGHT_KG = 1e-3
-"""Less than this beyond a sensor is no load."""
+_STANDS = re.compile("sole|foot|feet|toe|base|ground")
 
 
 def base_of_arm(model: RobotModel) -> str | None:
@@ -45,7 +45,7 @@ def ends_of_robot(model: RobotModel) -> tuple[str, ...]:
         model: The robot.
 
     Returns:
-        The links, in the order of the model; its root last.
+        The links that are called like feet or bases first, then in the order of the model; its root last.
     """
     parents = {joint.parent for joint in model.joints.values()}
     inward = {joint.child: joint for joint in model.joints.values()}
@@ -56,28 +56,7 @@ def ends_of_robot(model: RobotModel) -> tuple[str, ...]:
         and link in inward
         and (inward[link].type.moves or _next_moving(inward[link].parent, inward))
     ]
-    return (*ends, model.root_link)
-
-
-def mass_beyond(model: RobotModel, joint: str) -> float:
-    """Add up what hangs on a joint.
-
-    Args:
-        model: The robot.
-        joint: One of its joints.
-
-    Returns:
-        Mass of all links beyond it; kg.
-    """
-    outward: dict[str, list[str]] = {}
-    for entry in model.joints.values():
-        outward.setdefault(entry.parent, []).append(entry.child)
-    total, waiting = 0.0, [model.joints[joint].child]
-    while waiting:
-        link = waiting.pop()
-        total += model.links[link].mass
-        waiting += outward.get(link, ())
-    return total
+    return tuple(sorted((*ends, model.root_link), key=lambda link: not _STANDS.search(link.lower())))
 
 
 def has_no_tool(sensor: DraftedSensor, model: RobotModel) -> bool:
@@ -93,7 +72,7 @@ def has_no_tool(sensor: DraftedSensor, model: RobotModel) -> bool:
     joints = [sensor.joint] if sensor.joint else list(sensor.joints)
     if sensor.name in model.sensors:
         joints = [model.sensors[sensor.name].joint]
-    return bool(joints) and all(mass_beyond(model, joint) < _LIGHT_KG for joint in joints)
+    return bool(joints) and all(mass_beyond(model, joint) < LIGHT_KG for joint in joints)
 
 
 def support_lines(base: str | None, model: RobotModel, imu_streams: Sequence[str], told: Hanging | None) -> list[str]:

@@ -88,7 +88,7 @@ def table_lines(log: DraftedLog, folder: Path, model: RobotModel | None, frames:
             lines.append(line("file", sketch.path.resolve().relative_to(root).as_posix()))
             lines += _form_lines(sketch)
             lines.append(_stamp_line(sketch))
-            lines += _signal_lines(stream, sketch, model, frames.get(stream.name))
+            lines += _signal_lines(stream, sketch, model, frames)
     return lines
 
 
@@ -96,6 +96,8 @@ def _form_lines(sketch: LogSketch) -> list[str]:
     lines = [] if sketch.delimiter in (None, ",") else [line("delimiter", sketch.delimiter)]
     if not sketch.has_headings:
         words = f"the file has no line of headings: a name for each of its {len(sketch.columns)} columns"
+        for first in sketch.quaternion:
+            words += f", of which {first + 1} to {first + 4} have norm 1 as quaternions do"
         lines.append(question("column_names", f'{words}, as ["t", "fx", ...]'))
     return lines
 
@@ -113,10 +115,12 @@ def _stamp_line(sketch: LogSketch) -> str:
     return f"stamp = {toml_value({'column': name, 'unit': OPEN})}  # {time_words(column)}"
 
 
-def _signal_lines(stream: DraftedStream, sketch: LogSketch, model: RobotModel | None, sensor: str | None) -> list[str]:
+def _signal_lines(
+    stream: DraftedStream, sketch: LogSketch, model: RobotModel | None, frames: Mapping[str, str]
+) -> list[str]:
     lines: list[str] = []
     for group in stream.groups:
-        lines += ["", "[[recording.stream.signal]]", *_group_lines(group, sketch, model, sensor)]
+        lines += ["", "[[recording.stream.signal]]", *_group_lines(group, sketch, model, stream.name, frames)]
     used = {k for group in stream.groups for k in group.columns}
     used.add(-1 if (time := time_column(_headings(sketch), [c.step for c in sketch.columns])) is None else time)
     rest = [column.name for k, column in enumerate(sketch.columns) if k not in used]
@@ -133,7 +137,9 @@ def _signal_lines(stream: DraftedStream, sketch: LogSketch, model: RobotModel | 
     return lines
 
 
-def _group_lines(group: Likeness, sketch: LogSketch, model: RobotModel | None, sensor: str | None) -> list[str]:
+def _group_lines(
+    group: Likeness, sketch: LogSketch, model: RobotModel | None, stream: str, frames: Mapping[str, str]
+) -> list[str]:
     names = [sketch.columns[k].name for k in group.columns]
     units = [read_heading(name).unit for name in names]
     quantity = QUANTITIES.get(group.quantity)
@@ -156,12 +162,10 @@ def _group_lines(group: Likeness, sketch: LogSketch, model: RobotModel | None, s
         elif list(group.names) != names:
             lines.append(line("names", group.names))
     if quantity is None or quantity.has_frame:
-        lines.append(axes_line(group.quantity, sensor))
+        lines.append(axes_line(group.quantity, stream, frames))
     if group.form is not None:
         stated = {"form": str(group.form), "sense": OPEN}
-        words = (
-            "sense: sensor_to_world where it turns vectors along the frame's axes to the world's, else world_to_sensor"
-        )
+        words = "sensor_to_world where it turns vectors along the frame's axes to the world's, else world_to_sensor"
         lines.append(f"orientation = {toml_value(stated)}  # {words}")
     return lines
 

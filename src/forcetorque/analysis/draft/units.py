@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 from forcetorque.analysis.draft.text import line, question
 from forcetorque.exchange.log_sketch import SketchedColumns
 
@@ -45,19 +47,21 @@ def time_words(column: SketchedColumns) -> str:
     return f"s, ms, us or ns: {'; '.join(choices) or 'none makes a usual rate'}"
 
 
-def axes_line(quantity: str, sensor: str | None) -> str:
+def axes_line(quantity: str, stream: str, frames: Mapping[str, str]) -> str:
     """State or ask for the frame of a signal.
 
     Args:
         quantity: Its quantity.
-        sensor: Name of the sensor that reads the stream; None for none.
+        stream: Its stream.
+        frames: Sensors by the streams of their wrenches.
 
     Returns:
         The line.
     """
-    if quantity in ("wrench", "applied_wrench") and sensor is not None:
-        return line("frame", sensor)
+    if quantity in ("wrench", "applied_wrench") and stream in frames:
+        return line("frame", frames[stream])
     words = "link of the URDF, or name of the frame, along whose axes it is"
-    if sensor is not None:
-        words += f'; "{sensor}" for those of the sensor'
+    near = {frames[stream]} if stream in frames else set(frames.values())
+    if len(near) == 1:
+        words += f'; "{near.pop()}" for those of the sensor'
     return question("frame", words)

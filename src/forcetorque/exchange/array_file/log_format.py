@@ -130,13 +130,19 @@ class NpzFormat(_ArrayFormat):
 
 
 def _sketched(name: str, rows: int, columns: int, values: FloatArray | None) -> SketchedColumns:
-    """An array, with range and step where it may be times: it rises from number to number."""
-    steps = np.zeros(1) if values is None or values.shape[1] != 1 else np.diff(values[:, 0])
-    if values is None or not len(steps) or not (steps > 0.0).all():
+    """An array; of a single column with its range, and its step where it may be times: it rises all along."""
+    if values is None or not np.isfinite(values).all():
         return SketchedColumns(name=name, rows=rows, columns=columns)
-    first, last = float(values[0, 0]), float(values[-1, 0])
-    step = float(np.median(steps))
-    return SketchedColumns(name=name, rows=rows, columns=columns, smallest=first, largest=last, step=step)
+    steps = np.diff(values[:, 0])
+    return SketchedColumns(
+        name=name,
+        rows=rows,
+        columns=columns,
+        smallest=float(values.min()),
+        largest=float(values.max()),
+        mean=float(values.mean()),
+        step=float(np.median(steps)) if (steps > 0.0).all() else None,
+    )
 
 
 def _labels_itself(path: Path) -> bool:

@@ -21,6 +21,7 @@ _LOOKED_AT = 1 << 20
 _MOST_COLUMNS = 10_000
 _DELIMITERS = ("\t", ";", ",", " ")
 _PROBED_LINES = 4
+_UNIT_NORM = 1e-3
 
 
 def is_table(path: Path) -> bool:
@@ -91,6 +92,7 @@ def _sketch_text(path: Path) -> LogSketch:
         columns=tuple(_sketched(name, rows, table.column(k)) for k, name in enumerate(names)),
         delimiter=delimiter,
         has_headings=has_headings,
+        quaternion=_unit_fours(table),
         rows_looked_at=len(table),
     )
 
@@ -152,6 +154,21 @@ def _count_rows(path: Path, *, has_headings: bool) -> int:
     return count + (last != b"\n") - int(has_headings)
 
 
+def _unit_fours(table: Any) -> tuple[int, ...]:
+    """First columns of four floating ones whose norm is 1 in every row."""
+    floating = [pa.types.is_floating(column.type) for column in table.columns]
+    columns = [
+        np.asarray(column.to_numpy()) if is_float else None
+        for column, is_float in zip(table.columns, floating, strict=True)
+    ]
+    fours = []
+    for first in range(len(columns) - 3):
+        four = [column for column in columns[first : first + 4] if column is not None]
+        if len(four) == 4 and len(table) and np.allclose(np.linalg.norm(four, axis=0), 1.0, atol=_UNIT_NORM):
+            fours.append(first)
+    return tuple(fours)
+
+
 def _sketched(name: str, rows: int, column: Any) -> SketchedColumns:
     unit = read_heading(name).unit
     kind = None if column is None else column.type
@@ -170,5 +187,6 @@ def _sketched(name: str, rows: int, column: Any) -> SketchedColumns:
         unit=unit,
         smallest=float(finite.min()),
         largest=float(finite.max()),
+        mean=float(finite.mean()),
         step=float(np.median(steps)) if rises else None,
     )
