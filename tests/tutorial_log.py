@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The log of the tutorial: the demonstration's arm for a minute, its sensor 3 % off, and a hand that pushes it meanwhile.
+"""The log of the tutorial: the demonstration's arm for a minute, its sensor 3 % off, and a hand that pushes it.
 
 `python -m tests.tutorial_log` writes the files that the tutorial has.
 """
