@@ -81,17 +81,18 @@ def read_heading(text: str) -> Heading:
     Returns:
         Name and unit.
     """
-    bracketed = _BRACKETED.match(text)
+    plain = text.strip().strip("\"'")  # some programs put headings in quotes, which readers take as they are
+    bracketed = _BRACKETED.match(plain)
     if bracketed is not None:
         unit = _SPELLINGS.get(bracketed["unit"].strip().lower())
-        return Heading(text, bracketed["name"] if unit else text, unit)
-    name, _, last = text.rpartition("_")
+        return Heading(text, bracketed["name"] if unit else plain, unit)
+    name, _, last = plain.rpartition("_")
     small = last.lower()
     # `_N` is newton and `_n` may be a number
     stated = small in _BEHIND_LOW_LINE and (small != "n" or last == "N")
     if name and (stated or (small in _TIMES and name.lower() in _TIME_NAMES)):
         return Heading(text, name, _SPELLINGS[small])
-    return Heading(text, text, None)
+    return Heading(text, plain, None)
 
 
 def is_time_name(name: str) -> bool:

@@ -10,7 +10,7 @@ from forcetorque.analysis.draft.boards import joints_question
 from forcetorque.analysis.draft.likeness import Likeness
 from forcetorque.analysis.draft.paths import relative
 from forcetorque.analysis.draft.streams import DraftedLog, DraftedStream
-from forcetorque.analysis.draft.text import line, listed, question, toml_value
+from forcetorque.analysis.draft.text import line, listed, question, remark, toml_value
 from forcetorque.analysis.draft.units import USUAL_UNITS, axes_line, time_words
 from forcetorque.exchange.log_sketch import LogSketch, SketchedColumns
 from forcetorque.recording import QUANTITIES, Labels
@@ -102,7 +102,7 @@ def array_lines(log: DraftedLog, folder: Path, model: RobotModel | None, frames:
         used = {names[k] for group in stream.groups for k in group.columns}
         rest = [f"{c.name} ({c.rows} x {c.columns})" for c in sketch.columns if c.name not in used and c.step is None]
         if rest:
-            lines += ["", f"# not read: {listed(rest)}"]
+            lines += ["", remark(f"not read: {listed(rest)}")]
     if not log.streams:
         lines += ["", "[[recording.stream]]", line("name", "log"), question("variable", "array with what is read")]
         lines += [question("time", 'array or column of the time: { variable = "...", unit = "s" }')]
@@ -132,7 +132,7 @@ def _time_line(sketch: LogSketch) -> str:
     if chosen is None:
         words = 'no array rises as a time does: { variable = "...", unit = "s" }'
         return question("time", f'{words}, or {{ column = 1, unit = "s" }} of the array')
-    return f"time = {toml_value({'variable': chosen.name, 'unit': OPEN})}  # {time_words(chosen)}"
+    return f"time = {toml_value({'variable': chosen.name, 'unit': OPEN})}  {remark(time_words(chosen))}"
 
 
 def _array_signal(

@@ -11,7 +11,7 @@ from forcetorque.analysis.draft.boards import joints_question
 from forcetorque.analysis.draft.likeness import Likeness, likenesses, time_column
 from forcetorque.analysis.draft.paths import relative
 from forcetorque.analysis.draft.streams import DraftedLog, DraftedStream
-from forcetorque.analysis.draft.text import line, listed, question, toml_value
+from forcetorque.analysis.draft.text import line, listed, question, remark, toml_value
 from forcetorque.analysis.draft.units import TIME_UNITS, USUAL_UNITS, axes_line, time_words
 from forcetorque.exchange.heading import Heading, read_heading
 from forcetorque.exchange.log_sketch import LogSketch
@@ -112,7 +112,7 @@ def _stamp_line(sketch: LogSketch) -> str:
     unit = read_heading(name).unit
     if unit in TIME_UNITS:
         return line("stamp", {"column": name, "unit": unit})
-    return f"stamp = {toml_value({'column': name, 'unit': OPEN})}  # {time_words(column)}"
+    return f"stamp = {toml_value({'column': name, 'unit': OPEN})}  {remark(time_words(column))}"
 
 
 def _signal_lines(
@@ -133,7 +133,7 @@ def _signal_lines(
             question("units", "unit of each column"),
         ]
     elif rest:
-        lines += ["", f"# not read: {listed(rest)}"]
+        lines += ["", remark(f"not read: {listed(rest)}")]
     return lines
 
 

@@ -47,11 +47,23 @@ def line(key: str, value: Any, words: str = "") -> str:
         The line; of a list that is long, several.
     """
     text = toml_value(value)
-    comment = f"  # {' '.join(words.split())}" if words else ""
+    comment = f"  {remark(words)}" if words else ""
     if isinstance(value, list | tuple) and (len(text) > _LONGEST_LIST or _holds_tables(value)):
         entries = "".join(f"  {toml_value(entry)},\n" for entry in value)
         return f"{_key(key)} = [{comment}\n{entries}]"
     return f"{_key(key)} = {text}{comment}"
+
+
+def remark(words: str) -> str:
+    """Write a comment.
+
+    Args:
+        words: What it says; names in it may hold anything.
+
+    Returns:
+        One line of characters that TOML allows there.
+    """
+    return f"# {''.join(c if c.isprintable() else ' ' for c in ' '.join(words.split()))}"
 
 
 def question(key: str, words: str) -> str:
