@@ -27,7 +27,7 @@ def init(
     ] = None,
     output_format: FormatOption = Format.TABLE,
 ) -> None:
-    """Write the first experiment file of a log, with a question for what nobody can tell from it.
+    """Begin an experiment file of a log: what it does not say is a question.
 
     Example: forcetorque init log.csv --urdf robot.urdf -o experiment.toml
     """

@@ -92,16 +92,16 @@ def _volts_per_count(file: PriorFile, stated: schema.PriorTable) -> float:
     """What makes the matrix per count."""
     if file.raw_unit is RawUnit.WRENCH:
         raise ExperimentError(
-            f"prior: expected a matrix that takes counts, got a {file.form}, which corrects wrenches; for a stream of "
+            f"prior: expected a matrix that takes counts, got {file.form}, which corrects wrenches; for a stream of "
             'wrenches state prior = "identity"'
         )
     if file.raw_unit is RawUnit.COUNTS:
         if stated.volts_per_count is not None:
-            raise ExperimentError(f"prior: expected no volts_per_count: a {file.form} is per count; delete it")
+            raise ExperimentError(f"prior: expected no volts_per_count: {file.form} is per count; delete it")
         return 1.0
     if stated.volts_per_count is None:
         raise ExperimentError(
-            f"prior: expected volts_per_count, because a {file.form} is per volt; write prior = {{ path = "
+            f"prior: expected volts_per_count, for {file.form} is per volt; write prior = {{ path = "
             f'"{stated.path.as_posix()}", volts_per_count = ... }}: the span of the converter over its steps, 1.0 for '
             "a log in volts"
         )

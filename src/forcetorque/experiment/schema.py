@@ -63,6 +63,10 @@ class Variable(Table):
     one full scale over the range that was seen."""
 
 
+def _word_or_table(value: Any) -> str:
+    return "word" if isinstance(value, str | Path) else "table"
+
+
 class PriorTable(Table):
     """A file with a calibration, and what it does not say itself."""
 
@@ -86,7 +90,13 @@ class Sensor(Table):
     """Stream of the recording that holds its reading."""
     serial: Text
     """Serial number."""
-    prior: Literal["identity"] | Path | PriorTable | None = None
+    prior: (
+        Annotated[
+            Annotated[PriorTable, Tag("table")] | Annotated[Literal["identity"] | Path, Tag("word")],
+            Discriminator(_word_or_table),
+        ]
+        | None
+    ) = None
     """File of the calibration that the sensor came with, and whose counts a calibrated stream recovers: a matrix file
     of iCub, .dat of FirmwareUpdater, .cal of ATI, or a plain table; `identity` if that matrix is not known: the
     calibrated reading then takes the place of counts."""
@@ -269,16 +279,12 @@ class Smoothing(Table):
     """Order of the polynomial."""
 
 
-def _form_of_derivatives(value: Any) -> str:
-    return "word" if isinstance(value, str) else "table"
-
-
 class ProcessingTable(Table):
     """How logged samples become reading and reference."""
 
     derivatives: Annotated[
         Annotated[Smoothing, Tag("table")] | Annotated[Literal["logged"], Tag("word")],
-        Discriminator(_form_of_derivatives),
+        Discriminator(_word_or_table),
     ] = Smoothing(window_s=0.3, order=3)
     """Filter that differentiates joint positions, or `logged` to take velocity and acceleration from the log."""
     smoothing: Smoothing | None = None
