@@ -12,7 +12,6 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.optimize import least_squares
 
 from forcetorque.arrays import BoolArray, FloatArray, IntArray
 from forcetorque.recording import Recording, SavitzkyGolay, Stream
@@ -31,13 +30,16 @@ SHORTEST_S = 2.0
 LARGE_SHARE = 0.02
 """What is left may be this share of the weight, for a sensor that is not calibrated yet."""
 
-CROSS_TALK = 0.1
-"""What is expected of the errors of a matrix that a sensor came with: share of a load that another component shows."""
+CROSS_TALK = 0.05
+"""What is expected of the errors of a matrix that a sensor came with: share of a load that shows where it is not."""
+LEVER_M = 0.05
+"""Moment over force of full scales, by which shares of moments are shares of forces; m."""
 LIGHT_KG = 1e-3
 """Less than this beyond a joint is no load."""
 
 _PROBE = "probe"
 _FEWEST = 20
+_ROUNDS = 20
 _MOST_WINDOWS = 20_000
 _DEVIATIONS = 5.0
 _MAD = 1.4826
@@ -108,13 +110,13 @@ def hanging(model: RobotModel, joint: str, support: str, recording: Recording, s
     """
     probe = _probe(model, joint)
     tree = build_tree(probe, support)
-    at_ns, force = _windows(stream)
+    at_ns, wrench = _windows(stream)
     joints = required_joints(tree, _PROBE)
     if len(at_ns) < _FEWEST or not set(joints) <= set(recording.joint_signals("position")):
         return None
     motion = joint_motion_at(recording, joints, at_ns, window=_FILTER)
     whole = np.isfinite(motion.position).all(axis=1) & np.isfinite(motion.acceleration).all(axis=1)
-    whole &= np.isfinite(force).all(axis=1)
+    whole &= np.isfinite(wrench).all(axis=1)
     if int(whole.sum()) < _FEWEST:
         return None
     moving = motion.samples(np.flatnonzero(whole))
@@ -127,7 +129,7 @@ def hanging(model: RobotModel, joint: str, support: str, recording: Recording, s
 
     still = JointMotion.at_rest(moving.names, moving.position)
     link_R_support = np.stack([read(still, axis) for axis in np.eye(3)], axis=-1)
-    return _fitted(at_ns[whole], force[whole], link_R_support, -read(moving, np.zeros(3)))
+    return _fitted(at_ns[whole], wrench[whole], link_R_support, -read(moving, np.zeros(3)))
 
 
 def _probe(model: RobotModel, joint: str) -> RobotModel:
@@ -168,74 +170,76 @@ def mass_beyond(model: RobotModel, joint: str) -> float:
 
 
 def _windows(stream: Stream) -> tuple[IntArray, FloatArray]:
-    """Middles of windows, and the mean force in each."""
+    """Middles of windows, and the mean wrench in each."""
     usable = usable_samples(stream.stamp_ns)
-    stamps, force = stream.stamp_ns[usable], stream.signal("wrench").values[usable, :3]
+    stamps, wrench = stream.stamp_ns[usable], stream.signal("wrench").values[usable]
     if len(stamps) < 2:
-        return np.empty(0, dtype=np.int64), np.empty((0, 3))
+        return np.empty(0, dtype=np.int64), np.empty((0, 6))
     length = max(int(WINDOW_S * 1e9), int(stamps[-1] - stamps[0]) // _MOST_WINDOWS + 1)
     number = (stamps - stamps[0]) // length
     starts = np.flatnonzero(np.diff(number, prepend=-1))
     count = np.diff(np.append(starts, len(stamps)))
-    mean = np.add.reduceat(force, starts, axis=0) / count[:, None]
+    mean = np.add.reduceat(wrench, starts, axis=0) / count[:, None]
     middle = stamps[starts] + (np.add.reduceat(stamps - stamps[0], starts) // count - (stamps[starts] - stamps[0]))
     return middle.astype(np.int64), mean
 
 
-def _fitted(at_ns: IntArray, force: FloatArray, link_R_support: FloatArray, moved: FloatArray) -> Hanging:
+def _fitted(at_ns: IntArray, wrench: FloatArray, link_R_support: FloatArray, moved: FloatArray) -> Hanging:
     n = len(at_ns)
-    design = np.concatenate([link_R_support, moved[:, :, None], np.broadcast_to(np.eye(3), (n, 3, 3))], axis=2).reshape(
-        3 * n, 7
-    )
-    coefficients = _robust(design, force.reshape(-1))
-    load = (design[:, :4] @ coefficients[:4]).reshape(n, 3)
-    left = np.linalg.norm(_without_cross_talk(force, load), axis=1)
-    weight = coefficients[:3]
-    deviation = float(np.median(left)) / _MEDIAN_OF_NORM
-    tolerance = max(_DEVIATIONS * deviation, LARGE_SHARE * float(np.linalg.norm(weight)))
-    information = design[np.repeat(left <= tolerance, 3)]
-    covariance = np.linalg.pinv(information.T @ information) * deviation**2
+    force, moment = wrench[:, :3], wrench[:, 3:]
+    ideal = np.concatenate([link_R_support, moved[:, :, None], np.broadcast_to(np.eye(3), (n, 3, 3))], axis=2)
+    ideal = ideal.reshape(3 * n, 7)
+    exact = _robust(ideal, force.reshape(-1))
+    load = (ideal[:, :4] @ exact[:4]).reshape(n, 3)
+    design = np.hstack([ideal, _spread(load), _spread(moment - np.median(moment, axis=0))])
+    noise = _MAD * float(np.median(np.abs(force.reshape(-1) - ideal @ exact)))
+    # rows that say how near one the matrix is expected to be: else its errors look like mass and direction
+    expected = np.repeat([np.inf, CROSS_TALK, CROSS_TALK / LEVER_M], [7, 9, 9])
+    for _ in range(2):  # the noise is what the expected errors of the matrix do not explain
+        prior = np.diag(max(noise, 1e-9) / expected)
+        coefficients = _robust(design, force.reshape(-1), prior)
+        left = np.linalg.norm((force.reshape(-1) - design @ coefficients).reshape(n, 3), axis=1)
+        noise = float(np.median(left)) / _MEDIAN_OF_NORM
+    # a matrix that is not one and a weight that is larger are the same: the size is that of the matrix one
+    size = float(np.linalg.norm(exact[:3])) / max(float(np.linalg.norm(coefficients[:3])), 1e-9)
+    weight = size * coefficients[:3]
+    tolerance = max(_DEVIATIONS * noise, LARGE_SHARE * float(np.linalg.norm(weight)))
+    rows = np.vstack([design[np.repeat(left <= tolerance, 3)], prior])
+    covariance = np.linalg.pinv(rows.T @ rows) * noise**2
     turned = link_R_support @ weight
     return Hanging(
         stamp_ns=at_ns,
         weight=weight,
-        inertia=float(coefficients[3]),
-        inertia_deviation=float(np.sqrt(covariance[3, 3])),
+        inertia=float(size * coefficients[3]),
+        inertia_deviation=float(size * np.sqrt(covariance[3, 3])),
         left=left,
         turned=float(np.sqrt(turned.var(axis=0).sum())),
         tolerance=float(tolerance),
     )
 
 
-def _without_cross_talk(force: FloatArray, load: FloatArray) -> FloatArray:
-    """What is left when the sensor may multiply forces by a matrix near one, which it has before it is calibrated."""
-    n = len(force)
-    rest = force - load
-    noise = max(_MAD * float(np.median(np.abs(rest - np.median(rest, axis=0)))), 1e-9)
-    design = np.concatenate([load, np.ones((n, 1))], axis=1)
-    # as if as many samples said that the matrix is one, as it takes to hold it within its expected errors
-    expected = np.diag([noise / CROSS_TALK] * 3 + [0.0])
-    left = np.empty_like(force)
-    for k in range(3):
-        fitted = _robust(np.vstack([design, expected]), np.append(rest[:, k], np.zeros(4)))
-        left[:, k] = rest[:, k] - design @ fitted
-    return left
+def _spread(values: FloatArray) -> FloatArray:
+    """Columns by which every component of three may have a share of each of these; shape (3 n, 9)."""
+    spread: FloatArray = np.einsum("ij,nk->nijk", np.eye(3), values).reshape(3 * len(values), 9)
+    return spread
 
 
-def _robust(design: FloatArray, reading: FloatArray) -> FloatArray:
-    """Coefficients by which few large errors do not move the others."""
+def _robust(design: FloatArray, reading: FloatArray, prior: FloatArray | None = None) -> FloatArray:
+    """Coefficients that few large errors do not move: Cauchy's weights, for rows of the reading alone."""
     scale = np.maximum(np.abs(design).max(axis=0), 1e-9)
     scaled: FloatArray = design / scale
-    start = np.linalg.lstsq(scaled, reading, rcond=None)[0]
-    noise = max(_MAD * float(np.median(np.abs(scaled @ start - reading))), 1e-9)
-
-    def residual(x: FloatArray) -> FloatArray:
-        rest: FloatArray = scaled @ x - reading
-        return rest
-
-    fit = least_squares(residual, start, loss="cauchy", f_scale=noise)  # linear: finite differences are exact
-    coefficients: FloatArray = fit.x / scale
-    return coefficients
+    kept = np.empty((0, design.shape[1])) if prior is None else prior / scale
+    target = np.append(reading, np.zeros(len(kept)))
+    weights = np.ones(len(reading))
+    coefficients = np.zeros(design.shape[1])
+    for _ in range(_ROUNDS):
+        rows = np.vstack([weights[:, None] * scaled, kept])
+        coefficients = np.linalg.lstsq(rows, np.append(weights, np.ones(len(kept))) * target, rcond=None)[0]
+        rest = scaled @ coefficients - reading
+        noise = max(_MAD * float(np.median(np.abs(rest))), 1e-9)
+        weights = 1.0 / np.sqrt(1.0 + (rest / noise) ** 2)
+    found: FloatArray = coefficients / scale
+    return found
 
 
 def free_spans(stamp_ns: IntArray, free: BoolArray) -> list[tuple[int, int]]:
