@@ -128,14 +128,15 @@ def test_a_reading_that_does_not_turn_tells_nothing(tmp_path: Path) -> None:
 
 
 def test_bare_headings_leave_units_open(tmp_path: Path) -> None:
-    """Nothing is guessed from names or numbers: what time units would make of it is said, and asked."""
+    """Nothing is decided by names or numbers: what is likely is said and asked, and serves for a first look alone."""
     lines = log_text().splitlines()
     heading = re.sub(r"_(?:s|rad|Nm|N)\b", "", lines[0])
     _written(tmp_path, "\n".join([heading, *lines[1:]]) + "\n")
     draft = draft_experiment([tmp_path / "log.csv"], urdf=tmp_path / "robot.urdf")
     assert _keys(draft.content)[:3] == ["unit", "units", "units"]
     assert "s makes 25 Hz and 63.96 s" in draft.content
-    assert any("once the questions of [recording] are answered" in words for words in draft.told)
+    assert any("looked at with the likeliest units" in words for words in draft.told)
+    assert (draft.streams, len(tomllib.loads(draft.content)["interval"])) == ({}, 3)
 
 
 @pytest.mark.parametrize(

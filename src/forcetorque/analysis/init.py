@@ -18,7 +18,7 @@ from forcetorque.analysis.draft.sensors import DraftedSensor, draft_sensors, sen
 from forcetorque.analysis.draft.spans import DraftedInterval, draft_intervals, interval_lines, whole_log
 from forcetorque.analysis.draft.streams import DraftedLog
 from forcetorque.analysis.draft.supports import base_of_arm, has_no_tool, interval_support, load_lines, support_lines
-from forcetorque.analysis.draft.text import line, listed, question
+from forcetorque.analysis.draft.text import likeliest_text, line, listed, question
 from forcetorque.analysis.inspected_streams import StreamRow, stream_rows, stream_table
 from forcetorque.atomic import STANDARD_OUTPUT, write_bytes_atomically
 from forcetorque.constants import STANDARD_GRAVITY
@@ -153,12 +153,17 @@ def _written(
     frames = {sensor.stream: sensor.name for sensor in sensors if not sensor.tags}
     recorded = recording_lines(log, folder, model, frames)
     recording, reason = _read("\n".join(recorded), folder, sensors, model)
+    first_look = recording
+    if recording is None and model is not None:
+        first_look, _ = _read(likeliest_text(recorded), folder, sensors, model)
     base = None if model is None else base_of_arm(model)
-    sensors = tuple(_with_evidence(sensor, recording, model, base) for sensor in sensors)
+    sensors = tuple(_with_evidence(sensor, first_look, model, base) for sensor in sensors)
+    if recording is None and any(sensor.evidence for sensor in sensors):
+        reason += "; meanwhile it was looked at with the likeliest units, and the force turns as a weight does"
     told = [*_told(log, sensors, model), *([reason] if reason else [])]
     evidence = [best for sensor in sensors if (best := _best(sensor)) is not None]
-    intervals = draft_intervals(recording, evidence) if recording is not None and evidence else ()
-    told.append(_about_intervals(intervals, evidence) or _why_no_interval(recording, sensors, model, evidence))
+    intervals = draft_intervals(first_look, evidence) if first_look is not None and evidence else ()
+    told.append(_about_intervals(intervals, evidence) or _why_no_interval(first_look, sensors, model, evidence))
     lines = ['# What is "?" is a question: put the answer there. Every command says which is next.']
     lines += [line("schema", "forcetorque/experiment/1"), line("name", log.paths[0].stem)]
     if robot is not None:

@@ -11,13 +11,23 @@ from forcetorque.analysis.draft.boards import joints_question
 from forcetorque.analysis.draft.likeness import Likeness, likenesses, time_column
 from forcetorque.analysis.draft.paths import relative
 from forcetorque.analysis.draft.streams import DraftedLog, DraftedStream
-from forcetorque.analysis.draft.text import line, listed, question, remark, toml_value
-from forcetorque.analysis.draft.units import TIME_UNITS, USUAL_UNITS, axes_line, time_words
+from forcetorque.analysis.draft.text import Asked, line, listed, question, remark, toml_value
+from forcetorque.analysis.draft.units import (
+    TIME_UNITS,
+    USUAL_UNITS,
+    axes_line,
+    likeliest_time,
+    likeliest_units,
+    time_words,
+)
 from forcetorque.exchange.heading import Heading, read_heading
 from forcetorque.exchange.log_sketch import LogSketch
 from forcetorque.recording import QUANTITIES, Labels
 from forcetorque.robot import RobotModel
 from forcetorque.toml_table import OPEN
+
+_FEW = 9
+"""Units that are written out in a question."""
 
 
 def table_streams(sketches: Sequence[LogSketch], joints: Sequence[str]) -> tuple[DraftedStream, ...]:
@@ -112,7 +122,11 @@ def _stamp_line(sketch: LogSketch) -> str:
     unit = read_heading(name).unit
     if unit in TIME_UNITS:
         return line("stamp", {"column": name, "unit": unit})
-    return f"stamp = {toml_value({'column': name, 'unit': OPEN})}  {remark(time_words(column))}"
+    likeliest = likeliest_time(column)
+    return Asked(
+        f"stamp = {toml_value({'column': name, 'unit': OPEN})}  {remark(time_words(column))}",
+        None if likeliest is None else line("stamp", {"column": name, "unit": likeliest}),
+    )
 
 
 def _signal_lines(
@@ -154,8 +168,11 @@ def _group_lines(
     else:
         usual = USUAL_UNITS.get(group.quantity, "")
         seen = _range_words(sketch, group)
-        example = f": {usual}" if usual.startswith("[") else f", as {_repeated(usual, len(names))}" if usual else ""
-        lines.append(question("units", f"unit of each column{example}{seen}"))
+        likeliest = likeliest_units(group.quantity, len(names), _largest(sketch, group))
+        shown = "" if likeliest is None else f", as {_repeated(likeliest)}"
+        choice = f" ({usual})" if " or " in usual else ""
+        example = f"{shown}{choice}"
+        lines.append(question("units", f"unit of each column{example}{seen}", likeliest))
     if quantity is not None and quantity.labels is Labels.JOINTS:
         if group.names is None:
             lines.append(joints_question(len(names), "", model, key="names"))
@@ -166,14 +183,19 @@ def _group_lines(
     if group.form is not None:
         stated = {"form": str(group.form), "sense": OPEN}
         words = "sensor_to_world where it turns vectors along the frame's axes to the world's, else world_to_sensor"
-        lines.append(f"orientation = {toml_value(stated)}  # {words}")
+        likeliest_sense = line("orientation", {**stated, "sense": "sensor_to_world"})
+        lines.append(Asked(f"orientation = {toml_value(stated)}  {remark(words)}", likeliest_sense))
     return lines
 
 
-def _repeated(usual: str, count: int) -> str:
-    first = usual.split(" or ")[0].split(",")[0]
-    shown = toml_value([first] * count) if count <= 9 else f"[{toml_value(first)}, ...]"
-    return f"{shown} ({usual})" if usual != first else shown
+def _repeated(units: Sequence[str]) -> str:
+    return toml_value(units) if len(units) <= _FEW else f"[{toml_value(units[0])}, ...]"
+
+
+def _largest(sketch: LogSketch, group: Likeness) -> float | None:
+    columns = (sketch.columns[k] for k in group.columns)
+    ends = [abs(end) for column in columns for end in (column.smallest, column.largest) if end is not None]
+    return max(ends, default=None)
 
 
 def _range_words(sketch: LogSketch, group: Likeness) -> str:

@@ -66,17 +66,51 @@ def remark(words: str) -> str:
     return f"# {''.join(c if c.isprintable() else ' ' for c in ' '.join(words.split()))}"
 
 
-def question(key: str, words: str) -> str:
+class Asked(str):
+    """A line with a question, and what it would be if the likeliest answer were right."""
+
+    __slots__ = ("likeliest",)
+    likeliest: str | None
+
+    def __new__(cls, text: str, likeliest: str | None) -> Asked:
+        """Hold a line.
+
+        Args:
+            text: The line.
+            likeliest: The same with the likeliest answer; None where nothing is likely.
+
+        Returns:
+            The line.
+        """
+        asked = super().__new__(cls, text)
+        asked.likeliest = likeliest
+        return asked
+
+
+def question(key: str, words: str, likeliest: Any = None) -> str:
     """Write a key that somebody has to fill in.
 
     Args:
         key: The key.
         words: What is asked, and what is known about it.
+        likeliest: The likeliest answer, for a first look at the log; None where nothing is likely.
 
     Returns:
         The line.
     """
-    return line(key, OPEN, words)
+    return Asked(line(key, OPEN, words), None if likeliest is None else line(key, likeliest))
+
+
+def likeliest_text(lines: Iterable[str]) -> str:
+    """Give the text with the likeliest answers, for a first look that decides nothing.
+
+    Args:
+        lines: Lines, some of them questions.
+
+    Returns:
+        The text; questions of which nothing is likely are still in it.
+    """
+    return "\n".join(one.likeliest or one if isinstance(one, Asked) else one for one in lines)
 
 
 def listed(names: Iterable[str], most: int = 24) -> str:

@@ -21,11 +21,13 @@ USUAL_UNITS = {
     "angular_velocity": "rad/s or deg/s",
     "gravity": "m/s2",
     "temperature": "degC",
-    "raw": "counts, or V of an analog output",
+    "raw": "counts",
 }
 """Units that quantities usually have, for questions; nothing is taken for granted."""
 
-_PLAUSIBLE_HZ = (1.0, 50_000.0)
+_PLAUSIBLE_HZ = (0.5, 10_000.0)
+_MOST_TURNS = 13.0
+"""Joints seldom turn by more than two turns in rad; in deg they always do."""
 
 
 def time_words(column: SketchedColumns) -> str:
@@ -37,14 +39,51 @@ def time_words(column: SketchedColumns) -> str:
     Returns:
         Words for the question.
     """
-    rates = {unit: 1.0 / (column.step * factor) for unit, factor in TIME_UNITS.items()} if column.step else {}
-    low, high = _PLAUSIBLE_HZ
     choices = [
         f"{unit} makes {rate:.4g} Hz and {(column.rows - 1) / rate:.4g} s"
-        for unit, rate in rates.items()
-        if low <= rate <= high
+        for unit, rate in _usual_rates(column).items()
     ]
     return f"s, ms, us or ns: {'; '.join(choices) or 'none makes a usual rate'}"
+
+
+def likeliest_time(column: SketchedColumns) -> str | None:
+    """Give the unit of a column of times, where only one makes a usual rate.
+
+    Args:
+        column: The column, or the array.
+
+    Returns:
+        The unit; None where several do, or none.
+    """
+    rates = list(_usual_rates(column))
+    return rates[0] if len(rates) == 1 else None
+
+
+def _usual_rates(column: SketchedColumns) -> dict[str, float]:
+    """Rates in Hz by the units that make a usual one, in a log of a second or more."""
+    if column.step is None:
+        return {}
+    rates = {unit: 1.0 / (column.step * factor) for unit, factor in TIME_UNITS.items()}
+    low, high = _PLAUSIBLE_HZ
+    return {unit: rate for unit, rate in rates.items() if low <= rate <= high and column.rows - 1 >= rate}
+
+
+def likeliest_units(quantity: str, count: int, largest: float | None) -> list[str] | None:
+    """Give the units that a quantity has most often.
+
+    Args:
+        quantity: The quantity.
+        count: How many columns it has.
+        largest: Largest magnitude in them; None if it is not known.
+
+    Returns:
+        A unit for each column; None where nothing is usual.
+    """
+    if quantity == "wrench":
+        return ["N"] * 3 + ["N m"] * 3
+    words = USUAL_UNITS.get(quantity, "").split(" or ")
+    turned = quantity == "position" and largest is not None and largest > _MOST_TURNS
+    return [words[-1 if turned else 0]] * count if words[0] else None
 
 
 def axes_line(quantity: str, stream: str, frames: Mapping[str, str]) -> str:
@@ -64,4 +103,4 @@ def axes_line(quantity: str, stream: str, frames: Mapping[str, str]) -> str:
     near = {frames[stream]} if stream in frames else set(frames.values())
     if len(near) == 1:
         words += f'; "{near.pop()}" for those of the sensor'
-    return question("frame", words)
+    return question("frame", words, "frame")
