@@ -258,3 +258,15 @@ def test_whatever_a_table_holds_becomes_a_file_of_toml(tmp_path: Path) -> None:
         tomllib.loads(draft.content)
         drafted += 1
     assert drafted > 10
+
+
+def test_a_robot_that_ends_at_its_sensor_has_a_tool(tmp_path: Path) -> None:
+    """What hangs there is asked by name, on the link of the sensor's joint; a robot with a mass there has none."""
+    bare = re.sub(
+        r'(<link name="(?:upper_arm|forearm|hand)">\s*)<inertial>.*?</inertial>', r"\1", robot_text(), flags=re.S
+    )
+    _written(tmp_path, log_text(), bare)
+    draft = draft_experiment([tmp_path / "log.csv"], urdf=tmp_path / "robot.urdf")
+    assert _keys(draft.content)[-2:] == ["name", "link"]
+    assert "the URDF has no mass there" in draft.content
+    assert [one["support"] for one in tomllib.loads(draft.content)["interval"]] == ["base"] * 3

@@ -101,13 +101,23 @@ class Inspection(Result):
                 yield f"{count - _MOST_ALIKE} more of {stream}: {kind} {channel}".rstrip()
         yield f"{len(self.findings)} finding(s) in {self.duration_s:.1f} s of {', '.join(self.streams)}"
 
+    def records(self) -> list[dict[str, object]]:
+        """Give the answer as flat lines, for CSV.
+
+        Returns:
+            A line per finding; per column of what nobody declared, or component of a calibration, in their place.
+        """
+        if self.calibration is not None:
+            return [row.by_channel() for row in self.calibration.rows]
+        return [row.flat() for row in self.unread or self.findings]
+
     def columns(self) -> list[str]:
         """Name the columns of the CSV.
 
         Returns:
-            The keys of a finding, also where there is none.
+            The keys of a line; of a finding where there is none.
         """
-        return list(FindingRow.model_fields)
+        return super().columns() or list(FindingRow.model_fields)
 
 
 def inspect_log(path: Path | str, *, log_format: str | None = None) -> Inspection:

@@ -24,6 +24,15 @@ class MatrixRow(Row):
     coefficients: Values
     """Coefficient of every channel, in the unit per raw unit."""
 
+    def by_channel(self) -> dict[str, object]:
+        """Give the row as one line of a table of numbers: six channels are no wrench.
+
+        Returns:
+            Values by key, `channel_0` and so on among them.
+        """
+        channels = {f"channel_{k}": value for k, value in enumerate(self.coefficients.tolist())}
+        return {"component": self.component, "unit": self.unit, "full_scale": self.full_scale, **channels}
+
 
 class SeenCalibration(Row):
     """The calibration that a sensor came with."""

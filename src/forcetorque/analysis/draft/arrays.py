@@ -104,8 +104,10 @@ def array_lines(log: DraftedLog, folder: Path, model: RobotModel | None, frames:
         if rest:
             lines += ["", remark(f"not read: {listed(rest)}")]
     if not log.streams:
-        lines += ["", "[[recording.stream]]", line("name", "log"), question("variable", "array with what is read")]
-        lines += [question("time", 'array or column of the time: { variable = "...", unit = "s" }')]
+        arrays = listed([f"{one.name} ({one.rows} x {one.columns})" for one in log.arrays])
+        lines += ["", "[[recording.stream]]", line("name", "log")]
+        lines.append(question("variable", f"array with what is read: {arrays}"))
+        lines.append(question("time", 'array or column of the time: { variable = "...", unit = "s" }'))
         lines += ["", "[[recording.stream.signal]]", question("quantity", f"one of {listed(QUANTITIES, 99)}")]
         lines += [question("columns", "first and last column, from 1"), question("unit", "its unit")]
     return lines

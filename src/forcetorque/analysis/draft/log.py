@@ -47,10 +47,13 @@ def draft_log(paths: Sequence[Path], model: RobotModel | None, log_format: str |
     if isinstance(known, SketchingFormat):
         sketches = [known.sketch(path) for path in paths]
         if format_name(known) == "tabular":
-            streams = table_streams(sketches, joints)
-        else:
-            streams = array_streams(sketches[0], joints)
-        return DraftedLog(paths=tuple(paths), format=format_name(known), streams=streams)
+            return DraftedLog(paths=tuple(paths), format="tabular", streams=table_streams(sketches, joints))
+        return DraftedLog(
+            paths=tuple(paths),
+            format=format_name(known),
+            streams=array_streams(sketches[0], joints),
+            arrays=sketches[0].columns,
+        )
     description = known.describe(paths[0])
     streams = tuple(
         DraftedStream(

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from forcetorque.analysis.draft.likeness import Likeness
 from forcetorque.exchange.log_format import LogDescription
-from forcetorque.exchange.log_sketch import LogSketch
+from forcetorque.exchange.log_sketch import LogSketch, SketchedColumns
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -44,5 +44,7 @@ class DraftedLog:
     """Name of its format."""
     streams: tuple[DraftedStream, ...]
     """Its streams."""
+    arrays: tuple[SketchedColumns, ...] = ()
+    """All arrays of a file of arrays, whether they look like something or not."""
     description: LogDescription | None = None
     """What it says of itself; None for tables and arrays."""

@@ -114,7 +114,8 @@ def load_lines(sensor: DraftedSensor, model: RobotModel) -> list[str]:
         Its lines.
     """
     joint = model.sensors[sensor.name].joint if sensor.name in model.sensors else sensor.joint
-    lines = ["", "# what hangs on the sensor: the URDF has no mass there", "[[load]]", line("name", "tool")]
+    lines = ["", "# what hangs on the sensor: the URDF has no mass there", "[[load]]"]
+    lines.append(question("name", "a name for the tool; in another recording the same name is the same tool"))
     if joint is not None:
         lines.append(line("link", model.joints[joint].child))
     else:

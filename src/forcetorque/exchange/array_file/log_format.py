@@ -47,7 +47,10 @@ class _ArrayFormat(ABC):
         return LogSketch(
             path=path,
             is_table=False,
-            columns=tuple(_sketched(name, rows, columns, single.get(name)) for name, (rows, columns) in shapes.items()),
+            columns=tuple(
+                _sketched(name, rows, columns, single.get(name) if columns == 1 else None)
+                for name, (rows, columns) in shapes.items()
+            ),
         )
 
     def describe(self, path: Path) -> LogDescription:
