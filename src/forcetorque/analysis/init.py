@@ -18,7 +18,7 @@ from forcetorque.analysis.draft.sensors import DraftedSensor, draft_sensors, sen
 from forcetorque.analysis.draft.spans import DraftedInterval, draft_intervals, interval_lines, whole_log
 from forcetorque.analysis.draft.streams import DraftedLog
 from forcetorque.analysis.draft.supports import base_of_arm, has_no_tool, interval_support, load_lines, support_lines
-from forcetorque.analysis.draft.text import likeliest_text, line, listed, question
+from forcetorque.analysis.draft.text import likeliest_text, line, listed, question, toml_value
 from forcetorque.analysis.inspected_streams import StreamRow, stream_rows, stream_table
 from forcetorque.atomic import STANDARD_OUTPUT, write_bytes_atomically
 from forcetorque.constants import STANDARD_GRAVITY
@@ -229,7 +229,7 @@ def _with_evidence(
 
 
 def _best(sensor: DraftedSensor) -> Hanging | None:
-    said = sorted(sensor.evidence.values(), key=lambda told: float((told.left[told.is_free] ** 2).mean()))
+    said = sorted(sensor.evidence.values(), key=lambda told: told.typical)
     return next(iter(said), None)
 
 
@@ -290,6 +290,9 @@ def _wrist_lines(log: DraftedLog, sensors: Sequence[DraftedSensor]) -> list[str]
         return []
     posed = [s.name for s in log.streams if {"orientation", "gravity"} & set(s.quantities)]
     poses = posed or [s.name for s in log.streams if "proper_acceleration" in s.quantities]
-    motion = line("motion", poses) if poses else question("motion", "streams with gravity, orientation or acceleration")
+    # of tables the frame is asked, and has to be that of the sensor; other logs have their own
+    words = "streams with gravity, orientation or acceleration along the axes of the sensor"
+    shown = f", as {toml_value(poses)} if that is turned as the sensor is" if poses else ""
+    motion = line("motion", poses) if poses and log.format == "tabular" else question("motion", f"{words}{shown}")
     words = "child_to_parent if a hanging load reads down, parent_to_child if the opposite"
     return ["", "[load]", line("frame", sensors[0].name), motion, question("measure_direction", words)]

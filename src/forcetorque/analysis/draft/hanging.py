@@ -76,6 +76,11 @@ class Hanging:
         return free
 
     @property
+    def typical(self) -> float:
+        """Median of the force that is left; N."""
+        return float(np.median(self.left))
+
+    @property
     def share_free(self) -> float:
         """Share of the windows in which nothing seems to touch."""
         return float(self.is_free.mean())
@@ -83,7 +88,7 @@ class Hanging:
     @property
     def says_something(self) -> bool:
         """Whether orientation moves the reading by far more than what is left, in most of the time."""
-        return self.turned > 3.0 * float(np.median(self.left)) and self.share_free > 0.5
+        return self.turned > 3.0 * self.typical and self.share_free > 0.5
 
     @property
     def direction(self) -> str | None:

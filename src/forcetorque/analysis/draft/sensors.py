@@ -64,7 +64,8 @@ def draft_sensors(streams: Sequence[DraftedStream], model: RobotModel | None) ->
     reading = [stream for stream in streams if stream.reads_load]
     if model is None:
         return tuple(
-            DraftedSensor(name=_name_of(stream), stream=stream.name, is_raw=_is_raw(stream)) for stream in reading[:1]
+            DraftedSensor(name=_name_of(stream, reading), stream=stream.name, is_raw=_is_raw(stream))
+            for stream in reading[:1]
         )
     return tuple(_matched(stream, reading, model) for stream in reading)
 
@@ -121,7 +122,7 @@ def _place_lines(sensor: DraftedSensor) -> list[str]:
     if sensor.joint is not None:
         joint = line("joint", sensor.joint, "by its name")
     else:
-        told = sorted(sensor.evidence, key=lambda name: float((sensor.evidence[name].left ** 2).mean()))
+        told = sorted(sensor.evidence, key=lambda name: sensor.evidence[name].typical)
         left = [f"{name} ({_left(sensor.evidence[name])})" for name in told]
         others = [name for name in sensor.joints if name not in sensor.evidence]
         words = "fixed joint of the URDF that it sits in, whose child link has the axes of the sensor"
@@ -150,7 +151,7 @@ def _matched(stream: DraftedStream, reading: Sequence[DraftedStream], model: Rob
     if model.sensors:
         if len(model.sensors) == len(reading) == 1:
             return DraftedSensor(name=next(iter(model.sensors)), stream=stream.name, is_raw=raw)
-        return DraftedSensor(name=_name_of(stream), stream=stream.name, is_raw=raw, tags=tuple(model.sensors))
+        return DraftedSensor(name=_name_of(stream, reading), stream=stream.name, is_raw=raw, tags=tuple(model.sensors))
     fixed = _fixed_joints(model)
     named = [
         name
@@ -159,7 +160,7 @@ def _matched(stream: DraftedStream, reading: Sequence[DraftedStream], model: Rob
         or _plain(stream.name) in (_plain(name), _plain(model.joints[name].child))
     ]
     return DraftedSensor(
-        name=_name_of(stream),
+        name=_name_of(stream, reading),
         stream=stream.name,
         is_raw=raw,
         joints=tuple(fixed),
@@ -212,9 +213,9 @@ def _is_raw(stream: DraftedStream) -> bool:
     return "raw" in stream.quantities
 
 
-def _name_of(stream: DraftedStream) -> str:
-    """A stream that holds joints too is called after the log, not after the sensor."""
-    return "ft_sensor" if {"position", "orientation"} & set(stream.quantities) else _plain(stream.name)
+def _name_of(stream: DraftedStream, reading: Sequence[DraftedStream]) -> str:
+    """The only one in tables has a name that other recordings of it get too: tables are called after the day."""
+    return "ft_sensor" if stream.table is not None and len(reading) == 1 else _plain(stream.name)
 
 
 def _plain(name: str) -> str:
