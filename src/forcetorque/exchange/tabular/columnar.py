@@ -16,6 +16,7 @@ from forcetorque.exchange.tabular.rows import LARGEST_TABLE, Rows, wanted_column
 MAGIC = b"PAR1"
 """What a Parquet file begins with."""
 BATCH_ROWS = 1 << 17
+_FIRST_CELLS = 1 << 20
 
 _STUMBLES = (ArithmeticError, LookupError, MemoryError, OSError, RuntimeError, TypeError, ValueError, pa.ArrowException)
 
@@ -90,11 +91,17 @@ def first_batch(file: Path) -> Any:
         file: The file.
 
     Returns:
-        At most `BATCH_ROWS` rows with all columns; None where it has none.
+        A few rows with all columns, the fewer the more columns there are; None where it has none.
+
+    Raises:
+        FormatError: If it is damaged.
     """
     table = _opened(file)
-    columns = list(table.schema_arrow.names)
-    return next(_parquet_batches(file, table, columns), None)
+    rows = max(1, _FIRST_CELLS // max(len(table.schema_arrow.names), 1))
+    try:
+        return next(table.iter_batches(batch_size=rows), None)
+    except _STUMBLES as error:
+        raise FormatError(_damaged(file, error)) from error
 
 
 def _opened(file: Path) -> Any:
