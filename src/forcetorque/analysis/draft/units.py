@@ -25,7 +25,7 @@ USUAL_UNITS = {
 }
 """Units that quantities usually have, for questions; nothing is taken for granted."""
 
-_PLAUSIBLE_HZ = (0.5, 10_000.0)
+_PLAUSIBLE_HZ = (1.0, 10_000.0)
 _MOST_TURNS = 13.0
 """Joints seldom turn by more than two turns in rad; in deg they always do."""
 
