@@ -124,7 +124,7 @@ def test_a_reading_that_does_not_turn_tells_nothing(tmp_path: Path) -> None:
     draft = draft_experiment([tmp_path / "log.csv"], urdf=tmp_path / "robot.urdf")
     assert "the accelerations" not in draft.content
     assert [one["label"] for one in tomllib.loads(draft.content)["interval"]] == ["all"]
-    assert any("does not turn with it as a weight does" in words for words in draft.told)
+    assert any("does not turn with it as a weight does" in words for words in draft.notes)
 
 
 def test_bare_headings_leave_units_open(tmp_path: Path) -> None:
@@ -135,7 +135,7 @@ def test_bare_headings_leave_units_open(tmp_path: Path) -> None:
     draft = draft_experiment([tmp_path / "log.csv"], urdf=tmp_path / "robot.urdf")
     assert _keys(draft.content)[:3] == ["unit", "units", "units"]
     assert "s makes 25 Hz and 63.96 s" in draft.content
-    assert any("looked at with the likeliest units" in words for words in draft.told)
+    assert any("looked at with the likeliest units" in words for words in draft.notes)
     assert (draft.streams, len(tomllib.loads(draft.content)["interval"])) == ({}, 3)
 
 

@@ -49,7 +49,7 @@ def test_the_feet_of_an_icub_weigh_as_its_model_does_within_three_percent(data_d
     assert right is not None
     assert left + right == pytest.approx(334.9, abs=0.05)
     draft = draft_experiment([folder / "com-sinusoid.mat"], urdf=folder / "model.urdf")
-    assert "the robot of the URDF weighs 33.08 kg, 324.4 N" in draft.told
+    assert "the robot of the URDF weighs 33.08 kg, 324.4 N" in draft.notes
     assert {q.key for q in draft.questions} == {"unit", "names", "frame"}
 
 
@@ -63,7 +63,7 @@ def test_contacts_of_a_skin_manager(data_dir: Path, tmp_path: Path) -> None:
         shutil.copy(folder / f"left_{name}", tmp_path / "left" / name)
     draft = draft_experiment([tmp_path])
     assert [q.key for q in draft.questions] == ["frame"] * 3
-    assert "no stream looks like the reading of a force-torque sensor" in draft.told[0]
+    assert "no stream looks like the reading of a force-torque sensor" in draft.notes[0]
 
 
 def test_legs_of_an_icub(data_dir: Path) -> None:

@@ -104,3 +104,15 @@ def test_the_script_of_the_page_runs(capsys: pytest.CaptureFixture[str], monkeyp
     assert [question.key for question in draft.questions] == [one.key for one in open_questions(draft.content)]
     assert len(draft.questions) == 5
     assert "questions, one a line" in capsys.readouterr().out
+
+
+def test_the_file_itself_goes_to_standard_output(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, run: Run) -> None:
+    """`-o -` writes TOML and nothing else, with paths from here; a file that is there is never replaced."""
+    for file in ("log.csv", "robot.urdf"):
+        shutil.copy(FOLDER / file, tmp_path)
+    monkeypatch.chdir(tmp_path)
+    words = ("init", "log.csv", "--urdf", "robot.urdf")
+    content = tomllib.loads(run(*words, "-o", "-").out)
+    assert (content["robot"]["urdf"], content["recording"]["path"]) == ("robot.urdf", ".")
+    assert run(*words, "--format", "json").result()["questions"][0]["key"] == "serial"
+    assert "experiment.toml: there is such a file already" in run(*words).error()

@@ -60,7 +60,7 @@ class Draft(Result):
     """Streams of the log, where all about it is known."""
     questions: tuple[QuestionRow, ...]
     """What is to be answered."""
-    told: tuple[str, ...]
+    notes: tuple[str, ...]
     """What was found out without asking, and what could not be."""
     content: str = Field(exclude=True, repr=False)
     """Content of the file."""
@@ -73,7 +73,7 @@ class Draft(Result):
         """
         if self.streams:
             yield stream_table(self.streams, f"{self.file}: streams")
-        yield from self.told
+        yield from self.notes
         if not self.questions:
             yield f"{self.file}: nothing is left to ask; read it, then `forcetorque {self._next} {self.file}`"
             return
@@ -132,7 +132,7 @@ def draft_experiment(
     model = None if urdf is None else read_urdf(Path(urdf))
     log = draft_log([Path(path) for path in logs], model, log_format)
     robot = None if urdf is None else relative(Path(urdf), folder)
-    text, told, recording = _written(log, folder, model, robot)
+    text, notes, recording = _written(log, folder, model, robot)
     if output is not None:
         write_bytes_atomically(file, text.encode())
     questions = tuple(QuestionRow(line=q.line, key=q.key, question=q.words) for q in open_questions(text))
@@ -141,7 +141,7 @@ def draft_experiment(
         format=log.format,
         streams={} if recording is None else stream_rows(recording.streams),
         questions=questions,
-        told=told,
+        notes=notes,
         content=text,
     )
 
@@ -160,10 +160,10 @@ def _written(
     sensors = tuple(_with_evidence(sensor, first_look, model, base) for sensor in sensors)
     if recording is None and any(sensor.evidence for sensor in sensors):
         reason += "; meanwhile it was looked at with the likeliest units, and the force turns as a weight does"
-    told = [*_told(log, sensors, model), *([reason] if reason else [])]
+    notes = [*_notes(log, sensors, model), *([reason] if reason else [])]
     evidence = [best for sensor in sensors if (best := _best(sensor)) is not None]
     intervals = draft_intervals(first_look, evidence) if first_look is not None and evidence else ()
-    told.append(_about_intervals(intervals, evidence) or _why_no_interval(first_look, sensors, model, evidence))
+    notes.append(_about_intervals(intervals, evidence) or _why_no_interval(first_look, sensors, model, evidence))
     lines = ['# What is "?" is a question: put the answer there. Every command says which is next.']
     lines += [line("schema", "forcetorque/experiment/1"), line("name", log.paths[0].stem)]
     if robot is not None:
@@ -187,7 +187,7 @@ def _written(
     )
     for interval in intervals or whole_log(words, use="calibration" if sensors else "ignore"):
         lines += interval_lines(interval, extra)
-    return "\n".join(lines) + "\n", tuple(told), recording
+    return "\n".join(lines) + "\n", tuple(notes), recording
 
 
 def _read(
@@ -223,17 +223,16 @@ def _with_evidence(
     if sensor.name in model.sensors:
         joints = (model.sensors[sensor.name].joint,)
     stream = recording.stream(sensor.stream)
-    said = {joint: hanging(model, joint, base, recording, stream) for joint in joints}
-    evidence = {joint: told for joint, told in said.items() if told is not None and told.says_something}
+    hangings = {joint: hanging(model, joint, base, recording, stream) for joint in joints}
+    evidence = {joint: one for joint, one in hangings.items() if one is not None and one.says_something}
     return replace(sensor, evidence=evidence)
 
 
 def _best(sensor: DraftedSensor) -> Hanging | None:
-    said = sorted(sensor.evidence.values(), key=lambda told: told.typical)
-    return next(iter(said), None)
+    return min(sensor.evidence.values(), key=lambda one: one.typical, default=None)
 
 
-def _told(log: DraftedLog, sensors: Sequence[DraftedSensor], model: RobotModel | None) -> Iterator[str]:
+def _notes(log: DraftedLog, sensors: Sequence[DraftedSensor], model: RobotModel | None) -> Iterator[str]:
     for sensor in sensors:
         what = "raw channels" if sensor.is_raw else "a wrench"
         yield f"{sensor.stream}: looks like {what}; sensor {'to be named' if sensor.tags else sensor.name}"

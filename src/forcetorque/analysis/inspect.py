@@ -149,8 +149,8 @@ def _without_experiment(source: Path, name: str | None) -> Inspection | None:
     if not source.exists():
         return None
     if name is None and source.is_file() and holds_prior(source):
-        seen = calibration_row(_prior(source))
-        return Inspection(source=str(source), streams={}, duration_s=0.0, findings=(), calibration=seen)
+        calibration = calibration_row(_prior(source))
+        return Inspection(source=str(source), streams={}, duration_s=0.0, findings=(), calibration=calibration)
     known = recognised_format(source) if name is None else format_named(name)
     if not (source.is_file() and isinstance(known, SketchingFormat)):
         return None

@@ -41,7 +41,7 @@ class SeenCalibration(Row):
     """What the file is."""
     serial: str | None
     """Serial number; None where the file has none."""
-    made: str | None
+    date: str | None
     """When it was calibrated, as the file writes it; None where it does not."""
     raw_unit: str
     """Unit of the channels."""
@@ -62,7 +62,7 @@ class SeenCalibration(Row):
         channels = len(self.rows[0].coefficients)
         per = "" if self.raw_unit == "N, N m" else f" per {self.raw_unit.removesuffix('s')}"
         return Table(
-            caption=f"{caption}: {self.form}, serial number {self.serial or 'not stated'}, {self.made or 'no date'}",
+            caption=f"{caption}: {self.form}, serial number {self.serial or 'not stated'}, {self.date or 'no date'}",
             headings=("component", "unit", "full scale", *(f"channel {k}{per}" for k in range(channels))),
             rows=tuple(
                 (
@@ -110,7 +110,7 @@ def calibration_row(file: PriorFile) -> SeenCalibration:
     return SeenCalibration(
         form=file.form,
         serial=file.serial,
-        made=file.made,
+        date=file.date,
         raw_unit=file.raw_unit.value,
         rows=tuple(
             MatrixRow(component=component, unit=unit, full_scale=scale, coefficients=coefficients)

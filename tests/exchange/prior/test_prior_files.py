@@ -167,7 +167,7 @@ def test_units_of_ati_become_si(tmp_path: Path) -> None:
     expected[3:] *= pound * inch
     np.testing.assert_allclose(read.matrix, expected, rtol=1e-9)
     np.testing.assert_allclose(read.full_scale, np.repeat([65 * pound, 65 * pound * inch], 3))
-    assert (read.serial, read.made, read.raw_unit) == ("FT7", "1/2/2020", RawUnit.VOLTS)
+    assert (read.serial, read.date, read.raw_unit) == ("FT7", "1/2/2020", RawUnit.VOLTS)
 
 
 @pytest.mark.real_data

@@ -58,15 +58,15 @@ def array_groups(members: Sequence[SketchedColumns], joints: Sequence[str]) -> I
     Yields:
         What they look like.
     """
-    taken: set[str] = set()
+    quantities: set[str] = set()
     for k, array in enumerate(members):
         words = set(_words(array.name))
         for quantity, likely in _ARRAY_WORDS.items():
             width = _WIDTHS.get(quantity)
             fits = array.columns == width if width else 1 < array.columns <= max(len(joints), 64)
             joint_like = width or "joint" in words or "joints" in words or array.columns == len(joints)
-            if quantity not in taken and fits and joint_like and words & set(likely):
-                taken.add(quantity)
+            if quantity not in quantities and fits and joint_like and words & set(likely):
+                quantities.add(quantity)
                 yield Likeness(quantity=quantity, columns=(k,))
                 break
 

@@ -233,18 +233,18 @@ def _robust(design: FloatArray, reading: FloatArray, prior: FloatArray | None = 
     """Coefficients that few large errors do not move: Cauchy's weights, for rows of the reading alone."""
     scale = np.maximum(np.abs(design).max(axis=0), 1e-9)
     scaled: FloatArray = design / scale
-    kept = np.empty((0, design.shape[1])) if prior is None else prior / scale
-    target = np.append(reading, np.zeros(len(kept)))
+    beliefs = np.empty((0, design.shape[1])) if prior is None else prior / scale
+    target = np.append(reading, np.zeros(len(beliefs)))
     weights = np.ones(len(reading))
     coefficients = np.zeros(design.shape[1])
     for _ in range(_ROUNDS):
-        rows = np.vstack([weights[:, None] * scaled, kept])
-        coefficients = np.linalg.lstsq(rows, np.append(weights, np.ones(len(kept))) * target, rcond=None)[0]
+        rows = np.vstack([weights[:, None] * scaled, beliefs])
+        coefficients = np.linalg.lstsq(rows, np.append(weights, np.ones(len(beliefs))) * target, rcond=None)[0]
         rest = scaled @ coefficients - reading
         noise = max(_MAD * float(np.median(np.abs(rest))), 1e-9)
         weights = 1.0 / np.sqrt(1.0 + (rest / noise) ** 2)
-    found: FloatArray = coefficients / scale
-    return found
+    unscaled: FloatArray = coefficients / scale
+    return unscaled
 
 
 def free_spans(stamp_ns: IntArray, free: BoolArray) -> list[tuple[int, int]]:

@@ -90,14 +90,14 @@ def likenesses(headings: Sequence[Heading], joints: Sequence[str]) -> tuple[Like
     Returns:
         Groups of columns, each in its order, in the order of their first columns; columns in none look like nothing.
     """
-    taken: set[int] = set()
+    used: set[int] = set()
     groups: list[Likeness] = []
     for search in (_of_joints, _wrenches, _rotations, _quaternions, _vectors, _temperatures, _numbered):
-        free = {k: heading.name.strip().lower() for k, heading in enumerate(headings) if k not in taken}
+        free = {k: heading.name.strip().lower() for k, heading in enumerate(headings) if k not in used}
         for group in search(free, joints):
-            if taken.isdisjoint(group.columns):
+            if used.isdisjoint(group.columns):
                 groups.append(group)
-                taken.update(group.columns)
+                used.update(group.columns)
     return tuple(sorted(groups, key=lambda group: group.columns[0]))
 
 
@@ -115,12 +115,12 @@ def _of_joints(free: Mapping[int, str], joints: Sequence[str]) -> list[Likeness]
         if joint is not None:
             rest = text.replace(f"_{_plain(joint)}_", "_", 1).strip("_")
             groups.setdefault(rest, {}).setdefault(joint, k)
-    found: dict[str, Likeness] = {}
+    likeness: dict[str, Likeness] = {}
     for rest, members in groups.items():
         quantity = _MOTIONS.get(rest.removeprefix("actual_") or rest)
-        if quantity is not None and quantity not in found:
-            found[quantity] = Likeness(quantity=quantity, columns=tuple(members.values()), names=tuple(members))
-    return list(found.values())
+        if quantity is not None and quantity not in likeness:
+            likeness[quantity] = Likeness(quantity=quantity, columns=tuple(members.values()), names=tuple(members))
+    return list(likeness.values())
 
 
 def _axes(free: Mapping[int, str], pattern: re.Pattern[str]) -> dict[tuple[str, str], dict[str, int]]:
@@ -189,13 +189,13 @@ def _numbered(free: Mapping[int, str], joints: Sequence[str]) -> list[Likeness]:
         match = _NUMBERED.match(name)
         if match:
             groups.setdefault((match["before"], match["behind"]), []).append((int(match["number"]), k))
-    found: dict[str, Likeness] = {}
+    likeness: dict[str, Likeness] = {}
     for (before, behind), members in groups.items():
         columns = tuple(k for _, k in sorted(members))
         word = _plain(before or behind)
         if _CHANNELS.search(word) and len(columns) >= 6:
-            found.setdefault("raw", Likeness(quantity="raw", columns=columns))
+            likeness.setdefault("raw", Likeness(quantity="raw", columns=columns))
         quantity = _MOTIONS.get(word.removeprefix("actual_") or word)
         if word and quantity is not None and len(columns) == len(joints):
-            found.setdefault(quantity, Likeness(quantity=quantity, columns=columns))
-    return list(found.values())
+            likeness.setdefault(quantity, Likeness(quantity=quantity, columns=columns))
+    return list(likeness.values())

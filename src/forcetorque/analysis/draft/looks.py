@@ -24,7 +24,7 @@ def looks(sketch: LogSketch) -> dict[int, str]:
         named = {group.columns[0]: group.quantity for group in groups}
         return named if chosen is None else {**named, sketch.columns.index(chosen): "time"}
     headings = [read_heading(column.name) for column in sketch.columns]
-    looking = {k: group.words or group.quantity for group in likenesses(headings, ()) for k in group.columns}
-    looking |= {k: "orientation" for first in sketch.quaternion for k in range(first, first + 4) if k not in looking}
+    likeness = {k: group.words or group.quantity for group in likenesses(headings, ()) for k in group.columns}
+    likeness |= {k: "orientation" for first in sketch.quaternion for k in range(first, first + 4) if k not in likeness}
     time = time_column(headings, [column.step for column in sketch.columns])
-    return looking if time is None else {**looking, time: "time"}
+    return likeness if time is None else {**likeness, time: "time"}

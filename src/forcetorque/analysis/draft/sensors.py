@@ -122,12 +122,12 @@ def _place_lines(sensor: DraftedSensor) -> list[str]:
     if sensor.joint is not None:
         joint = line("joint", sensor.joint, "by its name")
     else:
-        told = sorted(sensor.evidence, key=lambda name: sensor.evidence[name].typical)
-        left = [f"{name} ({_left(sensor.evidence[name])})" for name in told]
+        candidates = sorted(sensor.evidence, key=lambda name: sensor.evidence[name].typical)
+        left = [f"{name} ({_left(sensor.evidence[name])})" for name in candidates]
         others = [name for name in sensor.joints if name not in sensor.evidence]
         words = "fixed joint of the URDF that it sits in, whose child link has the axes of the sensor"
-        seen = "; what the orientation of that link leaves of the force: " if left else ": "
-        joint = question("joint", f"{words}{seen}{listed([*left, *others], _MOST_CANDIDATES)}")
+        evidence = "; what the orientation of that link leaves of the force: " if left else ": "
+        joint = question("joint", f"{words}{evidence}{listed([*left, *others], _MOST_CANDIDATES)}")
     words = "child_to_parent if it reads what the outer part does to the inner one, so that a hanging load reads down; "
     words += "parent_to_child if the opposite"
     directions = {hanging.direction for hanging in sensor.evidence.values()} - {None}

@@ -75,14 +75,16 @@ def has_no_tool(sensor: DraftedSensor, model: RobotModel) -> bool:
     return bool(joints) and all(mass_beyond(model, joint) < LIGHT_KG for joint in joints)
 
 
-def support_lines(base: str | None, model: RobotModel, imu_streams: Sequence[str], told: Hanging | None) -> list[str]:
+def support_lines(
+    base: str | None, model: RobotModel, imu_streams: Sequence[str], hanging: Hanging | None
+) -> list[str]:
     """Write the `[[support]]` table.
 
     Args:
         base: The link that an arm is bolted down by; None where any may stand.
         model: The robot.
         imu_streams: Streams of inertial sensors.
-        told: What a reading says of the direction of gravity there; None for nothing.
+        hanging: What a reading says of the direction of gravity there; None for nothing.
 
     Returns:
         Its lines.
@@ -98,8 +100,8 @@ def support_lines(base: str | None, model: RobotModel, imu_streams: Sequence[str
     )
     if imu_streams:
         words += f"; a robot that moves has imu = [{', '.join(map(repr, imu_streams))}] in place of this line"
-    if told is not None:
-        words += f"; {weight_words(told)}"
+    if hanging is not None:
+        words += f"; {weight_words(hanging)}"
     return [*lines, question("gravity_direction", words)]
 
 

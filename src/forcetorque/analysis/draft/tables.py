@@ -68,13 +68,13 @@ def _groups(sketch: LogSketch, joints: Sequence[str]) -> tuple[Likeness, ...]:
     """Groups of columns, each quantity once; an orientation rules over what may be gravity, which follows from it."""
     if not sketch.has_headings:
         return ()
-    kept: dict[str, Likeness] = {}
+    groups: dict[str, Likeness] = {}
     for group in likenesses(_headings(sketch), joints):
-        kept.setdefault(group.quantity, group)
-    if "orientation" in kept:
-        kept.pop("gravity", None)
-        kept.pop(OPEN, None)
-    return tuple(kept.values())
+        groups.setdefault(group.quantity, group)
+    if "orientation" in groups:
+        groups.pop("gravity", None)
+        groups.pop(OPEN, None)
+    return tuple(groups.values())
 
 
 def table_lines(log: DraftedLog, folder: Path, model: RobotModel | None, frames: Mapping[str, str]) -> list[str]:
@@ -167,12 +167,12 @@ def _group_lines(
         lines.append(line("units", units))
     else:
         usual = USUAL_UNITS.get(group.quantity, "")
-        seen = _range_words(sketch, group)
+        extent = _range_words(sketch, group)
         likeliest = likeliest_units(group.quantity, len(names), _largest(sketch, group))
         shown = "" if likeliest is None else f", as {_repeated(likeliest)}"
         choice = f" ({usual})" if " or " in usual else ""
         example = f"{shown}{choice}"
-        lines.append(question("units", f"unit of each column{example}{seen}", likeliest))
+        lines.append(question("units", f"unit of each column{example}{extent}", likeliest))
     if quantity is not None and quantity.labels is Labels.JOINTS:
         if group.names is None:
             lines.append(joints_question(len(names), "", model, key="names"))

@@ -63,10 +63,10 @@ def _read(root: Element | None) -> PriorFile:
     version = _word(root, "CalFileVersion")
     if version not in ("1.0", "1.1"):
         raise FormatError(f"CalFileVersion: expected 1.0 or 1.1, got {version[:40]!r}; other versions are not known")
-    found = root.findall("Calibration")
-    if len(found) != 1:
-        raise FormatError(f"expected one Calibration, got {len(found)}; keep the one in use")
-    calibration = found[0]
+    calibrations = root.findall("Calibration")
+    if len(calibrations) != 1:
+        raise FormatError(f"expected one Calibration, got {len(calibrations)}; keep the one in use")
+    calibration = calibrations[0]
     _refuse_unknown(calibration)
     gauges = _number(root, "NumGages")
     if not 1 <= gauges <= 64 or gauges != int(gauges):
@@ -83,7 +83,7 @@ def _read(root: Element | None) -> PriorFile:
         raw_unit=RawUnit.VOLTS,
         full_scale=factors * full_scale,
         serial=_word(root, "Serial"),
-        made=calibration.get("CalDate"),
+        date=calibration.get("CalDate"),
         notes=tuple(_notes(calibration)),
     )
 

@@ -48,7 +48,7 @@ class PriorFile:
     """Full scale of fx to tz; shape (6,); N, N m; None where the form has none."""
     serial: str | None = None
     """Serial number of the sensor; None where the form has none."""
-    made: str | None = None
+    date: str | None = None
     """When it was calibrated, as the file writes it; None where it does not."""
     notes: tuple[str, ...] = ()
     """What else is to be known of it."""
