@@ -24,6 +24,7 @@ RUN_ELSEWHERE = {
     "response.md": "tests/analysis/test_response.py",
     "motion.md": "tests/analysis/test_motion.py",
     "thermal.md": "tests/analysis/test_thermal.py",
+    "tutorial.md": "tests/cli/test_tutorial.py",
     "simulation.md": "tests/examples/test_page_scripts.py",
     "skin_layout.md": "tests/exchange/skin/test_documentation.py",
     "simulation.md, both feet": "tests/examples/test_simulation_page.py",

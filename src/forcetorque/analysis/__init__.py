@@ -47,6 +47,7 @@ if TYPE_CHECKING:
     from forcetorque.analysis.export_rows import Export, ExportedCalibration
     from forcetorque.analysis.findings import doubtful_spans, inspect_experiment, inspect_recording
     from forcetorque.analysis.gains import Gains, SensorGains, select_gains, sensor_gains
+    from forcetorque.analysis.init import Draft, draft_experiment
     from forcetorque.analysis.inspect import FindingRow, Inspection, finding_rows, finding_table, inspect_log
     from forcetorque.analysis.interval_balance import BalanceOptions, IntervalBalance
     from forcetorque.analysis.interval_quality import IntervalQuality
@@ -137,6 +138,7 @@ __all__ = [
     "DeviceDemands",
     "DeviceDesign",
     "DeviceSpan",
+    "Draft",
     "Entries",
     "EstimateSummary",
     "Evaluation",
@@ -238,6 +240,7 @@ __all__ = [
     "design_device",
     "device_demands",
     "device_span",
+    "draft_experiment",
     "doubtful_spans",
     "estimate_experiment",
     "estimates_of_recordings",

@@ -19,6 +19,7 @@ from forcetorque.cli.estimate import estimate
 from forcetorque.cli.evaluate import evaluate
 from forcetorque.cli.export import export
 from forcetorque.cli.gains import gains
+from forcetorque.cli.init import init
 from forcetorque.cli.inspect import inspect
 from forcetorque.cli.motion import motion
 from forcetorque.cli.output import report_error
@@ -69,6 +70,7 @@ _COMMANDS = (
     evaluate,
     export,
     gains,
+    init,
     inspect,
     motion,
     payload,
