@@ -49,19 +49,31 @@ class Balance:
         Returns:
             tau_d; shape (B, 12); N m.
         """
-        force = self._force(posture, reference, k)
-        at = posture.sole_position + np.array([*SOLE_CENTRE, 0.0])
-        share = reference.share[k]
-        lever = posture.centre_of_mass - np.tensordot(at, share, axes=([1], [0]))
-        moment = cross(lever, force)
-        # the wrench of a foot about the origin of its sole, along the axes of the world
-        about_sole = moment + cross(np.broadcast_to([*SOLE_CENTRE, 0.0], force.shape), force)
-        wrench = np.concatenate([force, about_sole], axis=1)
-        borne = np.einsum("s,bscv,bc->bv", share, posture.sole_jacobian, wrench)[:, 6:]
+        wrench = self.sole_wrenches(posture, reference, k)
+        borne = np.einsum("bscv,bsc->bv", posture.sole_jacobian, wrench)[:, 6:]
         pull = self.posture_stiffness * (reference.position[k, 7:] - posture.position[:, 7:])
         pull += self.posture_damping * (reference.velocity[k] - posture.velocity[:, 6:])
         torque: FloatArray = posture.bias[:, 6:] - borne + pull
         return torque
+
+    def sole_wrenches(self, posture: Posture, reference: Reference, k: int) -> FloatArray:
+        """Give what the ground is to do to each sole.
+
+        Args:
+            posture: What the copies do.
+            reference: What they should do.
+            k: Instant of the reference.
+
+        Returns:
+            Wrenches along the axes of the world, about the origins of the soles; shape (B, 2, 6); N, N m.
+        """
+        force = self._force(posture, reference, k)
+        middle = np.array([*SOLE_CENTRE, 0.0])
+        share = reference.share[k]
+        lever = posture.centre_of_mass - np.tensordot(posture.sole_position, share, axes=([1], [0])) - middle
+        moment = cross(lever, force) + cross(np.broadcast_to(middle, force.shape), force)
+        wrench: FloatArray = share[:, None] * np.concatenate([force, moment], axis=1)[:, None]
+        return wrench
 
     def _force(self, posture: Posture, reference: Reference, k: int) -> FloatArray:
         """What the ground is to do to the robot; shape (B, 3)."""

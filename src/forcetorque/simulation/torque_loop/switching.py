@@ -88,7 +88,7 @@ def switching(biped: Biped, timing: Timing, period_s: float) -> Reference:
     """
     spans = [timing.hold_s, *2 * [timing.shift_s, timing.single_s, timing.shift_s, timing.hold_s]]
     knots = [float(end) for end in np.cumsum([0.0, *spans])]
-    seconds = np.arange(round(timing.duration_s / period_s)) * period_s
+    seconds: FloatArray = np.arange(round(timing.duration_s / period_s), dtype=np.float64) * period_s
 
     def moved(k: int) -> FloatArray:
         return minimum_jerk((seconds - knots[k]) / (knots[k + 1] - knots[k]))
