@@ -26,6 +26,7 @@ from tests.cli.outcome import Run
 from tests.excited_sensors import write_taps
 from tests.experiments import PARQUET, TWO
 from tests.patches import collapsed, cylinder_patch, position_text
+from tests.swaying import write_swaying
 from tests.thermal_cycles import record, write_cycles
 from tests.touched import write_table, write_touched
 from tests.wrist_contest import write_contest, write_runs
@@ -36,6 +37,7 @@ LIMITS = (
     'schema = "forcetorque/acceptance/1"\nname = "leg"\n\n[evaluate]\nforce_error_mean_N = 1.0\nrmse = { fz = 0.5 }\n'
 )
 SHORT = ("--type", "OnTdTO", "--type", "CnTdTO", "--lambda", "0", "--lambda", "100")
+KNEE = ("--column", "robot.position.knee", "--desired", "robot.position.knee_desired")
 COMMANDS = {
     "accept": ("accept", PARQUET, "--spec", "limits.toml", "-c", "fitted.json"),
     "calibrate": ("calibrate", PARQUET, "-o", "new.json", "--lambda", "5"),
@@ -47,6 +49,7 @@ COMMANDS = {
     "export": ("export", "fitted.json", "--to", "csv", "-o", "matrix.csv"),
     "gains": ("gains", PARQUET),
     "inspect": ("inspect", "faulty.toml"),
+    "motion": ("motion", "sway/swaying.toml", *KNEE),
     "plan": ("plan", PARQUET, "-c", "fitted.json", "--clearance-deg", "12", "--seconds", "20", "--recordings", "2"),
     "report": ("report", PARQUET, "fitted.json", "-o", "report.html"),
     "response": ("response", "excited/taps.toml", "-e", "impact", "--force", "log"),
@@ -97,6 +100,11 @@ def _write_fast(arm: Path) -> None:
     write_taps(arm / "excited")
 
 
+def _write_sway(arm: Path) -> None:
+    (arm / "sway").mkdir()
+    write_swaying(arm / "sway")
+
+
 def _write_patch(arm: Path) -> None:
     (arm / "patch.txt").write_text(position_text(collapsed(cylinder_patch(), 4)), encoding="utf-8")
 
@@ -110,6 +118,7 @@ WRITTEN: Mapping[str, Callable[[Path], object]] = MappingProxyType(
         "chamber/chamber.toml": _write_warm_record,
         "wrist/contest.toml": _write_runs,
         "excited/taps.toml": _write_fast,
+        "sway/swaying.toml": _write_sway,
         "patch.txt": _write_patch,
         "SIM001.toml": partial(write_bench, faults=BenchFaults(swapped=(3, 8))),
     }

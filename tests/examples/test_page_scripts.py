@@ -21,6 +21,7 @@ RUN_ELSEWHERE = {
     "robot_load.md": "tests/analysis/test_tare.py",
     "contest.md": "tests/cli/test_contest.py",
     "response.md": "tests/analysis/test_response.py",
+    "motion.md": "tests/analysis/test_motion.py",
     "thermal.md": "tests/analysis/test_thermal.py",
     "simulation.md": "tests/examples/test_page_scripts.py",
     "skin_layout.md": "tests/exchange/skin/test_documentation.py",

@@ -35,6 +35,8 @@ from forcetorque.analysis import (
     UseError,
     UseVerdict,
     group_trials,
+    motion,
+    motion_signals_of_arrays,
 )
 from forcetorque.analysis.device_demand_rows import GradeRow
 from forcetorque.analysis.device_span_rows import DirectionRow
@@ -60,6 +62,7 @@ from forcetorque.report.figures import (
     lambda_difference_figure,
     lambda_force_figure,
     learnt_figure,
+    motion_figure,
     reference_error_figure,
     remedies_figure,
     residual_figure,
@@ -462,6 +465,19 @@ def _thermal(rng: np.random.Generator) -> Figure:
     return thermal_figure([sensor, sensor])
 
 
+def _motion(rng: np.random.Generator) -> Figure:
+    time = np.arange(2000) / 100.0
+    columns = {
+        "_com $y$ " + "x" * 60: 0.004 * np.cos(8.0 * time) + 0.001 * rng.normal(size=2000),
+        "still": rng.normal(size=2000),
+        "joint": np.where(time < 8.0, 0.0, 0.3) + 0.001 * rng.normal(size=2000),
+    }
+    signals = motion_signals_of_arrays(time, columns, dict.fromkeys(columns, "m"))
+    still = motion(signals[:2])
+    stepped = motion(signals[2:], steps_s=[8.0])
+    return motion_figure(stepped.model_copy(update={"curves": (*still.curves, *stepped.curves)}))
+
+
 def _response(rng: np.random.Generator) -> Figure:
     frequency = np.linspace(0.5, 200.0, 400)
     sensor = SecondOrder(natural_frequency_hz=30.0, damping=0.05, gain=1.0, covariance=1e-4 * np.eye(3))
@@ -581,6 +597,7 @@ FIGURES: dict[str, Callable[[np.random.Generator], Figure]] = {
     "skin event": _skin_event,
     "skin_wrench": _skin_wrench,
     "taxel": _taxel,
+    "motion": _motion,
     "response": _response,
     "thermal": _thermal,
     "torque": _torque,

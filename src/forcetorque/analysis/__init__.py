@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from forcetorque.analysis.acceptance_file import AcceptanceFile, read_acceptance
     from forcetorque.analysis.applicability import by_sensor, one_per_sensor
     from forcetorque.analysis.assessment import Assessment, Demands, assess
+    from forcetorque.analysis.balance import Balance, balance
     from forcetorque.analysis.bench_file import BenchFile
     from forcetorque.analysis.bench_recording import BenchRecording, read_bench
     from forcetorque.analysis.best_candidate import BestCandidate, CandidateComparison
@@ -47,6 +48,7 @@ if TYPE_CHECKING:
     from forcetorque.analysis.findings import doubtful_spans, inspect_experiment, inspect_recording
     from forcetorque.analysis.gains import Gains, SensorGains, select_gains, sensor_gains
     from forcetorque.analysis.inspect import FindingRow, Inspection, finding_rows, finding_table, inspect_log
+    from forcetorque.analysis.interval_balance import BalanceOptions, IntervalBalance
     from forcetorque.analysis.interval_quality import IntervalQuality
     from forcetorque.analysis.joint_calibration import calibrate_jointly, calibration_file
     from forcetorque.analysis.joint_data import JOINT_FILE
@@ -56,6 +58,9 @@ if TYPE_CHECKING:
     from forcetorque.analysis.judged import JudgedWrenches
     from forcetorque.analysis.learnt import LITTLE_LEARNT, LearntDirection, learnt_directions, learnt_words, to_learn
     from forcetorque.analysis.loads_of_use import loads_of_use
+    from forcetorque.analysis.motion import Motion, motion
+    from forcetorque.analysis.motion_rows import MotionCurve, OscillationRow, SettlingRow, TrackingRow
+    from forcetorque.analysis.motion_signals import MotionSignal, motion_signals, motion_signals_of_arrays
     from forcetorque.analysis.payload import WeighedLoad, weigh_load
     from forcetorque.analysis.plan import Plan, plan, plan_sentence
     from forcetorque.analysis.plan_files import refuse_full_folder, write_plan
@@ -106,6 +111,8 @@ __all__ = [
     "Acceptance",
     "AcceptanceFile",
     "Assessment",
+    "Balance",
+    "BalanceOptions",
     "BenchFile",
     "BenchPicture",
     "BenchRecording",
@@ -142,6 +149,7 @@ __all__ = [
     "Gains",
     "Independence",
     "Inspection",
+    "IntervalBalance",
     "IntervalEstimates",
     "IntervalOffset",
     "IntervalQuality",
@@ -157,6 +165,10 @@ __all__ = [
     "LayoutFindingRow",
     "LearntDirection",
     "Method",
+    "Motion",
+    "MotionCurve",
+    "MotionSignal",
+    "OscillationRow",
     "Plan",
     "PlannedPosture",
     "PlannedRecording",
@@ -174,6 +186,7 @@ __all__ = [
     "SensorSphere",
     "SensorStudy",
     "SensorThermal",
+    "SettlingRow",
     "SkinCalibration",
     "SkinCheck",
     "SkinContactRow",
@@ -192,6 +205,7 @@ __all__ = [
     "ThermalDriftRow",
     "TorqueFusion",
     "TorquePicture",
+    "TrackingRow",
     "TrialGroup",
     "TrialSphere",
     "UseError",
@@ -204,6 +218,7 @@ __all__ = [
     "accept",
     "assess",
     "assess_experiment",
+    "balance",
     "by_sensor",
     "calibrate_for_file",
     "calibrate_jointly",
@@ -245,6 +260,9 @@ __all__ = [
     "learnt_directions",
     "learnt_words",
     "loads_of_use",
+    "motion",
+    "motion_signals",
+    "motion_signals_of_arrays",
     "one_per_sensor",
     "plan",
     "plan_jointly",

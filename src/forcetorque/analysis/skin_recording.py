@@ -10,7 +10,7 @@ import numpy as np
 
 from forcetorque.arrays import BoolArray, FloatArray
 from forcetorque.errors import ExperimentError, SkinError
-from forcetorque.experiment import ExperimentPatch, PatchExperiment, PatchInterval
+from forcetorque.experiment import ExperimentPatch, PatchExperiment, RecordedSpan
 from forcetorque.experiment.inputs import stated_in
 from forcetorque.recording import Use
 from forcetorque.recording.alignment import interpolate, seconds_since, usable_samples
@@ -68,7 +68,7 @@ def patch_recordings(experiment: PatchExperiment, patch: ExperimentPatch) -> lis
 
 
 def _recording(
-    experiment: PatchExperiment, patch: ExperimentPatch, pressure: str, interval: PatchInterval
+    experiment: PatchExperiment, patch: ExperimentPatch, pressure: str, interval: RecordedSpan
 ) -> PatchRecording:
     stream = experiment.recording.stream(patch.counts)
     chamber = experiment.recording.stream(pressure)

@@ -68,7 +68,7 @@ def estimate(
     from forcetorque.analysis.campaign_recording import refuse_a_file_twice
     from forcetorque.cli.figure_file import refuse_figure
     from forcetorque.cli.reading import read_calibrations, read_touched_robot
-    from forcetorque.exchange.estimates_table import SUFFIXES
+    from forcetorque.exchange.sample_table import SUFFIXES
     from forcetorque.experiment.inputs import stated_in
 
     log = start_logging()

@@ -9,6 +9,7 @@ from typing import Annotated
 import typer
 
 from forcetorque.cli.accept import accept
+from forcetorque.cli.balance import balance
 from forcetorque.cli.calibrate import calibrate
 from forcetorque.cli.compare import compare
 from forcetorque.cli.contest import contest
@@ -19,6 +20,7 @@ from forcetorque.cli.evaluate import evaluate
 from forcetorque.cli.export import export
 from forcetorque.cli.gains import gains
 from forcetorque.cli.inspect import inspect
+from forcetorque.cli.motion import motion
 from forcetorque.cli.output import report_error
 from forcetorque.cli.payload import payload
 from forcetorque.cli.plan import plan
@@ -58,6 +60,7 @@ def _version(
 
 _COMMANDS = (
     accept,
+    balance,
     calibrate,
     compare,
     device,
@@ -67,6 +70,7 @@ _COMMANDS = (
     export,
     gains,
     inspect,
+    motion,
     payload,
     plan,
     report,

@@ -10,25 +10,16 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
-import pyarrow as pa
-import pyarrow.csv as pacsv
-import pyarrow.parquet as pq
 
 from forcetorque.arrays import FloatArray, IntArray
-from forcetorque.atomic import write_bytes_atomically
-from forcetorque.errors import FormatError
 from forcetorque.estimation import Estimates
 from forcetorque.estimation.uncertain import UncertainEstimates
+from forcetorque.exchange.sample_table import Column, SampleSpan, write_samples
 from forcetorque.robot import JointType, RobotModel, Wrenches
 from forcetorque.spatial import WRENCH_COMPONENTS, WRENCH_UNITS
 
 SCHEMA = "forcetorque/estimates/1"
 """Name and version of the form."""
-
-SUFFIXES = (".parquet", ".csv")
-"""Endings of the files that can be written."""
-
-_Column = tuple[str, str, npt.NDArray[Any]]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -77,39 +68,15 @@ def write_estimates(path: Path | str, spans: Sequence[EstimatedSpan], model: Rob
 
     Returns:
         Number of rows.
-
-    Raises:
-        FormatError: If the name ends otherwise.
     """
-    file = Path(path)
-    if file.suffix not in SUFFIXES:
-        raise FormatError(f"{file}: expected a name that ends in {' or '.join(SUFFIXES)}")
-    tables = [_table(span, model) for span in spans]
-    table = pa.concat_tables(tables, promote_options="default")
-    table = table.replace_schema_metadata({b"forcetorque": SCHEMA.encode()})
-    sink = pa.BufferOutputStream()
-    if file.suffix == ".csv":
-        pacsv.write_csv(table, sink)
-    else:
-        pq.write_table(table, sink)
-    write_bytes_atomically(file, sink.getvalue())
-    return int(table.num_rows)
+    tables = [
+        SampleSpan(label=span.label, stamp_ns=span.stamp_ns, time_s=span.time_s, columns=_columns(span, model))
+        for span in spans
+    ]
+    return write_samples(path, tables, schema=SCHEMA)
 
 
-def _table(span: EstimatedSpan, model: RobotModel) -> Any:
-    arrays = [pa.array([span.label] * len(span.stamp_ns), pa.string()), pa.array(span.stamp_ns), pa.array(span.time_s)]
-    fields = [pa.field("interval", pa.string()), pa.field("stamp_ns", pa.int64(), metadata={"unit": "ns"})]
-    fields.append(pa.field("time_s", pa.float64(), metadata={"unit": "s"}))
-    for name, unit, values in _columns(span, model):
-        masked = values.mask if isinstance(values, np.ma.MaskedArray) else None
-        # NaN, and what is masked, is an empty cell
-        made = pa.array(np.ascontiguousarray(np.ma.getdata(values)), mask=masked, from_pandas=True)
-        arrays.append(made)
-        fields.append(pa.field(name, made.type, metadata={"unit": unit}))
-    return pa.table(arrays, schema=pa.schema(fields))
-
-
-def _columns(span: EstimatedSpan, model: RobotModel) -> Iterator[_Column]:
+def _columns(span: EstimatedSpan, model: RobotModel) -> Iterator[Column]:
     layout, estimates = span.estimates.layout, span.estimates
     yield from _wrenches("contact", layout.contacts, estimates.contact_wrenches)
     for k, joint in enumerate(layout.joints):
@@ -129,7 +96,7 @@ def _columns(span: EstimatedSpan, model: RobotModel) -> Iterator[_Column]:
         yield from _of_skin(span, span.uncertain, model)
 
 
-def _of_skin(span: EstimatedSpan, answer: UncertainEstimates, model: RobotModel) -> Iterator[_Column]:
+def _of_skin(span: EstimatedSpan, answer: UncertainEstimates, model: RobotModel) -> Iterator[Column]:
     """Contacts on skin, which other columns do not have, and standard deviations of everything."""
     for name, centre in span.centres.items():
         yield from _wrenches("contact", [name], answer.contact(name)[:, None])
@@ -145,7 +112,7 @@ def _of_skin(span: EstimatedSpan, answer: UncertainEstimates, model: RobotModel)
     yield "determined", "1", answer.determined
 
 
-def _wrenches(what: str, names: Iterable[str], values: npt.NDArray[np.float64]) -> Iterator[_Column]:
+def _wrenches(what: str, names: Iterable[str], values: npt.NDArray[np.float64]) -> Iterator[Column]:
     for k, name in enumerate(names):
         for j, (component, unit) in enumerate(zip(WRENCH_COMPONENTS, WRENCH_UNITS, strict=True)):
             yield f"{what}.{name}.{component}", unit, values[:, k, j]

@@ -2,9 +2,11 @@
 """The experiment file: from TOML to robot, recording, intervals and sensors."""
 
 from forcetorque.experiment.content import Experiment, ExperimentSensor
+from forcetorque.experiment.foot_forces import FootForces, has_foot_forces, load_foot_forces
 from forcetorque.experiment.load import load_experiment, load_shown, load_touched_robot
 from forcetorque.experiment.parse import parse_experiment
-from forcetorque.experiment.patches import ExperimentPatch, PatchExperiment, PatchInterval, load_patches
+from forcetorque.experiment.patches import ExperimentPatch, PatchExperiment, load_patches
+from forcetorque.experiment.recorded_span import RecordedSpan
 from forcetorque.experiment.schema import ExperimentFile
 
 __all__ = [
@@ -12,9 +14,12 @@ __all__ = [
     "ExperimentFile",
     "ExperimentPatch",
     "ExperimentSensor",
+    "FootForces",
     "PatchExperiment",
-    "PatchInterval",
+    "RecordedSpan",
+    "has_foot_forces",
     "load_experiment",
+    "load_foot_forces",
     "load_patches",
     "load_shown",
     "load_touched_robot",

@@ -18,6 +18,7 @@ from forcetorque.experiment.load_case_schema import LoadCaseTable
 from forcetorque.experiment.patches import ExperimentPatch, PatchExperiment
 from forcetorque.experiment.plan_schema import PlanTable
 from forcetorque.experiment.recording_names import path_endings, recording_name
+from forcetorque.experiment.soles import ExperimentSole
 from forcetorque.recording import Interval, MovingSupport, Recording, ScalarSource, Stream, Support, Use
 from forcetorque.robot import RobotModel
 
@@ -196,6 +197,8 @@ class Experiment:
     """Supports at rest that the file states, used or not."""
     plan: PlanTable | None = None
     """What can be recorded next, as the file states it."""
+    soles: tuple[ExperimentSole, ...] = ()
+    """Soles that the robot stands on."""
     skin: PatchExperiment | None = None
     """Its patches of skin; None without any."""
     wrist: WristLoads | None = None

@@ -22,6 +22,7 @@ from forcetorque.experiment.patches import skin_of_robot
 from forcetorque.experiment.plan_limits import read_plan
 from forcetorque.experiment.sensors import declare_sensors, read_sensors
 from forcetorque.experiment.skin_alone import links_side_by_side, skin_frames_of
+from forcetorque.experiment.soles import read_soles
 from forcetorque.experiment.streams import read_streams
 from forcetorque.experiment.wrist_load import load_model, read_loads
 from forcetorque.recording import MovingSupport, Recording, SavitzkyGolay, Support, Use
@@ -52,6 +53,8 @@ def load_experiment(path: Path | str) -> Experiment:
                 "none",
                 "`forcetorque inspect`, `view` and `report` read one of a skinManager's contacts alone",
             )
+        if parsed.sole:
+            known, readers = "soles only", "`forcetorque balance` reads one of vertical forces alone"
         raise ExperimentError(
             f"{file}: expected [[sensor]], a force-torque sensor, got {known}; {readers}; `forcetorque estimate` does "
             "with [robot] and a patch's table"
@@ -152,6 +155,7 @@ def _of_robot(parsed: schema.ExperimentFile, file: Path) -> Experiment:
         motors=require_motors(parsed.motor, file, model, recording),
         fusion=parsed.fusion,
         plan=read_plan(parsed.plan, file, model, supports.values()),
+        soles=read_soles(parsed.sole, file, model, recording, sensed=bool(parsed.sensor)),
         skin=skin,
     )
 

@@ -8,42 +8,16 @@ from pathlib import Path
 
 import numpy as np
 
-from forcetorque.arrays import BoolArray, IntArray
+from forcetorque.arrays import IntArray
 from forcetorque.errors import ExperimentError, MissingFileError, known_names
 from forcetorque.experiment import schema
 from forcetorque.experiment.inputs import Inputs, stated_in
-from forcetorque.experiment.intervals import refuse_overlap, span_ns
 from forcetorque.experiment.parse import parse_experiment
+from forcetorque.experiment.recorded_span import RecordedSpan, read_spans
 from forcetorque.experiment.streams import read_streams
-from forcetorque.recording import Recording, Use
+from forcetorque.recording import Recording
 from forcetorque.recording.alignment import require_overlap
 from forcetorque.robot import RobotModel
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class PatchInterval:
-    """A span of time, start included and end excluded; skin needs no support frame."""
-
-    label: str
-    """Name of the interval."""
-    start_ns: int
-    """First instant; ns."""
-    end_ns: int
-    """First instant after it; ns."""
-    use: Use
-    """What it is for."""
-
-    def holds(self, stamp_ns: IntArray) -> BoolArray:
-        """Tell which instants lie in the interval.
-
-        Args:
-            stamp_ns: Instants; shape (n,); ns on the recording's clock.
-
-        Returns:
-            Whether each does; shape (n,).
-        """
-        inside: BoolArray = (stamp_ns >= self.start_ns) & (stamp_ns < self.end_ns)
-        return inside
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -86,7 +60,7 @@ class PatchExperiment:
     """What was measured."""
     patches: tuple[ExperimentPatch, ...]
     """Patches in the order of the file."""
-    intervals: tuple[PatchInterval, ...]
+    intervals: tuple[RecordedSpan, ...]
     """Intervals in the order of the file."""
     inputs_sha256: dict[str, str]
     """SHA-256 of every input file, by its path as the experiment names it."""
@@ -164,7 +138,7 @@ def read_patches(parsed: schema.ExperimentFile, file: Path, recording: Recording
         file=file,
         recording=recording,
         patches=patches,
-        intervals=_intervals(parsed, file, recording),
+        intervals=read_spans(parsed, file, recording),
         inputs_sha256=inputs.sha256(),
     )
 
@@ -249,14 +223,3 @@ def _patch(where: str, entry: schema.Patch, recording: Recording, inputs: Inputs
         columns=columns,
         taxels=taxels,
     )
-
-
-def _intervals(parsed: schema.ExperimentFile, file: Path, recording: Recording) -> tuple[PatchInterval, ...]:
-    with stated_in(f"{file}: recording"):
-        first, last = recording.span_ns
-    intervals = []
-    for index, span in enumerate(parsed.interval):
-        start_ns, end_ns = span_ns(f"{file}: interval[{index}] {span.label!r}", span, first, last)
-        intervals.append(PatchInterval(label=span.label, start_ns=start_ns, end_ns=end_ns, use=span.use))
-    refuse_overlap(file, intervals)
-    return tuple(intervals)

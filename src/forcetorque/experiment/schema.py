@@ -27,6 +27,7 @@ from forcetorque.exchange.formats import AnyLog
 from forcetorque.experiment.fusion_schema import FusionTable, MotorTable, SixPositive
 from forcetorque.experiment.load_case_schema import LoadCaseTable
 from forcetorque.experiment.plan_schema import PlanTable
+from forcetorque.experiment.sole_schema import SoleTable
 from forcetorque.experiment.wrist_schema import Load, OneOrSeveral, require_loads_of, require_one_sensor
 from forcetorque.recording import Use
 from forcetorque.robot import SensorFrame
@@ -366,6 +367,8 @@ class ExperimentFile(Table):
     """Intervals."""
     contact: tuple[Contact, ...] = ()
     """Contacts beside the support; without any, whatever touches a sub-model is given at its sensor."""
+    sole: tuple[SoleTable, ...] = ()
+    """Soles that the robot stands on, for `forcetorque balance`."""
     motor: tuple[MotorTable, ...] = ()
     """Motors whose current or PWM tells joint torques, for `estimate --fuse`."""
     fusion: FusionTable | None = None

@@ -5,6 +5,7 @@ from forcetorque.interactive.arrays import experiment_of_arrays
 from forcetorque.interactive.contests import contest
 from forcetorque.interactive.device import design_device
 from forcetorque.interactive.experiment import Experiment, calibrate_jointly, load_experiment
+from forcetorque.interactive.motions import motion, motion_of_arrays
 from forcetorque.interactive.run import Run
 from forcetorque.interactive.skin import calibrate_skin, skin_wrench
 
@@ -17,5 +18,7 @@ __all__ = [
     "contest",
     "experiment_of_arrays",
     "load_experiment",
+    "motion",
+    "motion_of_arrays",
     "skin_wrench",
 ]

@@ -66,6 +66,13 @@ QUANTITIES = {
             description="Known wrench, as of a dead weight: what an exact sensor without bias reads, in its direction.",
         ),
         Quantity(
+            name="vertical_force",
+            labels=Labels.FIXED,
+            columns=("vertical_force",),
+            units=("N",),
+            description="Force of the ground on a foot along the normal of its sole, positive where it presses.",
+        ),
+        Quantity(
             name="raw",
             labels=Labels.CHANNELS,
             units=("counts",),

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Figures of results, as PNG."""
 
+from forcetorque.report.figures.balance import balance_figure
 from forcetorque.report.figures.bench import bench_figure
 from forcetorque.report.figures.compare import index_figure
 from forcetorque.report.figures.comparison import comparison_figure
@@ -18,6 +19,7 @@ from forcetorque.report.figures.joint import joint_figure
 from forcetorque.report.figures.lambda_difference import lambda_difference_figure
 from forcetorque.report.figures.lambda_force import lambda_force_figure
 from forcetorque.report.figures.learnt import learnt_figure
+from forcetorque.report.figures.motion import motion_figure
 from forcetorque.report.figures.remedies import remedies_figure
 from forcetorque.report.figures.residuals import residual_figure
 from forcetorque.report.figures.response import response_figure
@@ -32,6 +34,7 @@ from forcetorque.report.figures.uses import use_figure
 from forcetorque.report.figures.wrench_space import space_figure
 
 __all__ = [
+    "balance_figure",
     "bench_figure",
     "comparison_figure",
     "contact_figure",
@@ -48,6 +51,7 @@ __all__ = [
     "lambda_difference_figure",
     "lambda_force_figure",
     "learnt_figure",
+    "motion_figure",
     "reference_error_figure",
     "remedies_figure",
     "residual_figure",

@@ -1,0 +1,99 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Columns of a recording by the names that people use for them."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator, Mapping
+from difflib import get_close_matches
+
+from forcetorque.errors import RecordingError, known_names
+from forcetorque.recording.recording import Recording
+from forcetorque.recording.scalar_source import ScalarSource
+
+
+def named_columns(recording: Recording) -> Iterator[tuple[str, ScalarSource]]:
+    """Name every column.
+
+    Args:
+        recording: The recording.
+
+    Yields:
+        `stream.quantity.column` and the column, in the order of the log.
+    """
+    for stream in recording.streams.values():
+        for signal in stream.signals.values():
+            for column in signal.columns:
+                source = ScalarSource(stream=stream.name, quantity=signal.quantity, column=column)
+                yield f"{stream.name}.{signal.quantity}.{column}", source
+
+
+def find_column(recording: Recording, name: str) -> ScalarSource:
+    """Find a column by `column`, `stream.column` or `stream.quantity.column`, whichever is enough.
+
+    Args:
+        recording: The recording.
+        name: Its name.
+
+    Returns:
+        The column.
+
+    Raises:
+        RecordingError: If there is none of that name, or several.
+    """
+    columns = dict(named_columns(recording))
+    fitting = [
+        full
+        for full, source in columns.items()
+        if name in (full, f"{source.stream}.{source.column}", source.column)
+        or (name in (source.stream, f"{source.stream}.{source.quantity}") and _alone(recording, source, name))
+    ]
+    if len(fitting) == 1:
+        return columns[fitting[0]]
+    if fitting:
+        raise RecordingError(f"column {name!r}: expected one column, got {', '.join(fitting)}; choose one of them")
+    raise RecordingError(f"no column {name!r}; {known_columns(name, column_units(recording))}")
+
+
+def known_columns(wanted: str, units: Mapping[str, str]) -> str:
+    """List columns with their units, the likeliest one first.
+
+    Args:
+        wanted: Name that was not found.
+        units: Units by name of the column.
+
+    Returns:
+        Text to append to a message.
+    """
+    # somebody who wrote com_z for robot.com_y meant the last part
+    spelled = {part.lower(): name for name in units for part in (name.rpartition(".")[2], name)}
+    close = get_close_matches(wanted.lower(), spelled, n=1)
+    hint = f'did you mean "{spelled[close[0]]}"? ' if close else ""
+    return hint + known_names("", [f"{name} ({unit})" for name, unit in units.items()])
+
+
+def column_units(recording: Recording) -> dict[str, str]:
+    """List the columns as people may name them, with their units.
+
+    Args:
+        recording: The recording.
+
+    Returns:
+        Units by name: `stream` where that is enough, `stream.column` else, and the full name where that is another's
+        too.
+    """
+    columns = list(named_columns(recording))
+    shorter = Counter(f"{source.stream}.{source.column}" for _, source in columns)
+    units = {}
+    for full, source in columns:
+        short = f"{source.stream}.{source.column}"
+        name = full if shorter[short] > 1 else source.stream if _alone(recording, source, source.stream) else short
+        units[name] = source.unit(recording)
+    return units
+
+
+def _alone(recording: Recording, source: ScalarSource, name: str) -> bool:
+    """Whether a name without a column says enough: the stream, or its quantity, has one column only."""
+    signals = recording.streams[source.stream].signals
+    here = [signals[source.quantity]] if name != source.stream else list(signals.values())
+    return sum(len(signal.columns) for signal in here) == 1
