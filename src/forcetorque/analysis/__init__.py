@@ -97,6 +97,9 @@ if TYPE_CHECKING:
     from forcetorque.analysis.thermal import Thermal, thermal
     from forcetorque.analysis.thermal_rows import SensorThermal, ThermalCurve, ThermalDriftRow
     from forcetorque.analysis.torque_fusion import TorqueFusion, fuse_experiment
+    from forcetorque.analysis.torque_loop import TorqueLoop, torque_loop
+    from forcetorque.analysis.torque_loop_file import TorqueLoopFile, read_torque_loop
+    from forcetorque.analysis.torque_loop_rows import TorqueLoopOnsetRow, TorqueLoopRow
     from forcetorque.analysis.torque_picture import TorquePicture, torque_picture
     from forcetorque.analysis.trial_group import TrialGroup, group_trials
     from forcetorque.analysis.trials import TrialSphere, read_trials
@@ -108,6 +111,8 @@ if TYPE_CHECKING:
     from forcetorque.analysis.workbench_rows import BenchPicture
 
 __all__ = [
+    "JOINT_FILE",
+    "LITTLE_LEARNT",
     "Acceptance",
     "AcceptanceFile",
     "Assessment",
@@ -155,13 +160,11 @@ __all__ = [
     "IntervalQuality",
     "IntervalSamples",
     "InverseRow",
-    "JOINT_FILE",
     "JointPlan",
     "JointTorqueErrors",
     "JointTorques",
     "JudgedCandidate",
     "JudgedWrenches",
-    "LITTLE_LEARNT",
     "LayoutFindingRow",
     "LearntDirection",
     "Method",
@@ -204,6 +207,10 @@ __all__ = [
     "ThermalCurve",
     "ThermalDriftRow",
     "TorqueFusion",
+    "TorqueLoop",
+    "TorqueLoopFile",
+    "TorqueLoopOnsetRow",
+    "TorqueLoopRow",
     "TorquePicture",
     "TrackingRow",
     "TrialGroup",
@@ -273,6 +280,7 @@ __all__ = [
     "read_patches",
     "read_population",
     "read_study_data",
+    "read_torque_loop",
     "read_trials",
     "recording_moments",
     "refuse_full_folder",
@@ -293,6 +301,7 @@ __all__ = [
     "tare",
     "thermal",
     "to_learn",
+    "torque_loop",
     "torque_picture",
     "use_sentences",
     "use_verdicts",

@@ -12,7 +12,7 @@ class JointDrive:
     """A motor behind its gear, seen from the joint."""
 
     torque_per_duty: float
-    """Torque per duty cycle, `K_PWM` of thesis Table 5.8; N m/DC%."""
+    """Torque of the standing joint at whole duty, `K_PWM` of thesis Table 5.8; N m."""
     lag_s: float
     """Time constant of current and gear; s."""
     rotor_inertia: float

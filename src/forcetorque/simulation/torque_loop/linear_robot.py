@@ -22,7 +22,7 @@ from forcetorque.simulation.torque_loop.plant import LinearPlant
 from forcetorque.simulation.torque_loop.stability import GROWTH, Onset, Stability, TorqueLoop, stability
 from forcetorque.simulation.torque_loop.switching import Phase, Reference
 from forcetorque.simulation.torque_loop.torque_estimate import estimated_torques, moved, torque_question
-from forcetorque.simulation.torque_loop.world import Posture, World
+from forcetorque.simulation.torque_loop.world import World
 
 _STEP: Final = 1e-5
 """Differences are taken over so much; rad, m, rad/s, N m, N. The error is its square, rounding 1e-11 of the torques."""

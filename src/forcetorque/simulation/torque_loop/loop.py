@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections import deque
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Final
 
 import numpy as np
@@ -62,6 +62,23 @@ class LoopRun:
     """Positions of joints; shape (B, n, 12); rad."""
     fallen: IntArray
     """Step in which a copy fell, n if it did not; shape (B,)."""
+
+    def of(self, copies: slice) -> LoopRun:
+        """Give some of the copies.
+
+        Args:
+            copies: Which.
+
+        Returns:
+            What they did.
+        """
+        return replace(
+            self,
+            torque_error=self.torque_error[copies],
+            centre_error=self.centre_error[copies],
+            joints=self.joints[copies],
+            fallen=self.fallen[copies],
+        )
 
     @property
     def tracking_rms(self) -> FloatArray:

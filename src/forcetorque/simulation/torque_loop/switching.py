@@ -103,6 +103,33 @@ def switching(biped: Biped, timing: Timing, period_s: float) -> Reference:
     return posture_reference(biped, tuple(phases), share, lift, period_s)
 
 
+def standing(biped: Biped, phase: Phase, steps: int, lift_m: float, period_s: float) -> Reference:
+    """Stand still, the centre of mass above what bears.
+
+    Args:
+        biped: The robot.
+        phase: Which feet bear.
+        steps: Number of instants, n.
+        lift_m: How high the free foot is lifted; m.
+        period_s: Time between instants; s.
+
+    Returns:
+        The reference.
+    """
+    left = {Phase.DOUBLE: 0.5, Phase.LEFT: 1.0, Phase.RIGHT: 0.0}[phase]
+    lift = lift_m * np.array([[phase is Phase.RIGHT, phase is Phase.LEFT]], dtype=np.float64)
+    still = posture_reference(biped, (phase,), np.array([[left, 1.0 - left]]), lift, period_s)
+    return Reference(
+        phases=(phase,) * steps,
+        position=np.tile(still.position, (steps, 1)),
+        velocity=np.zeros((steps, len(JOINTS))),
+        centre_of_mass=np.tile(still.centre_of_mass, (steps, 1)),
+        centre_velocity=np.zeros((steps, 2)),
+        centre_acceleration=np.zeros((steps, 2)),
+        share=np.tile(still.share, (steps, 1)),
+    )
+
+
 def posture_reference(
     biped: Biped, phases: tuple[Phase, ...], share: FloatArray, lift: FloatArray, period_s: float
 ) -> Reference:
