@@ -192,6 +192,7 @@ class _Case:
         fell = run.fallen < len(run.reference)
         amplitudes = _amplitudes(pushed)
         swinging = np.isfinite(amplitudes) | (pushed.fallen < len(pushed.reference))
+        falls, swings = _share_interval(fell), _share_interval(swinging)
         lasting = amplitudes[np.isfinite(amplitudes)]
         return TorqueLoopRow(
             tilt_deg=self.biped.tilt_deg,
@@ -204,9 +205,11 @@ class _Case:
             tracking_half_width_95_Nm=_finite(half),
             centre_rms_mm=1e3 * float(np.sqrt(np.nanmean((run.centre_error**2).sum(axis=-1)))),
             falls=int(fell.sum()),
-            fall_interval_percent=_share_interval(fell),
+            falls_least_percent=falls[0],
+            falls_most_percent=falls[1],
             oscillating=int(swinging.sum()),
-            oscillating_interval_percent=_share_interval(swinging),
+            oscillating_least_percent=swings[0],
+            oscillating_most_percent=swings[1],
             amplitude_mm=1e3 * float(np.median(lasting)) if len(lasting) else None,
         )
 

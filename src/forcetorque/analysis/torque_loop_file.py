@@ -66,7 +66,7 @@ class EstimatorTable(Table):
 class SensorTable(Table):
     """Errors of the four sensors of the legs, `reading = (1 + E) wrench + bias + noise`."""
 
-    lever_m: Positive = 0.1
+    lever_m: Positive = 0.07
     """Moment that counts as much as a newton: elements of E that make moments of forces have the size times it; m."""
     noise_N: NotNegative = 0.1
     """White noise of a force; 0 switches it off; N."""

@@ -31,12 +31,16 @@ class TorqueLoopRow(Row):
     """Root mean square of how far the centre of mass is from where it should be, until a fall."""
     falls: Annotated[int, Shown("falls")]
     """Runs that fell while the support changed."""
-    fall_interval_percent: Annotated[tuple[float, float], Shown("95 % of falls", "%", digits=0)]
-    """Its 95 % interval, as a share of all runs (Clopper and Pearson)."""
+    falls_least_percent: Annotated[float, Shown("at least", "%", digits=0)]
+    """Lower end of the 95 % interval of the share that falls (Clopper and Pearson)."""
+    falls_most_percent: Annotated[float, Shown("at most", "%", digits=0)]
+    """Its upper end."""
     oscillating: Annotated[int, Shown("swings on")]
     """Runs that, standing on the left foot, swing after a push and go on swinging, or fall."""
-    oscillating_interval_percent: Annotated[tuple[float, float], Shown("95 % of swings", "%", digits=0)]
-    """Its 95 % interval."""
+    oscillating_least_percent: Annotated[float, Shown("at least", "%", digits=0)]
+    """Lower end of the 95 % interval of the share that swings on."""
+    oscillating_most_percent: Annotated[float, Shown("at most", "%", digits=0)]
+    """Its upper end."""
     amplitude_mm: Annotated[float | None, Shown("amplitude", "mm", digits=1)]
     """Median amplitude of the centre of mass where it goes on without a fall; None where none does."""
 

@@ -66,14 +66,15 @@ def _draw(panels: Sequence[Axes], rows: Sequence[TorqueLoopRow], k: int) -> None
     style = look(k)
     size = [row.force_error_N for row in rows]
     shares = [
-        ([100.0 * row.oscillating / row.runs for row in rows], [row.oscillating_interval_percent for row in rows]),
-        ([100.0 * row.falls / row.runs for row in rows], [row.fall_interval_percent for row in rows]),
+        [(row.oscillating, row.oscillating_least_percent, row.oscillating_most_percent) for row in rows],
+        [(row.falls, row.falls_least_percent, row.falls_most_percent) for row in rows],
     ]
     panels[0].plot(size, [row.tracking_rms_Nm for row in rows], linewidth=1.0, markersize=5.0, **style.key)
     for x, row in zip(size, rows, strict=True):
         half = row.tracking_half_width_95_Nm or 0.0
         panels[0].plot([x, x], [row.tracking_rms_Nm - half, row.tracking_rms_Nm + half], color=style.colour)
-    for panel, (values, intervals) in zip(panels[1:], shares, strict=True):
+    for panel, counts in zip(panels[1:], shares, strict=True):
+        values = [100.0 * count / row.runs for (count, _, _), row in zip(counts, rows, strict=True)]
         panel.plot(size, values, linewidth=1.0, markersize=5.0, **style.key)
-        for x, interval in zip(size, intervals, strict=True):
-            panel.plot([x, x], interval, color=style.colour, linewidth=1.0)
+        for x, (_, least, most) in zip(size, counts, strict=True):
+            panel.plot([x, x], [least, most], color=style.colour, linewidth=1.0)
