@@ -24,4 +24,4 @@ def typed_commands(program: Typer) -> list[str]:
 
 def question_of(command: str) -> str:
     """Name of the question that a command asks, which its schema, snapshot and files have."""
-    return command.replace(" ", "_")
+    return command.replace(" ", "_").replace("-", "_")

@@ -98,6 +98,9 @@ if TYPE_CHECKING:
     from forcetorque.analysis.thermal import Thermal, thermal
     from forcetorque.analysis.thermal_rows import SensorThermal, ThermalCurve, ThermalDriftRow
     from forcetorque.analysis.torque_fusion import TorqueFusion, fuse_experiment
+    from forcetorque.analysis.torque_loop import TorqueLoop, torque_loop
+    from forcetorque.analysis.torque_loop_file import TorqueLoopFile, read_torque_loop
+    from forcetorque.analysis.torque_loop_rows import TorqueLoopOnsetRow, TorqueLoopRow
     from forcetorque.analysis.torque_picture import TorquePicture, torque_picture
     from forcetorque.analysis.trial_group import TrialGroup, group_trials
     from forcetorque.analysis.trials import TrialSphere, read_trials
@@ -109,6 +112,8 @@ if TYPE_CHECKING:
     from forcetorque.analysis.workbench_rows import BenchPicture
 
 __all__ = [
+    "JOINT_FILE",
+    "LITTLE_LEARNT",
     "Acceptance",
     "AcceptanceFile",
     "Assessment",
@@ -157,13 +162,11 @@ __all__ = [
     "IntervalQuality",
     "IntervalSamples",
     "InverseRow",
-    "JOINT_FILE",
     "JointPlan",
     "JointTorqueErrors",
     "JointTorques",
     "JudgedCandidate",
     "JudgedWrenches",
-    "LITTLE_LEARNT",
     "LayoutFindingRow",
     "LearntDirection",
     "Method",
@@ -206,6 +209,10 @@ __all__ = [
     "ThermalCurve",
     "ThermalDriftRow",
     "TorqueFusion",
+    "TorqueLoop",
+    "TorqueLoopFile",
+    "TorqueLoopOnsetRow",
+    "TorqueLoopRow",
     "TorquePicture",
     "TrackingRow",
     "TrialGroup",
@@ -276,6 +283,7 @@ __all__ = [
     "read_patches",
     "read_population",
     "read_study_data",
+    "read_torque_loop",
     "read_trials",
     "recording_moments",
     "refuse_full_folder",
@@ -296,6 +304,7 @@ __all__ = [
     "tare",
     "thermal",
     "to_learn",
+    "torque_loop",
     "torque_picture",
     "use_sentences",
     "use_verdicts",

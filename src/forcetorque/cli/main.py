@@ -34,6 +34,7 @@ from forcetorque.cli.sphere import sphere
 from forcetorque.cli.study import study
 from forcetorque.cli.tare import tare
 from forcetorque.cli.thermal import thermal
+from forcetorque.cli.torque_loop import torque_loop
 from forcetorque.cli.validate import validate
 from forcetorque.cli.view import view
 from forcetorque.cli.workbench import workbench
@@ -83,6 +84,7 @@ _COMMANDS = (
     study,
     tare,
     thermal,
+    torque_loop,
     validate,
     view,
     workbench,
@@ -92,7 +94,7 @@ _GROUPS = (skin,)
 """Commands that stand behind the name of what they are about."""
 
 for _command in _COMMANDS:
-    app.command(_command.__name__)(_command)
+    app.command(_command.__name__.replace("_", "-"))(_command)
 for _group in _GROUPS:
     app.add_typer(_group)
 

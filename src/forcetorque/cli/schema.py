@@ -17,8 +17,9 @@ def schema(
     name: Annotated[
         str,
         typer.Argument(
-            help="experiment, acceptance, bench, contestants, device_file, scenario, recording, calibration, joint, "
-            "moments, taxels or module_frames for a file; a command, with _ for its space, for its result."
+            help="experiment, acceptance, bench, contestants, device_file, torque_loop_file, scenario, recording, "
+            "calibration, joint, moments, taxels or module_frames for a file; a command, with _ for its "
+            "space, for its result."
         ),
     ],
 ) -> None:
@@ -37,7 +38,7 @@ def _require(name: str, known: dict[str, Callable[[], dict[str, Any]]]) -> None:
 
 
 def _files() -> dict[str, Callable[[], dict[str, Any]]]:
-    from forcetorque.analysis import AcceptanceFile, BenchFile, ContestFile
+    from forcetorque.analysis import AcceptanceFile, BenchFile, ContestFile, TorqueLoopFile
     from forcetorque.calibration import Calibration, RecordingMoments
     from forcetorque.calibration.joint import JointPosterior
     from forcetorque.exchange.skin import ModuleFrames
@@ -53,6 +54,7 @@ def _files() -> dict[str, Callable[[], dict[str, Any]]]:
         "bench": BenchFile.model_json_schema,
         "device_file": DeviceFile.model_json_schema,
         "contestants": ContestFile.model_json_schema,
+        "torque_loop_file": TorqueLoopFile.model_json_schema,
         "scenario": ScenarioFile.model_json_schema,
         "recording": recording_schema,
         "calibration": Calibration.model_json_schema,

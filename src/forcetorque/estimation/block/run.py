@@ -7,6 +7,7 @@ import math
 import os
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import nullcontext
 from typing import Any
 
 import numpy as np
@@ -59,8 +60,10 @@ def run_compiled(
     with announced("compiling the dynamics for this machine, once; it takes about a minute"):
         task(slice(0, 0))  # two threads would compile the same
     workers = threads or os.cpu_count() or 1
-    with ThreadPoolExecutor(workers) as pool:
-        for done in pool.map(task, _chunks(len(out), workers)):
+    chunks = _chunks(len(out), workers)
+    # a control loop asks for few samples at a time, and starting a thread takes longer than answering
+    with ThreadPoolExecutor(workers) if len(chunks) > 1 else nullcontext() as pool:
+        for done in map(task, chunks) if pool is None else pool.map(task, chunks):
             if progress is not None:
                 progress(done)
 

@@ -29,6 +29,7 @@ from forcetorque.report.figures.skin_wrench import skin_wrench_figure
 from forcetorque.report.figures.sphere import sphere_figure
 from forcetorque.report.figures.taxels import taxel_figure
 from forcetorque.report.figures.thermal import thermal_figure
+from forcetorque.report.figures.torque_loop import torque_loop_figure
 from forcetorque.report.figures.torques import torque_figure
 from forcetorque.report.figures.uses import use_figure
 from forcetorque.report.figures.wrench_space import space_figure
@@ -64,5 +65,6 @@ __all__ = [
     "response_figure",
     "thermal_figure",
     "torque_figure",
+    "torque_loop_figure",
     "use_figure",
 ]
