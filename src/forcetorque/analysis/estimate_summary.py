@@ -257,7 +257,9 @@ def summarise_estimates(
 def _outside(corrections: Mapping[str, Correction], spans: Sequence[IntervalEstimates]) -> Iterator[ReadingsOutside]:
     for sensor, correction in corrections.items():
         if correction.calibration is not None:
-            yield outside_row(correction.source, correction.calibration, [span.applied[sensor] for span in spans])
+            yield outside_row(
+                correction.matrix_source, correction.calibration, [span.applied[sensor] for span in spans]
+            )
 
 
 def _doubts(corrections: Mapping[str, Correction], spans: Sequence[IntervalEstimates]) -> Iterator[str]:
