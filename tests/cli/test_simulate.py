@@ -224,7 +224,7 @@ def test_an_existing_folder_and_an_unknown_name_are_refused(scenario: Path, run:
     """Nothing is written over, and the bundled scenarios are listed."""
     Path("out").mkdir()
     assert "it is there already" in run("simulate", scenario, "-o", "out").error()
-    assert "known: icub-insitu, stance, wrist" in run("simulate", "wirst", "-o", "new").error()
+    assert "known: icub-insitu, stance, switching, wrist" in run("simulate", "wirst", "-o", "new").error()
     assert "expected a scenario file, there is none" in run("simulate", "absent.toml", "-o", "new").error()
 
 
@@ -241,17 +241,35 @@ def test_clocks_of_ports_may_be_apart(scenario: Path, run: Run) -> None:
     assert last == pytest.approx(ahead["arm_ft"], abs=1e-8)
 
 
-def test_a_motion_of_several_phases_gives_a_recording_for_each(tmp_path: Path, run: Run) -> None:
-    """Contact switching of the shipped humanoid: each phase has its support, and its experiment file loads."""
+def test_a_motion_of_several_phases_is_one_recording(tmp_path: Path, run: Run) -> None:
+    """Contact switching of the shipped humanoid: each phase is an interval with its support."""
     text = SMALL.replace('model = ["arm"]', 'model = ["biped"]').split("[[recording]]")[0]
     text += (
-        '[[recording]]\nname = "walk"\nsupport = "l_sole"\nmotion = { kind = "contact_switching", swing = "r_sole" }\n'
+        '[imu]\nlink = ["imu"]\n[[recording]]\nname = "walk"\nsupport = "l_sole"\nrate_hz = 20.0\nmotion = '
+        '{ kind = "contact_switching", swing = "r_sole", hook = "torso", postures = 2, still_s = 1.0 }\n'
     )
     (tmp_path / "walk.toml").write_text(text, encoding="utf-8")
-    rows = run("simulate", tmp_path / "walk.toml", "-o", tmp_path / "out", "--format", "json").result()["recordings"]
-    assert [row["recording"] for row in rows] == [f"walk_{k}" for k in range(len(rows))]
-    supports = {load_experiment(tmp_path / "out" / row["experiment"]).recording.intervals[0].support for row in rows}
-    assert {support.frame for support in supports if support is not None} == {"l_sole", "r_sole"}
+    (row,) = run("simulate", tmp_path / "walk.toml", "-o", tmp_path / "out", "--format", "json").result()["recordings"]
+    experiment = load_experiment(tmp_path / "out" / row["experiment"])
+    supports = {i.label: None if i.support is None else i.support.frame for i in experiment.recording.intervals}
+    assert supports == {
+        "hanging": "torso",
+        "landing": None,
+        "double_1": "l_sole",
+        "l_sole": "l_sole",
+        "double_2": "l_sole",
+        "r_sole": "r_sole",
+        "double_3": "l_sole",
+    }
+    truth = json.loads((tmp_path / "out" / "truth.json").read_text(encoding="utf-8"))["recordings"]["walk"]
+    assert [phase["label"] for phase in truth["phases"]] == list(supports)
+    contacts = read_recording(tmp_path / "out" / truth["contacts"])
+    assert {name: stream.signal("wrench").frame for name, stream in contacts.streams.items()} == {
+        name: name for name in truth["touches"]
+    }
+    vertical = sum(contacts.stream(foot).signal("wrench").values[-1, 2] for foot in ("l_sole", "r_sole"))
+    weight = 9.80665 * sum(link.mass for link in experiment.model.links.values())
+    assert vertical == pytest.approx(weight, abs=1e-6)  # both soles are level
 
 
 def test_without_icub_models_the_next_robot_is_taken(monkeypatch: pytest.MonkeyPatch) -> None:

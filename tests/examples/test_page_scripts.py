@@ -25,6 +25,7 @@ RUN_ELSEWHERE = {
     "simulation.md": "tests/examples/test_page_scripts.py",
     "skin_layout.md": "tests/exchange/skin/test_documentation.py",
     "simulation.md, both feet": "tests/examples/test_simulation_page.py",
+    "simulation.md, contact switching": "tests/examples/test_simulation_page.py",
 }
 """Pages with a block that is not marked, each by itself, and who runs it."""
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The script of docs/simulation.md on both feet runs, and gives what its comments say."""
+"""The scripts of docs/simulation.md on both feet, and on contact switching, run and give what their comments say."""
 
 from __future__ import annotations
 
@@ -12,15 +12,29 @@ import numpy as np
 PAGE = Path(__file__).resolve().parents[2] / "docs" / "simulation.md"
 
 
-def test_the_script_on_both_feet_runs() -> None:
-    """Joints, loads, contacts and the IMU come at every instant, and a foot is in the air at times."""
-    (code,) = re.findall(
-        r"^## Both feet on the ground$.*?^```python\n(.*?)^```$",
-        PAGE.read_text(encoding="utf-8"),
-        re.DOTALL | re.MULTILINE,
-    )
+def _names_after(heading: str) -> dict[str, Any]:
+    """What the first script below a heading leaves."""
+    pattern = rf"^## {heading}$.*?^```python\n(.*?)^```$"
+    code = re.findall(pattern, PAGE.read_text(encoding="utf-8"), re.DOTALL | re.MULTILINE)[0]
     names: dict[str, Any] = {}
     exec(code, names)
+    return names
+
+
+def test_the_script_on_contact_switching_runs() -> None:
+    """Nothing is left of a reading but error and bias, and the share of the left foot goes from all to nothing."""
+    names = _names_after("Contact switching")
+    assert np.abs(names["left"]).max() < 1e-6
+    assert np.abs(names["read"] - names["true"]).max() > 10.0  # negative control
+    share = names["share"]
+    assert share[0] == 1.0
+    assert abs(share[-1]) < 1e-9
+    assert 0.4 < np.median(share) < 0.6
+
+
+def test_the_script_on_both_feet_runs() -> None:
+    """Joints, loads, contacts and the IMU come at every instant, and a foot is in the air at times."""
+    names = _names_after("Both feet on the ground")
     samples = len(names["seconds"])
     assert samples == 2000
     assert names["joints"].position.shape == (samples, 22)

@@ -8,6 +8,7 @@ from typing import Literal
 
 from forcetorque.analysis.campaign import Campaign, Runs
 from forcetorque.analysis.generative_calibration import generative_calibration
+from forcetorque.analysis.possible_touch import possible_touch
 from forcetorque.analysis.recording_moments import recording_moments
 from forcetorque.analysis.thesis_calibration import thesis_calibration
 from forcetorque.calibration import Calibration, EstimationType, RecordingMoments
@@ -52,6 +53,33 @@ def calibrate_sensor(
     campaign = Campaign.of(runs)
     if kind is None and regularisation is None:
         _require_one_estimator(campaign)
+    try:
+        return _fitted(
+            campaign,
+            code_version=code_version,
+            created=created,
+            moments=moments,
+            regularisation=regularisation,
+            kind=kind,
+            nonlinear=nonlinear,
+        )
+    except FitError as error:
+        sentences = dict.fromkeys(sentence for run in campaign.runs if (sentence := possible_touch(run)) is not None)
+        if not sentences:
+            raise
+        raise FitError("; ".join([str(error), *sentences])) from error
+
+
+def _fitted(
+    campaign: Campaign,
+    *,
+    code_version: str,
+    created: str,
+    moments: Sequence[RecordingMoments],
+    regularisation: float | Literal["held-out"] | None,
+    kind: EstimationType | Literal["generative"] | None,
+    nonlinear: bool | None,
+) -> Calibration:
     experiment = campaign.runs[0].experiment
     options = experiment.fit_options
     if kind == "generative" or (kind is None and regularisation is None and options.generative):

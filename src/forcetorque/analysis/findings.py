@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -36,7 +37,8 @@ def inspect_experiment(experiment: Experiment, *, by_model: bool = True) -> tupl
     """Look for what is wrong with the recording of an experiment, with its robot and sensors.
 
     The sensors are compared with the model over the whole log where all intervals have one support
-    frame, else inside each interval. Where the model cannot be evaluated the reason is a finding.
+    frame, else inside each interval. Where something touches the robot beyond a sensor, or the model
+    cannot be evaluated, the reason is a finding.
 
     Args:
         experiment: The experiment.
@@ -52,12 +54,8 @@ def inspect_experiment(experiment: Experiment, *, by_model: bool = True) -> tupl
         except ForceTorqueError as error:
             text = f"no look for saturation: {error}"
             found.append(Finding(stream=sensor.stream, kind="not_compared", message=text, count=0))
-        for interval in _spans(experiment) if by_model else ():
-            try:
-                found += _against_model(SensorRun(experiment, sensor), interval)
-            except ForceTorqueError as error:
-                text = f"no comparison with the model over {interval.label}: {error}"
-                found.append(Finding(stream=sensor.stream, kind="not_compared", message=text, count=0))
+        if by_model:
+            found += _model_findings(SensorRun(experiment, sensor))
     return tuple(sorted(found, key=lambda finding: finding.start_ns or 0))
 
 
@@ -96,13 +94,35 @@ def _saturation(experiment: Experiment, sensor: ExperimentSensor) -> tuple[Findi
     return saturation_findings(stream, counts, limit_counts=sensor.limit_counts, recovered=recovered)
 
 
-def _spans(experiment: Experiment) -> tuple[Interval, ...]:
-    """One span of the whole log if there is one support, else the intervals that have one."""
-    supported = [interval for interval in experiment.recording.intervals if interval.support is not None]
+def _model_findings(run: SensorRun) -> Iterator[Finding]:
+    stream = run.sensor.stream
+    supported = [interval for interval in run.experiment.recording.intervals if interval.support is not None]
+    touched = {interval.label: run.touched_beyond(interval) for interval in supported}
+    unknown = [label for label, names in touched.items() if names]
+    if unknown:
+        names = dict.fromkeys(name for label in unknown for name in touched[label])
+        text = (
+            f"no comparison with the model over {', '.join(unknown)}: {', '.join(names)} touches the robot beyond the "
+            "sensor"
+        )
+        yield Finding(stream=stream, kind="not_compared", message=text, count=0)
+        supported = [interval for interval in supported if interval.label not in unknown]
+    else:
+        supported = _over_the_whole_log(run.experiment, supported)
+    for interval in supported:
+        try:
+            yield from _against_model(run, interval)
+        except ForceTorqueError as error:
+            text = f"no comparison with the model over {interval.label}: {error}"
+            yield Finding(stream=stream, kind="not_compared", message=text, count=0)
+
+
+def _over_the_whole_log(experiment: Experiment, supported: Sequence[Interval]) -> list[Interval]:
+    """One span of the whole log if there is one support, else the intervals."""
     if len({id(interval.support) for interval in supported}) != 1:
-        return tuple(supported)
+        return list(supported)
     start, end = experiment.recording.span_ns
-    return (replace(supported[0], label="the whole log", start_ns=start, end_ns=end + 1, use=Use.VALIDATION),)
+    return [replace(supported[0], label="the whole log", start_ns=start, end_ns=end + 1, use=Use.VALIDATION)]
 
 
 def _against_model(run: SensorRun, interval: Interval) -> tuple[Finding, ...]:

@@ -47,7 +47,7 @@ def calibrate_jointly(
     Raises:
         ExperimentError: If there is no calibration interval, the files are of different sensors, or in one no untouched
             part has all joints in the log.
-        EstimationError: If every part of an interval is touched.
+        EstimationError: If every part is touched in every interval.
         FitError: If a sensor that was asked for is beside no untouched part whose joints were logged.
     """
     data = JointData.of(experiments, sensors, progress)
@@ -61,6 +61,7 @@ def calibrate_jointly(
     place = Path(folder)
     joint = JointOutcome.of(result, calibrations, str(place / JOINT_FILE))
     doubts = [
+        *data.left_out,
         *(_without_equation(name) for name in data.campaigns if name not in calibrations),
         *joint.doubts(),
         *(

@@ -15,6 +15,7 @@ from forcetorque.analysis.recording_moments import channel_full_scale
 from forcetorque.analysis.sensor_run import SensorRun
 from forcetorque.calibration import Calibration
 from forcetorque.calibration.joint import ChangeSpread, JointResult, ModelTolerance, fit_stretches
+from forcetorque.errors import EstimationError
 from forcetorque.experiment import Experiment
 from forcetorque.recording import Use
 
@@ -30,6 +31,8 @@ class JointData:
     """Every sensor in all recordings, by its name."""
     intervals: tuple[JointInterval, ...]
     """The intervals."""
+    left_out: tuple[str, ...] = ()
+    """Intervals in which every part is touched, in words."""
 
     @classmethod
     def of(
@@ -48,11 +51,20 @@ class JointData:
         Raises:
             ExperimentError: If there is no calibration interval, the files are of different sensors, or in one no
                 untouched part has all joints in the log.
-            EstimationError: If every part of an interval is touched.
+            EstimationError: If every part is touched in every interval.
         """
         names = tuple(sensor.name for sensor in experiments[0].sensors) if sensors is None else tuple(sensors)
         campaigns = {name: Campaign([SensorRun(experiment, name) for experiment in experiments]) for name in names}
-        return cls(campaigns=campaigns, intervals=tuple(_intervals(campaigns[names[0]], names, progress)))
+        intervals, touched = [], []
+        for label, outcome in _intervals(campaigns[names[0]], names, progress):
+            if isinstance(outcome, JointInterval):
+                intervals.append(outcome)
+            else:
+                touched.append((label, outcome))
+        if not intervals:
+            raise touched[0][1]
+        left_out = tuple(f"interval {label!r} is left out: {error}" for label, error in touched)
+        return cls(campaigns=campaigns, intervals=tuple(intervals), left_out=left_out)
 
     @property
     def recordings(self) -> tuple[str, ...]:
@@ -129,7 +141,10 @@ def _spread(campaign: Campaign) -> ChangeSpread:
     return ChangeSpread.of(required_prior(campaign.sensor), full_scale)
 
 
-def _intervals(campaign: Campaign, sensors: Sequence[str], progress: Callable[[str], None]) -> Iterator[JointInterval]:
+def _intervals(
+    campaign: Campaign, sensors: Sequence[str], progress: Callable[[str], None]
+) -> Iterator[tuple[str, JointInterval | EstimationError]]:
+    """Each with its label: what it says, or why no part of it does."""
     runs = [
         run for run in campaign.runs if any(one.use is Use.CALIBRATION for one in run.experiment.recording.intervals)
     ]
@@ -137,12 +152,16 @@ def _intervals(campaign: Campaign, sensors: Sequence[str], progress: Callable[[s
         for interval in run.experiment.intervals(Use.CALIBRATION):
             label = campaign.label(run, interval.label)
             progress(f"reading {label}")
-            with campaign.stated(run):
-                yield joint_interval(
-                    run.experiment,
-                    interval,
-                    sensors,
-                    label=label,
-                    recording=campaign.recording(run),
-                    session=campaign.session(run, interval.label),
-                )
+            try:
+                with campaign.stated(run):
+                    outcome: JointInterval | EstimationError = joint_interval(
+                        run.experiment,
+                        interval,
+                        sensors,
+                        label=label,
+                        recording=campaign.recording(run),
+                        session=campaign.session(run, interval.label),
+                    )
+            except EstimationError as error:
+                outcome = error
+            yield label, outcome

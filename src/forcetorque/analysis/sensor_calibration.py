@@ -17,6 +17,7 @@ from forcetorque.analysis.campaign import Campaign, Runs
 from forcetorque.analysis.findings import doubtful_spans
 from forcetorque.analysis.joint_outcome import JointOutcome
 from forcetorque.analysis.learnt import LearntDirection, learnt_directions, learnt_words
+from forcetorque.analysis.possible_touch import possible_touch
 from forcetorque.analysis.sensor_run import SensorRun
 from forcetorque.array_field import ArrayField
 from forcetorque.arrays import FloatArray
@@ -158,6 +159,8 @@ def data_doubts(run: SensorRun, *, by_model: bool = True) -> Iterator[str]:
         )
     if by_model:
         yield from _touched(run)
+        if (sentence := possible_touch(run)) is not None:
+            yield sentence
     start_ns, alone = experiment.recording.start_ns, replace(experiment, sensors=(run.sensor,))
     for interval, finding in doubtful_spans(alone, Use.CALIBRATION, by_model=by_model):
         start, end = (((stamp_ns or 0) - start_ns) * 1e-9 for stamp_ns in (finding.start_ns, finding.end_ns))
@@ -172,5 +175,6 @@ def _touched(run: SensorRun) -> Iterator[str]:
         if names := run.touched_beyond(interval):
             yield (
                 f"interval {interval.label!r} is left out: {', '.join(names)} touches the robot beyond the sensor, by "
-                "[[contact]], so that nobody knows what it must read; calibrate all sensors at once, --jointly"
+                "[[contact]] or touched, so that nobody knows what it must read; calibrate all sensors at once, "
+                "--jointly"
             )

@@ -22,7 +22,7 @@ from forcetorque.estimation.samples import robot_motion_at
 from forcetorque.experiment import Experiment, ExperimentSensor
 from forcetorque.experiment.contacts import contacts_in, touched_otherwise
 from forcetorque.experiment.content import ExperimentContact
-from forcetorque.recording import Interval, MovingSupport, Stream, Use
+from forcetorque.recording import Interval, MovingSupport, Stream, Support, Use
 from forcetorque.robot import JointMotion, RootMotion, build_tree
 from forcetorque.robot.sub_model import path_to_root
 
@@ -112,6 +112,42 @@ class SensorRun:
         if not present or not isinstance(support, MovingSupport):
             return ()
         return self._once(("touched", _key(interval)), lambda: self._beyond(support, present))
+
+    def possibly_touched(self, interval: Interval) -> tuple[str, ...]:
+        """Name the contacts beyond the sensor that may come while the support stands still.
+
+        Args:
+            interval: An interval.
+
+        Returns:
+            Names of contacts; none where the support moves, since there they are `touched_beyond`.
+        """
+        present = contacts_in(interval, self.experiment.contacts)
+        support = interval.support
+        return self._beyond(support, present) if present and isinstance(support, Support) else ()
+
+    def known(self, intervals: Sequence[Interval], which: str = "an interval") -> tuple[Interval, ...]:
+        """Leave out intervals in which nobody knows what the sensor must read.
+
+        Args:
+            intervals: At least one interval.
+            which: What they are, for messages.
+
+        Returns:
+            Those in which nothing touches the robot beyond the sensor.
+
+        Raises:
+            ExperimentError: If something does in every one.
+        """
+        known = tuple(interval for interval in intervals if not self.touched_beyond(interval))
+        if not known:
+            names = dict.fromkeys(name for interval in intervals for name in self.touched_beyond(interval))
+            raise ExperimentError(
+                f"expected {which} in which nothing touches the robot beyond {self.sensor.name!r}, but by [[contact]] "
+                f"or touched {', '.join(names)} does in every one, so that nobody knows what the sensor must read; "
+                "record it with that in the air, or calibrate all at once, --jointly"
+            )
+        return known
 
     def interval_samples(
         self, interval: Interval, *, variables: Collection[str] = (), smoothed: bool = True
@@ -292,18 +328,9 @@ class SensorRun:
         require_fit(name, calibration, self.experiment, self.sensor)
 
     def _known_intervals(self, use: Use) -> tuple[Interval, ...]:
-        intervals = self.experiment.intervals(use)
-        known = tuple(interval for interval in intervals if not self.touched_beyond(interval))
-        if not known:
-            names = dict.fromkeys(name for interval in intervals for name in self.touched_beyond(interval))
-            raise ExperimentError(
-                f'expected an interval with use = "{use}" in which nothing touches the robot beyond '
-                f"{self.sensor.name!r}, but by [[contact]] {', '.join(names)} does in every one, so that nobody knows "
-                "what the sensor must read; record it with that in the air, or calibrate all at once, --jointly"
-            )
-        return known
+        return self.known(self.experiment.intervals(use), f'an interval with use = "{use}"')
 
-    def _beyond(self, support: MovingSupport, contacts: Sequence[ExperimentContact]) -> tuple[str, ...]:
+    def _beyond(self, support: Support | MovingSupport, contacts: Sequence[ExperimentContact]) -> tuple[str, ...]:
         tree = build_tree(self.experiment.model, support.frame)
         cut = tree.cuts[self.sensor.name].body
         return tuple(

@@ -94,21 +94,24 @@ def sensor_spheres(
     Args:
         run: The sensor.
         calibrations: Its calibrations by name.
-        intervals: Intervals whose samples are taken together.
+        intervals: Intervals whose samples are taken together, but for those in which something touches the robot beyond
+            the sensor.
 
     Returns:
         An analysis for each way to read the sensor, the prior first.
 
     Raises:
         ForceTorqueError: If a fit fails.
-        ExperimentError: If there is no way to read the sensor, a calibration may not be applied, or the supports of
-            the intervals are on both sides of the sensor, so that not the same mass hangs on it.
+        ExperimentError: If there is no way to read the sensor, a calibration may not be applied, something touches
+            beyond the sensor in every interval, or the supports of the intervals are on both sides of the sensor, so
+            that not the same mass hangs on it.
         SerialNumberError: If a calibration is of another sensor.
     """
     where = f"sensor {run.sensor.name!r}"
     with stated_in(where):
         for name in calibrations:
             run.require_fit(name, calibrations[name])
+        intervals = run.known(intervals)
         corrections = _corrections(run, calibrations)
         reason = _no_reference(run, intervals)
         needed = {variable for _, correction, _ in corrections for variable in correction.variables}

@@ -5,12 +5,14 @@ from __future__ import annotations
 
 import json
 import shutil
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import asdict
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
 from pydantic import Field
 
+from forcetorque.arrays import FloatArray
 from forcetorque.atomic import write_bytes_atomically
 from forcetorque.exchange.icub import encode_matrix, write_matrix_file
 from forcetorque.experiment.simulated_file import experiment_text
@@ -21,6 +23,7 @@ from forcetorque.recording import write_recording
 from forcetorque.recording.quality import spans
 from forcetorque.result import Result, Row, Shown, Table, table_of
 from forcetorque.simulation.scenario import Scenario, SimulatedRecording, simulate
+from forcetorque.simulation.scenario.specimen import Specimen
 
 
 class WrittenRecording(Row):
@@ -94,14 +97,15 @@ def write_scenario(
     with new_folder(output) as fresh:
         shutil.copyfile(scenario.urdf, fresh / "robot.urdf")
         truth |= _robot_truth(scenario)
-        truth["sensors"] = {name: _sensor_truth(scenario, name, fresh) for name in scenario.specimens}
+        matrices = {name: _write_matrix(specimen, fresh) for name, specimen in scenario.specimens.items()}
+        truth["sensors"] = {name: _sensor_truth(scenario, name, matrix) for name, matrix in matrices.items()}
         truth["recordings"] = {}
         for simulated in simulate(scenario):
             if progress is not None:
                 movement = simulated.movement
                 progress(f"writing {simulated.name}: {movement.kind}, {movement.duration_s:.0f} s")
             _write(scenario, simulated, fresh)
-            truth["recordings"][simulated.name] = _recording_truth(simulated)
+            truth["recordings"][simulated.name] = _recording_truth(simulated, matrices)
             rows.append(_row(simulated))
         text = json.dumps(truth, indent=2, allow_nan=False) + "\n"
         write_bytes_atomically(fresh / TRUTH_FILE, text.encode())
@@ -134,27 +138,35 @@ def _robot_truth(scenario: Scenario) -> dict[str, Any]:
     return truth
 
 
-def _sensor_truth(scenario: Scenario, name: str, folder: Path) -> dict[str, Any]:
-    """What is true of a sensor; its workbench matrix is written too."""
+def _write_matrix(specimen: Specimen, folder: Path) -> FloatArray:
+    """Write the workbench matrix of a sensor; the matrix that the file holds, whose coefficients have 16 bits."""
+    encoded = encode_matrix(specimen.workbench)
+    write_matrix_file(folder / f"matrix_{specimen.serial}.txt", encoded)
+    return encoded.matrix
+
+
+def _sensor_truth(scenario: Scenario, name: str, written: FloatArray) -> dict[str, Any]:
+    """What is true of a sensor, and of the matrix that was written as its prior."""
     specimen = scenario.specimens[name]
-    write_matrix_file(folder / f"matrix_{specimen.serial}.txt", encode_matrix(specimen.workbench))
     drift = specimen.sensor.drift
     return {
         "serial": specimen.serial,
         "matrix": specimen.sensor.matrix.tolist(),
         "workbench_matrix": specimen.workbench.tolist(),
+        "matrix_error": specimen.sensor.matrix_error(written).tolist(),
         "noise_counts": specimen.sensor.noise_counts,
         "drift_counts_per_degC": None if drift is None else drift.slope.tolist(),
         "reference_degC": None if drift is None else drift.reference_degC,
     }
 
 
-def _recording_truth(simulated: SimulatedRecording) -> dict[str, Any]:
+def _recording_truth(simulated: SimulatedRecording, matrices: Mapping[str, FloatArray]) -> dict[str, Any]:
     sensors = {}
     for name, sensor in simulated.sensors.items():
         held = simulated.recording.stream(name).held
         sensors[name] = {
             "offset": sensor.offset.tolist(),
+            "bias": sensor.bias(matrices[name]).tolist(),
             "saturated_samples": [[first, last] for first, last in spans(held)],
         }
     standing = simulated.movement.carriage is None
@@ -164,18 +176,27 @@ def _recording_truth(simulated: SimulatedRecording) -> dict[str, Any]:
         "gravity_direction": simulated.movement.gravity_direction.tolist() if standing else None,
         "duration_s": simulated.movement.duration_s,
         "touches": [touch.contact.name for touch in simulated.movement.external],
+        "contacts": _contacts_folder(simulated) if simulated.movement.external else None,
+        "phases": [asdict(phase) for phase in simulated.movement.phases],
         "sensors": sensors,
     }
 
 
 def _write(scenario: Scenario, simulated: SimulatedRecording, folder: Path) -> None:
     write_recording(folder / simulated.name, simulated.recording)
+    if simulated.movement.external:
+        write_recording(folder / _contacts_folder(simulated), simulated.contacts())
     measured = any("temperature" in simulated.recording.stream(name).signals for name in scenario.specimens)
     log = f'format = "parquet"\npath = "{simulated.name}"\n'
     text = experiment_text(scenario, simulated, log, temperature=measured)
     (folder / f"{simulated.name}.toml").write_text(text, encoding="utf-8")
     if scenario.file.network is not None:
         write_port_logs(scenario, simulated, folder, scenario.file.network)
+
+
+def _contacts_folder(simulated: SimulatedRecording) -> str:
+    """Where the true wrenches of all touches are."""
+    return f"{simulated.name}_contacts"
 
 
 def _row(simulated: SimulatedRecording) -> WrittenRecording:

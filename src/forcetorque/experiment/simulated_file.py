@@ -5,10 +5,9 @@ from __future__ import annotations
 
 import json
 
-from forcetorque.arrays import FloatArray
+from forcetorque.experiment.simulated_phases import phases_text, support_text
 from forcetorque.simulation.motions import Movement
 from forcetorque.simulation.scenario import INTERVAL_MARGIN_S, Scenario, SimulatedRecording
-from forcetorque.simulation.trace import IMU_STREAM
 
 
 def experiment_text(scenario: Scenario, simulated: SimulatedRecording, log: str, *, temperature: bool) -> str:
@@ -21,7 +20,8 @@ def experiment_text(scenario: Scenario, simulated: SimulatedRecording, log: str,
         temperature: Whether sensors have their temperature as variable.
 
     Returns:
-        The file, TOML; the whole recording is one interval, but for a margin at either end.
+        The file, TOML. The whole recording is one interval, or one for each phase of its movement, but for a margin at
+        either end.
     """
     text = [
         f'schema = "forcetorque/experiment/1"\nname = "{scenario.file.name}, {simulated.name}"\n',
@@ -36,7 +36,12 @@ def experiment_text(scenario: Scenario, simulated: SimulatedRecording, log: str,
             text.append('\n[[sensor.variable]]\nname = "temperature"\n')
     if scenario.robot_errors is None:  # the model is exact
         text.append("\n[calibration]\naccuracy = { force_N = 0.0, moment_Nm = 0.0 }\n")
-    text += [_contacts_text(simulated.movement, imu=scenario.imu is not None), _interval_text(simulated)]
+    if "velocity" in simulated.recording.stream("joints").signals:
+        text.append('\n[processing]\nderivatives = "logged"\n')
+    if simulated.movement.phases:
+        text += phases_text(simulated)
+    else:
+        text += [_contacts_text(simulated.movement, imu=scenario.imu is not None), _interval_text(simulated)]
     return "".join(text)
 
 
@@ -44,12 +49,11 @@ def _contacts_text(movement: Movement, *, imu: bool) -> str:
     """The support and, of a robot on both feet, the other foot, whose contact is as unknown."""
     support, *others = movement.touched
     if movement.carriage is None:
-        return f'\n[[support]]\nframe = "{support}"\ngravity_direction = {_direction(movement.gravity_direction)}\n'
+        return support_text(support, down=movement.gravity_direction)
     # without an IMU the first foot stands all the time
     down = -movement.base_pose([0.0], support)[0, 2, :3]
-    motion = f'imu = ["{IMU_STREAM}"]' if imu else f"gravity_direction = {_direction(down)}"
     contacts = [f'\n[[contact]]\nframe = "{link}"\n' for link in others]
-    return f'\n[[support]]\nframe = "{support}"\n{motion}\n' + "".join(contacts)
+    return support_text(support, down=None if imu else down) + "".join(contacts)
 
 
 def _interval_text(simulated: SimulatedRecording) -> str:
@@ -60,7 +64,3 @@ def _interval_text(simulated: SimulatedRecording) -> str:
         f'support = "{simulated.movement.touched[0]}"\nend_s = {end_s:.3f}\n'
         f"kind = {json.dumps(simulated.kind)}\nsession = {json.dumps(simulated.session)}\n"
     )
-
-
-def _direction(vector: FloatArray) -> str:
-    return f"[{', '.join(repr(float(value)) for value in vector)}]"

@@ -55,12 +55,14 @@ class Run(SensorRun):
             shape (n, 6), N, N m.
 
         Raises:
-            ExperimentError: If there is no interval of that label.
+            ExperimentError: If there is no interval of that label, or something touches the robot beyond the sensor in
+                it, so that mechanics does not say.
         """
         intervals = {interval.label: interval for interval in self.experiment.recording.intervals}
         if label not in intervals:
             raise ExperimentError(f"no interval is labelled {label!r}; {known_names(label, intervals)}")
-        samples = self.interval_samples(intervals[label]).samples
+        (interval,) = self.known([intervals[label]])
+        samples = self.interval_samples(interval).samples
         return seconds_since(samples.stamp_ns, self.experiment.recording.start_ns), samples.reference
 
     def payload(self) -> analysis.WeighedLoad:

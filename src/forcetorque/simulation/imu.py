@@ -59,5 +59,16 @@ class SimulatedImu:
             self._signal("angular_velocity", motion.angular_velocity + velocity, "rad/s"),
         )
 
+    def turning(self, motion: RootMotion) -> Signal:
+        """Tell how the link's turning changes, which gyroscopes do not read.
+
+        Args:
+            motion: Motion of the link's frame, in its own axes; n samples.
+
+        Returns:
+            The true angular acceleration.
+        """
+        return self._signal("angular_acceleration", motion.angular_acceleration, "rad/s2")
+
     def _signal(self, quantity: str, values: FloatArray, unit: str) -> Signal:
         return Signal(quantity=quantity, values=values, columns=_XYZ, units=(unit,) * 3, frame=self.link)

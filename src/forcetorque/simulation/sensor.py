@@ -12,6 +12,7 @@ from forcetorque.arrays import FloatArray, read_only
 from forcetorque.errors import SensorError
 from forcetorque.sensor.saturation import HeldCounts, hold_on_saturation
 from forcetorque.simulation.effects import Creep, Crosstalk, Noise, ThermalDrift
+from forcetorque.simulation.matrix_error import matrix_error
 
 _ARM_ANGLES = np.deg2rad([0.0, 120.0, 240.0])
 
@@ -28,6 +29,8 @@ class SimulatedSensor:
     """Standard deviation of white noise on every channel; counts."""
     noise_corner_hz: float = 0.0
     """Frequency below which 1/f noise prevails; Hz; 0 for none."""
+    step_counts: float = 1.0
+    """Step of the converter; 0 for none; counts."""
     limit_counts: int = 32767
     """Magnitude at which a channel is saturated; counts."""
     drift: ThermalDrift | None = None
@@ -58,7 +61,7 @@ class SimulatedSensor:
             temperature_degC: Temperature of the sensor; shape (n,); degC; needed if it drifts.
 
         Returns:
-            Whole counts within the limits, held while a channel is saturated, and the status.
+            Counts in whole steps within the limits, held while a channel is saturated, and the status.
 
         Raises:
             SensorError: If it drifts and there is no temperature.
@@ -75,8 +78,33 @@ class SimulatedSensor:
             counts = counts + self.drift.drift(temperature_degC, rate_hz=rate_hz)
         noise = Noise(white_counts=self.noise_counts, corner_hz=self.noise_corner_hz)
         counts = counts + noise.sample(*counts.shape, rate_hz=rate_hz, rng=rng)
-        whole = np.clip(np.rint(counts), -self.limit_counts, self.limit_counts)
-        return hold_on_saturation(whole, lowest=-self.limit_counts, highest=self.limit_counts)
+        if self.step_counts > 0.0:
+            counts = np.rint(counts / self.step_counts) * self.step_counts
+        within = np.clip(counts, -self.limit_counts, self.limit_counts)
+        return hold_on_saturation(within, lowest=-self.limit_counts, highest=self.limit_counts)
+
+    def matrix_error(self, matrix: FloatArray) -> FloatArray:
+        """Tell what a matrix makes of a true wrench w: it reads the counts as `(1 + E) w + bias`.
+
+        Args:
+            matrix: Matrix that readings are made with; shape (6, 6); N/count, N m/count.
+
+        Returns:
+            E, force before moment; shape (6, 6); 1, 1/m above on the right, m below on the left.
+        """
+        return matrix_error(matrix, self.matrix)
+
+    def bias(self, matrix: FloatArray) -> FloatArray:
+        """Tell what a matrix reads where nothing loads the sensor, beside `(1 + E) w`.
+
+        Args:
+            matrix: Matrix that readings are made with; shape (6, 6); N/count, N m/count.
+
+        Returns:
+            The bias; shape (6,); N, N m.
+        """
+        bias: FloatArray = -matrix @ np.linalg.solve(self.matrix, self.offset)
+        return bias
 
     def with_gains(self, ratio: Any) -> SimulatedSensor:
         """Change the gains of the amplifier; noise is taken to come after it.

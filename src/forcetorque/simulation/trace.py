@@ -3,8 +3,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
+from functools import partial
 from types import MappingProxyType
 
 import numpy as np
@@ -13,7 +14,7 @@ from forcetorque.arrays import FloatArray, IntArray, read_only
 from forcetorque.errors import RobotError, known_names
 from forcetorque.recording import Recording, Signal, Stream
 from forcetorque.recording.alignment import seconds_since
-from forcetorque.robot import RootMotion
+from forcetorque.robot import JointMotion, RootMotion
 from forcetorque.simulation.imu import SimulatedImu
 from forcetorque.simulation.motions import Movement
 from forcetorque.simulation.sensor import SimulatedSensor
@@ -62,6 +63,8 @@ class Trace:
     """True wrenches at those stamps, each in the sensor's frame and direction; shape (n, 6); N, N m."""
     imu: LinkTrace | None = None
     """What an IMU goes through, if there is one."""
+    exact: bool = False
+    """Whether joints and IMU are read with all their derivatives."""
 
     def __post_init__(self) -> None:
         loads = {name: read_only(load, name=name, shape=(None, 6)) for name, load in self.loads.items()}
@@ -104,7 +107,9 @@ class Trace:
                 raise RobotError(
                     f"movement {self.movement.name!r}: expected a trace with an IMU at {imu.link!r}, it has {traced}"
                 )
-            streams[IMU_STREAM] = _stream(IMU_STREAM, self.imu.stamp_ns, *imu.read(self.imu.motion, rng))
+            signals = imu.read(self.imu.motion, rng)
+            turning = (imu.turning(self.imu.motion),) if self.exact else ()
+            streams[IMU_STREAM] = _stream(IMU_STREAM, self.imu.stamp_ns, *signals, *turning)
         return Recording(streams=streams, origin={"format": "simulation", "robot": self.movement.model.name})
 
     def _sensor_stream(
@@ -146,11 +151,13 @@ def trace_movement(
     rng: np.random.Generator,
     start_ns: int = EPOCH_NS,
     imu_link: str | None = None,
+    exact: bool = False,
 ) -> Trace:
     """Find what a movement does to the joints and sensors of a robot at the instants at which they are read.
 
     Joints and sensors have their own stamps, out of step and with jitter, as on a real network.
-    Joints are read with encoders of 16 bits a turn.
+    Joints are read with encoders of 16 bits a turn. Unless all is to be exact: then every stream has
+    the same even stamps from the start on, joints have no steps, and they and the IMU all their derivatives.
 
     Args:
         movement: What the robot does.
@@ -159,32 +166,51 @@ def trace_movement(
         rng: Source of stamps.
         start_ns: When it starts; ns.
         imu_link: Link that an IMU is on; none if None.
+        exact: Whether all is read at the same even instants, joints without steps and with their derivatives.
 
     Returns:
         Positions of the joints, the true loads of the sensors, and the motion of the IMU's link.
     """
-    joint_stamps = _stamps(movement.duration_s, rate_hz, rng) + start_ns
+    draw_stamps = partial(_even_stamps if exact else partial(_stamps, rng=rng), movement.duration_s, rate_hz)
+    joint_stamps = draw_stamps() + start_ns
     motion = movement.joints(seconds_since(joint_stamps, start_ns))
-    measured = np.rint(motion.position / _ENCODER_STEP) * _ENCODER_STEP
-    units = tuple(movement.model.joints[name].type.unit for name in motion.names)
-    position = Signal(quantity="position", values=measured, columns=motion.names, units=units)
-    stamps = {name: _stamps(movement.duration_s, rate_hz, rng) + start_ns for name in sensors}
+    stamps = {name: draw_stamps() + start_ns for name in sensors}
     imu = None
     if imu_link is not None:  # last, so that its stamps change no others
-        imu_ns = _stamps(movement.duration_s, rate_hz, rng) + start_ns
+        imu_ns = draw_stamps() + start_ns
         imu_motion = movement.link_motion(seconds_since(imu_ns, start_ns), imu_link)
         imu = LinkTrace(link=imu_link, stamp_ns=imu_ns, motion=imu_motion)
     return Trace(
         movement=movement,
         rate_hz=rate_hz,
         start_ns=start_ns,
-        joints=_stream("joints", joint_stamps, position),
+        joints=_stream("joints", joint_stamps, *_joint_signals(movement, motion, exact=exact)),
         stamp_ns=stamps,
         loads={
             name: movement.readings(seconds_since(own, start_ns), [name]).of_name(name) for name, own in stamps.items()
         },
         imu=imu,
+        exact=exact,
     )
+
+
+def _joint_signals(movement: Movement, motion: JointMotion, *, exact: bool) -> Iterator[Signal]:
+    """Positions as encoders read them; or as they are, with their derivatives."""
+    units = tuple(movement.model.joints[name].type.unit for name in motion.names)
+    position = motion.position if exact else np.rint(motion.position / _ENCODER_STEP) * _ENCODER_STEP
+    yield Signal(quantity="position", values=position, columns=motion.names, units=units)
+    if exact:
+        for quantity, values, per in (
+            ("velocity", motion.velocity, "/s"),
+            ("acceleration", motion.acceleration, "/s2"),
+        ):
+            own = tuple(f"{unit}{per}" for unit in units)
+            yield Signal(quantity=quantity, values=values, columns=motion.names, units=own)
+
+
+def _even_stamps(duration_s: float, rate_hz: float) -> IntArray:
+    ticks: IntArray = np.rint(np.arange(int(duration_s * rate_hz)) * (1e9 / rate_hz)).astype(np.int64)
+    return ticks
 
 
 def _stamps(duration_s: float, rate_hz: float, rng: np.random.Generator) -> IntArray:

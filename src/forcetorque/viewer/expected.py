@@ -3,17 +3,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray
+from forcetorque.analysis import SensorRun
+from forcetorque.arrays import BoolArray, FloatArray
 from forcetorque.errors import ForceTorqueError
 from forcetorque.estimation import Question, estimate, required_joints_of
 from forcetorque.estimation.root_motion import joints_to_support
 from forcetorque.estimation.samples import robot_motion_at
 from forcetorque.experiment import Experiment
-from forcetorque.recording import MovingSupport, Support
+from forcetorque.recording import Interval, MovingSupport, Support
 from forcetorque.robot import BodyTree, build_tree
 from forcetorque.viewer.instants import Posture
 
@@ -23,7 +24,8 @@ def expected_readings(
 ) -> tuple[dict[str, FloatArray], list[str]]:
     """Evaluate the model at every instant that lies in an interval with a support.
 
-    Where several intervals hold an instant, the first with a support rules.
+    Where several intervals hold an instant, the first with a support rules. Nothing is expected of a
+    sensor in an interval in which something touches a robot on the move beyond it.
 
     Args:
         experiment: The experiment, without intervals that hold no sample.
@@ -38,10 +40,12 @@ def expected_readings(
     notes: dict[str, None] = {}
     left = np.ones(n, dtype=bool)
     spans: dict[int, tuple[Support | MovingSupport, np.ndarray]] = {}
+    shown: list[tuple[Interval, BoolArray]] = []
     for interval in experiment.recording.intervals:
         if interval.support is not None:
             inside = left & interval.holds(posture.stamp_ns)
             left &= ~inside
+            shown.append((interval, inside))
             _, before = spans.get(id(interval.support), (None, np.zeros(n, dtype=bool)))
             spans[id(interval.support)] = (interval.support, before | inside)
     for support, inside in spans.values():
@@ -74,9 +78,25 @@ def expected_readings(
             continue
         for sensor, values in readings.items():
             found[sensor][chosen] = values
+    for sensor, values in found.items():
+        notes.update(dict.fromkeys(_without_touched(SensorRun(experiment, sensor), values, shown)))
     if not spans:
         notes["no expected wrenches: no interval states a support"] = None
     return found, list(notes)
+
+
+def _without_touched(run: SensorRun, values: FloatArray, shown: Sequence[tuple[Interval, BoolArray]]) -> Iterator[str]:
+    """Take away what is expected where something touches beyond the sensor; in words, where that is."""
+    touched: dict[tuple[str, ...], list[str]] = {}
+    for interval, inside in shown:
+        if (names := run.touched_beyond(interval)) and np.isfinite(values[inside]).any():
+            values[inside] = np.nan
+            touched.setdefault(names, []).append(interval.label)
+    for names, labels in touched.items():
+        yield (
+            f"sensor {run.sensor.name!r}: no expected wrench in {', '.join(labels)}, where {', '.join(names)} touches "
+            "the robot beyond it"
+        )
 
 
 def _lacking(experiment: Experiment, tree: BodyTree, sensor: str, support: Support | MovingSupport) -> list[str]:

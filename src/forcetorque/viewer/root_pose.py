@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
@@ -17,6 +18,8 @@ from forcetorque.robot import JointMotion, RobotModel, build_tree, joints_betwee
 from forcetorque.spatial import make_pose, split_pose
 from forcetorque.viewer.instants import Posture
 
+_XYZW = [4, 5, 6, 3]
+"""Columns of the quaternion, scalar last."""
 _BLOCK = 65_536
 """Samples whose poses are computed at once: 8 MB."""
 
@@ -36,8 +39,9 @@ def root_poses(
 ) -> RootPoses:
     """Stand the robot on its supports.
 
-    The support frame of an interval stands still at the origin, and gravity points to -z. Outside intervals the
-    support is that of the nearest one in time. A moving support is kept at the origin and turned as the IMU says.
+    The support frame of the first interval stands still at the origin, and gravity points to -z. Outside intervals the
+    support is that of the nearest one in time. A moving support is kept in its place and turned as the IMU says. Where
+    the support changes the robot stays where it is, and the new one stands still from there on.
 
     Args:
         recording: The recording, for an IMU.
@@ -59,7 +63,8 @@ def root_poses(
     groups: dict[int, list[int]] = {}
     for k, interval in enumerate(supported):
         groups.setdefault(id(interval.support), []).append(k)
-    for members in groups.values():
+    turn = np.zeros(n, dtype=np.int64)
+    for number, members in enumerate(groups.values()):
         support = supported[members[0]].support
         chosen = np.flatnonzero(np.isin(nearest, members))
         if support is None or not len(chosen):
@@ -73,7 +78,8 @@ def root_poses(
             if isinstance(support, MovingSupport):
                 notes.append(f"support {support.frame!r} moves: it is kept in its place, and upright as its IMU says")
         values[chosen] = _standing(model, posture, support.frame, world_R_support, chosen)
-    return RootPoses(values=values, notes=tuple(notes))
+        turn[chosen] = number
+    return RootPoses(values=_without_jumps(values, turn), notes=tuple(dict.fromkeys(notes)))
 
 
 def upright(gravity_direction: FloatArray) -> FloatArray:
@@ -146,6 +152,23 @@ def _standing(
         quat_xyzw = Rotation.from_matrix(rotation).as_quat(canonical=True)
         found[block] = np.hstack([position, quat_xyzw[:, 3:], quat_xyzw[:, :3]])
     return found
+
+
+def _without_jumps(values: FloatArray, turn: IntArray) -> FloatArray:
+    """Put the robot, wherever the number of its support changes, where it was just before; shape (n, 7)."""
+    from scipy.spatial.transform import Rotation  # here because importing it takes longer than most commands
+
+    joined = values.copy()
+    changes = np.flatnonzero(np.diff(turn)) + 1
+    for start, end in pairwise([*changes.tolist(), len(values)]):
+        before, after = joined[start - 1], values[start]
+        way = (Rotation.from_quat(before[_XYZW]) * Rotation.from_quat(after[_XYZW]).inv()).as_matrix()
+        # about the vertical alone: each support knows for itself where down is
+        heading = Rotation.from_euler("z", np.arctan2(way[1, 0] - way[0, 1], way[0, 0] + way[1, 1]))
+        joined[start:end, :3] = before[:3] + heading.apply(values[start:end, :3] - after[:3])
+        quat_xyzw = (heading * Rotation.from_quat(values[start:end, _XYZW])).as_quat(canonical=True)
+        joined[start:end, 3:] = quat_xyzw[:, [3, 0, 1, 2]]
+    return joined
 
 
 def _joints(posture: Posture, names: Sequence[str], chosen: IntArray) -> JointMotion:

@@ -3,7 +3,7 @@
 
 from forcetorque.simulation.motions.balancing import balancing_movement
 from forcetorque.simulation.motions.carriage import Carriage
-from forcetorque.simulation.motions.contact_switching import contact_switching_movements
+from forcetorque.simulation.motions.contact_switching import STILL_S, contact_switching_movement
 from forcetorque.simulation.motions.grid import grid_movement
 from forcetorque.simulation.motions.limb import Limb, limb_of
 from forcetorque.simulation.motions.movement import Movement, MovementKind, Touch
@@ -14,6 +14,7 @@ from forcetorque.simulation.motions.on_both_feet import (
     stepping_movement,
     sway_movement,
 )
+from forcetorque.simulation.motions.phase import Phase, PhaseKind
 from forcetorque.simulation.motions.random_smooth import random_movement, random_smooth_motion
 from forcetorque.simulation.motions.stance import Stance, random_placement
 from forcetorque.simulation.motions.stand import Stand
@@ -22,16 +23,19 @@ from forcetorque.simulation.motions.z_torque import z_torque_movement
 
 __all__ = [
     "INTERNAL_FORCE_N",
+    "STILL_S",
     "Carriage",
     "Limb",
     "Movement",
     "MovementKind",
+    "Phase",
+    "PhaseKind",
     "Stance",
     "Stand",
     "Touch",
     "Waypoints",
     "balancing_movement",
-    "contact_switching_movements",
+    "contact_switching_movement",
     "grid_movement",
     "limb_of",
     "random_movement",

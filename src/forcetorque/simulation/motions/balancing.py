@@ -3,8 +3,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 import numpy as np
 
 from forcetorque.arrays import FloatArray
@@ -82,21 +80,13 @@ def balancing_postures(
     drawn = np.tile(stand.rest, (postures, candidates, 1))
     # the sine puts more of the postures near the ends of the range
     wide = 0.5 - 0.5 * np.cos(np.pi * rng.uniform(size=(postures, 1, len(legs.swing))))
-    low, high = _bounds(stand, legs.swing, 1.0)
+    low, high = stand.around_rest(legs.swing, 1.0)
     drawn[:, :, stand.columns(legs.swing)] = low + (high - low) * wide
     for joints, share in ((legs.support, _SUPPORT_SHARE), (legs.others, _OTHER_SHARE)):
-        low, high = _bounds(stand, joints, share)
+        low, high = stand.around_rest(joints, share)
         drawn[:, :, stand.columns(joints)] = rng.uniform(low, high, (postures, candidates, len(joints)))
     wrench = weight_at_support(stand, drawn.reshape(-1, len(stand.joints))).reshape(postures, candidates, 6)
     # the moment about the support's origin is the weight times the level way to the centre of mass
     lever = np.linalg.norm(wrench[:, :, 3:], axis=2)
     best: FloatArray = drawn[np.arange(postures), lever.argmin(axis=1)]
     return best
-
-
-def _bounds(stand: Stand, joints: Sequence[str], share: float) -> FloatArray:
-    """Part of the joints' ranges around their rest; shape (2, j)."""
-    rest = stand.rest[stand.columns(joints)]
-    limits = np.array([stand.range_of(joint) for joint in joints]).reshape(-1, 2).T
-    bounds: FloatArray = rest + share * (limits - rest)
-    return bounds

@@ -1,137 +1,187 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Contact switching: the weight goes from foot to foot, and the foot that is free moves."""
+"""Contact switching: the robot hangs, stands on both feet, and its weight goes from foot to foot, in one movement."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from itertools import pairwise
 
 import numpy as np
 
 from forcetorque.arrays import FloatArray
-from forcetorque.errors import ShapeError
-from forcetorque.estimation import Contact, ContactType
-from forcetorque.robot import JointMotion, link_pose
+from forcetorque.errors import RobotError, ShapeError, known_names
+from forcetorque.robot import JointMotion, joints_between, link_pose
 from forcetorque.simulation.motions.balancing import balancing_postures
-from forcetorque.simulation.motions.movement import Movement, MovementKind, Touch
+from forcetorque.simulation.motions.course import Course
+from forcetorque.simulation.motions.foot_loads import FootLoads, Hook, internal_pushes
+from forcetorque.simulation.motions.footing import Foothold, Footing
+from forcetorque.simulation.motions.movement import Movement, MovementKind
+from forcetorque.simulation.motions.on_both_feet import INTERNAL_FORCE_N
+from forcetorque.simulation.motions.phase import PhaseKind
+from forcetorque.simulation.motions.stance import Stance
 from forcetorque.simulation.motions.stand import Stand
-from forcetorque.simulation.motions.waypoints import minimum_jerk
-from forcetorque.simulation.motions.weight import weight_at_support
-from forcetorque.spatial import invert_pose, transform_wrench
+
+STILL_S = 3.0
+"""How long a robot rests before and after it moves, as a rule; s."""
+_LEGS_SHARE, _OTHERS_SHARE = 0.6, 0.4
+"""How much of their range legs, and trunk and arms, use around their rest while the robot hangs."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class ShiftedWeight:
-    """A wrench that goes from one share of a still wrench to another, by minimum jerk."""
+class _Resting:
+    """The robot at rest on both feet, which can be held at any of its links."""
 
-    wrench: FloatArray
-    """The whole; shape (6,); N, N m."""
-    start: float
-    """Share before."""
-    end: float
-    """Share after."""
-    duration_s: float
-    """How long the change takes; s."""
+    stand: Stand
+    """The robot on its first foot, in its posture at rest."""
+    world_H_first: FloatArray
+    """Where that foot stands; shape (4, 4); m."""
 
-    def __call__(self, seconds: FloatArray) -> FloatArray:
-        """Give the wrench.
+    def pose(self, link: str) -> FloatArray:
+        """Where a link is; shape (4, 4); m."""
+        at_rest = JointMotion.at_rest(self.stand.joints, self.stand.rest[None])
+        world_H_link: FloatArray = self.world_H_first @ link_pose(self.stand.tree, at_rest, link)[0]
+        return world_H_link
 
-        Args:
-            seconds: Instants; shape (n,); s.
+    def held_at(self, link: str) -> Stand:
+        """The robot in the same posture and place, held at another link."""
+        return replace(self.stand, support=link, gravity_direction=-self.pose(link)[2, :3])
 
-        Returns:
-            The wrench; shape (n, 6); N, N m.
-        """
-        share = self.start + (self.end - self.start) * minimum_jerk(seconds / self.duration_s)
-        return share[:, None] * self.wrench
+    def footholds(self, course: Course) -> tuple[Foothold, ...]:
+        """The link that stands still in each phase, the first that touches."""
+        trees = {phase.touched[0]: self.held_at(phase.touched[0]).tree for phase in course.phases}
+        return tuple(
+            Foothold(tree=trees[link], world_H_link=self.pose(link), start_s=phase.start_s)
+            for phase in course.phases
+            for link in phase.touched[:1]
+        )
 
 
-def contact_switching_movements(
-    stand: Stand,
-    other: str,
+def contact_switching_movement(
+    stance: Stance,
     *,
     rng: np.random.Generator,
-    trunk: str | None = None,
+    hook: str | None = None,
     steps: int = 2,
-    shift_s: float = 2.0,
     postures: int = 3,
     candidates: int = 50,
-) -> tuple[Movement, ...]:
-    """Stand on both feet, on one, on both, on the other, and so on, ending on both.
+    still_s: float = STILL_S,
+    shift_s: float = 1.5,
+    internal_force_N: float = INTERNAL_FORCE_N,
+    name: str = "contact_switching",
+) -> Movement:
+    """Hang from a hook, stand on both feet, on the first, on both, on the other, and so on, ending on both.
 
-    While both feet stand all joints hold still, so that both feet do, and the other foot's share of
-    the weight changes from what it was to nothing or all; it comes as a known touch. A simplification:
-    each foot bears its share of the whole wrench of the weight, moment included, so the pressure of
-    each stays below the centre of mass, be that under its sole or not. Joint motions and readings
-    are continuous from each movement to the next.
+    While weight is handed over, and as long as both feet are down, all joints hold still, so that feet and hook do. On
+    both feet the robot is borne by the wrenches of least cost beside slow pushes of the feet against each other, as in
+    `standing_movement`. A simplification: the hook, and a foot that bears all, bear as if they were bolted to the
+    robot and the ground; the pressure of a foot that bears all is below the weight, be that under its sole or not.
 
     Args:
-        stand: The robot on the foot that stands first; at rest it stands on both.
-        other: Link of the other foot, whose frame the touch is in.
-        rng: Source of the postures on one foot.
-        trunk: Link that both legs hang on; the last link that both feet hang on in the URDF if None.
+        stance: The robot on both feet; the foot of its stand bears first.
+        rng: Source of the postures and pushes.
+        hook: Link that the robot hangs from before it stands; it does not hang if None.
         steps: How often the robot stands on one foot.
-        shift_s: How long a shift of the weight takes; s.
-        postures: How many postures on one foot each time.
-        candidates: How many random postures each is chosen from.
+        postures: How many postures while it hangs, and on one foot each time.
+        candidates: How many random postures each of those on one foot is chosen from.
+        still_s: How long it rests before and after it moves, and in each double support; s.
+        shift_s: How long weight takes to be handed over; s.
+        internal_force_N: How much the feet push against each other along each axis at most; N.
+        name: Name of the movement.
 
     Returns:
-        The movements in turn, `2 * steps + 1` of them, in one common world; each counts its own seconds from 0.
+        The movement. Its `phases` are `hanging` and `landing`, if there is a hook, `double_1`, the first foot's link,
+        `double_2`, the other's and so on. Feet and hook are its touches; the trunk, which is carried, bears nothing.
 
     Raises:
-        ShapeError: If there is no step, or a shift takes no time.
+        RobotError: If there is no such hook, or it is part of a leg, or a joint is out of its range.
+        ShapeError: If there is no step, a time is not positive, or the force is negative.
     """
-    if steps < 1 or not 0.0 < shift_s < np.inf:
-        raise ShapeError(f"expected at least one step and a positive shift_s, got {steps} and {shift_s}")
-    feet = _both_feet(stand, other)
-    movements = []
-    share = 0.5  # of the foot that will be free
-    for step in range(steps):
-        (here, world_H_here), (there, _) = feet[step % 2], feet[(step + 1) % 2]
-        movements.append(_shift(here, world_H_here, there, (share, 0.0), shift_s, number=step))
-        chosen = balancing_postures(here, there.support, rng=rng, trunk=trunk, postures=postures, candidates=candidates)
-        trajectory = here.through(np.vstack([here.rest, chosen, here.rest]))
-        title = f"{step + 1} on {here.support}"
-        movements.append(
-            here.movement(
-                title,
-                MovementKind.CONTACT_SWITCHING,
-                trajectory,
-                trajectory.duration_s,
-                world_H_support=world_H_here,
+    if steps < 1 or not (0.0 < shift_s < np.inf and 0.0 < still_s < np.inf):
+        raise ShapeError(
+            f"expected at least one step and positive shift_s and still_s, got {steps}, {shift_s:g} and {still_s:g}"
+        )
+    feet, trunk = stance.feet, stance.legs.trunk
+    resting = _Resting(stand=stance.resting(), world_H_first=stance.world_H_feet[0])
+    course = Course(stand=resting.stand, still_s=still_s, shift_s=shift_s)
+    if hook is not None:
+        _require_trunk_link(stance, hook)
+        course.move_through(_hanging_postures(stance, resting.held_at(hook), rng=rng, postures=postures))
+        course.end_phase("hanging", PhaseKind.HANGING, [hook])
+        course.hand_over(hook, -1.0)
+        course.end_phase("landing", PhaseKind.LANDING, [hook, *feet])
+    singles = [feet[step % 2] for step in range(steps)]
+    for number, (lands, bears) in enumerate(pairwise([None, *singles, None]), start=1):
+        _stand_on_both(course, feet, lands=None if lands is None else _other(feet, lands), bears=bears)
+        course.end_phase(f"double_{number}", PhaseKind.DOUBLE_SUPPORT, feet)
+        if bears is None:
+            break
+        course.move_through(
+            balancing_postures(
+                resting.held_at(bears),
+                _other(feet, bears),
+                rng=rng,
+                trunk=trunk,
+                postures=postures,
+                candidates=candidates,
             )
         )
-        share = 1.0
-    (here, world_H_here), (there, _) = feet[(steps - 1) % 2], feet[steps % 2]
-    movements.append(_shift(here, world_H_here, there, (0.0, 0.5), shift_s, number=steps))
-    return tuple(movements)
-
-
-def _both_feet(stand: Stand, other: str) -> tuple[tuple[Stand, FloatArray], tuple[Stand, FloatArray]]:
-    """The robot on either foot, and the pose of that foot in one world."""
-    at_rest = JointMotion.at_rest(stand.joints, stand.rest[None])
-    support_H_other = link_pose(stand.tree, at_rest, other)[0]
-    on_other = replace(stand, support=other, gravity_direction=support_H_other[:3, :3].T @ stand.gravity_direction)
-    return (stand, stand.world_H_support), (on_other, stand.world_H_support @ support_H_other)
-
-
-def _shift(
-    here: Stand, world_H_here: FloatArray, there: Stand, shares: tuple[float, float], shift_s: float, *, number: int
-) -> Movement:
-    """Hold still on one foot while the other's share of the weight changes."""
-    still = here.through(here.rest[None])
-    whole = weight_at_support(here, here.rest[None])[0]
-    at_rest = JointMotion.at_rest(here.joints, here.rest[None])
-    there_H_here = invert_pose(link_pose(here.tree, at_rest, there.support)[0])
-    weight = ShiftedWeight(
-        wrench=transform_wrench(there_H_here, whole), start=shares[0], end=shares[1], duration_s=shift_s
+        label = bears if steps <= len(feet) else f"{bears}_{(number + 1) // 2}"
+        course.end_phase(label, PhaseKind.SINGLE_SUPPORT, [bears])
+    trajectory = course.trajectory()
+    unloaded = Movement(
+        name=name,
+        kind=MovementKind.CONTACT_SWITCHING,
+        model=stance.stand.model,
+        support=trunk,
+        world_H_support=resting.pose(trunk),
+        duration_s=course.clock_s,
+        trajectory=trajectory,
+        carriage=Footing(link=trunk, joints=trajectory, footholds=resting.footholds(course)),
+        gravity=stance.stand.gravity,
+        phases=tuple(course.phases),
     )
-    touch = Touch(Contact(link=there.support, type=ContactType.KNOWN), weight)
-    title = f"{number} on both, {here.support} and {there.support}"
-    return here.movement(
-        title,
-        MovementKind.CONTACT_SWITCHING,
-        still,
-        shift_s,
-        external=(touch,),
-        world_H_support=world_H_here,
-    )
+    first, second = (course.share(foot) for foot in feet)
+    return FootLoads(
+        unloaded=unloaded,
+        feet=feet,
+        shares=lambda seconds: np.stack([first(seconds), second(seconds)], axis=1),
+        pushes=internal_pushes(feet, internal_force_N, duration_s=course.clock_s, rng=rng),
+        hook=None if hook is None else Hook(link=hook, share=course.share(hook)),
+    ).borne()
+
+
+def _stand_on_both(course: Course, feet: tuple[str, str], *, lands: str | None, bears: str | None) -> None:
+    """Let a foot that was free take its load, rest, and let the foot give its load away that will be free."""
+    if lands is not None:
+        course.hand_over(lands, 1.0)
+    course.rest()
+    if bears is not None:
+        course.hand_over(_other(feet, bears), -1.0)
+
+
+def _other(feet: tuple[str, str], foot: str) -> str:
+    return feet[1] if foot == feet[0] else feet[0]
+
+
+def _require_trunk_link(stance: Stance, hook: str) -> None:
+    """Refuse a hook on a leg: legs are to be free."""
+    model, legs = stance.stand.model, {*stance.legs.support, *stance.legs.swing}
+    if hook not in model.links:
+        raise RobotError(f"hook: robot {model.name!r} has no link {hook!r}; {known_names(hook, model.links)}")
+    between = [joint for joint in joints_between(stance.tree, hook) if joint in legs]
+    if between:
+        raise RobotError(
+            f"hook: expected a link that no leg moves, {hook!r} hangs on {', '.join(between)}; name one of the trunk"
+        )
+
+
+def _hanging_postures(stance: Stance, hanging: Stand, *, rng: np.random.Generator, postures: int) -> FloatArray:
+    """Postures in the air; shape (postures, j); rad or m."""
+    if postures < 1:
+        raise ShapeError(f"expected at least one posture, got {postures}")
+    drawn = np.tile(hanging.rest, (postures, 1))
+    legs = (*stance.legs.support, *stance.legs.swing)
+    for joints, share in ((legs, _LEGS_SHARE), (stance.legs.others, _OTHERS_SHARE)):
+        low, high = hanging.around_rest(joints, share)
+        drawn[:, hanging.columns(joints)] = rng.uniform(low, high, (postures, len(joints)))
+    return drawn

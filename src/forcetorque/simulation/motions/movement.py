@@ -25,6 +25,8 @@ from forcetorque.robot import (
     motion_of_link,
 )
 from forcetorque.simulation.motions.carriage import Carriage
+from forcetorque.simulation.motions.footing import Footing
+from forcetorque.simulation.motions.phase import Phase
 
 
 class MovementKind(StrEnum):
@@ -79,10 +81,12 @@ class Movement:
     """From instants (n,) in s to the motion of all joints that are free, with exact derivatives."""
     external: tuple[Touch, ...] = ()
     """Touches beside the support."""
-    carriage: Carriage | None = None
+    carriage: Carriage | Footing | None = None
     """How the support is carried; None if it stands still."""
     gravity: float = STANDARD_GRAVITY
     """Magnitude of gravity; m/s2."""
+    phases: tuple[Phase, ...] = ()
+    """Spans in which other links touch, in turn and without gaps; none if the same may touch all the time."""
     tree: BodyTree = field(init=False)
     """The robot rooted at the support."""
 

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Final
 
 import numpy as np
@@ -13,14 +13,14 @@ from forcetorque.arrays import FloatArray, read_only
 from forcetorque.errors import RobotError, ShapeError
 from forcetorque.robot import BodyTree, JointMotion, build_tree, link_pose
 from forcetorque.simulation.motions.carriage import CARRIAGE_JOINTS, Carriage, carried_poses
-from forcetorque.simulation.motions.foot_loads import FootLoads
+from forcetorque.simulation.motions.foot_loads import FootLoads, internal_pushes
 from forcetorque.simulation.motions.inverse_kinematics import joints_reaching
 from forcetorque.simulation.motions.legs import Legs, legs_of
 from forcetorque.simulation.motions.movement import Movement, MovementKind
 from forcetorque.simulation.motions.spline import Spline
 from forcetorque.simulation.motions.stand import Stand, shortest_turn_down
 from forcetorque.simulation.motions.steps import Steps
-from forcetorque.spatial import WRENCH_COMPONENTS, invert_pose, make_pose, rotation_about_z
+from forcetorque.spatial import invert_pose, make_pose, rotation_about_z
 
 _LEG_JOINTS: Final = 6
 """Joints of a leg: as many as a pose has coordinates, so that the trunk and the feet settle them."""
@@ -35,8 +35,6 @@ _ANKLE, _RELAXED = slice(-2, None), 0.5
 bend them beyond."""
 _OVERSHOOT = 1.1
 """Room that joints of trunk and arms keep beside the part of their range that they use."""
-_PUSH_LEVER_M, _PUSH_PERIOD_S = 0.1, 2.0
-"""Internal moments over internal forces, and time from target to target of both."""
 _REPLACED = np.array([0.02, 0.015, 0.15])
 """How far a foot is shifted forwards and sideways, and turned, at most, either way; m, m, rad."""
 
@@ -99,6 +97,23 @@ class Stance:
         """Links of both feet."""
         return self.stand.support, self.other
 
+    def resting(self) -> Stand:
+        """Give the robot in the posture in which it rests on both feet.
+
+        Returns:
+            The robot on its first foot, level.
+
+        Raises:
+            RobotError: If a joint is beyond its range there.
+        """
+        others = self.stand.rest[self.stand.columns(self.legs.others)]
+        (posture,) = self._postures(np.zeros((1, len(CARRIAGE_JOINTS))), others[None], at=np.zeros(1))
+        return replace(
+            self.stand,
+            posture=dict(zip(self.stand.joints, posture, strict=True)),
+            gravity_direction=-self.world_H_feet[0, 2, :3],
+        )
+
     def others_moving(self, *, share: float, duration_s: float, period_s: float, rng: np.random.Generator) -> Spline:
         """Move all joints but those of the legs at random, around their rest or as near to it as their range allows.
 
@@ -153,12 +168,12 @@ class Stance:
             RobotError: If a foot is out of reach, or a joint beyond its limits.
             ShapeError: If the force is negative.
         """
-        if not 0.0 <= internal_force_N < np.inf:
-            raise ShapeError(f"internal_force_N: expected a force of at least 0 N, got {internal_force_N:g}")
+        pushes = internal_pushes(self.feet, internal_force_N, duration_s=duration_s, rng=rng)
         # some samples more at either end, where splines are poor
         at = np.arange(-_SPARE_SAMPLES, round(duration_s * _SAMPLES_HZ) + _SPARE_SAMPLES + 1) / _SAMPLES_HZ
         carried = Spline(names=CARRIAGE_JOINTS, seconds=at, values=trunk(at))
-        joints = self._following(at, carried(at), others(at), steps)
+        postures = self._postures(carried(at), others(at), at=at, steps=steps)
+        joints = Spline(names=self.stand.joints, seconds=at, values=postures)
         self._require_limits(name, joints)
         unloaded = Movement(
             name=name,
@@ -171,9 +186,6 @@ class Stance:
             carriage=Carriage(displacement=carried.motion),
             gravity=self.stand.gravity,
         )
-        reach = np.tile(np.repeat([1.0, _PUSH_LEVER_M], 3), 2) * internal_force_N
-        names = tuple(f"{foot} {component}" for foot in self.feet for component in WRENCH_COMPONENTS)
-        pushes = Spline.towards_targets(names, reach, duration_s=duration_s, period_s=_PUSH_PERIOD_S, rng=rng)
         shares = _both if steps is None else steps.shares
         return FootLoads(unloaded=unloaded, feet=self.feet, shares=shares, pushes=pushes).borne()
 
@@ -184,8 +196,10 @@ class Stance:
         posture[self.stand.columns(legs)] = [self.stand.posture.get(joint, 0.0) for joint in legs]
         return posture
 
-    def _following(self, at: FloatArray, trunk: FloatArray, others: FloatArray, steps: Steps | None) -> Spline:
-        """Positions of all free joints with which the feet are where the steps want them."""
+    def _postures(
+        self, trunk: FloatArray, others: FloatArray, *, at: FloatArray, steps: Steps | None = None
+    ) -> FloatArray:
+        """Positions of all free joints with which the feet are where the steps want them; shape (n, j)."""
         trunk_H_world = invert_pose(_carried(trunk, self.world_H_trunk))
         shifts = np.zeros((2, len(at), 6)) if steps is None else steps.displacements(at)
         lifts = np.zeros((len(at), 2)) if steps is None else steps.lifts(at)
@@ -202,7 +216,7 @@ class Stance:
             leg = joints_reaching(self.tree, joints, foot, wanted, start=start)
             leg[:, _ANKLE] += _RELAXED * lift[:, None] * (middle - leg)[:, _ANKLE]
             posture[:, columns] = leg
-        return Spline(names=self.stand.joints, seconds=at, values=posture)
+        return posture
 
     def _require_limits(self, name: str, joints: Spline) -> None:
         for joint, position in zip(joints.names, joints.values.T, strict=True):

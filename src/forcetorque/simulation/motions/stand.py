@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from types import MappingProxyType
 
@@ -95,6 +95,21 @@ class Stand:
             low, high = self.ranges[joint]
             return float(low), float(high)
         return joint_range(self.model, self.tree, joint, margin=self.margin)
+
+    def around_rest(self, joints: Sequence[str], share: float) -> FloatArray:
+        """Give a part of the joints' ranges around their rest.
+
+        Args:
+            joints: Free joints.
+            share: Share of the way from rest to either end of the range.
+
+        Returns:
+            Lowest and highest positions; shape (2, joints); rad or m.
+        """
+        rest = self.rest[self.columns(joints)]
+        limits = np.array([self.range_of(joint) for joint in joints]).reshape(-1, 2).T
+        bounds: FloatArray = rest + share * (limits - rest)
+        return bounds
 
     def columns(self, joints: Iterable[str]) -> list[int]:
         """Find the columns of joints in postures.

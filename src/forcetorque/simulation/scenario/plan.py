@@ -18,7 +18,7 @@ from forcetorque.simulation.motions import (
     Stance,
     Stand,
     balancing_movement,
-    contact_switching_movements,
+    contact_switching_movement,
     grid_movement,
     random_movement,
     random_placement,
@@ -61,8 +61,8 @@ class Plan:
     """Name of the recording."""
     entry: Recorded
     """What the file says of it."""
-    number: tuple[int, int]
-    """Place of its entry in the file, and phase of its motion."""
+    index: int
+    """Place of its entry in the file."""
     start_ns: int
     """When it starts; ns."""
     movement: Movement
@@ -79,7 +79,7 @@ class Plan:
         Returns:
             Joints, loads and the IMU's motion at the instants at which they are read.
         """
-        rng = np.random.default_rng([seed, _STAMPS, *self.number])
+        rng = np.random.default_rng([seed, _STAMPS, self.index, 0])
         return trace_movement(
             self.movement,
             sensors,
@@ -87,6 +87,7 @@ class Plan:
             rng=rng,
             start_ns=self.start_ns,
             imu_link=imu_link,
+            exact=self.entry.exact,
         )
 
 
@@ -98,17 +99,14 @@ def plan_recordings(content: ScenarioFile, model: RobotModel) -> Iterator[Plan]:
         model: Its robot, with its added loads.
 
     Yields:
-        Recordings to make; a motion of several phases gives one for each, named with its number.
+        Recordings to make.
     """
     for index, entry in enumerate(content.recording):
         rng = np.random.default_rng([content.seed, _MOVEMENTS, index])
         placement = _placement(content.seed, entry.motion.placement)
-        movements = _movements(entry, model, gravity=content.robot.gravity, rng=rng, placement=placement)
+        movement = _movement(entry, model, gravity=content.robot.gravity, rng=rng, placement=placement)
         start_ns = EPOCH_NS + entry.power_up * _DAY_NS + index * _HOUR_NS
-        for phase, movement in enumerate(movements):
-            name = entry.name if len(movements) == 1 else f"{entry.name}_{phase}"
-            yield Plan(name=name, entry=entry, number=(index, phase), start_ns=start_ns, movement=movement)
-            start_ns += round(movement.duration_s * 1e9)
+        yield Plan(name=entry.name, entry=entry, index=index, start_ns=start_ns, movement=movement)
 
 
 @lru_cache(maxsize=1)  # one sensor after the other is drawn for the same motions
@@ -140,9 +138,9 @@ def _placement(seed: int, number: int) -> FloatArray:
     return random_placement(np.random.default_rng([seed, _PLACEMENTS, number]))
 
 
-def _movements(
+def _movement(
     entry: Recorded, model: RobotModel, *, gravity: float, rng: np.random.Generator, placement: FloatArray
-) -> tuple[Movement, ...]:
+) -> Movement:
     motion = entry.motion
     stand = Stand(
         model=model,
@@ -153,18 +151,26 @@ def _movements(
     )
     sensor, swing = motion.sensor or "", motion.swing or ""
     if motion.kind is MovementKind.GRID:
-        return (grid_movement(stand, sensor, steps=motion.postures or 7, hold_s=motion.hold_s, name=entry.name),)
+        return grid_movement(stand, sensor, steps=motion.postures or 7, hold_s=motion.hold_s, name=entry.name)
     if motion.kind is MovementKind.Z_TORQUE:
         postures = motion.postures or 12
-        return (z_torque_movement(stand, sensor, rng=rng, postures=postures, hold_s=motion.hold_s, name=entry.name),)
+        return z_torque_movement(stand, sensor, rng=rng, postures=postures, hold_s=motion.hold_s, name=entry.name)
     if motion.kind is MovementKind.BALANCING:
         postures = motion.postures or 12
-        return (balancing_movement(stand, swing, rng=rng, postures=postures, hold_s=motion.hold_s, name=entry.name),)
+        return balancing_movement(stand, swing, rng=rng, postures=postures, hold_s=motion.hold_s, name=entry.name)
     if motion.kind is MovementKind.CONTACT_SWITCHING:
-        return contact_switching_movements(stand, swing, rng=rng)
+        return contact_switching_movement(
+            Stance(stand=stand, other=swing, placement=placement),
+            rng=rng,
+            hook=motion.hook,
+            postures=motion.postures or 3,
+            still_s=motion.still_s,
+            internal_force_N=motion.internal_force_N,
+            name=entry.name,
+        )
     duration = motion.duration_s or 0.0
     if motion.kind in _ON_BOTH_FEET:
         stance = Stance(stand=stand, other=swing, placement=placement)
         force, move = motion.internal_force_N, _ON_BOTH_FEET[motion.kind]
-        return (move(stance, rng=rng, duration_s=duration, internal_force_N=force, name=entry.name),)
-    return (random_movement(stand, rng=rng, duration_s=duration, slowest_hz=motion.slowest_hz, name=entry.name),)
+        return move(stance, rng=rng, duration_s=duration, internal_force_N=force, name=entry.name)
+    return random_movement(stand, rng=rng, duration_s=duration, slowest_hz=motion.slowest_hz, name=entry.name)

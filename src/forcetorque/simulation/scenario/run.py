@@ -11,7 +11,8 @@ from typing import Any
 import numpy as np
 
 from forcetorque.errors import FormatError, RobotError, known_names
-from forcetorque.recording import Recording, Use
+from forcetorque.recording import Recording, Signal, Stream, Use
+from forcetorque.recording.alignment import seconds_since
 from forcetorque.robot import RobotModel, read_urdf
 from forcetorque.simulation.imu import SimulatedImu
 from forcetorque.simulation.load import with_load
@@ -23,6 +24,7 @@ from forcetorque.simulation.scenario.schema import Imu, RobotErrorSizes, Scenari
 from forcetorque.simulation.scenario.specimen import Specimen, draw_specimen
 from forcetorque.simulation.sensor import SimulatedSensor
 from forcetorque.simulation.trace import Trace
+from forcetorque.spatial import WRENCH_COMPONENTS, WRENCH_UNITS
 from forcetorque.toml_table import read_toml
 
 _SENSORS, _POWER_UPS, _NOISE, _IMU, _ROBOT = 1, 2, 6, 8, 9
@@ -71,6 +73,8 @@ class SimulatedRecording:
     """What was recorded."""
     movement: Movement
     """What the robot did."""
+    start_ns: int
+    """When it started to; ns."""
     sensors: dict[str, SimulatedSensor]
     """The sensors, with the offsets of this power-up."""
     use: Use
@@ -79,6 +83,28 @@ class SimulatedRecording:
     """Kind of data to a study."""
     session: str
     """Session to a study."""
+
+    def contacts(self) -> Recording:
+        """Give what the world truly did to the robot.
+
+        Returns:
+            A stream for every touch beside the support, by its name, at the stamps of the joints: the wrench in the
+            frame of its link, zero where it does not touch; N, N m. None for a robot that only its support bears.
+        """
+        stamps = self.recording.stream("joints").stamp_ns
+        wrenches = self.movement.external_wrenches(seconds_since(stamps, self.start_ns))
+        streams = {}
+        for touch in self.movement.external:
+            name = touch.contact.name
+            wrench = Signal(
+                quantity="wrench",
+                values=wrenches.of_name(name),
+                columns=WRENCH_COMPONENTS,
+                units=WRENCH_UNITS,
+                frame=touch.contact.link,
+            )
+            streams[name] = Stream(name=name, clock="simulation", stamp_ns=stamps, signals={"wrench": wrench})
+        return Recording(streams=streams, origin=dict(self.recording.origin))
 
 
 def load_scenario(path: Path | str) -> Scenario:
@@ -156,7 +182,7 @@ def simulate(scenario: Scenario, traces: Mapping[str, Trace] | None = None) -> I
             names; computed one after the other if None.
 
     Yields:
-        Recordings; a motion of several phases gives one for each, named with its number.
+        Recordings.
 
     Raises:
         RobotError: If a trace is one of other motions, or lacks a sensor.
@@ -168,7 +194,7 @@ def simulate(scenario: Scenario, traces: Mapping[str, Trace] | None = None) -> I
         sensors = _powered_up(scenario, plan.entry.power_up)
         recording = trace.recorded(
             sensors,
-            rng=np.random.default_rng([scenario.file.sensor_seed, _NOISE, *plan.number]),
+            rng=np.random.default_rng([scenario.file.sensor_seed, _NOISE, plan.index, 0]),
             temperature_degC=plan.entry.temperature_degC,
             imu=scenario.imu,
         )
@@ -176,6 +202,7 @@ def simulate(scenario: Scenario, traces: Mapping[str, Trace] | None = None) -> I
             name=plan.name,
             recording=recording,
             movement=plan.movement,
+            start_ns=plan.start_ns,
             sensors=sensors,
             use=plan.entry.use,
             kind=plan.entry.kind or plan.movement.kind.value,

@@ -16,7 +16,7 @@ from forcetorque.array_field import ArrayField
 from forcetorque.arrays import FloatArray
 from forcetorque.constants import STANDARD_GRAVITY
 from forcetorque.recording import Use
-from forcetorque.simulation.motions import INTERNAL_FORCE_N, MovementKind
+from forcetorque.simulation.motions import INTERNAL_FORCE_N, STILL_S, MovementKind
 from forcetorque.toml_table import Finite, Positive, Table, Text
 
 _Count = Annotated[int, Field(ge=0, strict=True)]
@@ -103,6 +103,18 @@ class WorkbenchError(Table):
         return self.mean_force_N + self.mean_moment_Nm
 
 
+class MatrixErrorSize(Table):
+    """How wrong the workbench matrix of every mounted sensor is, in place of all that mounting does.
+
+    It reads a true wrench w as `(1 + E) w`; E is drawn for each sensor, and has this size for each.
+    """
+
+    share: Annotated[float, Field(ge=0.0, lt=1.0, strict=True)]
+    """Root mean square of the coefficients of E, moments over the lever taken for forces."""
+    lever_m: Positive = 0.07
+    """Moment over force, about that of the mean errors in thesis Table 5.7; m."""
+
+
 class Sensors(Table):
     """What every sensor is made of; figures of the spread between sensors are standard deviations."""
 
@@ -141,10 +153,26 @@ class Sensors(Table):
     """Relative change of an in-plane channel where the rim is tighter by 2 N m; even screws change nothing."""
     mounting_spread: _AtLeastZero = 0.0
     """Random change of each coefficient that mounting adds, relative to its row."""
+    step_counts: _AtLeastZero = 1.0
+    """Step of the converter; 0 for none."""
     limit_counts: Annotated[int, Field(gt=0, strict=True)] = 32767
     """Magnitude at which a channel is saturated."""
     workbench_error: WorkbenchError | None = None
     """How much the workbench matrix of one sensor errs; as it is drawn if left out."""
+    matrix_error: MatrixErrorSize | None = None
+    """Size of the error of every workbench matrix; what mounting makes of it if left out."""
+
+    @model_validator(mode="after")
+    def _one_error_of_the_matrix(self) -> Sensors:
+        if self.matrix_error is not None and (
+            self.mounting_spread or self.mounting_strength or self.workbench_error is not None
+        ):
+            raise PydanticCustomError(
+                "matrix_error",
+                "matrix_error stands for all that mounting does; leave it out, or mounting_spread, mounting_strength "
+                "and workbench_error",
+            )
+        return self
 
 
 LINEAR_ONLY: Mapping[str, Any] = MappingProxyType(
@@ -160,6 +188,16 @@ LINEAR_ONLY: Mapping[str, Any] = MappingProxyType(
 noise: nothing saturates, lags, creeps or is quadratic. Matrices, offsets and linear drift are drawn as without them."""
 
 
+_NEEDS_IMU = (MovementKind.STEPPING, MovementKind.CONTACT_SWITCHING)
+"""Motions in which at times nobody knows what which foot bears."""
+
+
+UNDISTURBED: Mapping[str, Any] = MappingProxyType(
+    {**LINEAR_ONLY, "noise_counts": 0.0, "step_counts": 0.0, "drift_counts_per_degC": 0.0}
+)
+"""Changes of `Sensors` after which a matrix and an offset per power-up tell all."""
+
+
 class Motion(Table):
     """What the robot does."""
 
@@ -170,21 +208,27 @@ class Motion(Table):
     swing: Text | None = None
     """balancing: link at the end of the leg that moves; contact_switching, standing, sway, squat, stepping: the other
     foot."""
+    hook: Text | None = None
+    """contact_switching: link that the robot hangs from before it stands; it does not hang if left out."""
     duration_s: Positive | None = None
     """random, standing, sway, squat, stepping: how long it takes."""
     speed: Positive = 0.5
     """Largest speed of any joint; rad/s or m/s."""
     postures: Annotated[int, Field(gt=1, strict=True)] | None = None
-    """grid: steps of each joint; z_torque, balancing: number of postures."""
+    """grid: steps of each joint; z_torque, balancing: number of postures; contact_switching: while it hangs, and each
+    time that it stands on one foot."""
     hold_s: _AtLeastZero = 0.0
     """grid, z_torque, balancing: rest at every posture."""
+    still_s: Positive = STILL_S
+    """contact_switching: rest before and after it moves, and on both feet each time."""
     slowest_hz: Positive = 0.1
     """random: about the frequency of the slowest sine."""
     placement: _Count = 0
-    """standing, sway, squat, stepping: recordings of one number have their feet in the same places; 0 has them below
-    the hips."""
+    """contact_switching, standing, sway, squat, stepping: recordings of one number have their feet in the same places;
+    0 has them below the hips."""
     internal_force_N: _AtLeastZero = INTERNAL_FORCE_N
-    """standing, sway, squat, stepping: how much the feet push against each other along each axis at most."""
+    """contact_switching, standing, sway, squat, stepping: how much the feet push against each other along each axis at
+    most."""
 
     @model_validator(mode="after")
     def _has_what_it_needs(self) -> Motion:
@@ -222,6 +266,9 @@ class Recorded(Table):
     """Recordings of one number share their offsets: the board was not switched off in between."""
     rate_hz: Positive = 100.0
     """Rate of every stream."""
+    exact: bool = False
+    """Whether all streams have the same even stamps, joints no steps of encoders, and joints and IMU all their
+    derivatives; noise of sensors is theirs."""
     temperature_degC: tuple[Finite, Finite] | None = None
     """Temperature at the start and at the end."""
 
@@ -281,6 +328,21 @@ class ScenarioFile(Table):
         content["sensors"] |= changes
         return ScenarioFile.model_validate(content)
 
+    def exact(self) -> ScenarioFile:
+        """Describe the same motions and sensors without anything that disturbs them.
+
+        Returns:
+            The file without noise, steps and limits of converters and encoders, drift, creep, cross-talk, errors of
+            the robot, and bias of the IMU. Matrices, their errors and offsets stay: a true wrench w is read as
+            `(1 + E) w + bias`.
+        """
+        content = self.with_sensors(**UNDISTURBED).model_dump(by_alias=True)
+        content["robot_errors"] = None
+        content["imu"] = None if self.imu is None else {"link": self.imu.link}
+        for entry in content["recording"]:
+            entry["exact"] = True
+        return ScenarioFile.model_validate(content)
+
     @model_validator(mode="after")
     def _has_what_the_error_is_taken_over(self) -> ScenarioFile:
         if self.sensors.workbench_error is not None and all(r.use is not Use.VALIDATION for r in self.recording):
@@ -291,8 +353,11 @@ class ScenarioFile(Table):
     @model_validator(mode="after")
     def _has_the_imu_that_it_needs(self) -> ScenarioFile:
         for entry in self.recording:
-            if entry.motion.kind is MovementKind.STEPPING and self.imu is None:
-                message = f"recording {entry.name!r}: no foot stands all the time in a stepping motion; it needs [imu]"
+            if entry.motion.kind in _NEEDS_IMU and self.imu is None:
+                message = (
+                    f"recording {entry.name!r}: no foot stands all the time in a {entry.motion.kind} motion; it "
+                    "needs [imu]"
+                )
                 raise PydanticCustomError("imu", "{message}", {"message": message})
         if self.imu is not None and self.network is not None:
             message = "no port of a [network] carries an [imu] yet; leave out one of them"

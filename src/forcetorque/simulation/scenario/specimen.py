@@ -12,6 +12,7 @@ from forcetorque.arrays import FloatArray, read_only
 from forcetorque.errors import FormatError, known_names
 from forcetorque.simulation.effects import Creep, Crosstalk, ScrewPattern, ThermalDrift, mounted
 from forcetorque.simulation.family import CHANNEL_ANGLES, FAMILIES, IN_PLANE
+from forcetorque.simulation.matrix_error import mounted_matrix, random_matrix_error
 from forcetorque.simulation.scenario.schema import Sensors
 from forcetorque.simulation.scenario.workbench_error import mounted_with_error
 from forcetorque.simulation.sensor import SimulatedSensor, distorted_by_mounting
@@ -73,13 +74,18 @@ def draw_specimen(
     sensitivity = FAMILIES[described.family].draw(rng)
     torque = np.array(described.screw_torque_Nm)
     screws = ScrewPattern(angle_rad=2.0 * np.pi * np.arange(len(torque)) / len(torque), torque_Nm=torque)
-    bent = mounted(
-        sensitivity, screws, arm_angle_rad=CHANNEL_ANGLES, in_plane=IN_PLANE, strength=described.mounting_strength
-    )
-    matrix = distorted_by_mounting(
-        np.asarray(np.linalg.inv(bent), dtype=np.float64), relative=described.mounting_spread, rng=rng
-    )
     workbench = np.asarray(np.linalg.inv(sensitivity), dtype=np.float64)
+    if described.matrix_error is None:
+        bent = mounted(
+            sensitivity, screws, arm_angle_rad=CHANNEL_ANGLES, in_plane=IN_PLANE, strength=described.mounting_strength
+        )
+        matrix = distorted_by_mounting(
+            np.asarray(np.linalg.inv(bent), dtype=np.float64), relative=described.mounting_spread, rng=rng
+        )
+    else:
+        share, lever_m = described.matrix_error.share, described.matrix_error.lever_m
+        where = f"sensors.matrix_error: expected what mounting can do, got a share of {share:g}"
+        matrix = mounted_matrix(where, workbench, random_matrix_error(share, lever_m, rng))
     if described.workbench_error is not None and loads is not None:
         wanted = described.workbench_error.mean_absolute
         matrix = mounted_with_error(workbench, matrix, loads, mean_absolute=wanted)
@@ -92,6 +98,7 @@ def draw_specimen(
             offset=-matrix @ (described.offset_counts * rng.standard_normal(6)),
             noise_counts=described.noise_counts,
             noise_corner_hz=described.noise_corner_hz,
+            step_counts=described.step_counts,
             limit_counts=described.limit_counts,
             drift=_drift(described, rng),
             creep=Creep(share=described.creep_share, time_constant_s=described.creep_time_s)

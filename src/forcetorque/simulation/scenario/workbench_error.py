@@ -10,6 +10,7 @@ import numpy as np
 
 from forcetorque.arrays import FloatArray, read_only
 from forcetorque.errors import FormatError
+from forcetorque.simulation.matrix_error import matrix_error, mounted_matrix
 from forcetorque.spatial import WRENCH_COMPONENTS, WRENCH_UNITS
 
 _LEAST_SHARE = 1e-6
@@ -27,7 +28,7 @@ def workbench_errors(workbench: FloatArray, mounted: FloatArray, changes: Sequen
     Returns:
         Measured minus true wrenches of all recordings; shape (sum of n, 6); N, N m.
     """
-    errors: FloatArray = np.concatenate(list(changes)) @ _relative_error(workbench, mounted).T
+    errors: FloatArray = np.concatenate(list(changes)) @ matrix_error(workbench, mounted).T
     return errors
 
 
@@ -37,11 +38,8 @@ def mounted_with_error(
     """Scale what mounting did to a sensor until its workbench matrix errs by as much as is wanted.
 
     A true wrench w is read as `(1 + E) w`, where `1 + E = workbench mounted^-1`. Every row of E is
-    scaled, so each component of the error keeps its course in time and changes in size only. The
-    matrix that moves is the mounted one: mounting is what changes a sensor, while the workbench
-    matrix stays one that scatters like those of real sensors. Counts follow, since
-    `mounted^-1 = workbench^-1 (1 + E)`. This is exact, because true loads do not depend on the
-    sensor.
+    scaled, so each component of the error keeps its course in time and changes in size only. This is
+    exact, because true loads do not depend on the sensor.
 
     Args:
         workbench: Matrix of the workbench; shape (6, 6); N/count, N m/count.
@@ -65,19 +63,6 @@ def mounted_with_error(
                 "that could be scaled; set mounting_spread or uneven screws, and recordings that load the sensor"
             )
     scale = np.divide(wanted, drawn, out=np.zeros(6), where=wanted > 0.0)
-    error = scale[:, None] * _relative_error(workbench, mounted)
-    # between no error and this one the sensor is singular somewhere if a real eigenvalue reaches -1
-    values = np.linalg.eigvals(error)
-    if ((values.imag == 0.0) & (values.real <= -1.0)).any():
-        raise FormatError(
-            f"workbench_error: expected what mounting can do, got mean errors {wanted.tolist()} (N, N m), with which a "
-            "load would be read with the wrong sign; ask for less, or draw another sensor with another seed"
-        )
-    result: FloatArray = np.linalg.solve(np.eye(6) + error, workbench)
-    return result
-
-
-def _relative_error(workbench: FloatArray, mounted: FloatArray) -> FloatArray:
-    """E of `measured = (1 + E) true`; shape (6, 6)."""
-    error: FloatArray = workbench @ np.linalg.inv(mounted) - np.eye(6)
-    return error
+    error = scale[:, None] * matrix_error(workbench, mounted)
+    where = f"workbench_error: expected what mounting can do, got mean errors {wanted.tolist()} (N, N m)"
+    return mounted_matrix(where, workbench, error)
