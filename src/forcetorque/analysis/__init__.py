@@ -20,6 +20,8 @@ if TYPE_CHECKING:
     from forcetorque.analysis.campaign import Campaign, Runs
     from forcetorque.analysis.campaign_interval import CampaignInterval
     from forcetorque.analysis.candidate import JudgedCandidate
+    from forcetorque.analysis.coherence import coherence, force_error
+    from forcetorque.analysis.coherence_rows import Coherence, CoherenceSummary, OffsetOfSensor, PhaseForce
     from forcetorque.analysis.compare import Comparison, compare
     from forcetorque.analysis.contact_forces import ContactForceErrors, ContactForces, contact_forces
     from forcetorque.analysis.contest import Contest, contest
@@ -56,12 +58,14 @@ if TYPE_CHECKING:
     from forcetorque.analysis.judged import JudgedWrenches
     from forcetorque.analysis.learnt import LITTLE_LEARNT, LearntDirection, learnt_directions, learnt_words, to_learn
     from forcetorque.analysis.loads_of_use import loads_of_use
+    from forcetorque.analysis.offsets import offset_policies
     from forcetorque.analysis.payload import WeighedLoad, weigh_load
     from forcetorque.analysis.plan import Plan, plan, plan_sentence
     from forcetorque.analysis.plan_files import refuse_full_folder, write_plan
     from forcetorque.analysis.plan_rows import PlannedPosture, PlannedRecording
     from forcetorque.analysis.population import read_population
     from forcetorque.analysis.prior_comparison import Independence, PriorComparison, compare_with_prior
+    from forcetorque.analysis.reader_groups import read_candidates
     from forcetorque.analysis.reading import Correction
     from forcetorque.analysis.recording_moments import recording_moments, store_moments
     from forcetorque.analysis.response import Response, response
@@ -115,6 +119,8 @@ __all__ = [
     "CampaignInterval",
     "CandidateComparison",
     "CandidateErrors",
+    "Coherence",
+    "CoherenceSummary",
     "Comparison",
     "ContactForceErrors",
     "ContactForces",
@@ -157,6 +163,8 @@ __all__ = [
     "LayoutFindingRow",
     "LearntDirection",
     "Method",
+    "OffsetOfSensor",
+    "PhaseForce",
     "Plan",
     "PlannedPosture",
     "PlannedRecording",
@@ -213,6 +221,7 @@ __all__ = [
     "check",
     "check_patch",
     "check_skin",
+    "coherence",
     "compare",
     "compare_with_prior",
     "contact_forces",
@@ -234,7 +243,10 @@ __all__ = [
     "export_wholebodydynamics",
     "finding_rows",
     "finding_table",
+    "force_error",
     "frames_of_patches",
+    "offset_policies",
+    "read_candidates",
     "fuse_experiment",
     "group_trials",
     "inspect_experiment",

@@ -117,7 +117,7 @@ def with_policy(
         The correction with its offset, and where the recording gave that: once, or once per interval.
 
     Raises:
-        ExperimentError: As of `sensor_offset`; if joints that moments depend on are in no stream.
+        ExperimentError: As of `sensor_offset`.
         FitError: If there are too few samples to tell an error.
     """
     if policy.offset is Offset.FITTED:

@@ -10,6 +10,7 @@ import typer
 
 from forcetorque.cli.accept import accept
 from forcetorque.cli.calibrate import calibrate
+from forcetorque.cli.coherence import coherence
 from forcetorque.cli.compare import compare
 from forcetorque.cli.contest import contest
 from forcetorque.cli.device import device
@@ -59,6 +60,7 @@ def _version(
 _COMMANDS = (
     accept,
     calibrate,
+    coherence,
     compare,
     device,
     contest,
