@@ -39,6 +39,7 @@ SHORT = ("--type", "OnTdTO", "--type", "CnTdTO", "--lambda", "0", "--lambda", "1
 COMMANDS = {
     "accept": ("accept", PARQUET, "--spec", "limits.toml", "-c", "fitted.json"),
     "calibrate": ("calibrate", PARQUET, "-o", "new.json", "--lambda", "5"),
+    "coherence": ("coherence", PARQUET, "-c", "fitted.json", "--offset", "fitted", "--offset", "none"),
     "compare": ("compare", PARQUET, "-c", "fitted.json"),
     "device": ("device",),
     "contest": ("contest", "wrist/contest.toml"),

@@ -36,8 +36,9 @@ from forcetorque.noise import mean_error
 from forcetorque.recording import Interval, MovingSupport, Use
 from forcetorque.robot import Wrenches
 
-FREE_SHARE, BEARING_SHARE = 0.06, 0.15
-"""Share of the weight below which a link is in the air, and above which it bears the robot."""
+FREE_SHARE, DOUBT_SHARE, BEARING_SHARE = 0.06, 0.15, 1.0 / 3.0
+"""Share of the weight below which a link that is said to touch is in the air; and of force that nothing explains, from
+which a link that is not said to touch may bear the robot, or a matrix err as much, and from which it does bear it."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -99,7 +100,7 @@ def coherence(
             )
     readers = [reader for policy in policies for reader in _readers(experiment, candidates or {}, policy)]
     rows = [row for reader in readers for row in _rows(experiment, reader, phases, weight)]
-    _refuse_wrong_contacts(phases, [reader for reader in readers if reader.policy.offset is not Offset.NONE], weight)
+    doubts = _contact_doubts(phases, [reader for reader in readers if reader.policy.offset is not Offset.NONE], weight)
     summary = tuple(_summary(rows))
     return Coherence(
         experiment=experiment.name,
@@ -108,7 +109,7 @@ def coherence(
         rows=tuple(sorted(rows, key=lambda row: _order(row, policies, phases))),
         offsets=tuple(row for reader in readers for row in _offset_rows(reader)),
         summary=summary,
-        warnings=tuple(_doubts(readers, summary)),
+        warnings=(*doubts, *_doubts(readers, summary)),
     )
 
 
@@ -290,8 +291,9 @@ def _summary(rows: Sequence[PhaseForce]) -> Iterator[CoherenceSummary]:
         )
 
 
-def _refuse_wrong_contacts(phases: Sequence[NetContact], readers: Sequence[_Reader], weight: float) -> None:
-    """Refuse links that are said to touch and do not, or the other way round, by whatever reads the sensors."""
+def _contact_doubts(phases: Sequence[NetContact], readers: Sequence[_Reader], weight: float) -> list[str]:
+    """Refuse links that are said to touch and do not, or the other way round, whatever reads them; name doubts."""
+    doubts = []
     for phase in phases:
         measured: list[Wrenches] = [phase.asked.measured(reader.corrections) for reader in readers]
         label = phase.asked.interval.label
@@ -307,11 +309,15 @@ def _refuse_wrong_contacts(phases: Sequence[NetContact], readers: Sequence[_Read
         left = [phase.unexplained(one) for one in measured]
         for name in left[0] if left else ():
             least = min(forces[name] for forces in left)
+            words = (
+                f"interval {label!r}: only {', '.join(phase.touching)} may touch, but {least:.1f} of {weight:.1f} N "
+                f"act on the robot beyond {name!r}"
+            )
             if least > BEARING_SHARE * weight:
-                raise ExperimentError(
-                    f"interval {label!r}: only {', '.join(phase.touching)} may touch, but {least:.1f} of {weight:.1f} "
-                    f"N act on the robot beyond {name!r}; name both feet in touched, or the other in [[contact]]"
-                )
+                raise ExperimentError(f"{words}; name both feet in touched, or the other in [[contact]]")
+            if least > DOUBT_SHARE * weight:
+                doubts.append(f"{words}: a sensor errs by as much, or another link touches")
+    return doubts
 
 
 def _doubts(readers: Sequence[_Reader], summary: Sequence[CoherenceSummary]) -> Iterator[str]:

@@ -16,12 +16,13 @@ STILL_RAD = 0.02
 """How far a joint may move in a second that counts as still; rad, m where it is prismatic. The weight of a robot turns
 by as much in the axes of its sensors: about a degree."""
 
-_SECOND_NS = 1_000_000_000
+_SECOND_NS, _STEP_NS = 1_000_000_000, 250_000_000
+"""Length of a second, and how far apart seconds begin."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class StillSeconds:
-    """Whole seconds of an interval, counted from its start, in which no logged joint moves."""
+    """Seconds of an interval, also ones that overlap, in which no logged joint moves."""
 
     start_ns: IntArray
     """When they begin; shape (k,); ns."""
@@ -60,7 +61,8 @@ def still_seconds(recording: Recording, interval: Interval) -> StillSeconds:
     Raises:
         ExperimentError: If there is none: where nothing is still, matrix and inertia speak with the offset.
     """
-    starts = interval.start_ns + _SECOND_NS * np.arange((interval.end_ns - interval.start_ns) // _SECOND_NS)
+    span = interval.end_ns - interval.start_ns
+    starts = interval.start_ns + _STEP_NS * np.arange(max(0, (span - _SECOND_NS) // _STEP_NS + 1))
     moved, joint = np.zeros(len(starts)), np.full(len(starts), "", dtype=object)
     for name, stamps, position in _logged(recording):
         travel = np.array([_travel(position[(stamps >= t) & (stamps < t + _SECOND_NS)]) for t in starts])
@@ -70,7 +72,7 @@ def still_seconds(recording: Recording, interval: Interval) -> StillSeconds:
     if len(still):
         return StillSeconds(start_ns=still)
     words = (
-        f"it lasts {(interval.end_ns - interval.start_ns) * 1e-9:g} s"
+        f"it lasts {span * 1e-9:g} s"
         if not len(starts)
         else f"in the stillest {joint[moved.argmin()]!r} moves by {moved.min():.3f}"
     )
