@@ -41,7 +41,7 @@ def coherence(
 ) -> None:
     """Hold the net contact force against the weight as contacts switch.
 
-    Example: forcetorque coherence switching.toml -c calibrations --offset one-link-imu:hanging
+    Example: forcetorque coherence switching.toml -c calibrations
     """
     from forcetorque import analysis
     from forcetorque.cli.figure_file import refuse_figure
