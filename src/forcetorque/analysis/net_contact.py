@@ -17,7 +17,7 @@ from forcetorque.experiment import Experiment
 from forcetorque.recording import Interval, Support
 from forcetorque.recording.alignment import seconds_since
 from forcetorque.robot import Wrenches, link_pose
-from forcetorque.spatial import transform_wrench
+from forcetorque.spatial import skew, transform_wrench
 
 SLIP_M = 0.01
 """How far two links that both touch may move against each other; m. Further, one of them does not stand still."""
@@ -95,6 +95,20 @@ class NetContact:
             name: float(np.nanmean(self._upright(wrench)[:, 2])) for name, wrench in self._by_contact(measured).items()
         }
 
+    def leans_deg(self) -> dict[str, float]:
+        """Tell how far links that are stated to stand on level ground lean by the joints.
+
+        Returns:
+            Angle by name of the contact, in the mean; deg.
+        """
+        leans = {}
+        for contact in self.asked.question.contacts:
+            lean = self._lean(contact)
+            if lean is not None:
+                cosine = 0.5 * (np.trace(lean, axis1=1, axis2=2) - 1.0)
+                leans[contact.name] = float(np.degrees(np.nanmean(np.arccos(np.clip(cosine, -1.0, 1.0)))))
+        return leans
+
     def unexplained(self, measured: Wrenches) -> dict[str, float]:
         """Give the force that no contact explains, of the parts of the robot that nothing is said to touch.
 
@@ -146,8 +160,22 @@ class NetContact:
             known = asked.known is not None and contact.name in asked.known.names
             own = asked.known.of_name(contact.name) if known and asked.known else estimates.contact(contact.name)
             root_H_contact = link_pose(asked.question.tree, asked.joints, contact.link) @ contact.link_H_contact
+            lean = self._lean(contact)
+            if lean is not None:
+                root_H_contact[:, :3, :3] = np.swapaxes(lean, 1, 2) @ root_H_contact[:, :3, :3]
             wrenches[contact.name] = transform_wrench(root_H_contact, own)
         return wrenches
+
+    def _lean(self, contact: Contact) -> FloatArray | None:
+        """Rotation from where level ground must have a link to where the joints have it; (n, 3, 3); None if unknown."""
+        asked = self.asked
+        tree = asked.question.tree
+        stated = next((one for one in asked.experiment.supports if one.frame == contact.link), None)
+        if stated is None or contact.link == tree.root_link:
+            return None
+        up = np.broadcast_to(self.upright_R_support[..., 2, :], (len(asked.joints), 3))
+        leaning = link_pose(tree, asked.joints, contact.link)[:, :3, :3] @ -stated.gravity_direction
+        return _shortest_rotation(up, leaning)
 
     def _upright(self, wrench: FloatArray) -> FloatArray:
         rotation = self.upright_R_support
@@ -167,6 +195,13 @@ class NetContact:
                     f"but move by {travel * 1e3:.0f} mm against each other, so that not both stand still; name both in "
                     "touched, with an IMU in the recording, or end the interval where the robot moves"
                 )
+
+
+def _shortest_rotation(start: FloatArray, end: FloatArray) -> FloatArray:
+    """Rotations that turn unit vectors into others, by less than half a turn; shape (n, 3, 3)."""
+    axis, cosine = skew(np.cross(start, end)), np.einsum("ni,ni->n", start, end)
+    rotation: FloatArray = np.eye(3) + axis + axis @ axis / (1.0 + cosine)[:, None, None]
+    return rotation
 
 
 def _upright(asked: IntervalQuestion) -> FloatArray:
