@@ -132,7 +132,9 @@ def test_the_offset_is_that_of_the_first_second(arm: Path) -> None:
     stamps, reference = part.samples.stamp_ns, part.samples.reference
     wrong = (calibration.model.wrench(part.raw) - reference)[stamps < stamps[0] + 1_000_000_000].mean(axis=0)
     model = WrenchModel(matrix=calibration.model.matrix, offset=calibration.model.offset - wrong)
-    wanted = _errors_of_the_estimator(experiment, {"arm_ft": Correction(model=model, source="test")})
+    wanted = _errors_of_the_estimator(
+        experiment, {"arm_ft": Correction(model=model, source="test", matrix_source="test")}
+    )
     for joint in INBOARD:
         rmse = np.sqrt((wanted[joint] ** 2).mean())
         assert found["new", Offset.FIRST_SECOND, joint].rmse == pytest.approx(rmse, abs=EXACT)

@@ -49,7 +49,7 @@ def _left(experiment: Experiment, truth: Recording, known: Mapping[str, Correcti
 
 
 def _read_by(matrix: FloatArray, offset: FloatArray) -> Correction:
-    return Correction(model=WrenchModel(matrix=matrix, offset=offset), source="a test")
+    return Correction(model=WrenchModel(matrix=matrix, offset=offset), source="a test", matrix_source="a test")
 
 
 def test_perfect_sensors_find_all_contacts(

@@ -45,6 +45,7 @@ COMMANDS = {
     "accept": ("accept", PARQUET, "--spec", "limits.toml", "-c", "fitted.json"),
     "balance": ("balance", "feet/standing.toml", "--touch", "50N", "--release", "20N"),
     "calibrate": ("calibrate", PARQUET, "-o", "new.json", "--lambda", "5"),
+    "coherence": ("coherence", PARQUET, "-c", "fitted.json", "--offset", "fitted", "--offset", "none"),
     "compare": ("compare", PARQUET, "-c", "fitted.json"),
     "device": ("device",),
     "contest": ("contest", "wrist/contest.toml"),
@@ -69,8 +70,8 @@ COMMANDS = {
     "view": ("view", PARQUET, "-o", "view.html"),
     "workbench": ("workbench", "SIM001.toml"),
 }
-WITHOUT_TABLE = {"payload", "schema", "simulate"}
-"""Shown elsewhere: `payload` needs a wrist, `simulate` minutes; `schema` is JSON."""
+WITHOUT_TABLE = {"payload", "schema", "simulate", "torque-loop"}
+"""Shown elsewhere: `payload` needs a wrist, `simulate` and `torque-loop` minutes; `schema` is JSON."""
 
 
 def _write_limits(arm: Path) -> None:

@@ -20,6 +20,7 @@ RUN_ELSEWHERE = {
     "recording.md": "tests/experiment/test_written_logs.py",
     "joint.md": "tests/analysis/test_joint_calibration.py",
     "robot_load.md": "tests/analysis/test_tare.py",
+    "coherence.md": "tests/cli/test_coherence.py",
     "contest.md": "tests/cli/test_contest.py",
     "response.md": "tests/analysis/test_response.py",
     "motion.md": "tests/analysis/test_motion.py",

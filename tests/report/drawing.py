@@ -19,9 +19,11 @@ from matplotlib.text import Text
 
 from forcetorque.analysis import (
     BenchPicture,
+    Coherence,
     ContestLoadRow,
     DecayCurve,
     LearntDirection,
+    PhaseForce,
     Reason,
     Response,
     ResponseCurve,
@@ -45,12 +47,14 @@ from forcetorque.analysis.skin_event_rows import SkinEventPicture
 from forcetorque.analysis.skin_picture import TaxelPicture
 from forcetorque.calibration.joint import PartResidual
 from forcetorque.estimation.balance import ContactThresholds, Sole, centre_of_pressure, support_phases
+from forcetorque.evaluation import Offset
 from forcetorque.evaluation.response import ExcitationKind, SecondOrder
 from forcetorque.evaluation.sphere import analyse_sphere
 from forcetorque.exsitu.device import VIEWS, Silhouette
 from forcetorque.report.figures import (
     balance_figure,
     bench_figure,
+    coherence_figure,
     comparison_figure,
     contact_figure,
     contest_figure,
@@ -415,6 +419,31 @@ def trial_groups(
     return group_trials(spheres)[0]
 
 
+def _coherence(rng: np.random.Generator) -> Figure:
+    phases = ("hanging", "double_1", "l_sole", "double_2", "r_sole", "double_3")
+    rows = tuple(
+        PhaseForce(
+            phase=phase,
+            touching=("l_sole",),
+            candidate=candidate,
+            offset=offset,
+            offset_interval=interval,
+            samples=100,
+            force_N=error + [0.0, 0.0, 324.7],
+            force_error_N=error,
+            force_half_width_95_N=None if phase == "double_3" else np.abs(rng.normal(size=3)),
+            moment_error_Nm=None,
+            moment_half_width_95_Nm=None,
+            evidence=phase != interval,
+        )
+        for offset, interval in ((Offset.ONE_LINK_IMU, "hanging"), (Offset.NONE, None))
+        for phase in phases
+        for candidate in ("prior", "in situ", "a/longer/name/of/a/folder")
+        for error in (rng.normal(0.0, 9.0, 3),)
+    )
+    return coherence_figure(Coherence(experiment="a", mass_kg=33.1, weight_N=324.7, rows=rows, offsets=(), summary=()))
+
+
 def _index(rng: np.random.Generator) -> Figure:
     return index_figure(trial_groups(rng, sensors=2, trials=2, caps=1))
 
@@ -626,6 +655,7 @@ FIGURES: dict[str, Callable[[np.random.Generator], Figure]] = {
     "lambda force": _lambda_force,
     "contact": _contact,
     "contest": _contest,
+    "coherence": _coherence,
     "comparison": _comparison,
     "sphere": _sphere,
     "residual": _residual,

@@ -21,6 +21,8 @@ if TYPE_CHECKING:
     from forcetorque.analysis.campaign import Campaign, Runs
     from forcetorque.analysis.campaign_interval import CampaignInterval
     from forcetorque.analysis.candidate import JudgedCandidate
+    from forcetorque.analysis.coherence import coherence, force_error
+    from forcetorque.analysis.coherence_rows import Coherence, CoherenceSummary, OffsetOfSensor, PhaseForce
     from forcetorque.analysis.compare import Comparison, compare
     from forcetorque.analysis.contact_forces import ContactForceErrors, ContactForces, contact_forces
     from forcetorque.analysis.contest import Contest, contest
@@ -62,12 +64,14 @@ if TYPE_CHECKING:
     from forcetorque.analysis.motion import Motion, motion
     from forcetorque.analysis.motion_rows import MotionCurve, OscillationRow, SettlingRow, TrackingRow
     from forcetorque.analysis.motion_signals import MotionSignal, motion_signals, motion_signals_of_arrays
+    from forcetorque.analysis.offsets import offset_policies
     from forcetorque.analysis.payload import WeighedLoad, weigh_load
     from forcetorque.analysis.plan import Plan, plan, plan_sentence
     from forcetorque.analysis.plan_files import refuse_full_folder, write_plan
     from forcetorque.analysis.plan_rows import PlannedPosture, PlannedRecording
     from forcetorque.analysis.population import read_population
     from forcetorque.analysis.prior_comparison import Independence, PriorComparison, compare_with_prior
+    from forcetorque.analysis.reader_groups import read_candidates
     from forcetorque.analysis.reading import Correction
     from forcetorque.analysis.recording_moments import recording_moments, store_moments
     from forcetorque.analysis.response import Response, response
@@ -128,6 +132,8 @@ __all__ = [
     "CampaignInterval",
     "CandidateComparison",
     "CandidateErrors",
+    "Coherence",
+    "CoherenceSummary",
     "Comparison",
     "ContactForceErrors",
     "ContactForces",
@@ -174,6 +180,8 @@ __all__ = [
     "MotionCurve",
     "MotionSignal",
     "OscillationRow",
+    "OffsetOfSensor",
+    "PhaseForce",
     "Plan",
     "PlannedPosture",
     "PlannedRecording",
@@ -237,6 +245,7 @@ __all__ = [
     "check",
     "check_patch",
     "check_skin",
+    "coherence",
     "compare",
     "compare_with_prior",
     "contact_forces",
@@ -259,7 +268,10 @@ __all__ = [
     "export_wholebodydynamics",
     "finding_rows",
     "finding_table",
+    "force_error",
     "frames_of_patches",
+    "offset_policies",
+    "read_candidates",
     "fuse_experiment",
     "group_trials",
     "inspect_experiment",

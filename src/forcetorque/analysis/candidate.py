@@ -4,14 +4,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated
 
 import numpy as np
 
 from forcetorque.analysis.reading import Correction
 from forcetorque.calibration import Calibration
-from forcetorque.evaluation import Offset
+from forcetorque.evaluation import Offset, mean_offset
 from forcetorque.recording import Use
 from forcetorque.result import Row, Shown
 
@@ -134,15 +134,9 @@ def uncalibrated(run: SensorRun) -> Correction:
     # the mean over all samples at once: its last bits depend on how it is summed
     wrench = np.concatenate([part.samples.reading.values for part in parts])
     wrench = wrench if bare.of_wrench else wrench @ bare.model.matrix.T
-    offset = (np.concatenate([part.samples.reference for part in parts]) - wrench).mean(axis=0)
-    words = "the logged wrench" if bare.of_wrench else f"the prior {run.sensor.prior_source}"
+    offset = mean_offset(np.concatenate([part.samples.reference for part in parts]) - wrench)
     labels = ", ".join(repr(part.interval.label) for part in parts)
-    return replace(
-        bare,
-        model=replace(bare.model, offset=offset),
-        source=f"{words}, offset over {labels} ({len(wrench)} samples)",
-        removes_offset=True,
-    )
+    return bare.with_offset(offset, f"over {labels} ({len(wrench)} samples)")
 
 
 def _same(one: Correction, other: Correction) -> bool:

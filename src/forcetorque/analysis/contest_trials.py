@@ -12,7 +12,7 @@ from forcetorque.analysis.contest_methods import Reader
 from forcetorque.analysis.sensor_run import SensorRun
 from forcetorque.arrays import FloatArray, IntArray
 from forcetorque.errors import ExperimentError
-from forcetorque.evaluation import Offset
+from forcetorque.evaluation import Offset, mean_offset
 from forcetorque.evaluation.contest import MotionPath, Trial, trial_of
 from forcetorque.experiment.inputs import stated_in
 from forcetorque.recording import Interval, Use
@@ -115,7 +115,7 @@ def _trial(
         removed = -correction.in_session(names).model.offset
     elif offset is Offset.FIRST_SECOND:
         kept = stamps >= stamps[0] + round(OFFSET_S * 1e9)
-        removed = error[~kept].mean(axis=0)
+        removed = -mean_offset(-error[~kept])
     return trial_of(
         phase[kept],
         error[kept],

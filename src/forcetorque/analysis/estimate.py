@@ -8,33 +8,23 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from forcetorque.analysis.answerable import narrowed
-from forcetorque.analysis.reading import Correction, Readings, readings_at, wrench_at
-from forcetorque.analysis.skin_sources import frames_of_patches, sources_at, uncertainty_of, with_skin
+from forcetorque.analysis.interval_question import IntervalQuestion
+from forcetorque.analysis.reading import Correction, Readings, readings_at
+from forcetorque.analysis.skin_sources import frames_of_patches, uncertainty_of, with_skin
 from forcetorque.analysis.skin_wrench import PatchFrames
 from forcetorque.analysis.validity import AppliedReadings, applied_readings
 from forcetorque.arrays import FloatArray, IntArray
 from forcetorque.errors import ExperimentError
 from forcetorque.estimation import (
-    Contact,
-    ContactType,
     Estimates,
-    MinimumNorm,
-    Question,
-    TorqueSum,
-    estimate,
     indistinguishable,
-    moving_joints,
-    required_joints_of,
 )
 from forcetorque.estimation.picked import PaddedSamples, padded_samples
-from forcetorque.estimation.samples import robot_motion_at
 from forcetorque.estimation.uncertain import SkinSource, UncertainEstimates, estimate_with_covariance
-from forcetorque.experiment.contacts import contacts_at_sensors, contacts_in, touched_otherwise
+from forcetorque.experiment.contacts import touched_otherwise
 from forcetorque.experiment.content import Experiment, ExperimentContact
-from forcetorque.recording import Interval, MovingSupport, Support, Use
-from forcetorque.recording.alignment import interpolate, require_overlap
-from forcetorque.robot import JointMotion, Wrenches, build_tree
+from forcetorque.recording import Interval, Use
+from forcetorque.robot import JointMotion, Wrenches
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -121,58 +111,28 @@ def _over(
     progress: Callable[[int], None] | None,
     patches: Sequence[PatchFrames],
 ) -> IntervalEstimates:
-    support = interval.support
-    if support is None:
-        raise ExperimentError(f"interval {interval.label!r}: expected a support frame")
-    present, at_ns, inside = contacts_in(interval, named), samples.stamp_ns, samples.inside
-    skin = sources_at(experiment, patches, at_ns)
-    question = _question(experiment, support, present, skin, asked=bool(named), length_scale=length_scale)
-    available = set(experiment.recording.joint_signals("position"))
-    question, left_out = narrowed(question, available, required={entry.contact.name for entry in present})
-    processing = experiment.processing
-    source = experiment.clock_stream
-    joints, root = robot_motion_at(
-        experiment.recording,
-        experiment.model,
-        support,
-        required_joints_of(question),
-        source,
-        at_ns,
-        processing=processing,
-    )
-    for stream in (*_reading_streams(experiment, corrections), *(e.stream for e in present if e.stream)):
-        require_overlap(source, experiment.recording.stream(stream))
-    measured = _measured(experiment, corrections, interval, at_ns)
-    known = _known(experiment, question, present, skin, at_ns)
-    estimates = estimate(question, joints, root, measured=measured, known=known, progress=progress)
+    asked = IntervalQuestion.of(experiment, interval, samples, named, length_scale=length_scale, patches=patches)
+    question, joints, skin, inside = asked.question, asked.joints, asked.skin, samples.inside
+    measured = asked.measured(corrections)
+    estimates = asked.estimates(measured, progress=progress)
     answer = None
     if patches:
         uncertainty = uncertainty_of(experiment, corrections, skin, measured, label=interval.label)
         answer = estimate_with_covariance(
-            question, joints, root, measured=measured, known=known, uncertainty=uncertainty
+            question, joints, asked.root, measured=measured, known=asked.known, uncertainty=uncertainty
         )
         estimates = with_skin(estimates, answer)
     return IntervalEstimates(
         interval=interval,
-        stamp_ns=at_ns[inside],
+        stamp_ns=samples.stamp_ns[inside],
         measured=Wrenches(names=measured.names, values=measured.values[inside]),
         estimates=_smoothed(estimates, samples),
-        left_out=tuple(left_out),
+        left_out=asked.left_out,
         ambiguous=indistinguishable(question, JointMotion.at_rest(joints.names, joints.position[inside])),
         applied=dict(_applied(experiment, corrections, interval, samples)),
         skin=tuple(source.of_samples(inside) for source in skin),
         uncertain=None if answer is None else answer.of_samples(inside),
     )
-
-
-def _measured(
-    experiment: Experiment, corrections: Mapping[str, Correction], interval: Interval, at_ns: IntArray
-) -> Wrenches:
-    readings = {
-        sensor.name: wrench_at(experiment, sensor, corrections[sensor.name], at_ns, interval=interval)
-        for sensor in experiment.sensors
-    }
-    return Wrenches.of(readings) if readings else Wrenches(names=(), values=np.empty((len(at_ns), 0, 6)))
 
 
 def _applied(
@@ -191,59 +151,6 @@ def _applied(
         variables = dict(zip(names, values[:, channels:].T, strict=True))
         smoothed = Readings.of(sensor, values[:, :channels], variables)
         yield sensor.name, applied_readings(calibration, smoothed, sessions)
-
-
-def _reading_streams(experiment: Experiment, corrections: Mapping[str, Correction]) -> list[str]:
-    """Streams of the sensors, and of the variables that their corrections need."""
-    streams = []
-    for sensor in experiment.sensors:
-        names = corrections[sensor.name].variables
-        streams += [sensor.stream, *(sensor.variable(name).source.stream for name in names)]
-    return streams
-
-
-def _question(
-    experiment: Experiment,
-    support: Support | MovingSupport,
-    present: Sequence[ExperimentContact],
-    skin: Sequence[SkinSource],
-    *,
-    asked: bool,
-    length_scale: float | None,
-) -> Question:
-    tree = build_tree(experiment.model_on(support), support.frame)
-    sensors = tuple(sensor.name for sensor in experiment.sensors)
-    contacts = [entry.contact for entry in present]
-    if support.frame not in [contact.name for contact in contacts]:
-        contacts.insert(0, Contact(link=support.frame))
-    if not asked:
-        contacts += contacts_at_sensors(tree, sensors)
-    return Question(
-        tree=tree,
-        measured=sensors,
-        contacts=(*contacts, *(source.contact for source in skin)),
-        torques=moving_joints(tree),
-        # errors leave nothing in a sub-model that its neighbours' torques would need
-        torque_sum=TorqueSum.SUB_MODEL if experiment.force_patches else TorqueSum.WHOLE_TREE,
-        expected=sensors,
-        minimum_norm=None if length_scale is None else MinimumNorm(length_scale=length_scale),
-    )
-
-
-def _known(
-    experiment: Experiment,
-    question: Question,
-    present: Sequence[ExperimentContact],
-    skin: Sequence[SkinSource],
-    at_ns: IntArray,
-) -> Wrenches | None:
-    streams = {e.contact.name: e.stream for e in present if e.stream is not None}
-    wrenches = {source.contact.name: source.wrench for source in skin}
-    for contact in question.contacts:
-        if contact.type is ContactType.KNOWN and contact.name in streams:
-            stream = experiment.recording.stream(streams[contact.name])
-            wrenches[contact.name] = interpolate(stream, stream.signal("wrench").values, at_ns)
-    return Wrenches.of(wrenches) if wrenches else None
 
 
 def _smoothed(estimates: Estimates, samples: PaddedSamples) -> Estimates:

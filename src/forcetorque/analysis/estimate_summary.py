@@ -257,7 +257,9 @@ def summarise_estimates(
 def _outside(corrections: Mapping[str, Correction], spans: Sequence[IntervalEstimates]) -> Iterator[ReadingsOutside]:
     for sensor, correction in corrections.items():
         if correction.calibration is not None:
-            yield outside_row(correction.source, correction.calibration, [span.applied[sensor] for span in spans])
+            yield outside_row(
+                correction.matrix_source, correction.calibration, [span.applied[sensor] for span in spans]
+            )
 
 
 def _doubts(corrections: Mapping[str, Correction], spans: Sequence[IntervalEstimates]) -> Iterator[str]:
@@ -267,6 +269,9 @@ def _doubts(corrections: Mapping[str, Correction], spans: Sequence[IntervalEstim
     resting = tuple(name for name, one in corrections.items() if one.calibration is None and one.removes_offset)
     for span in spans:
         yield from skin_doubts(span, exact, resting)
+    for sensor, one in corrections.items():
+        if not one.removes_offset:
+            yield f"{sensor}: no offset removed, so that its forces hold whatever offset the sensor has; see --offset"
 
 
 def _for_table(experiment: Experiment, span: IntervalEstimates, fused: IntervalFusion | None) -> EstimatedSpan:

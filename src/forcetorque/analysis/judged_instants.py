@@ -10,7 +10,7 @@ import numpy as np
 
 from forcetorque.arrays import BoolArray, FloatArray, IntArray
 from forcetorque.estimation.picked import PaddedSamples
-from forcetorque.evaluation import Offset
+from forcetorque.evaluation import Offset, mean_offset
 from forcetorque.recording import Interval
 from forcetorque.study import OFFSET_S
 
@@ -52,7 +52,7 @@ class JudgedInstants:
         """
         if source is Offset.FITTED:
             return error
-        moved: FloatArray = error - self._mean(self.samples.smoothed(error))
+        moved: FloatArray = error + self._offset(self.samples.smoothed(error))
         return moved
 
     def judged(self, error: FloatArray) -> FloatArray:
@@ -78,13 +78,10 @@ class JudgedInstants:
         """
         filtered = self.samples.smoothed(error)
         later = filtered[~self.first]
-        return {Offset.FITTED: later, Offset.FIRST_SECOND: later - self._mean(filtered)}
+        return {Offset.FITTED: later, Offset.FIRST_SECOND: later + self._offset(filtered)}
 
-    def _mean(self, filtered: FloatArray) -> FloatArray:
-        early = filtered[self.first]
-        whole = early[~np.isnan(early).any(axis=1)]
-        mean: FloatArray = whole.mean(axis=0) if len(whole) else np.full(filtered.shape[1], np.nan)
-        return mean
+    def _offset(self, filtered: FloatArray) -> FloatArray:
+        return mean_offset(-filtered[self.first])
 
 
 def nothing_left(instants: JudgedInstants, interval: Interval) -> str | None:

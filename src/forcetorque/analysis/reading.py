@@ -25,6 +25,8 @@ class Correction:
     """What is done to the reading."""
     source: str
     """Where it comes from, in words."""
+    matrix_source: str
+    """Where it comes from but for its offset, in words."""
     of_wrench: bool = False
     """Whether the model is for the logged wrench, not for raw counts."""
     variables: tuple[str, ...] = ()
@@ -33,6 +35,8 @@ class Correction:
     """Whether data gave its offset; without, its wrenches have whatever offset the sensor has."""
     sessions: Mapping[str, FloatArray] = field(default_factory=dict)
     """Offset of every session that was fitted, by its name; shape (6,); N, N m."""
+    intervals: Mapping[str, FloatArray] = field(default_factory=dict)
+    """Offset of every interval that gave one of its own, by its label; shape (6,); N, N m."""
     calibration: Calibration | None = None
     """The calibration that it is of, which knows where it holds; None for a prior and the logged wrench."""
 
@@ -50,7 +54,12 @@ class Correction:
         variables = tuple(variable.name for variable in calibration.variables)
         sessions = {session.name: session.offset for session in calibration.sessions}
         return cls(
-            model=calibration.model, source=name, variables=variables, sessions=sessions, calibration=calibration
+            model=calibration.model,
+            source=name,
+            matrix_source=name,
+            variables=variables,
+            sessions=sessions,
+            calibration=calibration,
         )
 
     @classmethod
@@ -68,6 +77,7 @@ class Correction:
         return cls(
             model=WrenchModel(matrix=prior.matrix, offset=prior.offset),
             source=f"the prior {prior.source}, offset of the data that {name} was fitted on",
+            matrix_source=f"the prior {prior.source}",
             sessions={one.name: one.prior_offset for one in sessions if one.prior_offset is not None},
         )
 
@@ -85,10 +95,51 @@ class Correction:
                 return replace(self, model=replace(self.model, offset=self.sessions[name]))
         return self
 
+    def over(self, experiment: Experiment, label: str | None) -> Self:
+        """Give the correction with the offset that holds over an interval.
+
+        Args:
+            experiment: The experiment.
+            label: Label of the interval; None for what lies in none.
+
+        Returns:
+            The correction with the offset that the interval gave, else with that of its session.
+        """
+        if label is not None and label in self.intervals:
+            return replace(self, model=replace(self.model, offset=self.intervals[label]))
+        return self.in_session(experiment.session_names(label))
+
     @property
     def bare(self) -> Self:
-        """The correction without its offset."""
-        return replace(self, model=replace(self.model, offset=np.zeros(6)))
+        """The correction without any offset."""
+        return replace(
+            self,
+            model=replace(self.model, offset=np.zeros(6)),
+            source=f"{self.matrix_source}, no offset removed",
+            removes_offset=False,
+            sessions={},
+            intervals={},
+        )
+
+    def with_offset(self, offset: FloatArray, words: str, *, intervals: Mapping[str, FloatArray] | None = None) -> Self:
+        """Give the correction with another offset.
+
+        Args:
+            offset: To be added; shape (6,); N, N m.
+            words: Where it comes from.
+            intervals: Offsets of intervals that gave one of their own, by label; shape (6,) each; none if None.
+
+        Returns:
+            The correction, with this offset in every session.
+        """
+        return replace(
+            self,
+            model=replace(self.model, offset=offset),
+            source=f"{self.matrix_source}, offset {words}",
+            removes_offset=True,
+            sessions={},
+            intervals=intervals or {},
+        )
 
     @classmethod
     def without_offset(cls, sensor: ExperimentSensor) -> Self:
@@ -113,6 +164,7 @@ class Correction:
         return cls(
             model=WrenchModel(matrix=matrix, offset=np.zeros(6)),
             source=f"{words}, no offset removed",
+            matrix_source=words,
             of_wrench=of_wrench,
             removes_offset=False,
         )
@@ -172,7 +224,7 @@ class Readings:
             Wrenches in the sensor's frame and direction; shape (n, 6); N, N m; NaN in gaps.
         """
         values = self.logged if correction.of_wrench else self.raw
-        name = f"{correction.source}: matrix"
+        name = f"{correction.matrix_source}: matrix"
         require_shape(correction.model.matrix, name=name, shape=(6, values.shape[1]))
         columns = [self.variables[variable] for variable in correction.variables]
         return correction.model.wrench(values, np.stack(columns, axis=-1) if columns else None)
@@ -221,10 +273,9 @@ def wrench_at(
     """
     readings = readings_at(experiment, sensor, correction.variables, at_ns)
     if interval is not None:
-        return readings.wrench(correction.in_session(experiment.session_names(interval.label)))
-    wrench = readings.wrench(correction.in_session(experiment.session_names(None)))
-    for span in experiment.recording.intervals if correction.sessions else ():
+        return readings.wrench(correction.over(experiment, interval.label))
+    wrench = readings.wrench(correction.over(experiment, None))
+    for span in experiment.recording.intervals if correction.sessions or correction.intervals else ():
         inside = span.holds(at_ns)
-        own = correction.in_session(experiment.session_names(span.label))
-        wrench[inside] = readings.at(inside).wrench(own)
+        wrench[inside] = readings.at(inside).wrench(correction.over(experiment, span.label))
     return wrench

@@ -270,10 +270,7 @@ class SensorRun:
             Wrenches, one interval after the other; shape (n, 6); N, N m.
         """
         return np.concatenate(
-            [
-                readings.wrench(correction.in_session(self.experiment.session_names(interval.label)))
-                for interval, readings in spans
-            ]
+            [readings.wrench(correction.over(self.experiment, interval.label)) for interval, readings in spans]
         )
 
     def uncalibrated(self) -> Correction:

@@ -171,7 +171,8 @@ def _correction(run: SensorRun, calibration: tuple[str, Calibration] | None) -> 
     if sensor.prior is None:
         raise ExperimentError(f"sensor {sensor.name!r}: expected a calibration, or a prior matrix, to check")
     model = WrenchModel(matrix=sensor.prior, offset=np.zeros(6))
-    return Correction(model=model, source=f"the prior {sensor.prior_source}", removes_offset=False)
+    words = f"the prior {sensor.prior_source}"
+    return Correction(model=model, source=words, matrix_source=words, removes_offset=False)
 
 
 def _used_intervals(run: SensorRun) -> tuple[Interval, ...]:

@@ -10,20 +10,15 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Annotated, Literal
 
-import numpy as np
 from pydantic import Field
 
+from forcetorque.analysis.offsets import sensor_offset
 from forcetorque.analysis.sensor_run import SensorRun
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration import Calibration
-from forcetorque.errors import ExperimentError, FitError, known_names
-from forcetorque.noise import mean_error
-from forcetorque.recording import Interval
-from forcetorque.recording.alignment import seconds_since
+from forcetorque.evaluation import Offset, OffsetPolicy
 from forcetorque.result import COMPONENTS, Result, Row, Shown, Table, WrenchValues
 
-FEWEST = 10
-"""Samples; fewer hardly tell how much they scatter."""
 STILL = 0.05
 """Share of its weight by which a load at rest may move: 3 degrees."""
 
@@ -106,43 +101,22 @@ def tare(run: SensorRun, interval: str, *, name: str | None = None, calibration:
         ExperimentError: If there is no such interval, or something touches in it.
         FitError: If it has too few samples to tell an error.
     """
-    span = _interval(run, interval)
     correction = run.read_by(name, calibration)
-    samples = run.interval_samples(span, variables=correction.variables)
-    count = len(samples.samples)
-    if count < FEWEST:
-        raise FitError(f"interval {interval!r}: expected at least {FEWEST} samples to tell an offset, got {count}")
-    expected = samples.samples.reference
-    lacking = expected - samples.readings.wrench(correction.bare)
-    time_s = seconds_since(samples.samples.stamp_ns, run.experiment.recording.start_ns)
-    known = correction.in_session(run.experiment.session_names(interval)).model.offset
-    moves = float(np.linalg.norm(expected[:, :3] - expected[:, :3].mean(axis=0), axis=1).max())
+    tared = sensor_offset(run, correction, OffsetPolicy(Offset.TARE, interval))
+    known = correction.over(run.experiment, interval).model.offset
     row = TaredSensor(
         sensor=run.sensor.name,
         serial=run.sensor.serial,
         reading=correction.source,
         interval=interval,
-        samples=count,
-        offset=lacking.mean(axis=0),
-        half_width_95=mean_error(lacking, time_s).half_width,
+        samples=tared.estimate.count,
+        offset=tared.estimate.value,
+        half_width_95=tared.estimate.half_width,
         offset_before=known if calibration is not None else None,
-        load=expected.mean(axis=0),
-        load_moves_N=moves,
+        load=tared.load,
+        load_moves_N=tared.load_moves_N,
     )
-    weight = float(np.linalg.norm(expected[:, :3], axis=1).mean())
-    return Tare(experiment=run.experiment.name, sensors=(row,), warnings=tuple(_doubts(row, weight)))
-
-
-def _interval(run: SensorRun, label: str) -> Interval:
-    intervals = {interval.label: interval for interval in run.experiment.recording.intervals}
-    if label not in intervals:
-        raise ExperimentError(f"no interval is labelled {label!r}; {known_names(label, intervals)}")
-    if touching := run.touched_beyond(intervals[label]):
-        raise ExperimentError(
-            f"interval {label!r}: expected one in which nothing touches beyond {run.sensor.name!r}, but "
-            f"{', '.join(touching)} may, so that nobody knows what the sensor must read"
-        )
-    return intervals[label]
+    return Tare(experiment=run.experiment.name, sensors=(row,), warnings=tuple(_doubts(row, tared.weight_N)))
 
 
 def _doubts(row: TaredSensor, weight: float) -> Iterator[str]:

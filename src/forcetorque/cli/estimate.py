@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from forcetorque.cli.options import CalibrationsOption, ExperimentsArgument, FormatOption
+from forcetorque.cli.options import CalibrationsOption, ExperimentsArgument, FormatOption, OffsetOption
 from forcetorque.cli.output import Format, show, start_logging
 from forcetorque.errors import ForceTorqueError
 
@@ -33,6 +33,7 @@ def estimate(
         ),
     ],
     calibration: CalibrationsOption = None,
+    offset: OffsetOption = "fitted",
     contacts: Annotated[
         list[str] | None,
         typer.Option(
@@ -83,7 +84,15 @@ def estimate(
         content = read_touched_robot(path, log)
         with stated_in(str(path)):
             summaries[str(path)] = _estimated(
-                content, calibrations, contacts, length_scale, file, log, fuse=fuse, figure=figures.get(path)
+                content,
+                calibrations,
+                contacts,
+                length_scale,
+                file,
+                log,
+                offset=offset,
+                fuse=fuse,
+                figure=figures.get(path),
             )
     several = len(summaries) > 1
     show(analysis.estimates_of_recordings(summaries) if several else summaries[str(experiments[0])], output_format)
@@ -97,6 +106,7 @@ def _estimated(
     file: Path,
     log: Logger,
     *,
+    offset: str,
     fuse: bool,
     figure: Path | None,
 ) -> EstimateSummary:
@@ -105,7 +115,7 @@ def _estimated(
     from forcetorque.experiment.contacts import contact_in_words
 
     named = [contact_in_words(words, content.model) for words in contacts] if contacts else None
-    corrections = analysis.corrections_of(content, calibrations)
+    corrections = analysis.corrections_of(content, calibrations, offset=offset)
     for sensor, correction in corrections.items():
         log.info("%s: %s", sensor, correction.source)
     patches = analysis.frames_of_patches(content)

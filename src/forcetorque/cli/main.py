@@ -11,6 +11,7 @@ import typer
 from forcetorque.cli.accept import accept
 from forcetorque.cli.balance import balance
 from forcetorque.cli.calibrate import calibrate
+from forcetorque.cli.coherence import coherence
 from forcetorque.cli.compare import compare
 from forcetorque.cli.contest import contest
 from forcetorque.cli.device import device
@@ -64,6 +65,7 @@ _COMMANDS = (
     accept,
     balance,
     calibrate,
+    coherence,
     compare,
     device,
     contest,

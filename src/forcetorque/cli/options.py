@@ -22,6 +22,14 @@ CalibrationsOption = Annotated[
     list[Path] | None,
     typer.Option("--calibration", "-c", help="Calibration file; repeat for more. Default: the priors."),
 ]
+OffsetOption = Annotated[
+    str,
+    typer.Option(
+        "--offset",
+        help="Where offsets come from: fitted (the calibration's own), one-link-imu:LABEL, one-link-fixed-frame:LABEL, "
+        "tare:LABEL, first-second, judged-mean or none; see docs/coherence.md.",
+    ),
+]
 PopulationOption = Annotated[
     list[Path] | None,
     typer.Option(

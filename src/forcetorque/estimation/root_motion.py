@@ -19,6 +19,18 @@ IMU_QUANTITIES: Final = ("proper_acceleration", "angular_velocity", "angular_acc
 """What an IMU may tell."""
 
 
+def imu_streams(recording: Recording) -> tuple[str, ...]:
+    """Name the streams of a recording in which an IMU tells how a link moves.
+
+    Args:
+        recording: The recording.
+
+    Returns:
+        Names of the streams; none where it has no IMU.
+    """
+    return tuple(name for name, stream in recording.streams.items() if stream.signals.keys() & set(IMU_QUANTITIES))
+
+
 def joints_to_support(model: RobotModel, recording: Recording, support: Support | MovingSupport) -> tuple[str, ...]:
     """Name the joints whose motion is needed to know how the support frame moves.
 

@@ -22,7 +22,8 @@ from forcetorque.evaluation.gains import (
 )
 from forcetorque.evaluation.joint_torques import TorqueErrors, TorqueMap, joints_of_sensor, torque_errors, torque_map
 from forcetorque.evaluation.model_findings import model_findings
-from forcetorque.evaluation.offset import KNOWN_BEFORE, Offset
+from forcetorque.evaluation.offset import KNOWN_BEFORE, Offset, OffsetEstimate, mean_offset
+from forcetorque.evaluation.offset_policy import OF_ONE_LINK, OffsetPolicy
 from forcetorque.evaluation.paired import (
     ErrorRatio,
     Judgement,
@@ -39,6 +40,7 @@ __all__ = [
     "KNOWN_BEFORE",
     "LEVER_M",
     "MARGIN",
+    "OF_ONE_LINK",
     "PUSH_N",
     "Autocorrelation",
     "AxisResolution",
@@ -54,6 +56,8 @@ __all__ = [
     "MatrixChecks",
     "Offset",
     "OffsetChange",
+    "OffsetEstimate",
+    "OffsetPolicy",
     "OtherSensors",
     "PairedComparison",
     "PairedErrors",
@@ -74,6 +78,7 @@ __all__ = [
     "evaluator_of_work",
     "joints_of_sensor",
     "matrix_checks",
+    "mean_offset",
     "model_findings",
     "offset_change",
     "offset_removed",

@@ -10,6 +10,7 @@ import numpy as np
 
 from forcetorque.arrays import FloatArray, read_only, require_shape
 from forcetorque.errors import ShapeError
+from forcetorque.evaluation.offset import mean_offset
 from forcetorque.noise import mean_error
 
 
@@ -125,5 +126,5 @@ def offset_removed(measured: Any, reference: Any) -> FloatArray:
         Measured wrenches moved by one constant so that their mean error is zero; shape (n, 6).
     """
     first = np.asarray(measured, dtype=np.float64)
-    moved: FloatArray = first - (first - np.asarray(reference, dtype=np.float64)).mean(axis=0)
+    moved: FloatArray = first + mean_offset(np.asarray(reference, dtype=np.float64) - first)
     return moved

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Protocol
 
 from forcetorque.errors import ExperimentError, known_names
-from forcetorque.estimation.root_motion import IMU_QUANTITIES, imu_frame
+from forcetorque.estimation.root_motion import imu_frame, imu_streams
 from forcetorque.experiment import schema
 from forcetorque.experiment.inputs import stated_in
 from forcetorque.recording import Interval, MovingSupport, Recording, Support, Use
@@ -120,7 +120,7 @@ def _support(
             raise ExperimentError(
                 f"touched: robot {model.name!r} has no link {link!r}; {known_names(link, model.links)}"
             )
-    imu = tuple(name for name, stream in recording.streams.items() if stream.signals.keys() & set(IMU_QUANTITIES))
+    imu = imu_streams(recording)
     if not imu:
         raise ExperimentError(
             "touched: expected an IMU in the recording, which tells how the robot moves whatever touches it; without "

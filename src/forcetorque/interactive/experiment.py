@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import fields
 from datetime import UTC, datetime
 from importlib.metadata import version
@@ -13,8 +13,10 @@ from typing import Any, Self
 from forcetorque import analysis
 from forcetorque import experiment as experiments
 from forcetorque.analysis import SensorCalibrations
+from forcetorque.calibration import Calibration
 from forcetorque.calibration.joint import ModelTolerance
 from forcetorque.estimation.balance import ForceLimit
+from forcetorque.evaluation import OffsetPolicy
 from forcetorque.interactive.run import Calibrations, Run, named
 from forcetorque.result import Table, html_table
 
@@ -70,6 +72,22 @@ class Experiment(experiments.Experiment):
         """
         asked = analysis.BalanceOptions(touch=ForceLimit.of(touch), release=ForceLimit.of(release), **options)
         return analysis.balance([self], [analysis.corrections_of(self, named(calibrations))], asked)
+
+    def coherence(
+        self,
+        candidates: Mapping[str, Mapping[str, Calibration]] | None = None,
+        offsets: Sequence[OffsetPolicy | str] = (),
+    ) -> analysis.Coherence:
+        """Hold the net contact force of every phase against the weight.
+
+        Args:
+            candidates: By name of the candidate its calibrations by any name; the prior is always judged.
+            offsets: Where offsets come from, such as `one-link-imu:hanging`; as of `analysis.coherence`.
+
+        Returns:
+            Net forces and errors per offset, phase and candidate.
+        """
+        return analysis.coherence(self, candidates, offsets=offsets)
 
     def _repr_html_(self) -> str:
         start = self.recording.start_ns

@@ -15,7 +15,7 @@ import numpy as np
 from forcetorque.arrays import BoolArray, FloatArray
 from forcetorque.calibration import WrenchModel
 from forcetorque.estimation import Evaluator
-from forcetorque.evaluation import CandidateErrors, Offset, PooledErrors, candidate_errors
+from forcetorque.evaluation import CandidateErrors, Offset, PooledErrors, candidate_errors, mean_offset
 from forcetorque.study.validation_set import ValidationSet
 
 
@@ -127,7 +127,7 @@ def with_offset(model: WrenchModel, one: ValidationSet, source: Offset) -> Float
     """
     wrench = model.wrench(one.raw, one.variables)
     if source is not Offset.FITTED:
-        wrench -= (wrench - one.reference)[one.for_offset()].mean(axis=0)
+        wrench += mean_offset((one.reference - wrench)[one.for_offset()])
     return wrench
 
 

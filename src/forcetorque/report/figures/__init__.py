@@ -3,6 +3,7 @@
 
 from forcetorque.report.figures.balance import balance_figure
 from forcetorque.report.figures.bench import bench_figure
+from forcetorque.report.figures.coherence import coherence_figure
 from forcetorque.report.figures.compare import index_figure
 from forcetorque.report.figures.comparison import comparison_figure
 from forcetorque.report.figures.contacts import contact_figure
@@ -37,6 +38,7 @@ from forcetorque.report.figures.wrench_space import space_figure
 __all__ = [
     "balance_figure",
     "bench_figure",
+    "coherence_figure",
     "comparison_figure",
     "contact_figure",
     "device_figure",

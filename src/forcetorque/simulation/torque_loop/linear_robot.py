@@ -255,7 +255,8 @@ def _estimator(biped: Biped, position: FloatArray, ways: FloatArray) -> tuple[Fl
 def _null_space(jacobian: FloatArray) -> FloatArray:
     """Ways that leave the feet where they are, orthonormal; shape (18, n)."""
     _, sizes, rows = np.linalg.svd(jacobian)
-    return rows[int((sizes > 1e-9 * sizes[0]).sum()) :].T
+    ways: FloatArray = rows[int((sizes > 1e-9 * sizes[0]).sum()) :].T
+    return ways
 
 
 def _raised(position: FloatArray) -> FloatArray:
