@@ -56,7 +56,11 @@ def switching(folder: Path) -> Standing:
     return Standing(
         experiment=replace(experiment, soles=SOLES),
         corrections={
-            name: Correction(model=WrenchModel(matrix=sensor.matrix, offset=sensor.offset), source="the truth", matrix_source="the truth")
+            name: Correction(
+                model=WrenchModel(matrix=sensor.matrix, offset=sensor.offset),
+                source="the truth",
+                matrix_source="the truth",
+            )
             for name, sensor in simulated.sensors.items()
         },
         truth=read_recording(folder / f"{DAY}_contacts"),

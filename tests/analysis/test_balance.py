@@ -178,7 +178,9 @@ def test_a_wrong_offset_is_flagged_and_not_clipped(tilted: Standing) -> None:
     sensor = "l_foot_ft"
     model = tilted.corrections[sensor].model
     wrong = Correction(
-        model=WrenchModel(matrix=model.matrix, offset=model.offset + [0, 0, 0, 0, 40.0, 0]), source="a test", matrix_source="a test"
+        model=WrenchModel(matrix=model.matrix, offset=model.offset + [0, 0, 0, 0, 40.0, 0]),
+        source="a test",
+        matrix_source="a test",
     )
     result = balance([tilted.experiment], [{**tilted.corrections, sensor: wrong}])
     left = result.feet[0]
@@ -193,7 +195,9 @@ def test_feet_that_bear_another_weight_are_doubted(standing: Standing) -> None:
     sensor = "l_foot_ft"
     model = standing.corrections[sensor].model
     wrong = Correction(
-        model=WrenchModel(matrix=model.matrix, offset=model.offset + [0, 0, -100.0, 0, 0, 0]), source="a test", matrix_source="a test"
+        model=WrenchModel(matrix=model.matrix, offset=model.offset + [0, 0, -100.0, 0, 0, 0]),
+        source="a test",
+        matrix_source="a test",
     )
     exact = balance([standing.experiment], [standing.corrections])
     assert not any("weighs" in warning for warning in exact.warnings)

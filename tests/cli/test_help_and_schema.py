@@ -27,6 +27,7 @@ FILES = (
     "bench",
     "device_file",
     "contestants",
+    "torque_loop_file",
     "scenario",
     "recording",
     "calibration",
@@ -75,7 +76,7 @@ def test_there_are_commands() -> None:
 
 def _listed(help_text: str) -> list[str]:
     """Names below `Commands:`, all with a line that says what they are for."""
-    return sorted(re.findall(r"^  (\w+)  +[A-Z]", help_text.partition("Commands:")[2], re.MULTILINE))
+    return sorted(re.findall(r"^  ([\w-]+)  +[A-Z]", help_text.partition("Commands:")[2], re.MULTILINE))
 
 
 def test_the_help_lists_every_command(run: Run) -> None:

@@ -10,6 +10,7 @@ import pytest
 from forcetorque.analysis import TorqueLoop, TorqueLoopFile, read_torque_loop, torque_loop
 from forcetorque.errors import ControlError, FormatError
 from tests.cli.outcome import Run
+from tests.page_scripts import unmarked
 
 pytest.importorskip("mujoco")
 
@@ -88,3 +89,10 @@ def test_it_is_typed(loop: TorqueLoop, run: Run, file: Path, tmp_path: Path, mon
     assert asked == [read_torque_loop(file)]
     assert len(typed.result()["rows"]) == len(loop.rows)
     assert (tmp_path / "loop.png").read_bytes().startswith(b"\x89PNG")
+
+
+@pytest.mark.long
+def test_the_script_of_the_page_runs() -> None:
+    """As it stands."""
+    (code,) = unmarked((Path(__file__).resolve().parents[2] / "docs" / "torque_loop.md").read_text(encoding="utf-8"))
+    exec(compile(code, "torque_loop.md", "exec"), {})

@@ -25,6 +25,7 @@ RUN_ELSEWHERE = {
     "response.md": "tests/analysis/test_response.py",
     "motion.md": "tests/analysis/test_motion.py",
     "thermal.md": "tests/analysis/test_thermal.py",
+    "torque_loop.md": "tests/cli/test_torque_loop.py",
     "tutorial.md": "tests/cli/test_tutorial.py",
     "simulation.md": "tests/examples/test_page_scripts.py",
     "skin_layout.md": "tests/exchange/skin/test_documentation.py",
