@@ -260,4 +260,5 @@ def _null_space(jacobian: FloatArray) -> FloatArray:
 
 
 def _raised(position: FloatArray) -> FloatArray:
-    return position + np.concatenate([[0.0, 0.0, _ABOVE_M], np.zeros(position.shape[1] - 3)])
+    raised: FloatArray = position + np.concatenate([[0.0, 0.0, _ABOVE_M], np.zeros(position.shape[1] - 3)])
+    return raised
