@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import pytest
@@ -28,6 +28,52 @@ class Motion:
         angle = 2.0 * np.pi * self.frequency * time_s[:, None, None] + self.phase
         columns: FloatArray = np.sin(angle).sum(axis=1)
         return columns
+
+
+class Setting(NamedTuple):
+    """Rates, length and motion of a log, and how long its noise lasts."""
+
+    reading_hz: float
+    reference_hz: float
+    seconds: float
+    highest_hz: float
+    noise_kept: float
+    moving: float
+    stops: bool = False
+
+
+SETTINGS = {
+    "slow": Setting(100.0, 100.0, 60.0, 0.3, 0.0, 1.0),
+    "noise that lasts": Setting(200.0, 100.0, 60.0, 1.0, 0.98, 1.0),
+    "stop and go": Setting(100.0, 100.0, 60.0, 1.0, 0.8, 0.5, stops=True),
+    "ten seconds": Setting(500.0, 100.0, 10.0, 2.0, 0.8, 0.5),
+    "fast reference": Setting(50.0, 1000.0, 40.0, 1.0, 0.5, 0.5),
+}
+"""Logs that were not looked at when the interval was built."""
+
+
+def logged(seed: int, setting: Setting) -> tuple[float, Delay]:
+    """Delay that was planted in a setting, and what is estimated."""
+    rng = np.random.default_rng(seed)
+    motion, matrix, delay_s = (
+        Motion(rng, highest_hz=setting.highest_hz),
+        rng.normal(size=(3, 6)),
+        rng.uniform(-0.2, 0.2),
+    )
+
+    def moved(time_s: FloatArray) -> FloatArray:
+        going = (
+            0.5 * (1.0 + np.tanh(6.0 * np.sin(2.0 * np.pi * time_s / 7.0))) if setting.stops else np.ones_like(time_s)
+        )
+        columns: FloatArray = setting.moving * motion.at(time_s) * going[:, None]
+        return columns
+
+    time = np.arange(0.0, setting.seconds, 1.0 / setting.reading_hz)
+    reference_time = np.arange(0.007, setting.seconds, 1.0 / setting.reference_hz)
+    kept = setting.noise_kept
+    noise = lfilter([np.sqrt(1.0 - kept**2)], [1.0, -kept], rng.normal(size=(len(time), 6)), axis=0)
+    reference = moved(reference_time) + rng.normal(0.0, 0.02 * setting.moving, (len(reference_time), 3))
+    return delay_s, estimate_delay(time, moved(time - delay_s) @ matrix + noise, reference_time, reference)
 
 
 def planted(seed: int, *, delay_s: float, drift: float = 0.0, moving: float = 1.0, **asked: Any) -> Delay:
@@ -131,6 +177,22 @@ def test_intervals_hold_what_was_planted() -> None:
     shares = np.mean(inside, axis=0)
     assert refused <= 10
     assert ((shares >= 0.9) & (shares <= 0.98)).all(), shares
+
+
+@pytest.mark.long
+def test_intervals_hold_on_other_logs() -> None:
+    """Of 100 draws of each of five settings pooled 90 to 98 % are inside, of none less than 86 %; nothing is refused.
+
+    At a true coverage of 95 % one setting in a thousand falls below 87 of 100.
+    """
+    inside = {
+        name: np.mean([abs(one.delay_s - truth) <= one.delay_half_width_s for truth, one in draws])
+        for name, draws in (
+            (name, [logged(seed, setting) for seed in range(5000, 5100)]) for name, setting in SETTINGS.items()
+        )
+    }
+    assert 0.9 <= np.mean(list(inside.values())) <= 0.98, inside
+    assert min(inside.values()) >= 0.86, inside
 
 
 @pytest.mark.long
