@@ -223,8 +223,8 @@ def test_every_missing_key_is_named(tmp_path: Path, form: str) -> None:
 
 
 TABLES = {
-    "[robot]": ("robot", "gravity, urdf"),
-    'path = "log"': ("recording", "format, path, stream"),
+    "[robot]": ("robot", "fixed, gravity, urdf"),
+    'path = "log"': ("recording", "continued_in, format, path, stream"),
     'kind = "analog"': (r"recording.stream\[0\]", "kind, name, port"),
     'kind = "state_ext"': (r"recording.stream\[1\]", "joints, kind, name, port"),
     "[[sensor]]": (
@@ -242,8 +242,8 @@ TABLES = {
     ),
     'name = "small arm"': (
         "top level",
-        "calibration, contact, estimation, fusion, interval, load, load_case, motor, name, patch, plan, processing, "
-        "recording, robot, schema, sensor, sole, support, trial",
+        "calibration, clock, contact, estimation, fusion, interval, load, load_case, motor, name, patch, plan, "
+        "processing, recording, robot, schema, sensor, sole, support, transform, trial",
     ),
 }
 

@@ -14,7 +14,7 @@ from forcetorque.analysis.calibrate import calibrate_sensor
 from forcetorque.analysis.calibration_doubts import fit_doubts
 from forcetorque.analysis.calibration_tables import calibration_blocks, component_records
 from forcetorque.analysis.campaign import Campaign, Runs
-from forcetorque.analysis.findings import doubtful_spans
+from forcetorque.analysis.findings import ADDED, doubtful_spans
 from forcetorque.analysis.joint_outcome import JointOutcome
 from forcetorque.analysis.learnt import LearntDirection, learnt_directions, learnt_words
 from forcetorque.analysis.possible_touch import possible_touch
@@ -161,6 +161,7 @@ def data_doubts(run: SensorRun, *, by_model: bool = True) -> Iterator[str]:
         yield from _touched(run)
         if (sentence := possible_touch(run)) is not None:
             yield sentence
+    yield from (f"{one.stream}: {one.message}" for one in experiment.recording.findings if one.kind in ADDED)
     start_ns, alone = experiment.recording.start_ns, replace(experiment, sensors=(run.sensor,))
     for interval, finding in doubtful_spans(alone, Use.CALIBRATION, by_model=by_model):
         start, end = (((stamp_ns or 0) - start_ns) * 1e-9 for stamp_ns in (finding.start_ns, finding.end_ns))

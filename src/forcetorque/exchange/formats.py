@@ -6,6 +6,7 @@ The experiment file's schema, its loading, `inspect` and their messages all ask 
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from functools import reduce
 from operator import or_
 from pathlib import Path
@@ -22,6 +23,7 @@ from forcetorque.exchange.robometry import RobometryFormat
 from forcetorque.exchange.ros import RosFormat
 from forcetorque.exchange.tabular.log_format import TabularFormat
 from forcetorque.exchange.yarp.log_format import YarpFormat
+from forcetorque.recording.joined import joined_stream
 
 LOG_FORMATS: tuple[LogFormat[Any], ...] = (
     YarpFormat(),
@@ -75,7 +77,34 @@ def read_log(stated: LogTable, context: LogContext) -> LogReading:
     Returns:
         Streams and findings.
     """
-    return format_named(stated.format).read(stated, context)
+    log_format = format_named(stated.format)
+    if not stated.continued_in:
+        return log_format.read(stated, context)
+    paths = (stated.path, *stated.continued_in)
+    readings = [
+        log_format.read(stated.model_copy(update={"path": path, "continued_in": ()}), context) for path in paths
+    ]
+    with context.stated_in("continued_in"):
+        return _joined(readings, [path.as_posix() for path in paths])
+
+
+def _joined(readings: Sequence[LogReading], paths: Sequence[str]) -> LogReading:
+    """Streams of logs that follow each other, by their names."""
+    first = readings[0]
+    for reading, path in zip(readings, paths, strict=True):
+        names, wanted = ([stream.name for stream in one.streams] for one in (reading, first))
+        if names != wanted:
+            raise FormatError(
+                f"{path}: expected the streams {', '.join(wanted)} as in {paths[0]}, got {', '.join(names)}"
+            )
+    return LogReading(
+        streams=tuple(
+            joined_stream([reading.streams[k] for reading in readings], [f"{path}: {stream.name}" for path in paths])
+            for k, stream in enumerate(first.streams)
+        ),
+        findings=tuple(finding for reading in readings for finding in reading.findings),
+        origin=first.origin,
+    )
 
 
 def recognised_format(path: Path) -> LogFormat[Any] | None:

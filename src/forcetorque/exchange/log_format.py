@@ -20,6 +20,8 @@ class LogTable(Table):
     """Format of the recording; every table narrows it to its own name."""
     path: Path
     """Where the log is."""
+    continued_in: tuple[Path, ...] = ()
+    """Files or folders of the same form in which it goes on, in the order of time."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -20,13 +20,14 @@ from forcetorque.experiment.motors import require_motors
 from forcetorque.experiment.parse import parse_experiment
 from forcetorque.experiment.patches import skin_of_robot
 from forcetorque.experiment.plan_limits import read_plan
+from forcetorque.experiment.recipes import read_robot
 from forcetorque.experiment.sensors import declare_sensors, read_sensors
 from forcetorque.experiment.skin_alone import links_side_by_side, skin_frames_of
 from forcetorque.experiment.soles import read_soles
 from forcetorque.experiment.streams import read_streams
 from forcetorque.experiment.wrist_load import load_model, read_loads
 from forcetorque.recording import MovingSupport, Recording, SavitzkyGolay, Support, Use
-from forcetorque.robot import RobotModel, read_urdf
+from forcetorque.robot import RobotModel
 from forcetorque.spatial import Inertia
 
 
@@ -118,7 +119,7 @@ def load_shown(path: Path | str) -> Experiment:
 def _of_robot(parsed: schema.ExperimentFile, file: Path) -> Experiment:
     inputs = Inputs(file.parent)
     inputs.file(Path(file.name))
-    urdf = None if parsed.robot is None else read_urdf(inputs.file(parsed.robot.urdf))
+    urdf = None if parsed.robot is None else read_robot(parsed.robot, file, inputs)
     robot = None if urdf is None else declare_sensors(parsed.sensor, file, urdf)
     before = inputs.names()
     streams = read_streams(parsed, file, robot, inputs)

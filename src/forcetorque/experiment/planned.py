@@ -22,9 +22,10 @@ from forcetorque.experiment.load_cases import read_load_cases
 from forcetorque.experiment.plan_limits import read_plan
 from forcetorque.experiment.plan_schema import PlanTable
 from forcetorque.experiment.prior import full_scale_of, read_prior
+from forcetorque.experiment.recipes import read_robot
 from forcetorque.experiment.sensors import declare_sensors
 from forcetorque.recording import Recording, ScalarSource, Support
-from forcetorque.robot import RobotModel, read_urdf
+from forcetorque.robot import RobotModel
 from forcetorque.toml_table import Table, Text, read_toml
 
 
@@ -78,7 +79,7 @@ def load_planned(path: Path | str) -> Experiment:
     parsed = read_toml(file, PlannedFile, what="an experiment file")
     inputs = Inputs(file.parent)
     inputs.file(Path(file.name))
-    model = declare_sensors(parsed.sensor, file, read_urdf(inputs.file(parsed.robot.urdf)))
+    model = declare_sensors(parsed.sensor, file, read_robot(parsed.robot, file, inputs))
     for index, entry in enumerate(parsed.support):
         if entry.imu is not None:
             raise ExperimentError(

@@ -27,6 +27,7 @@ from forcetorque.exchange.formats import AnyLog
 from forcetorque.experiment.fusion_schema import FusionTable, MotorTable, SixPositive
 from forcetorque.experiment.load_case_schema import LoadCaseTable
 from forcetorque.experiment.plan_schema import PlanTable
+from forcetorque.experiment.recipe_schema import ClockTable, TransformTable
 from forcetorque.experiment.sole_schema import SoleTable
 from forcetorque.experiment.wrist_schema import Load, OneOrSeveral, require_loads_of, require_one_sensor
 from forcetorque.recording import Use
@@ -40,6 +41,8 @@ class Robot(Table):
 
     urdf: Path
     """URDF file."""
+    fixed: dict[Text, Finite] = {}
+    """Joints that nobody logged and that stand still all along, by name: rad, or m where prismatic."""
     gravity: Positive = STANDARD_GRAVITY
     """Magnitude of gravity; m/s2."""
 
@@ -378,6 +381,10 @@ class ExperimentFile(Table):
     """What hangs on a wrist sensor, in place of a robot; of several `[[load]]` an interval says which."""
     recording: AnyLog
     """Where the recording is."""
+    clock: tuple[ClockTable, ...] = ()
+    """Streams whose clock differs from that of others."""
+    transform: tuple[TransformTable, ...] = ()
+    """Wrenches that the log gives in another frame than the sensor's."""
     sensor: Annotated[tuple[Sensor, ...], Field(min_length=1)] = ()
     """Sensors; may be left out where the file is about skin alone."""
     patch: Annotated[tuple[Patch, ...], Field(min_length=1)] = ()

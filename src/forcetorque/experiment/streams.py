@@ -11,6 +11,7 @@ from forcetorque.exchange.formats import read_log
 from forcetorque.experiment import schema
 from forcetorque.experiment.inputs import Inputs
 from forcetorque.experiment.log_context import ExperimentContext
+from forcetorque.experiment.recipes import follow_recipes
 from forcetorque.recording import Recording, Stream
 from forcetorque.robot import RobotModel
 
@@ -25,7 +26,7 @@ def read_streams(parsed: schema.ExperimentFile, file: Path, model: RobotModel | 
         inputs: Resolves and remembers the files.
 
     Returns:
-        The recording, without intervals.
+        The recording, with what the file adds to its log, without intervals.
     """
     log = parsed.recording
     context = ExperimentContext(
@@ -36,11 +37,12 @@ def read_streams(parsed: schema.ExperimentFile, file: Path, model: RobotModel | 
     )
     reading = read_log(log, context)
     stated = {"format": log.format, "path": log.path.as_posix()}
-    return Recording(
+    logged = Recording(
         streams=_by_name(file, reading.streams),
         findings=reading.findings,
         origin=stated if reading.origin is None else reading.origin,
     )
+    return follow_recipes(parsed, file, logged, model)
 
 
 def _by_name(file: Path, streams: Iterable[Stream]) -> dict[str, Stream]:

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field, replace
 from types import MappingProxyType
 
 from forcetorque.errors import RecordingError, known_names
+from forcetorque.recording.clock import ClockShift
 from forcetorque.recording.finding import Finding
 from forcetorque.recording.interval import Interval
 from forcetorque.recording.stream import Signal, Stream
@@ -25,11 +26,14 @@ class Recording:
     """What is known to be wrong with it."""
     origin: Mapping[str, str] = field(default_factory=dict)
     """Where it comes from, as free text by key: format, path, robot."""
+    clocks: tuple[ClockShift, ...] = ()
+    """How stamps were brought to one clock when it was read; not stored, for what is stored has that clock."""
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "streams", MappingProxyType(dict(self.streams)))
         object.__setattr__(self, "intervals", tuple(self.intervals))
         object.__setattr__(self, "findings", tuple(self.findings))
+        object.__setattr__(self, "clocks", tuple(self.clocks))
         object.__setattr__(self, "origin", MappingProxyType(dict(self.origin)))
         for key, stream in self.streams.items():
             if key != stream.name:

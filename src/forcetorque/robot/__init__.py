@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Robots: from URDF to bodies, joints and force-torque sensors, and their dynamics."""
 
+from forcetorque.robot.fixed_joints import fix_joints
 from forcetorque.robot.kinematics import joints_between, link_pose, motion_of_link
 from forcetorque.robot.model import ForceTorqueSensor, Joint, JointLimit, JointType, Mimic, RobotModel, SensorFrame
 from forcetorque.robot.motion import JointMotion, RootMotion
@@ -25,6 +26,7 @@ __all__ = [
     "Wrenches",
     "build_tree",
     "expected_wrenches",
+    "fix_joints",
     "joints_between",
     "link_pose",
     "motion_of_link",

@@ -53,7 +53,7 @@ def test_a_delay_is_named_to_the_sample(prior: FloatArray | None, delay_s: float
     for one in (data, thinned):
         (doubt,) = examine([one], prior)
         assert (doubt.kind, words in doubt.message) == ("delay", True)
-        assert "align the clocks" in doubt.message
+        assert "[[clock]]" in doubt.message
     assert examine([replace(data, time_s=None)], prior) == ()
     assert examine([_data(STEP_S)], prior) == ()
 

@@ -4,8 +4,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
-from typing import Self
 
 import numpy as np
 
@@ -13,6 +11,7 @@ from forcetorque.arrays import FloatArray
 from forcetorque.calibration.data_set import DataSet
 from forcetorque.calibration.gate.doubt import Doubt
 from forcetorque.calibration.gate.movement import Movement
+from forcetorque.recording.lag import EVEN, EvenPair, residual_at_lags
 
 _LARGEST_S = 0.5
 """Largest delay that is looked for."""
@@ -26,46 +25,8 @@ _BETTER = 0.8
 _SHORTEST = 10
 """Length of a data set in largest delays, below which it is left out."""
 
-
-_ROUNDING = 1e-14
-"""Mean square of a direction of the reference, relative to the largest, below which it does not move."""
-
 _COARSE = 10
 """Steps in which the largest delay is searched before the best one's surroundings are, sample by sample."""
-
-_EVEN = 0.01
-"""Deviation from even steps, in steps, that is no reason to interpolate."""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class _Even:
-    """Reading and reference at n even steps of time, the reference without its ends."""
-
-    reading: FloatArray
-    """Reading less its mean; shape (k, n)."""
-    reference: FloatArray
-    """Reference; shape (n - 2 most, 6); N, N m."""
-    most: int
-    """Samples that are left out at each end, so that as many are paired for every lag."""
-
-    @classmethod
-    def of(cls, data: DataSet, prior: FloatArray | None, step_s: float, most: int) -> Self:
-        time = data.time_s - data.time_s[0]
-        reading = data.raw if prior is None else data.raw @ prior[:3].T
-        at = step_s * np.arange(int(time[-1] / step_s + _EVEN) + 1)
-        both = np.hstack([reading - reading.mean(axis=0), data.reference])
-        if len(at) != len(time) or np.abs(at - time).max() > _EVEN * step_s:
-            both = np.column_stack([np.interp(at, time, column) for column in both.T])
-        inside = slice(most, len(at) - most)
-        return cls(reading=np.ascontiguousarray(both[:, :-6].T), reference=both[inside, -6:], most=most)
-
-    def later(self, lag: int) -> FloatArray:
-        """Give the reading some samples after those of the reference; shape (k, n - 2 most)."""
-        return self.reading[:, self.most + lag : self.reading.shape[1] - self.most + lag]
-
-    def pair(self, lag: int) -> DataSet:
-        """Pair it with the reference."""
-        return DataSet(label="", raw=self.later(lag).T, reference=self.reference)
 
 
 def delay_doubts(data_sets: Sequence[DataSet], prior: FloatArray | None) -> Iterator[Doubt]:
@@ -83,37 +44,47 @@ def delay_doubts(data_sets: Sequence[DataSet], prior: FloatArray | None) -> Iter
     if not long:
         return
     step = float(np.median(np.concatenate([np.diff(data.time_s) for data in long])))
-    most = int(_LARGEST_S / step + _EVEN) if step > 0.0 else 0
+    most = int(_LARGEST_S / step + EVEN) if step > 0.0 else 0
     if most < _FEWEST_LAGS:
         return
-    even = [_Even.of(data, prior, step, most) for data in long]
+    even = [
+        EvenPair.of(
+            data.time_s,
+            data.raw if prior is None else data.raw @ prior[:3].T,
+            data.reference,
+            step_s=step,
+            most=most,
+        )
+        for data in long
+        if data.time_s is not None
+    ]
     lag = _best_lag(even, most)
     if abs(lag) < _FEWEST_LAGS:
         return
-    left = [float(m.left(m.lasting).sum()) for m in (Movement.of([e.pair(at) for e in even], None) for at in (0, lag))]
+    left = [
+        float(m.left(m.lasting).sum())
+        for m in (Movement.of([_at_lag(pair, at) for pair in even], None) for at in (0, lag))
+    ]
     if left[1] < _BETTER * left[0]:
         yield Doubt(
             kind="delay",
             message=f"the reading comes {abs(lag) * step * 1e3:.0f} ms {'later' if lag > 0 else 'earlier'} than the "
-            f"reference: moved by it, {1.0 - (left[1] / left[0]) ** 0.5:.0%} less of it is left unexplained; align the "
-            "clocks of sensor and joints, or log both by one clock (stamp of [[recording.stream]]), and look for a "
-            "delay between their ports",
+            f"reference: moved by it, {1.0 - (left[1] / left[0]) ** 0.5:.0%} less of it is left unexplained; align "
+            'their clocks by [[clock]], delay_s = "estimate", or log both by one clock (stamp of '
+            "[[recording.stream]]), and look for a delay between their ports",
         )
 
 
-def _best_lag(even: Sequence[_Even], most: int) -> int:
+def _at_lag(pair: EvenPair, lag: int) -> DataSet:
+    return DataSet(label="", raw=pair.later(lag).T, reference=pair.reference)
+
+
+def _best_lag(even: Sequence[EvenPair], most: int) -> int:
     """Lag, in samples, with the smallest residual of the reading regressed on the reference."""
-    centred = [one.reference - one.reference.mean(axis=0) for one in even]
-    eigenvalues, vectors = np.linalg.eigh(sum(reference.T @ reference for reference in centred))
-    moving = eigenvalues > _ROUNDING * eigenvalues[-1]
-    # in these columns the explained square is that of the products
-    units = [reference @ (vectors[:, moving] / np.sqrt(eigenvalues[moving])) for reference in centred]
+    residual = residual_at_lags(even)
 
     def left(lag: int) -> float:
-        readings = [one.later(lag) for one in even]
-        total = sum(float(np.einsum("ij,ij->", r, r) - r.shape[1] * (r.mean(axis=1) ** 2).sum()) for r in readings)
-        products = sum(r @ unit for r, unit in zip(readings, units, strict=True))
-        return total - float((products**2).sum())
+        return float(residual(lag).sum())
 
     width = max(most // _COARSE, 1)
     near = min(range(-(most // width) * width, most + 1, width), key=left)

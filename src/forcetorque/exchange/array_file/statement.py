@@ -11,6 +11,7 @@ from pydantic_core import PydanticCustomError
 
 from forcetorque.exchange.log_format import LogTable
 from forcetorque.exchange.signal_table import StatedSignal
+from forcetorque.exchange.stated_rate import StatedRate
 from forcetorque.toml_table import Table, Text
 
 ColumnNumber = Annotated[int, Field(ge=1, strict=True)]
@@ -53,7 +54,7 @@ class ArraySignal(StatedSignal):
         return self
 
 
-class ArrayStream(Table):
+class ArrayStream(StatedRate):
     """One array of the file, or several with the same rows."""
 
     name: Text
@@ -63,7 +64,7 @@ class ArrayStream(Table):
     time: TimeTable | None = None
     """Column of the time."""
     rows_of: Text | None = None
-    """In place of a time: an earlier stream, with whose rows those of this one were taken."""
+    """In place of a time or rate: an earlier stream, with whose rows those of this one were taken."""
     shift_rows: Annotated[int, Field(strict=True)] | Literal["estimated"] | None = None
     """With `rows_of`: by how many rows of that stream this one begins later; `estimated` to look for that, and for the
     rate of this one, in the steps that a pressure and the counts of taxels share."""
@@ -76,10 +77,14 @@ class ArrayStream(Table):
 
     @model_validator(mode="after")
     def _has_one_time(self) -> ArrayStream:
-        if (self.time is None) == (self.rows_of is None):
+        if [self.time, self.rows_of, self.rate_hz].count(None) != 2:
             raise PydanticCustomError(
-                "time_rules", "expected time, the column that holds it, or rows_of, a stream with the same rows"
+                "time_rules",
+                "expected time, the column that holds it, or rows_of, a stream with the same rows, or rate_hz with "
+                "start_s: one of them",
             )
+        if isinstance(self.start_s, tuple):
+            raise PydanticCustomError("starts", "expected start_s of one file, a number")
         if (self.rows_of is None) != (self.shift_rows is None):
             raise PydanticCustomError(
                 "shift_rules", 'rows_of needs shift_rows: a number of rows, 0 for none, or "estimated"'

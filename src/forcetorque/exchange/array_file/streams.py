@@ -13,6 +13,7 @@ from forcetorque.arrays import FloatArray, IntArray
 from forcetorque.errors import FormatError, UnitError, known_names
 from forcetorque.exchange.array_file.row_times import rows_of_another
 from forcetorque.exchange.array_file.statement import ArraySignal, ArrayStream
+from forcetorque.exchange.stated_rate import even_stamps
 from forcetorque.recording import QUANTITIES, Finding, Labels, Signal, Stream, orientation_signals
 from forcetorque.spatial import si_factor
 
@@ -57,10 +58,14 @@ def array_stream(
     values = arrays[entry.variable]
     place = f"{path}: {entry.variable}"
     signals, doubts = _signals(path, entry, arrays)
+    counter = None if entry.sequence is None else _whole(place, _column(place, values, entry.sequence))
+    if entry.rate_hz is not None:
+        (start,) = entry.starts_s
+        stamps = even_stamps(len(values), rate_hz=entry.rate_hz, start_s=start)
+        return Stream(name=entry.name, clock=entry.clock, stamp_ns=stamps, signals=signals, sequence=counter), doubts
     if entry.time is not None:
         times = entry.time.variable or entry.variable
         stamps = _stamps(f"{path}: {times}", arrays[times], entry.time.column, entry.time.unit)
-        counter = None if entry.sequence is None else _whole(place, _column(place, values, entry.sequence))
         stream = Stream(name=entry.name, clock=entry.clock, stamp_ns=stamps, signals=signals, sequence=counter)
         return stream, doubts
     other = earlier.get(entry.rows_of or "")

@@ -47,8 +47,9 @@ def parquet_rows(file: Path, layout: TableLayout) -> Rows:
     Raises:
         FormatError: If it is damaged, or lacks a column that the layout names.
     """
-    if layout.column_names is not None:
-        raise FormatError(f"{file}: expected no column_names: a Parquet file has its own; delete the key")
+    if layout.column_names is not None or layout.skip_rows:
+        key = "column_names" if layout.column_names is not None else "skip_rows"
+        raise FormatError(f"{file}: expected no {key}: a Parquet file has its own columns and no lines; delete the key")
     table = _opened(file)
     columns = _require_columns(str(file), layout, list(table.schema_arrow.names))
     return Rows(

@@ -27,6 +27,16 @@ class StampColumn:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class EvenRows:
+    """Rows without a time, taken at even steps."""
+
+    rate_hz: float
+    """Rows per second."""
+    start_s: float
+    """Time of the first row since the epoch of the clock; s."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class TableSignal:
     """Columns that make up one quantity."""
 
@@ -64,14 +74,18 @@ class TableLayout:
     """One character between columns; a space stands for any run of spaces and tabs."""
     column_names: tuple[str, ...] | None = None
     """Names of the columns, for a table without a line of headings; None if its first line has them."""
-    stamp: StampColumn | None
-    """Column of the time; None for a table of poses without one: rows are then a second apart."""
+    skip_rows: int = 0
+    """Lines of a text file in front of its table: titles, comments, units."""
+    stamp: StampColumn | EvenRows | None
+    """Column of the time, or the rate of rows that have none; None for poses: rows are then a second apart."""
     signals: tuple[TableSignal, ...]
     """What is read."""
 
     def __post_init__(self) -> None:
         if len(self.delimiter) != 1:
             raise FormatError(f"delimiter: expected one character, got {self.delimiter!r}")
+        if self.skip_rows < 0:
+            raise FormatError(f"skip_rows: expected a number of lines, 0 or more, got {self.skip_rows}")
         quantities = [signal.quantity for signal in self.signals]
         if not quantities or len(set(quantities)) != len(quantities):
             raise FormatError(f"signals: expected at least one and each quantity once, got {quantities}")

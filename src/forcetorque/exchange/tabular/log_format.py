@@ -3,18 +3,24 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Annotated, Literal
 
-from pydantic import Field
+import numpy as np
+from pydantic import Field, model_validator
+from pydantic_core import PydanticCustomError
 
 from forcetorque.errors import FormatError
 from forcetorque.exchange.log_format import LogContext, LogDescription, LogReading, LogTable
 from forcetorque.exchange.log_sketch import LogSketch
 from forcetorque.exchange.signal_table import StatedSignal
-from forcetorque.exchange.tabular.layout import StampColumn, TableLayout, TableSignal
+from forcetorque.exchange.stated_rate import StatedRate
+from forcetorque.exchange.tabular.layout import EvenRows, StampColumn, TableLayout, TableSignal
 from forcetorque.exchange.tabular.sketch import is_table, sketch_table
-from forcetorque.exchange.tabular.table import read_table, table_columns
+from forcetorque.exchange.tabular.table import ROW_NS, read_table, table_columns
+from forcetorque.recording import Stream
+from forcetorque.recording.joined import joined_stream
 from forcetorque.toml_table import Table, Text
 
 
@@ -38,23 +44,60 @@ class SignalTable(StatedSignal):
     """Names in the recording, such as joints of the URDF; those of the quantity if left out."""
 
 
-class TabularStream(Table):
-    """One text file of numbers."""
+class TabularStream(StatedRate):
+    """One text file of numbers, or several that follow each other."""
 
     name: Text
     """Name of the stream in the recording."""
-    file: Text
-    """File below the log's folder."""
-    stamp: StampTable | Literal["row"]
-    """Column of the time; `row` for still poses without one, whose rows are then a second apart."""
+    file: Text | Annotated[tuple[Text, ...], Field(min_length=1)]
+    """File below the log's folder, or several in the order of time."""
+    stamp: StampTable | Literal["row"] | None = None
+    """Column of the time; `row` for still poses without one, whose rows are then a second apart. Rows with neither have
+    `rate_hz` and `start_s`."""
     clock: Text = "log"
     """Name of the clock; only streams of one clock are combined."""
     delimiter: Annotated[str, Field(min_length=1, max_length=1)] = ","
     """Character between columns; a space stands for any run of blanks."""
+    skip_rows: Annotated[int, Field(ge=0, strict=True)] = 0
+    """Lines in front of the table, headings not counted: titles, comments, units."""
     column_names: tuple[Text, ...] | None = None
     """Names of the columns of a file without a line of headings."""
     signal: Annotated[tuple[SignalTable, ...], Field(min_length=1)]
     """What is read."""
+
+    @model_validator(mode="after")
+    def _has_one_time(self) -> TabularStream:
+        if (self.stamp is None) == (self.rate_hz is None):
+            raise PydanticCustomError(
+                "time_rules",
+                'expected stamp, the column of the time or "row", or rate_hz with start_s; got {got}',
+                {"got": "neither" if self.stamp is None else "both; keep one"},
+            )
+        if self.rate_hz is not None and len(self.starts_s) != len(self.files):
+            raise PydanticCustomError(
+                "starts", "expected start_s of {files} file(s), one for each", {"files": len(self.files)}
+            )
+        return self
+
+    @property
+    def files(self) -> tuple[str, ...]:
+        """Files in the order of time."""
+        return (self.file,) if isinstance(self.file, str) else self.file
+
+    def stamp_of(self, number: int) -> StampColumn | EvenRows | None:
+        """Say how the rows of a file are stamped.
+
+        Args:
+            number: Number of the file, from 0.
+
+        Returns:
+            The stamp of a layout.
+        """
+        if self.rate_hz is not None:
+            return EvenRows(rate_hz=self.rate_hz, start_s=self.starts_s[number])
+        if isinstance(self.stamp, StampTable):
+            return StampColumn(column=self.stamp.column, unit=self.stamp.unit)
+        return None
 
 
 class TabularLog(LogTable):
@@ -102,16 +145,33 @@ class TabularFormat:
 
 def _read_stream(k: int, stated: TabularLog, context: LogContext) -> LogReading:
     entry = stated.stream[k]
-    path = context.file(stated.path / entry.file)
-    stamp = None if entry.stamp == "row" else StampColumn(column=entry.stamp.column, unit=entry.stamp.unit)
+    paths = [context.file(stated.path / file) for file in entry.files]
     with context.stated_in(f"stream[{k}]"):
-        layout = TableLayout(
-            delimiter=entry.delimiter,
-            column_names=entry.column_names,
-            stamp=stamp,
-            signals=tuple(_declared(signal) for signal in entry.signal),
-        )
-        return read_table(path, layout, stream=entry.name, clock=entry.clock)
+        readings = [
+            read_table(path, _layout(entry, number), stream=entry.name, clock=entry.clock)
+            for number, path in enumerate(paths)
+        ]
+        pieces = [stream for reading in readings for stream in reading.streams]
+        joined = joined_stream(_numbered_on(pieces) if entry.stamp == "row" else pieces, [*map(str, paths)])
+    return LogReading(
+        streams=(joined,), findings=tuple(finding for reading in readings for finding in reading.findings)
+    )
+
+
+def _layout(entry: TabularStream, number: int) -> TableLayout:
+    return TableLayout(
+        delimiter=entry.delimiter,
+        skip_rows=entry.skip_rows,
+        column_names=entry.column_names,
+        stamp=entry.stamp_of(number),
+        signals=tuple(_declared(signal) for signal in entry.signal),
+    )
+
+
+def _numbered_on(pieces: list[Stream]) -> list[Stream]:
+    """Rows without a time have no other order than that of the files."""
+    starts = np.cumsum([0, *map(len, pieces[:-1])]) * ROW_NS
+    return [replace(piece, stamp_ns=piece.stamp_ns + start) for piece, start in zip(pieces, starts, strict=True)]
 
 
 def _declared(signal: SignalTable) -> TableSignal:

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
-from forcetorque.exchange.tabular.layout import TableLayout
+from forcetorque.exchange.tabular.layout import StampColumn, TableLayout
 
 LARGEST_TABLE = 4 << 30
 """Bytes of numbers that are read of one table; 8 for each, and what stands in memory besides does not grow with it."""
@@ -36,5 +36,5 @@ def wanted_columns(layout: TableLayout) -> list[str]:
     Returns:
         Their names, each once.
     """
-    stamp = [] if layout.stamp is None else [layout.stamp.column]
+    stamp = [layout.stamp.column] if isinstance(layout.stamp, StampColumn) else []
     return list(dict.fromkeys([*stamp, *(column for signal in layout.signals for column in signal.columns)]))

@@ -16,8 +16,9 @@ import numpy as np
 from forcetorque.arrays import FloatArray, IntArray
 from forcetorque.errors import FormatError, MissingFileError, UnitError, known_names
 from forcetorque.exchange.log_format import LogReading
+from forcetorque.exchange.stated_rate import even_stamps
 from forcetorque.exchange.tabular.columnar import frame_rows, is_parquet_file, parquet_columns, parquet_rows
-from forcetorque.exchange.tabular.layout import TableLayout, TableSignal
+from forcetorque.exchange.tabular.layout import EvenRows, StampColumn, TableLayout, TableSignal
 from forcetorque.exchange.tabular.numbers import column_floats, column_stamps
 from forcetorque.exchange.tabular.rows import LARGEST_TABLE, Rows
 from forcetorque.exchange.tabular.text import text_columns, text_rows
@@ -27,7 +28,8 @@ from forcetorque.spatial import si_factor
 ROW_CLOCK = "row"
 """Clock of a table without times: row k is stamped k seconds."""
 
-_ROW_NS = 1_000_000_000
+ROW_NS = 1_000_000_000
+"""Time between rows that have none."""
 
 
 def read_table(path: Path | str, layout: TableLayout, *, stream: str, clock: str) -> LogReading:
@@ -109,7 +111,7 @@ def _numbers(rows: Rows, layout: TableLayout) -> tuple[IntArray, list[FloatArray
             f"{rows.name}: expected rows, and at most {LARGEST_TABLE >> 30} GiB of numbers, got {rows.count} rows of "
             f"{width}; split the table"
         )
-    stamp_ns = np.arange(rows.count, dtype=np.int64) * _ROW_NS
+    stamp_ns = _stamps_without_column(rows, layout)
     numbers = [np.empty((rows.count, len(signal.columns))) for signal in layout.signals]
     start = 0
     for batch in rows.batches:
@@ -117,7 +119,7 @@ def _numbers(rows: Rows, layout: TableLayout) -> tuple[IntArray, list[FloatArray
         if end > rows.count:
             raise FormatError(f"{rows.name}: expected {rows.count} rows, got more; was it written to meanwhile?")
         place = partial(_shifted, rows.place, start)
-        if layout.stamp is not None:
+        if isinstance(layout.stamp, StampColumn):
             stamp_ns[start:end] = column_stamps(batch.column(layout.stamp.column), layout.stamp, place)
         for declared, values in zip(layout.signals, numbers, strict=True):
             for k, name in enumerate(declared.columns):
@@ -126,6 +128,16 @@ def _numbers(rows: Rows, layout: TableLayout) -> tuple[IntArray, list[FloatArray
     if start != rows.count:
         raise FormatError(f"{rows.name}: expected {rows.count} rows, got {start}; copy the file again")
     return stamp_ns, numbers
+
+
+def _stamps_without_column(rows: Rows, layout: TableLayout) -> IntArray:
+    """Stamps of rows at even steps, which a column of the time replaces."""
+    if isinstance(layout.stamp, EvenRows):
+        try:
+            return even_stamps(rows.count, rate_hz=layout.stamp.rate_hz, start_s=layout.stamp.start_s)
+        except FormatError as error:
+            raise FormatError(f"{rows.name}: {error}") from error
+    return np.arange(rows.count, dtype=np.int64) * ROW_NS
 
 
 def _shifted(place: Callable[[int], str], start: int, row: int) -> str:

@@ -5,14 +5,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
+from typing import Any, BinaryIO
 
 import pyarrow as pa
 import pyarrow.csv as pacsv
 
 from forcetorque.errors import FormatError, known_names
 from forcetorque.exchange.arrow_text import arrow_text
-from forcetorque.exchange.tabular.layout import TableLayout
+from forcetorque.exchange.tabular.layout import StampColumn, TableLayout
 from forcetorque.exchange.tabular.rows import Rows, wanted_columns
 
 BLOCK_SIZE = 1 << 24
@@ -47,12 +47,13 @@ def text_rows(file: Path, layout: TableLayout) -> Rows:
     )
 
 
-def text_columns(file: Path, delimiter: str = ",") -> list[str]:
-    """Name the columns of a text file by its first line.
+def text_columns(file: Path, delimiter: str = ",", *, skip_rows: int = 0) -> list[str]:
+    """Name the columns of a text file by its line of headings.
 
     Args:
         file: The file.
         delimiter: As of a layout.
+        skip_rows: As of a layout.
 
     Returns:
         Their names.
@@ -61,22 +62,31 @@ def text_columns(file: Path, delimiter: str = ",") -> list[str]:
         FormatError: If that is no text.
     """
     with file.open("rb") as stream:
+        _skip(stream, skip_rows)
         heading = stream.readline(BLOCK_SIZE).rstrip(b"\r\n")
     if delimiter == " ":
         heading = b" ".join(heading.split())
     try:
         return [word.strip() for word in heading.decode("utf-8-sig").split(delimiter)]
     except UnicodeDecodeError as error:
-        raise FormatError(f"{file}:1: expected a line of headings as text, got {error.reason}") from error
+        raise FormatError(f"{file}:{skip_rows + 1}: expected a line of headings as text, got {error.reason}") from error
+
+
+def _skip(stream: BinaryIO, lines: int) -> None:
+    for _ in range(lines):
+        if not stream.readline(BLOCK_SIZE):
+            return
 
 
 def _headings(file: Path, layout: TableLayout) -> tuple[tuple[str, ...], int]:
     """Names of the columns, and the line of the first row."""
-    names, first_line = layout.column_names, 1
+    names, first_line = layout.column_names, layout.skip_rows + 1
     if names is None:
-        names, first_line = tuple(text_columns(file, layout.delimiter)), 2
+        names = tuple(text_columns(file, layout.delimiter, skip_rows=layout.skip_rows))
+        first_line += 1
     if len(set(names)) != len(names):
-        raise FormatError(f"{file}:1: expected every heading once, got {', '.join(map(repr, names[:99]))}")
+        headings = ", ".join(map(repr, names[:99]))
+        raise FormatError(f"{file}:{layout.skip_rows + 1}: expected every heading once, got {headings}")
     return names, first_line
 
 
@@ -84,8 +94,7 @@ def _blocks(file: Path, first_line: int, columns: int) -> Iterator[bytes]:
     """Blocks of whole lines, each ended by a line feed, without the empty lines at the end of the file."""
     line, empty, rest = first_line, 0, b""
     with file.open("rb") as stream:
-        if first_line > 1:
-            stream.readline(BLOCK_SIZE)
+        _skip(stream, first_line - 1)
         while chunk := stream.read(BLOCK_SIZE):
             end = chunk.rfind(b"\n") + 1
             block, rest = rest + chunk[:end], (chunk[end:] if end else rest + chunk)
@@ -115,7 +124,7 @@ def _require_no_gap(file: Path, text: bytes, line: int, empty: int, columns: int
 
 def _batches(file: Path, layout: TableLayout, names: tuple[str, ...], first_line: int) -> Iterator[Any]:
     types = {c: pa.float64() for signal in layout.signals for c in signal.columns}
-    if layout.stamp is not None:
+    if isinstance(layout.stamp, StampColumn):
         types[layout.stamp.column] = pa.string()
     options = pacsv.ConvertOptions(column_types=types, include_columns=list(types), null_values=["", "nan", "NaN"])
     line = first_line

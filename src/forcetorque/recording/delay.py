@@ -1,0 +1,190 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""How much later one clock stamps what another one saw too, by what both must show.
+
+    reading(t) = matrix reference(t - delay - drift (t - middle)) + offset + trend t + noise
+
+Matrix, offset and trend are not known, and the noise of every column is what is left of it. The delay is the one under
+which least is left (the likelihood of columns whose noise is not known), looked for step by step and refined on the
+spline of the reference. Noise lasts from sample to sample, so its interval does not count samples: it takes what the
+equation of the delay leaves in each of `BLOCKS` stretches of equal information as independent, with Student's t.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from forcetorque.arrays import FloatArray, IntArray
+from forcetorque.errors import RecordingError
+from forcetorque.noise import half_width
+from forcetorque.recording.alignment import GAP_PERIODS
+from forcetorque.recording.delay_equation import DelayEquation, Stretch, even_means, smoothed
+from forcetorque.recording.lag import EvenPair, residual_at_lags
+
+BLOCKS = 20
+"""Stretches that count as independent. Fewer make intervals wide, more too narrow where noise lasts."""
+
+_SURE = 4.0
+"""Standard errors by which the best delay must beat every other, and none at all."""
+_MOST_STEPS = 20_000
+"""Steps of time that are compared; of longer or denser logs means are taken."""
+_SHORTEST = 10.0
+"""Length of a stretch that both saw, in largest delays, below which it is left out."""
+_WIDEST = 0.2
+"""Half-width of the interval, in largest delays, beyond which a delay says nothing."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Delay:
+    """By how much stamps come later than those of another clock, with half-widths of 95 % intervals."""
+
+    delay_s: float
+    """At the instant that was asked for; s; positive where its stamps are later."""
+    delay_half_width_s: float
+    """Half of its interval; s."""
+    drift: float
+    """Seconds by which it grows in a second; 0 where it was not asked for."""
+    unasked_drift: float
+    """Drift that there is if it is asked for."""
+    drift_half_width: float
+    """Half of the interval of that."""
+    explained: float
+    """Share of the reading's movement that the reference explains, in the column where that is largest."""
+    seconds: float
+    """Length of what both saw; s."""
+
+    @property
+    def drifts(self) -> bool:
+        """Whether the recording says that the delay changes."""
+        return abs(self.unasked_drift) > self.drift_half_width
+
+
+def estimate_delay(
+    time_s: FloatArray,
+    reading: FloatArray,
+    reference_time_s: FloatArray,
+    reference: FloatArray,
+    *,
+    around_s: float = 0.0,
+    within_s: float = 0.5,
+    with_drift: bool = False,
+    middle_s: float | None = None,
+) -> Delay:
+    """Find how much later the stamps of a reading are than those of a reference that it follows linearly.
+
+    Args:
+        time_s: Stamps of the reading, rising; shape (n,); s.
+        reading: Reading, finite; shape (n, k).
+        reference_time_s: Stamps of the reference, rising, from the same zero; shape (m,); s.
+        reference: What the reading must follow by some matrix, finite; shape (m, p).
+        around_s: Delay about which it is looked for; s.
+        within_s: How far from there it is looked for; s.
+        with_drift: Whether it may grow evenly with time.
+        middle_s: Instant of which the delay is wanted; s; the middle of the reading if left out.
+
+    Returns:
+        The delay and its interval.
+
+    Raises:
+        RecordingError: If both saw too short a time together, or what they saw does not tell the delay: too little
+            motion, or motion that repeats itself.
+    """
+    middle = 0.5 * float(time_s[0] + time_s[-1]) if middle_s is None else middle_s
+    shifted = reference_time_s + around_s
+    spans = _common_spans(time_s, shifted, within_s)
+    seconds = sum(end - begin for begin, end in spans)
+    step = max(float(np.median(np.diff(time_s))), float(np.median(np.diff(shifted))), seconds / _MOST_STEPS)
+    most = int(within_s / step)
+    if most < 2:
+        raise RecordingError(f"expected within_s of at least two steps of {step:.3g} s, got {within_s:.3g} s")
+    grids = [_grid(begin, end, step) for begin, end in spans]
+    sampled = [
+        (at, smoothed(even_means(time_s, reading, at, step)), smoothed(even_means(shifted, reference, at, step)))
+        for at in grids
+    ]
+    pairs = [EvenPair.of(at, values, other, step_s=step, most=most) for at, values, other in sampled]
+    left = residual_at_lags(pairs)
+    lags = np.arange(-most, most + 1)
+    surprise = np.array([np.log(np.maximum(left(lag), np.finfo(float).tiny)).sum() for lag in lags.tolist()])
+    best = int(lags[np.argmin(surprise)])
+    if abs(best) == most:
+        raise RecordingError(
+            f"the delay that explains most lies at the end of what was looked through, {around_s + best * step:.3g} s; "
+            "state around_s, where it is to be looked for, or a larger within_s"
+        )
+    equation = DelayEquation(
+        [Stretch(time_s=at[most:-most], reading=values[most:-most]) for at, values, _ in sampled],
+        reference_time_s=np.concatenate(grids),
+        reference=np.concatenate([other for _, _, other in sampled]),
+        step_s=step,
+        middle_s=middle,
+    )
+    drifting, steady = (equation.solved(best * step, with_drift=drift, blocks=BLOCKS) for drift in (True, False))
+    root = drifting if with_drift else steady
+    delay, half = root.values[0], half_width(root.standard_error, root.degrees_of_freedom)
+    most_s = _WIDEST * within_s
+    if not half[0] <= most_s or abs(delay - best * step) > max(2.0 * step, 2.0 * half[0]):
+        raise RecordingError(
+            f"what both saw does not tell the delay: its 95 % interval is ± {half[0]:.3g} s, where ± {most_s:.3g} s is "
+            "the most that says anything; record faster motion, or state delay_s"
+        )
+    rivals = [lag for lag in _minima(surprise, lags) if abs(lag * step - delay) > max(2.0 * half[0], step)]
+    _require_one_answer(equation, best * step, [lag * step for lag in rivals], around_s)
+    own = half_width(drifting.standard_error, drifting.degrees_of_freedom)
+    return Delay(
+        delay_s=around_s + float(delay),
+        delay_half_width_s=float(half[0]),
+        drift=float(root.values[1]) if with_drift else 0.0,
+        unasked_drift=float(drifting.values[1]),
+        drift_half_width=float(own[1]),
+        explained=root.explained,
+        seconds=seconds,
+    )
+
+
+def _common_spans(first: FloatArray, second: FloatArray, within_s: float) -> list[tuple[float, float]]:
+    """Spans of both without a gap in either."""
+    begin, end = max(first[0], second[0]), min(first[-1], second[-1])
+    gaps = sorted(gap for times in (first, second) for gap in _gaps(times))
+    spans, start = [], float(begin)
+    for gap_begin, gap_end in [*gaps, (float(end), np.inf)]:
+        if min(gap_begin, end) - start >= _SHORTEST * within_s:
+            spans.append((start, float(min(gap_begin, end))))
+        start = max(start, gap_end)
+    if not spans:
+        raise RecordingError(
+            f"expected {_SHORTEST * within_s:.3g} s without a gap that both saw, {_SHORTEST:g} times within_s, got "
+            f"{max(float(end - begin), 0.0):.3g} s in all; look within less, or around another delay"
+        )
+    return spans
+
+
+def _grid(begin: float, end: float, step: float) -> FloatArray:
+    steps: FloatArray = begin + step * np.arange(int((end - begin) / step) + 1, dtype=np.float64)
+    return steps
+
+
+def _gaps(times: FloatArray) -> Iterator[tuple[float, float]]:
+    steps = np.diff(times)
+    for place in np.flatnonzero(steps > GAP_PERIODS * np.median(steps)):
+        yield float(times[place]), float(times[place + 1])
+
+
+def _minima(surprise: FloatArray, lags: IntArray) -> list[int]:
+    """Lags at which less is left than at both neighbours."""
+    padded = np.concatenate([[np.inf], surprise, [np.inf]])
+    least = (padded[1:-1] < padded[:-2]) & (padded[1:-1] <= padded[2:])
+    return [int(lag) for lag in lags[least]]
+
+
+def _require_one_answer(equation: DelayEquation, best: float, rivals: list[float], around_s: float) -> None:
+    """Refuse a delay that others explain as well, or nothing does."""
+    for rival in (None, *rivals):
+        if equation.advantage(best, rival, blocks=BLOCKS) < _SURE:
+            other = "none at all" if rival is None else f"one of {around_s + rival:.3g} s"
+            raise RecordingError(
+                f"what both saw does not tell the delay: one of {around_s + best:.3g} s explains it no more surely "
+                f"than {other}; record motion of all directions that does not repeat itself, or state delay_s"
+            )

@@ -1,0 +1,247 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The equation that a delay solves: what is left of a reading does not follow the speed of its reference."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from forcetorque.arrays import FloatArray
+from forcetorque.errors import RecordingError
+
+_ITERATIONS, _CLOSE = 60, 1e-4
+"""Steps towards the solution, and the part of a step of time below which it is one."""
+_NEAR = 0.25
+"""Part of a step of time by which the equation is differentiated."""
+_SMOOTH_STEPS = 2.0
+"""Standard deviation of the smoothing, in steps of time: of what has half the fastest frequency it leaves 1 %."""
+_ROUNDING = 1e-9
+"""Part of the largest singular value below which a direction of the reference does not move."""
+_FEWEST_STEPS = 10
+"""Steps of time in a block, at least."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Stretch:
+    """A reading at n even steps of time."""
+
+    time_s: FloatArray
+    """Instants; shape (n,); s."""
+    reading: FloatArray
+    """Reading; shape (n, k)."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class Root:
+    """Delay and drift that solve the equation, with standard errors."""
+
+    values: FloatArray
+    """Delay in s, then drift where it was asked for; shape (q,)."""
+    standard_error: FloatArray
+    """Standard errors; shape (q,)."""
+    degrees_of_freedom: FloatArray
+    """Of Student's t; shape (q,)."""
+    explained: float
+    """Share of the movement of the reading that is explained, in the column where that is largest."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Left:
+    """What is left at a delay."""
+
+    error: FloatArray  # (n, k)
+    information: FloatArray  # of the delay, sample by sample; (n,)
+    score: FloatArray  # (n, q)
+    curvature: FloatArray  # of Gauss and Newton; (q, q)
+
+
+class DelayEquation:
+    """Reading and reference of several stretches of time."""
+
+    def __init__(
+        self,
+        stretches: Sequence[Stretch],
+        *,
+        reference_time_s: FloatArray,
+        reference: FloatArray,
+        step_s: float,
+        middle_s: float,
+    ) -> None:
+        """Take stretches that lie inside the reference, by as much as delays will be.
+
+        Args:
+            stretches: The reading.
+            reference_time_s: Stamps of the reference, rising; shape (m,); s.
+            reference: Reference; shape (m, p).
+            step_s: Step of time of the reading; s.
+            middle_s: Instant at which drift adds nothing; s.
+        """
+        from scipy.interpolate import CubicSpline  # here because importing it takes longer than most commands
+
+        self.time = np.concatenate([stretch.time_s for stretch in stretches])
+        self.reading = np.concatenate([stretch.reading for stretch in stretches])
+        self.step, self.since = step_s, self.time - middle_s
+        self._curve = CubicSpline(reference_time_s, reference)
+        lengths = [len(stretch.time_s) for stretch in stretches]
+        number = np.repeat(np.arange(len(stretches)), lengths)
+        along = np.concatenate([np.linspace(-1.0, 1.0, length) for length in lengths])
+        own = number[:, None] == np.arange(len(stretches))
+        self._constant = np.hstack([own, own * along[:, None]]).astype(np.float64)
+
+    def solved(self, start: float, *, with_drift: bool, blocks: int) -> Root:
+        """Solve it.
+
+        Args:
+            start: Delay to begin with, within a step or two of the solution; s.
+            with_drift: Whether the delay grows with time.
+            blocks: Stretches of equal information that count as independent.
+
+        Returns:
+            The solution.
+
+        Raises:
+            RecordingError: If too little was recorded.
+        """
+        theta = np.array([start, 0.0]) if with_drift else np.array([start])
+        near = _NEAR * self.step / np.array([1.0, max(float(np.abs(self.since).max()), self.step)])[: len(theta)]
+        for _ in range(_ITERATIONS):
+            left = self._left(theta)
+            change = np.linalg.pinv(left.curvature) @ left.score.sum(axis=0)
+            theta = theta + np.clip(change, -4.0 * near, 4.0 * near)
+            if (np.abs(change) < _CLOSE * near).all():
+                break
+        left = self._left(theta)
+        sums = _block_sums(left.score, left.information, blocks)
+        count, q = sums.shape
+        # of a reference with noise only the derivative of the equation itself tells how sharp the solution is
+        slope = np.column_stack(
+            [(self._score(theta - d) - self._score(theta + d)) / (2.0 * d[k]) for k, d in enumerate(np.diag(near))]
+        )
+        inverse = np.linalg.pinv(slope)
+        spread = sums - sums.mean(axis=0)
+        covariance = inverse @ (spread.T @ spread * count / (count - 1.0)) @ inverse.T
+        sharp = bool((np.linalg.eigvals(slope).real > 0.0).all())
+        error = np.sqrt(np.diag(covariance)) if sharp else np.full(q, np.inf)
+        return Root(
+            values=theta,
+            standard_error=error,
+            degrees_of_freedom=np.full(q, float(count - q)),
+            explained=self._explained(left.error),
+        )
+
+    def advantage(self, delay: float, rival: float | None, *, blocks: int) -> float:
+        """Say how surely a delay leaves less than another.
+
+        Args:
+            delay: The delay; s.
+            rival: The other; s; None for a reading that follows nothing.
+            blocks: Stretches of equal information that count as independent.
+
+        Returns:
+            Logarithm of what the other leaves more, block by block, in standard errors of its mean.
+        """
+        left = self._left(np.array([delay]))
+        other = self._unexplained() if rival is None else self._left(np.array([rival])).error
+        weight = 1.0 / np.maximum((left.error**2).mean(axis=0), np.finfo(float).tiny)
+        squares = np.column_stack([other**2 @ weight, left.error**2 @ weight])
+        sums = np.maximum(_block_sums(squares, left.information, blocks), np.finfo(float).tiny)
+        more = np.log(sums[:, 0] / sums[:, 1])
+        spread = float(more.std(ddof=1))
+        return float(more.mean() / spread * np.sqrt(len(more))) if spread > 0.0 else 0.0
+
+    def _left(self, theta: FloatArray) -> _Left:
+        at = self.time - theta[0] - (theta[1] * self.since if len(theta) > 1 else 0.0)
+        design = np.hstack([self._constant, self._curve(at)])
+        basis, coefficients = _projection(design, self.reading)
+        error = self.reading - basis @ (basis.T @ self.reading)
+        speed = -self._curve(at, 1) @ coefficients[self._constant.shape[1] :]
+        scales = (np.ones_like(self.since), self.since)[: len(theta)]
+        directions = [scale[:, None] * speed for scale in scales]
+        directions = [one - basis @ (basis.T @ one) for one in directions]
+        weight = 1.0 / np.maximum((error**2).mean(axis=0), np.finfo(float).tiny)
+        return _Left(
+            error,
+            (directions[0] ** 2) @ weight,
+            np.column_stack([(one * error) @ weight for one in directions]),
+            np.array([[float(((a * b) @ weight).sum()) for b in directions] for a in directions]),
+        )
+
+    def _score(self, theta: FloatArray) -> FloatArray:
+        total: FloatArray = self._left(theta).score.sum(axis=0)
+        return total
+
+    def _unexplained(self) -> FloatArray:
+        basis, _ = _projection(self._constant, self.reading)
+        left: FloatArray = self.reading - basis @ (basis.T @ self.reading)
+        return left
+
+    def _explained(self, error: FloatArray) -> float:
+        square = (self._unexplained() ** 2).sum(axis=0)
+        share = 1.0 - (error**2).sum(axis=0) / np.maximum(square, np.finfo(float).tiny)
+        return float(share.max())
+
+
+def even_means(time_s: FloatArray, values: FloatArray, at: FloatArray, step_s: float) -> FloatArray:
+    """Give means of samples over steps of time about given instants, which delay nothing.
+
+    Args:
+        time_s: Stamps, rising; shape (n,); s.
+        values: Samples; shape (n, k).
+        at: Instants inside the stamps; shape (m,); s.
+        step_s: Length of a step; s.
+
+    Returns:
+        Means of the straight lines between samples, or values on them where samples are as far apart as steps; shape
+        (m, k).
+    """
+    if np.median(np.diff(time_s)) > 0.75 * step_s:
+        return np.column_stack([np.interp(at, time_s, column) for column in values.T])
+    area = np.vstack(
+        [np.zeros(values.shape[1]), np.cumsum(np.diff(time_s)[:, None] * (values[1:] + values[:-1]) / 2, 0)]
+    )
+    edges = [np.clip(at + side * step_s / 2.0, time_s[0], time_s[-1]) for side in (-1.0, 1.0)]
+    before, after = (np.column_stack([np.interp(edge, time_s, column) for column in area.T]) for edge in edges)
+    means: FloatArray = (after - before) / (edges[1] - edges[0])[:, None]
+    return means
+
+
+def smoothed(values: FloatArray) -> FloatArray:
+    """Take from samples what is too fast to interpolate.
+
+    A curve through samples with noise is quieter between than on them, and would draw a delay to the middle. Reading
+    and reference are smoothed alike, so that they follow each other as before.
+
+    Args:
+        values: Samples at even steps; shape (n, k).
+
+    Returns:
+        The samples, smoothed; shape (n, k).
+    """
+    from scipy.ndimage import gaussian_filter1d  # here because importing it takes longer than most commands
+
+    smooth: FloatArray = gaussian_filter1d(values, _SMOOTH_STEPS, axis=0, mode="nearest")
+    return smooth
+
+
+def _projection(design: FloatArray, values: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Orthonormal columns that span the design, and coefficients of the values on it."""
+    scale = np.sqrt((design**2).mean(axis=0))
+    scale[scale == 0.0] = 1.0
+    left, singular, right = np.linalg.svd(design / scale, full_matrices=False)
+    kept = singular > _ROUNDING * singular[0]
+    basis = left[:, kept]
+    coefficients = (right[kept].T / singular[kept]) @ (basis.T @ values) / scale[:, None]
+    return basis, coefficients
+
+
+def _block_sums(values: FloatArray, information: FloatArray, blocks: int) -> FloatArray:
+    """Sums over blocks of equal information; shape (blocks, q)."""
+    count = min(blocks, len(values) // _FEWEST_STEPS)
+    if count < blocks // 2:
+        raise RecordingError(f"expected at least {blocks // 2 * _FEWEST_STEPS} steps of time, got {len(values)}")
+    total = np.cumsum(information)
+    edges = np.searchsorted(total, total[-1] * np.arange(1, count) / count)
+    sums: FloatArray = np.array([part.sum(axis=0) for part in np.split(values, edges)])
+    return sums
