@@ -131,6 +131,18 @@ def test_motion_that_repeats_itself_tells_no_delay() -> None:
         estimate_delay(time, reading, time, np.sin(2.0 * np.pi * 3.0 * time)[:, None])
 
 
+@pytest.mark.parametrize("seed", range(4))
+def test_a_sine_of_any_period_tells_no_delay(seed: int) -> None:
+    """Negative control off the steps of time: one that lies nearer to a step is no surer than others."""
+    rng = np.random.default_rng(seed)
+    time, reference_time = np.arange(0.0, 20.0, 0.01), np.arange(-1.0, 21.0, 0.01)
+    turn, delay_s = 2.0 * np.pi * rng.uniform(2.2, 4.0), rng.uniform(-0.2, 0.2)
+    sine = np.sin(turn * (time - delay_s))[:, None] * rng.normal(size=3)
+    reading = sine + 0.1 * rng.normal(size=sine.shape)
+    with pytest.raises(RecordingError, match="does not tell the delay|lies at the end"):
+        estimate_delay(time, reading, reference_time, np.sin(turn * reference_time)[:, None])
+
+
 def test_a_pause_of_days_costs_no_memory() -> None:
     """Two stretches three days apart are two stretches, and not the samples that lie between."""
     rng = np.random.default_rng(6)

@@ -131,7 +131,7 @@ def estimate_delay(
             "the most that says anything; record faster motion, or state delay_s"
         )
     rivals = [lag for lag in _minima(surprise, lags) if abs(lag * step - delay) > max(2.0 * half[0], step)]
-    _require_one_answer(equation, best * step, [lag * step for lag in rivals], around_s)
+    _require_one_answer(equation, float(steady.values[0]), [lag * step for lag in rivals], around_s)
     own = half_width(drifting.standard_error, drifting.degrees_of_freedom)
     return Delay(
         delay_s=around_s + float(delay),
@@ -181,7 +181,9 @@ def _minima(surprise: FloatArray, lags: IntArray) -> list[int]:
 
 def _require_one_answer(equation: DelayEquation, best: float, rivals: list[float], around_s: float) -> None:
     """Refuse a delay that others explain as well, or nothing does."""
-    for rival in (None, *rivals):
+    # each at its own best: on the grid alone, the one that happens to lie nearer to a step would win
+    refined = (float(equation.solved(rival, with_drift=False, blocks=BLOCKS).values[0]) for rival in rivals)
+    for rival in (None, *refined):
         if equation.advantage(best, rival, blocks=BLOCKS) < _SURE:
             other = "none at all" if rival is None else f"one of {around_s + rival:.3g} s"
             raise RecordingError(
