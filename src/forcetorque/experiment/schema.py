@@ -64,6 +64,24 @@ class Variable(Table):
     one full scale over the range that was seen."""
 
 
+def _word_or_table(value: Any) -> str:
+    return "word" if isinstance(value, str | Path) else "table"
+
+
+class PriorTable(Table):
+    """A file with a calibration, and what it does not say itself."""
+
+    path: Path
+    """The file."""
+    force_unit: Text | None = None
+    """Unit of the forces of a plain table, such as N."""
+    moment_unit: Text | None = None
+    """Unit of the moments of a plain table, such as N m."""
+    volts_per_count: Positive | None = None
+    """Of a matrix per volt, what one count of the log is worth: span of the converter over its steps; 1 for a log in
+    volts."""
+
+
 class Sensor(Table):
     """A force-torque sensor to calibrate or evaluate."""
 
@@ -73,9 +91,16 @@ class Sensor(Table):
     """Stream of the recording that holds its reading."""
     serial: Text
     """Serial number."""
-    prior: Literal["identity"] | Path | None = None
-    """Matrix file that the sensor was calibrated with before, and whose counts a calibrated stream recovers;
-    `identity` if that matrix is not known: the calibrated reading then takes the place of counts."""
+    prior: (
+        Annotated[
+            Annotated[PriorTable, Tag("table")] | Annotated[Literal["identity"] | Path, Tag("word")],
+            Discriminator(_word_or_table),
+        ]
+        | None
+    ) = None
+    """File of the calibration that the sensor came with, and whose counts a calibrated stream recovers: a matrix file
+    of iCub, .dat of FirmwareUpdater, .cal of ATI, or a plain table; `identity` if that matrix is not known: the
+    calibrated reading then takes the place of counts."""
     limit_counts: Positive = 32767.0
     """Largest magnitude of a raw reading; counts."""
     full_scale: Annotated[tuple[Positive, ...], Field(min_length=6, max_length=6)] | None = None
@@ -255,16 +280,12 @@ class Smoothing(Table):
     """Order of the polynomial."""
 
 
-def _form_of_derivatives(value: Any) -> str:
-    return "word" if isinstance(value, str) else "table"
-
-
 class ProcessingTable(Table):
     """How logged samples become reading and reference."""
 
     derivatives: Annotated[
         Annotated[Smoothing, Tag("table")] | Annotated[Literal["logged"], Tag("word")],
-        Discriminator(_form_of_derivatives),
+        Discriminator(_word_or_table),
     ] = Smoothing(window_s=0.3, order=3)
     """Filter that differentiates joint positions, or `logged` to take velocity and acceleration from the log."""
     smoothing: Smoothing | None = None
