@@ -204,8 +204,9 @@ def test_recordings_that_say_different_things_of_one_tool_are_refused(
 def test_pushes_are_read_better_on_many_sensors(
     example: SimpleNamespace, tmp_path: Path, weighed: tuple[str, ...]
 ) -> None:
-    """Of twenty sensors, motions and noises no force is read worse than by the maker's matrix, nor a moment if one tool
-    was weighed; if none was, moments of at most two are: one in sixty passes in 99.6 of 100, one in four in 9.
+    """Of twenty sensors no force is read worse than by the maker's matrix, nor a moment if one tool was weighed.
+
+    If none was, moments of at most two are: a rate of one in sixty passes in 99.6 of 100 runs, one in four in 9.
     """
     ratios = []
     for seed in range(20):
