@@ -191,7 +191,7 @@ def test_the_wrist_payload(run: Run, data_dir: Path, tmp_path: Path) -> None:
 
 def test_a_robot_has_no_payload_to_estimate(arm: Path, run: Run) -> None:
     """The command says which table it needs."""
-    assert "expected [load], what hangs on a wrist sensor" in run("payload", arm / PARQUET).error()
+    assert "expected [[load]], what hangs on the sensor" in run("payload", arm / PARQUET).error()
 
 
 def test_what_is_no_log_that_speaks_is_shown_in_every_form(arm: Path, run: Run) -> None:

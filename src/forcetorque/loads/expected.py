@@ -119,6 +119,8 @@ def load_columns(rows: LoadRows, rotation: FloatArray, tilt: FloatArray) -> Floa
     Returns:
         About the sensor's origin, along its axes; shape (n, 6, 10).
     """
+    if rows.columns is not None:
+        return turned_by(rotation) @ rows.columns
     acceleration = rows.proper_acceleration
     if len(tilt) and rows.orientation is not None:
         upwards = np.einsum("nij,nj->ni", rows.orientation, acceleration)
@@ -135,6 +137,19 @@ def load_columns(rows: LoadRows, rotation: FloatArray, tilt: FloatArray) -> Floa
     columns[:, :3, 1:4] = skew(turning) + hat @ hat
     columns[:, 3:, 4:] = _second_columns(turning) + hat @ _second_columns(velocity)
     return columns
+
+
+def turned_by(rotation: FloatArray) -> FloatArray:
+    """Turn wrenches about the origin.
+
+    Args:
+        rotation: The rotation; shape (3, 3).
+
+    Returns:
+        What turns force and moment; shape (6, 6).
+    """
+    turned: FloatArray = np.asarray(np.kron(np.eye(2), rotation), dtype=np.float64)
+    return turned
 
 
 def _second_columns(vector: FloatArray) -> FloatArray:
@@ -219,7 +234,7 @@ def expected(problem: LoadProblem, guess: Guess) -> FloatArray:
 
 
 def load_wrench(problem: LoadProblem, guess: Guess) -> FloatArray:
-    """Give the wrenches of the loads, as an exact sensor without bias reads them.
+    """Give the wrenches of loads and known bodies, as an exact sensor without bias reads them.
 
     Args:
         problem: The problem.
@@ -235,7 +250,7 @@ def load_wrench(problem: LoadProblem, guess: Guess) -> FloatArray:
         mine = problem.rows.load == number
         if mine.any():
             wrench[mine] = sign * columns[mine] @ inertial(load, number, guess)[0]
-    return wrench
+    return wrench if problem.rows.known is None else wrench + problem.rows.known @ turned_by(guess.rotation).T
 
 
 def changes(problem: LoadProblem, guess: Guess) -> FloatArray:

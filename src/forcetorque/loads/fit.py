@@ -9,6 +9,7 @@ from functools import cached_property
 import numpy as np
 
 from forcetorque.arrays import BoolArray, FloatArray
+from forcetorque.loads.before import before
 from forcetorque.loads.expected import Guess, changes, expected
 from forcetorque.loads.groups import groups_of, noise_sizes, sizes_under
 from forcetorque.loads.mixture import Estimate, Prior, estimate
@@ -16,7 +17,7 @@ from forcetorque.loads.mounting import first_mount
 from forcetorque.loads.problem import LoadProblem
 from forcetorque.loads.sound import row_distances, row_weights
 from forcetorque.loads.stacked import Group
-from forcetorque.loads.unknowns import Kind, places, unknowns_of
+from forcetorque.loads.unknowns import Kind, unknowns_of
 from forcetorque.noise import SHAPES
 
 _OPEN = 1e-6
@@ -122,11 +123,11 @@ def plain_fit(
 
 def _step(problem: LoadProblem, guess: Guess, design: FloatArray, values: FloatArray) -> FloatArray:
     """Least-squares step in the directions that are determined; shape (p,)."""
-    precision = _prior_precision(problem, guess)
+    precision, sides = before(problem, guess)
     basis = directions_of(design, precision).basis
     flat = design.reshape(-1, design.shape[2]) @ basis
     inner = flat.T @ flat + basis.T @ precision @ basis
-    step: FloatArray = basis @ np.linalg.solve(inner, flat.T @ values.reshape(-1) - basis.T @ precision @ guess.values)
+    step: FloatArray = basis @ np.linalg.solve(inner, flat.T @ values.reshape(-1) + basis.T @ sides)
     return step
 
 
@@ -149,16 +150,6 @@ def directions_of(design: FloatArray, precision: FloatArray) -> Directions:
     known = squares > _OPEN**2 * squares.max(initial=0.0)
     scaled = turned / scale[:, None]
     return Directions(basis=scaled[:, known], free=scaled[:, ~known])
-
-
-def _prior_precision(problem: LoadProblem, guess: Guess) -> FloatArray:
-    """Precision of the unknowns before the rows: the matrix's alone; shape (p, p)."""
-    precision = np.zeros((len(guess.values), len(guess.values)))
-    if problem.matrix_prior is not None:
-        for row in range(6):
-            own = places(guess.parameters, Kind.MATRIX, row)
-            precision[np.ix_(own, own)] = np.linalg.inv(problem.matrix_prior[row])
-    return precision
 
 
 def fit(problem: LoadProblem, *, drift: bool) -> Fit:
@@ -189,11 +180,11 @@ def _weighed_fit(problem: LoadProblem, *, drift: bool, weight: FloatArray) -> Fi
     sizes = noise_sizes(residual * np.sqrt(rows.share * weight)[:, None])
     for _ in range(2 if linear and rows.angular_velocity is None else 4):
         design = changes(problem, guess)
-        precision = _prior_precision(problem, guess)
+        precision, sides = before(problem, guess)
         directions = directions_of(design / sizes[:, None], precision)
         groups = groups_of(rows, design, residual, sizes, weight)
         basis = directions.basis
-        prior = Prior(precision=basis.T @ precision @ basis, sides=-basis.T @ precision @ guess.values)
+        prior = Prior(precision=basis.T @ precision @ basis, sides=basis.T @ sides)
         answer = estimate(groups, basis, prior, shapes)
         guess = guess.moved(guess.values + basis @ answer.mean)
         residual = rows.wrench - expected(problem, guess)

@@ -13,7 +13,7 @@ from dataclasses import replace
 import numpy as np
 
 from forcetorque.arrays import FloatArray
-from forcetorque.loads.expected import Guess, load_wrench, masses
+from forcetorque.loads.expected import Guess, load_wrench, masses, turned_by
 from forcetorque.loads.fit import Fit, plain_fit
 from forcetorque.loads.jump import strongest_jump
 from forcetorque.loads.mounting import first_mount, quarter_turns, turn_words
@@ -118,6 +118,10 @@ def _turned(rows: LoadRows, turn: FloatArray, acceleration: FloatArray) -> LoadR
         for field in ("angular_velocity", "angular_acceleration")
         if getattr(rows, field) is not None
     }
+    for field in ("columns", "known"):
+        values = getattr(rows, field)
+        if values is not None:
+            others[field] = np.einsum("ij,nj...->ni...", turned_by(turn), values)
     return replace(rows, proper_acceleration=acceleration, orientation=None, **others)
 
 
@@ -223,10 +227,7 @@ def _lag(problem: LoadProblem, residual: FloatArray, *, drift: bool) -> Iterator
     stated = unexplained(rows, residual)
     shares = []
     for lag in _LAGS:
-        then = np.column_stack(
-            [np.interp(rows.time_s - lag, rows.time_s, column) for column in rows.proper_acceleration.T]
-        )
-        late = replace(problem, rows=replace(rows, proper_acceleration=then, orientation=None), tilt=False)
+        late = replace(problem, rows=_behind(rows, rows.time_s, lag), tilt=False)
         shares.append(unexplained(rows, plain_fit(late, drift=drift)[1]) / stated if stated > 0.0 else 1.0)
     best = int(np.argmin(shares))
     if shares[best] < _BETTER:
@@ -236,6 +237,22 @@ def _lag(problem: LoadProblem, residual: FloatArray, *, drift: bool) -> Iterator
             "shift the clock of the stream, or use rows in which nothing moves"
         )
         yield Hypothesis(name="lag", words=words, residual_share=float(shares[best]))
+
+
+def _behind(rows: LoadRows, time_s: FloatArray, lag: float) -> LoadRows:
+    """Rows whose motion, turning aside, is that of other instants."""
+
+    def then(values: FloatArray) -> FloatArray:
+        columns = [np.interp(time_s - lag, time_s, column) for column in values.reshape(len(rows), -1).T]
+        return np.stack(columns, axis=1).reshape(values.shape)
+
+    return replace(
+        rows,
+        orientation=None,
+        proper_acceleration=then(rows.proper_acceleration),
+        columns=None if rows.columns is None else then(rows.columns),
+        known=None if rows.known is None else then(rows.known),
+    )
 
 
 def _jump(fitted: Fit, residual: FloatArray, *, drift: bool) -> Iterator[Hypothesis]:

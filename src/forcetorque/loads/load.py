@@ -11,6 +11,8 @@ import numpy as np
 from forcetorque.arrays import FloatArray, read_only
 from forcetorque.errors import FitError
 
+INERTIAL = 10
+"""Inertial parameters: mass, first moment (3), and xx, yy, zz, xy, xz, yz of the inertia about an origin."""
 _ROUNDING = 1e-9
 """kg m2: a stated inertia may be as far from symmetric."""
 
@@ -24,10 +26,16 @@ class Load:
     mass: float | None = None
     """Mass; kg; None where it is to be estimated; 0 for the bare sensor."""
     centre_of_mass: FloatArray | None = None
-    """Position in the sensor's frame; shape (3,); m; None where it is to be estimated."""
+    """Position in the load's frame, the sensor's unless rows have `columns`; shape (3,); m; None where it is to be
+    estimated."""
     inertia: FloatArray | Literal["unknown"] | None = None
-    """About the centre of mass, along the sensor's axes; shape (3, 3); kg m2; None for a point mass; `unknown` where it
-    is to be estimated, for which the load must be turned with changing speed."""
+    """About the centre of mass, along the same axes; shape (3, 3); kg m2; None for a point mass; `unknown` where it is
+    to be estimated, for which the load must be turned with changing speed."""
+    expected: FloatArray | None = None
+    """What is to be estimated, as it is known before the rows: mass, first moment, and inertia (xx, yy, zz, xy, xz, yz)
+    about the origin of the load's frame; shape (10,); kg, kg m, kg m2; None where nothing is known."""
+    precision: FloatArray | None = None
+    """How well: inverse of its covariance, zero along what is not known; shape (10, 10); given if `expected` is."""
 
     def __post_init__(self) -> None:
         if self.mass is not None and not (np.isfinite(self.mass) and self.mass >= 0.0):
@@ -43,6 +51,15 @@ class Load:
             if not np.allclose(inertia, inertia.T, atol=_ROUNDING):
                 raise FitError(f"load {self.name!r}: inertia: expected a symmetric matrix, got {inertia.tolist()}")
             object.__setattr__(self, "inertia", inertia)
+        if (self.expected is None) != (self.precision is None):
+            raise FitError(f"load {self.name!r}: expected and precision: expected both or neither")
+        if self.expected is None or self.precision is None:
+            return
+        if self.is_known:
+            raise FitError(f"load {self.name!r}: expected: it is stated already; leave out what is known in part only")
+        for field, shape in (("expected", (INERTIAL,)), ("precision", (INERTIAL, INERTIAL))):
+            values = read_only(getattr(self, field), name=f"load {self.name!r}: {field}", shape=shape)
+            object.__setattr__(self, field, values)
 
     @property
     def is_known(self) -> bool:

@@ -41,6 +41,9 @@ class LoadProblem:
     matrix_prior: FloatArray | None = None
     """Covariance of each row of the response `1 + E` to loads about 1, where the matrix is known in part; shape
     (6, 6, 6); N or N m per N, N m; None where it is exact."""
+    slope: tuple[FloatArray, ...] = ()
+    """By how much the logarithm of the density falls with mass, first moment and inertia of every load, beside what
+    rows and priors say; shapes (10,); none if left out. `settled` finds it where the matrix is known in part."""
     variables: tuple[str, ...] = ()
     """Names and units of the variables of the rows, such as `temperature (degC)`."""
 

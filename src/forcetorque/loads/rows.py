@@ -36,6 +36,12 @@ class LoadRows:
     """Number of the load on the sensor; shape (n,)."""
     share: FloatArray
     """Samples in each row over the usual number; shape (n,)."""
+    columns: FloatArray | None = None
+    """What a unit of mass (kg), first moment (kg m) and inertia (xx, yy, zz, xy, xz, yz; kg m2) about the origin of the
+    load's own frame adds to the wrench that moves it, in the sensor's frame, as means over each row; shape (n, 6, 10);
+    None where the load's frame is the sensor's, so that the motion of each row tells it."""
+    known: FloatArray | None = None
+    """What the sensor reads of bodies beyond it that are no load, such as links of a robot; shape (n, 6); N, N m."""
     variables: FloatArray | None = None
     """Temperatures, or whatever else moves the bias linearly; shape (n, v)."""
     orientation: FloatArray | None = None
@@ -51,6 +57,8 @@ class LoadRows:
             "proper_acceleration": (n, 3),
             "angular_velocity": (n, 3),
             "angular_acceleration": (n, 3),
+            "columns": (n, 6, 10),
+            "known": (n, 6),
             "time_s": (n,),
             "share": (n,),
             "variables": (n, None),

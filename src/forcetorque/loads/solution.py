@@ -10,10 +10,8 @@ import numpy as np
 
 from forcetorque.arrays import FloatArray, read_only
 from forcetorque.loads.expected import Guess
+from forcetorque.loads.load import INERTIAL
 from forcetorque.spatial import Inertia
-
-INERTIA_PARAMETERS = 10
-"""Mass, first moment (3), and xx, yy, zz, xy, xz, yz of the inertia about the sensor's origin."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -51,7 +49,7 @@ class LoadEstimate:
             "centre_of_mass_half_width": (3,),
             "inertia": (3, 3),
             "inertia_half_width": (3, 3),
-            "covariance": (INERTIA_PARAMETERS, INERTIA_PARAMETERS),
+            "covariance": (INERTIAL, INERTIAL),
         }
         for field, shape in shapes.items():
             object.__setattr__(self, field, read_only(getattr(self, field), name=field, shape=shape))

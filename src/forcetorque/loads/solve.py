@@ -12,11 +12,10 @@ from forcetorque.loads.drift import choose_drift
 from forcetorque.loads.expected import inertial, instants
 from forcetorque.loads.fit import Fit, fit
 from forcetorque.loads.hypotheses import hypotheses
-from forcetorque.loads.load import Load
+from forcetorque.loads.load import INERTIAL, Load
 from forcetorque.loads.open import open_directions, spanned_by
 from forcetorque.loads.problem import LoadProblem
 from forcetorque.loads.solution import (
-    INERTIA_PARAMETERS,
     DisagreeingRow,
     LoadEstimate,
     LoadSolution,
@@ -107,7 +106,7 @@ def _load(fitted: Fit, number: int, half: FloatArray) -> LoadEstimate:
     if not own and not load.is_known:
         return _absent(load)
     values, change = inertial(load, number, guess)
-    covariance = np.zeros((INERTIA_PARAMETERS, INERTIA_PARAMETERS))
+    covariance = np.zeros((INERTIAL, INERTIAL))
     is_open = fitted.is_open[own]
     inner = fitted.covariance[np.ix_(own, own)]
     inner[is_open] = inner[:, is_open] = 0.0
@@ -176,7 +175,7 @@ def _absent(load: Load) -> LoadEstimate:
         centre_of_mass_half_width=np.full(3, np.inf),
         inertia=np.full((3, 3), np.nan),
         inertia_half_width=np.full((3, 3), np.inf),
-        covariance=np.full((INERTIA_PARAMETERS, INERTIA_PARAMETERS), np.inf),
+        covariance=np.full((INERTIAL, INERTIAL), np.inf),
         estimated=True,
     )
 

@@ -12,7 +12,15 @@ from forcetorque.errors import FitError
 from forcetorque.loads.problem import LoadProblem
 from forcetorque.loads.rows import LoadRows
 
-_OPTIONAL = ("angular_velocity", "angular_acceleration", "time_s", "variables", "orientation")
+_OPTIONAL = (
+    "angular_velocity",
+    "angular_acceleration",
+    "columns",
+    "known",
+    "time_s",
+    "variables",
+    "orientation",
+)
 
 
 def together(problems: Mapping[str, LoadProblem]) -> LoadProblem:
