@@ -3,7 +3,9 @@
 
 from __future__ import annotations
 
+import re
 import tomllib
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Any, TypeVar
 
@@ -40,6 +42,44 @@ Finite = Annotated[float, Field(allow_inf_nan=False, strict=True)]
 
 _Content = TypeVar("_Content", bound=Table)
 
+OPEN = "?"
+"""Value of a key that is still a question: whoever fills the file in answers it, and no command runs before."""
+
+_OPEN_KEY = re.compile(r"""(?P<key>[\w.-]+|"[^"]*")\s*=\s*[\[\s]*["']\?["']""")
+_TEXT = re.compile(r""""(?:[^"\\]|\\.)*"|'[^']*'""")
+_MOST_LINES = 12
+"""Lines of further questions in a message."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class OpenQuestion:
+    """A key of a file that nobody has answered yet."""
+
+    line: int
+    """Its line, from 1."""
+    key: str
+    """The key."""
+    words: str
+    """What is asked: the comment behind it."""
+
+
+def open_questions(text: str) -> tuple[OpenQuestion, ...]:
+    """Find the questions in the text of a TOML file.
+
+    Args:
+        text: Content of the file.
+
+    Returns:
+        Its questions, one a line, in the order of the file.
+    """
+    questions = []
+    for number, line in enumerate(text.splitlines(), start=1):
+        match = _OPEN_KEY.search(line)
+        if match and "#" not in _TEXT.sub("", line[: match.start()]):
+            words = line[match.end() :].partition("#")[2].strip()
+            questions.append(OpenQuestion(line=number, key=match["key"].strip('"'), words=words))
+    return tuple(questions)
+
 
 def read_toml(path: Path | str, form: type[_Content], *, what: str) -> _Content:
     """Read and check a TOML file, without opening what it points to.
@@ -54,19 +94,33 @@ def read_toml(path: Path | str, form: type[_Content], *, what: str) -> _Content:
 
     Raises:
         MissingFileError: If there is no such file.
-        FormatError: If it is not TOML, or a key is unknown, missing or has a wrong value.
+        FormatError: If it is not TOML, a question in it is open, or a key is unknown, missing or has a wrong value.
     """
     file = Path(path)
     if not file.is_file():
         raise MissingFileError(f"{file}: expected {what}, there is none")
     try:
-        content = tomllib.loads(file.read_text(encoding="utf-8"))
+        text = file.read_text(encoding="utf-8")
+        content = tomllib.loads(text)
     except (ValueError, RecursionError) as error:  # not TOML, not UTF-8, or numbers and lists beyond all bounds
         raise FormatError(f"{file}: expected TOML, got {error}") from error
+    _require_answers(file, text)
     try:
         return form.model_validate(content)
     except ValidationError as error:
         raise FormatError(_one_line(file, content, error)) from error
+
+
+def _require_answers(file: Path, text: str) -> None:
+    questions = open_questions(text)
+    if not questions:
+        return
+    first, *more = questions
+    others = ", ".join(str(question.line) for question in more[:_MOST_LINES])
+    beyond = ", ..." if len(more) > _MOST_LINES else ""
+    rest = f" ({len(more)} more: line {others}{beyond})" if more else ""
+    words = f": {first.words}" if first.words else ""
+    raise FormatError(f"{file}:{first.line}: {first.key} is a question that is still open{rest}{words}")
 
 
 def _one_line(file: Path, content: dict[str, Any], error: ValidationError) -> str:

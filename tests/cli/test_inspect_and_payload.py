@@ -191,7 +191,27 @@ def test_the_wrist_payload(run: Run, data_dir: Path, tmp_path: Path) -> None:
 
 def test_a_robot_has_no_payload_to_estimate(arm: Path, run: Run) -> None:
     """The command says which table it needs."""
-    assert "expected [load], what hangs on a wrist sensor" in run("payload", arm / PARQUET).error()
+    assert "expected [[load]], what hangs on the sensor" in run("payload", arm / PARQUET).error()
+
+
+def test_what_is_no_log_that_speaks_is_shown_in_every_form(arm: Path, run: Run) -> None:
+    """A calibration and a table: table, JSON that fits its schema, and CSV with a line for each component or column."""
+    (arm / "table.csv").write_text("t,fx_N,note\n0,1,a\n1,2,b\n", encoding="utf-8")
+    counts = {"matrix_SIM001.txt": 6, "table.csv": 3}
+    for name, count in counts.items():
+        result = run("inspect", arm / name, "--format", "json").result()
+        assert faults(result, run("schema", "inspect").result()) == []
+        rows = run("inspect", arm / name, "--format", "csv").rows()
+        assert len(rows) == count
+    shown = " ".join(run("inspect", arm / "matrix_SIM001.txt").out.split())
+    assert "matrix file of iCub, serial number not stated" in shown
+    calibration = run("inspect", arm / "matrix_SIM001.txt", "--format", "csv").rows()
+    assert set(calibration[0]) == {"component", "unit", "full_scale", *(f"channel_{k}" for k in range(6))}
+    seen = {
+        row["column"]: (row["unit"], row["looks_like"])
+        for row in run("inspect", arm / "table.csv", "--format", "csv").rows()
+    }
+    assert seen == {"t": ("", "time"), "fx_N": ("N", ""), "note": ("", "a text")}
 
 
 def test_a_log_of_a_stated_format_is_described(arm: Path, run: Run) -> None:
@@ -200,7 +220,8 @@ def test_a_log_of_a_stated_format_is_described(arm: Path, run: Run) -> None:
     stated = run("inspect", arm / "recording", "--log-format", "parquet", "--format", "json").result()
     assert stated == by_content
     (arm / "table.csv").write_text("t,fx,fy\n0,1,2\n", encoding="utf-8")
-    error = run("inspect", arm / "table.csv", "--log-format", "tabular").error()
-    assert "got the columns t, fx, fy; state their columns and units" in error
+    seen = run("inspect", arm / "table.csv", "--log-format", "tabular", "--format", "json").result()
+    assert [row["column"] for row in seen["unread"]] == ["t", "fx", "fy"]
+    assert "nothing of it is read until an experiment file says what it is" in run("inspect", arm / "table.csv").out
     assert "no format of logs is called 'ros1'" in run("inspect", arm / "recording", "--log-format", "ros1").error()
     assert "expected a bag of ROS" in run("inspect", arm / "table.csv", "--log-format", "ros").error()

@@ -8,6 +8,7 @@ look at the difference before it is committed.
 from __future__ import annotations
 
 import re
+import shutil
 from collections.abc import Callable, Mapping
 from functools import partial
 from pathlib import Path
@@ -28,6 +29,7 @@ from tests.experiments import PARQUET, TWO
 from tests.patches import collapsed, cylinder_patch, position_text
 from tests.thermal_cycles import record, write_cycles
 from tests.touched import write_table, write_touched
+from tests.tutorial_log import FOLDER as FOLDER_OF_THE_TUTORIAL
 from tests.wrist_contest import write_contest, write_runs
 
 WIDTHS = (60, 80, 100, 120)
@@ -46,6 +48,7 @@ COMMANDS = {
     "evaluate": ("evaluate", PARQUET, "-c", "fitted.json"),
     "export": ("export", "fitted.json", "--to", "csv", "-o", "matrix.csv"),
     "gains": ("gains", PARQUET),
+    "init": ("init", "begun/log.csv", "--urdf", "begun/robot.urdf", "-o", "begun.toml"),
     "inspect": ("inspect", "faulty.toml"),
     "plan": ("plan", PARQUET, "-c", "fitted.json", "--clearance-deg", "12", "--seconds", "20", "--recordings", "2"),
     "report": ("report", PARQUET, "fitted.json", "-o", "report.html"),
@@ -97,6 +100,10 @@ def _write_fast(arm: Path) -> None:
     write_taps(arm / "excited")
 
 
+def _write_log(arm: Path) -> None:
+    shutil.copytree(FOLDER_OF_THE_TUTORIAL, arm / "begun")
+
+
 def _write_patch(arm: Path) -> None:
     (arm / "patch.txt").write_text(position_text(collapsed(cylinder_patch(), 4)), encoding="utf-8")
 
@@ -110,6 +117,7 @@ WRITTEN: Mapping[str, Callable[[Path], object]] = MappingProxyType(
         "chamber/chamber.toml": _write_warm_record,
         "wrist/contest.toml": _write_runs,
         "excited/taps.toml": _write_fast,
+        "begun/log.csv": _write_log,
         "patch.txt": _write_patch,
         "SIM001.toml": partial(write_bench, faults=BenchFaults(swapped=(3, 8))),
     }

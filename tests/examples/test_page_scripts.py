@@ -22,6 +22,7 @@ RUN_ELSEWHERE = {
     "contest.md": "tests/cli/test_contest.py",
     "response.md": "tests/analysis/test_response.py",
     "thermal.md": "tests/analysis/test_thermal.py",
+    "tutorial.md": "tests/cli/test_tutorial.py",
     "simulation.md": "tests/examples/test_page_scripts.py",
     "skin_layout.md": "tests/exchange/skin/test_documentation.py",
     "simulation.md, both feet": "tests/examples/test_simulation_page.py",

@@ -22,6 +22,7 @@ from hypothesis import strategies as st
 from forcetorque.errors import ForceTorqueError, FormatError
 from forcetorque.exchange.array_file import npz
 from forcetorque.exchange.formats import recognised_format
+from forcetorque.exchange.log_sketch import SketchingFormat
 from forcetorque.exchange.ros import RosFormat
 from tests.exchange.array_file import test_hdf5_and_npz as arrays
 from tests.exchange.robometry import test_log_format as robometry
@@ -118,7 +119,9 @@ def damaged(data: bytes, seed: int) -> bytes:
 
 def _describe(log: Path) -> None:
     known = recognised_format(log)
-    if known is not None:
+    if isinstance(known, SketchingFormat):
+        known.sketch(log)
+    elif known is not None:
         known.describe(log)
 
 

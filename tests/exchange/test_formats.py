@@ -136,8 +136,10 @@ def test_each_recognises_its_own(dumped: Path, stored: Path, tmp_path: Path) -> 
     assert isinstance(recognised_format(stored), ParquetFormat)
     (tmp_path / "table").mkdir()
     (tmp_path / "table" / "ft.csv").write_text("t,fx\n0,1\n", encoding="utf-8")
+    (tmp_path / "table" / "notes.csv").write_text("on the, bench\nwas cold, today\n", encoding="utf-8")
     assert recognised_format(tmp_path / "table") is None
-    assert recognised_format(tmp_path / "table" / "ft.csv") is None
+    assert isinstance(recognised_format(tmp_path / "table" / "ft.csv"), TabularFormat)
+    assert recognised_format(tmp_path / "table" / "notes.csv") is None
     assert recognised_format(dumped / "ft" / "data.log") is None
 
 

@@ -345,7 +345,7 @@ def test_the_column_of_a_variable_is_that_of_the_stream(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("old", "new", "match"),
     [
-        ("\n[recording]\n", '\n[robot]\nurdf = "x.urdf"\n\n[recording]\n', r"\[robot\] with a URDF, or \[load\]"),
+        ("\n[recording]\n", '\n[robot]\nurdf = "x.urdf"\n\n[recording]\n', "a \\[\\[load\\]\\] needs link"),
         ('motion = ["poses"]', "", "expected motion, the streams that tell how the load moves, or applied"),
         ('motion = ["poses"]', 'motion = ["poses"]\napplied = "poses"', "expected motion"),
         ("[[sensor]]", '[[support]]\nframe = "tool"\nimu = ["poses"]\n\n[[sensor]]', r"no \[\[support\]\]"),

@@ -46,6 +46,7 @@ if TYPE_CHECKING:
     from forcetorque.analysis.export_rows import Export, ExportedCalibration
     from forcetorque.analysis.findings import doubtful_spans, inspect_experiment, inspect_recording
     from forcetorque.analysis.gains import Gains, SensorGains, select_gains, sensor_gains
+    from forcetorque.analysis.init import Draft, draft_experiment
     from forcetorque.analysis.inspect import FindingRow, Inspection, finding_rows, finding_table, inspect_log
     from forcetorque.analysis.interval_quality import IntervalQuality
     from forcetorque.analysis.joint_calibration import calibrate_jointly, calibration_file
@@ -130,6 +131,7 @@ __all__ = [
     "DeviceDemands",
     "DeviceDesign",
     "DeviceSpan",
+    "Draft",
     "Entries",
     "EstimateSummary",
     "Evaluation",
@@ -223,6 +225,7 @@ __all__ = [
     "design_device",
     "device_demands",
     "device_span",
+    "draft_experiment",
     "doubtful_spans",
     "estimate_experiment",
     "estimates_of_recordings",

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from contextlib import contextmanager, nullcontext
 
 from forcetorque.analysis.campaign_interval import CampaignInterval, CampaignNames, joined_inputs, joined_sphere
@@ -13,6 +13,7 @@ from forcetorque.calibration import DataSet, SensorIdentity
 from forcetorque.errors import ExperimentError
 from forcetorque.experiment.content import ExperimentSensor
 from forcetorque.experiment.inputs import stated_in
+from forcetorque.experiment.loads_together import weighed_together
 from forcetorque.recording import Use
 
 
@@ -34,6 +35,7 @@ class Campaign:
             raise ExperimentError("expected at least one run of a sensor, got none; name an experiment file")
         self._recordings = [CampaignRecording.of(run) for run in self.runs]
         self.names = CampaignNames(self._recordings)
+        self.runs = _weighing_together(dict(zip(self.recordings, self.runs, strict=True)))
 
     @classmethod
     def of(cls, runs: Runs) -> Campaign:
@@ -175,6 +177,15 @@ class Campaign:
             Data per interval, with its label, session and recording by names that are unique in the campaign.
         """
         return [interval.data_set for interval in self.samples(use, variables=variables)]
+
+
+def _weighing_together(runs: Mapping[str, SensorRun]) -> tuple[SensorRun, ...]:
+    """Runs whose unknown loads on the robot are weighed by all of them; the same runs where there are none."""
+    experiments = weighed_together({name: run.experiment for name, run in runs.items()})
+    return tuple(
+        run if experiments[name] is run.experiment else SensorRun(experiments[name], run.sensor)
+        for name, run in runs.items()
+    )
 
 
 Runs = SensorRun | Sequence[SensorRun] | Campaign

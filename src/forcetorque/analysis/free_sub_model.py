@@ -83,7 +83,7 @@ class FreeSubModel:
             raise ExperimentError("expected a support frame, got none")
         experiment = self.run.experiment
         return ContactForceValidation(
-            tree=build_tree(experiment.model, interval.support.frame),
+            tree=build_tree(experiment.model_on(interval.support), interval.support.frame),
             sensor=self.run.sensor.name,
             sub_model=self.sub_model,
             contact=None if self.contact is None else Contact(link=self.contact, name="contact"),

@@ -5,19 +5,30 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Literal
 
 from pydantic import Field
 
+from forcetorque.analysis.draft.looks import looks
 from forcetorque.analysis.findings import inspect_experiment, inspect_recording
+from forcetorque.analysis.inspected_file import (
+    ColumnRow,
+    SeenCalibration,
+    calibration_row,
+    column_rows,
+    sketch_words,
+)
 from forcetorque.analysis.inspected_streams import StreamRow, stream_rows, stream_table
 from forcetorque.analysis.skin_findings import inspect_patches, taxel_findings
-from forcetorque.errors import MissingFileError
+from forcetorque.errors import FormatError, MissingFileError
 from forcetorque.exchange.formats import format_named, not_recognised, recognised_format
-from forcetorque.experiment import load_experiment, load_patches, load_shown, parse_experiment
+from forcetorque.exchange.log_sketch import SketchingFormat
+from forcetorque.exchange.prior import PriorFile, StatedUnits, holds_prior, read_prior_file
+from forcetorque.experiment import ExperimentFile, load_experiment, load_patches, load_shown, parse_experiment
 from forcetorque.recording import Finding, Recording
-from forcetorque.result import Result, Row, Table
+from forcetorque.result import Result, Row, Table, table_of
 
 _MOST_ALIKE = 8
 """Lines of one kind and channel in the table; the rest is counted. JSON and CSV have them all."""
@@ -64,6 +75,10 @@ class Inspection(Result):
     """Time from the earliest to the latest stamp."""
     findings: tuple[FindingRow, ...]
     """Findings in the order of time."""
+    unread: tuple[ColumnRow, ...] = ()
+    """Columns or arrays of a log that does not say what it holds, in place of streams."""
+    calibration: SeenCalibration | None = None
+    """The calibration that a sensor came with, where the file is one."""
 
     def blocks(self) -> Iterator[Table | str]:
         """Give a table of streams and one of findings, with a few lines of what comes again and again.
@@ -71,6 +86,14 @@ class Inspection(Result):
         Yields:
             The tables and sentences.
         """
+        if self.calibration is not None:
+            yield self.calibration.table(self.source)
+            yield from self.calibration.notes
+            return
+        if self.unread:
+            yield table_of(self.unread, f"{self.source}: what is in it")
+            yield sketch_words(self.unread, self.source)
+            return
         yield stream_table(self.streams, f"{self.source}: streams")
         yield finding_table(self.findings, self.source)
         for (stream, kind, channel), count in Counter(row.likeness for row in self.findings).items():
@@ -78,26 +101,39 @@ class Inspection(Result):
                 yield f"{count - _MOST_ALIKE} more of {stream}: {kind} {channel}".rstrip()
         yield f"{len(self.findings)} finding(s) in {self.duration_s:.1f} s of {', '.join(self.streams)}"
 
+    def records(self) -> list[dict[str, object]]:
+        """Give the answer as flat lines, for CSV.
+
+        Returns:
+            A line per finding; per column of what nobody declared, or component of a calibration, in their place.
+        """
+        if self.calibration is not None:
+            return [row.by_channel() for row in self.calibration.rows]
+        return [row.flat() for row in self.unread or self.findings]
+
     def columns(self) -> list[str]:
         """Name the columns of the CSV.
 
         Returns:
-            The keys of a finding, also where there is none.
+            The keys of a line; of a finding where there is none.
         """
-        return list(FindingRow.model_fields)
+        return super().columns() or list(FindingRow.model_fields)
 
 
 def inspect_log(path: Path | str, *, log_format: str | None = None) -> Inspection:
-    """Inspect an experiment file, or a log of any format that is recognised by what is there.
+    """Inspect an experiment file, a log of any format that is recognised by what is there, or a sensor's calibration.
 
     Args:
-        path: Experiment file, or folder or file of a log.
+        path: Experiment file, folder or file of a log, or file of a calibration that a sensor came with.
         log_format: Name of the format of a log; it is recognised by what is there if left out.
 
     Returns:
         What it holds, and what is wrong with it.
     """
     source = Path(path)
+    unread = _without_experiment(source, log_format)
+    if unread is not None:
+        return unread
     recording, findings = _recorded(source, log_format)
     start, end = recording.span_ns
     return Inspection(
@@ -106,6 +142,31 @@ def inspect_log(path: Path | str, *, log_format: str | None = None) -> Inspectio
         duration_s=(end - start) * 1e-9,
         findings=finding_rows(start, findings),
     )
+
+
+def _without_experiment(source: Path, name: str | None) -> Inspection | None:
+    """What is seen of a calibration, and of a log that does not say what it holds; None for anything else."""
+    if not source.exists():
+        return None
+    if name is None and source.is_file() and holds_prior(source):
+        calibration = calibration_row(_prior(source))
+        return Inspection(source=str(source), streams={}, duration_s=0.0, findings=(), calibration=calibration)
+    known = recognised_format(source) if name is None else format_named(name)
+    if not (source.is_file() and isinstance(known, SketchingFormat)):
+        return None
+    sketch = known.sketch(source)
+    unread = column_rows(sketch, looks(sketch))
+    return Inspection(source=str(source), streams={}, duration_s=0.0, findings=(), unread=unread)
+
+
+def _prior(source: Path) -> PriorFile:
+    """The calibration; of a table that states no units, as if they were the usual ones, and says so."""
+    try:
+        return read_prior_file(source)
+    except FormatError:
+        file = read_prior_file(source, StatedUnits(force="N", moment="N m"))
+    words = "as if its units were N and N m per count, which it does not state"
+    return replace(file, notes=(words,))
 
 
 def _recorded(source: Path, name: str | None) -> tuple[Recording, tuple[Finding, ...]]:
@@ -118,7 +179,7 @@ def _recorded(source: Path, name: str | None) -> tuple[Recording, tuple[Finding,
         return recording, inspect_recording(recording)
     if source.is_dir():
         raise not_recognised(source)
-    stated = parse_experiment(source)
+    stated = _parsed(source)
     patches = load_patches(source) if stated.patch else None
     if patches is not None and not stated.sensor:
         return patches.recording, inspect_patches(patches)
@@ -128,6 +189,16 @@ def _recorded(source: Path, name: str | None) -> tuple[Recording, tuple[Finding,
     experiment = load_experiment(source)
     findings = inspect_experiment(experiment)
     return experiment.recording, findings if patches is None else (*findings, *taxel_findings(patches))
+
+
+def _parsed(source: Path) -> ExperimentFile:
+    """The experiment file; what is none by its name is said to be no log either."""
+    try:
+        return parse_experiment(source)
+    except FormatError as error:
+        if source.suffix.lower() == ".toml" or "expected TOML" not in str(error):
+            raise
+        raise not_recognised(source) from error
 
 
 def finding_rows(recording_start: int, findings: Iterable[Finding]) -> tuple[FindingRow, ...]:

@@ -110,12 +110,13 @@ def joint_interval(
     support = interval.support
     if support is None:
         raise ExperimentError(f"interval {interval.label!r}: expected a support frame or an IMU, got none")
+    model = experiment.model_on(support)
     present = contacts_in(interval, experiment.contacts)
     touched = tuple(dict.fromkeys((support.frame, *(entry.contact.link for entry in present))))
     if isinstance(support, MovingSupport):
         # the motion is known where the IMU is: nothing needs to be carried to another link
         support = replace(support, frame=imu_frame(experiment.model, experiment.recording, support))
-    tree = build_tree(experiment.model, support.frame)
+    tree = build_tree(model, support.frame)
     parts, weighed, left_out = _logged(experiment, untouched_parts(tree, sensors, touched), tree)
     if not parts and not weighed:
         raise ExperimentError(

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Weigh what hangs on a wrist sensor, with the sensor's own reading."""
+"""Weigh what hangs on a wrist sensor, or on the robot beyond a sensor, with the sensor's own reading."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ import numpy as np
 from pydantic import Field
 
 from forcetorque.analysis.campaign import Campaign, Runs
+from forcetorque.analysis.load_doubts import load_doubts
 from forcetorque.analysis.payload_rows import (
     BiasRow,
     BiasTestRow,
@@ -24,10 +25,8 @@ from forcetorque.analysis.payload_rows import (
 )
 from forcetorque.analysis.payload_words import bias_words, disagreements, drift_words, load_words, payload_doubts
 from forcetorque.analysis.sensor_run import SensorRun
-from forcetorque.errors import ExperimentError
-from forcetorque.experiment.load_rows import load_problem, samples_left_out
-from forcetorque.experiment.wrist_load import WristLoads
-from forcetorque.loads import LoadProblem, LoadSolution, instants, load_wrench, solve, together
+from forcetorque.analysis.weighing import hanging_on, links_of, problem_among, weighed, weighed_alone
+from forcetorque.loads import LoadSolution, instants, load_wrench
 from forcetorque.noise import means_over
 from forcetorque.recording import Use
 from forcetorque.result import Result, Table, WrenchValues, table_of
@@ -39,7 +38,7 @@ _LASTING_S = 0.25
 
 
 class WeighedLoad(Result):
-    """What hangs on a wrist sensor, and the sensor's biases."""
+    """What hangs on a wrist sensor or on a robot, and the sensor's biases."""
 
     of_several: ClassVar[tuple[str, ...]] = ("recordings", "disagreements")
     schema_name: Literal["forcetorque/payload/2"] = Field(default="forcetorque/payload/2", alias="schema")
@@ -123,28 +122,23 @@ def weigh_load(runs: Runs) -> WeighedLoad:
     """Give the loads that the calibration intervals of one or several experiments tell.
 
     Args:
-        runs: The wrist sensor; of several experiments, all under the same loads.
+        runs: The sensor; of several experiments, all under the same loads for a wrist sensor without a robot, while
+            on a robot loads of one name are one load.
 
     Returns:
         Loads, biases, their 95 % intervals, what stays open, and what makes it doubtful.
     """
     campaign = Campaign.of(runs)
-    wrists = [_wrist(run) for run in campaign.runs]
-    pairs = list(zip(campaign.runs, wrists, strict=True))
-    solution, first = _solution(campaign, wrists), campaign.runs[0]
-    alone = [
-        RecordingLoadRow.by(name, load)
-        for name, (run, wrist) in zip(campaign.recordings, pairs, strict=True)
-        for load in wrist.solution(run.experiment).loads
-        if len(pairs) > 1
-    ]
-    weighed = WeighedLoad(
+    solution, first, links = weighed(campaign), campaign.runs[0], links_of(campaign)
+    table = None if first.experiment.wrist is None else first.experiment.wrist.table
+    alone = [RecordingLoadRow.by(name, load, links.get(load.name)) for name, load in weighed_alone(campaign)]
+    result = WeighedLoad(
         experiment=", ".join(campaign.experiments),
         sensor=first.sensor.name,
         serial=first.sensor.serial,
         rows=len(solution.residual),
-        left_out=sum(samples_left_out(run.experiment, wrist) for run, wrist in pairs),
-        loads=tuple(LoadRow.of(load) for load in solution.loads),
+        left_out=sum(hanging_on(run).left_out(run.experiment) for run in campaign.runs if run.has(Use.CALIBRATION)),
+        loads=tuple(LoadRow.of(load, links.get(load.name)) for load in solution.loads),
         sessions=tuple(BiasRow.of(session) for session in solution.sessions),
         variables=tuple(
             VariableRow(variable=one.name, coefficients=six(one.coefficients), half_width_95=six(one.half_width))
@@ -152,34 +146,19 @@ def weigh_load(runs: Runs) -> WeighedLoad:
         ),
         drift=DriftRow.of(solution.drift),
         bias_tests=tuple(BiasTestRow.of_test(test) for test in solution.bias_tests),
-        mount_rad=None if wrists[0].table.mount is None else _vector(solution),
-        tilt_rad=None if wrists[0].table.tilt is None else (float(solution.tilt[0]), float(solution.tilt[1])),
+        mount_rad=None if table is None or table.mount is None else _vector(solution),
+        tilt_rad=None if table is None or table.tilt is None else (float(solution.tilt[0]), float(solution.tilt[1])),
         open=tuple(entry.words for entry in solution.open_directions),
         disagreeing=tuple(RowThatDisagrees.of(row) for row in solution.disagreeing),
         hypotheses=tuple(HypothesisRow.of(one) for one in solution.hypotheses),
-        judged=tuple(row for run, wrist in pairs for row in _judged(run, wrist, solution)),
+        judged=tuple(row for run in campaign.runs for row in _judged(campaign, run, solution)),
         residual_rms=solution.residual_rms,
         spanned_directions=solution.spanned,
         recordings=tuple(alone),
         disagreements=tuple(disagreements(alone)),
     )
-    return weighed.model_copy(update={"warnings": tuple(payload_doubts(weighed))})
-
-
-def _wrist(run: SensorRun) -> WristLoads:
-    if run.experiment.wrist is None:
-        raise ExperimentError("expected [load], what hangs on a wrist sensor, got [robot]; give [load] in its place")
-    return run.experiment.wrist
-
-
-def _solution(campaign: Campaign, wrists: list[WristLoads]) -> LoadSolution:
-    if len(wrists) == 1:
-        return wrists[0].solution(campaign.runs[0].experiment)
-    problems: dict[str, LoadProblem] = {
-        name: load_problem(run.experiment, wrist)
-        for name, run, wrist in zip(campaign.recordings, campaign.runs, wrists, strict=True)
-    }
-    return solve(together(problems))
+    doubts = (*payload_doubts(result), *(words for run in campaign.runs for words in load_doubts(run)))
+    return result.model_copy(update={"warnings": doubts})
 
 
 def _vector(solution: LoadSolution) -> tuple[float, float, float]:
@@ -189,12 +168,12 @@ def _vector(solution: LoadSolution) -> tuple[float, float, float]:
     return float(x), float(y), float(z)
 
 
-def _judged(run: SensorRun, wrist: WristLoads, solution: LoadSolution) -> Iterator[JudgedLoadRow]:
+def _judged(campaign: Campaign, run: SensorRun, solution: LoadSolution) -> Iterator[JudgedLoadRow]:
     """What the loads leave of validation intervals, about the middle of each: its bias is not known."""
     if not run.has(Use.VALIDATION) or not all(load.is_determined for load in solution.loads):
         return
-    problem = load_problem(run.experiment, wrist, use=Use.VALIDATION)
-    wrench = load_wrench(problem, solution.guess)
+    problem = problem_among(campaign, run, Use.VALIDATION)
+    wrench = load_wrench(problem, solution.guess) @ solution.response.T
     left = problem.rows.wrench - wrench
     for number, label in enumerate(problem.blocks):
         mine = problem.rows.block == number

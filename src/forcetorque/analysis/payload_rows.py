@@ -4,9 +4,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Annotated, Self
+from typing import Annotated, Any, Self
+
+import numpy as np
 
 from forcetorque.loads import BiasTest, DisagreeingRow, DriftChoice, Hypothesis, LoadEstimate, SessionEstimate
+from forcetorque.loads.unknowns import six_of
 from forcetorque.result import Row, Shown, ShownWrench, WrenchValues, finite_or_none
 
 Three = tuple[float | None, float | None, float | None]
@@ -53,20 +56,28 @@ class LoadRow(Row):
     mass_half_width_95_kg: float | None
     """Half-width of its interval; none where it is open."""
     centre_of_mass_m: Three
-    """Centre of mass in the sensor's frame; none where it is open."""
+    """Centre of mass in the frame of the sensor, or of the link; none where it is open."""
     centre_of_mass_half_width_95_m: Three
     """Half-widths of its intervals; none where they are open."""
     inertia_kgm2: tuple[Three, Three, Three] | None
-    """About the centre of mass, along the sensor's axes; none of a point mass."""
+    """About the centre of mass, along the same axes; none of a point mass."""
     inertia_half_width_95_kgm2: tuple[Three, Three, Three] | None
     """Half-widths of its intervals; none of a point mass."""
+    link: str | None = None
+    """Link of the robot that it hangs on; none on a wrist sensor."""
+    inertial: tuple[float, ...] | None = None
+    """On a link: mass, first moment, and inertia xx, yy, zz, xy, xz, yz about the origin of the link's frame; kg, kg m,
+    kg m2; none where any of it is open."""
+    covariance: tuple[tuple[float, ...], ...] | None = None
+    """Of these ten, one standard error squared; none where they are."""
 
     @classmethod
-    def of(cls, load: LoadEstimate) -> Self:
+    def of(cls, load: LoadEstimate, link: str | None = None) -> Self:
         """Tell an estimate.
 
         Args:
             load: The estimate.
+            link: Link of the robot that it hangs on; none on a wrist sensor.
 
         Returns:
             Its row.
@@ -81,7 +92,16 @@ class LoadRow(Row):
             centre_of_mass_half_width_95_m=three(load.centre_of_mass_half_width),
             inertia_kgm2=None if point else _matrix(load.inertia),
             inertia_half_width_95_kgm2=None if point else _matrix(load.inertia_half_width),
+            link=link,
+            **({} if link is None or not np.isfinite(load.covariance).all() else _inertial(load)),
         )
+
+
+def _inertial(load: LoadEstimate) -> dict[str, Any]:
+    about_origin = load.as_inertia()
+    values = np.concatenate([[about_origin.mass], about_origin.first_moment, six_of(about_origin.second_moment)])
+    covariance = 0.5 * (load.covariance + load.covariance.T)
+    return {"inertial": tuple(values.tolist()), "covariance": tuple(map(tuple, covariance.tolist()))}
 
 
 def _matrix(values: Iterable[Iterable[float]]) -> tuple[Three, Three, Three]:
@@ -235,17 +255,18 @@ class RecordingLoadRow(LoadRow):
     """Name of the recording."""
 
     @classmethod
-    def by(cls, recording: str, load: LoadEstimate) -> Self:
+    def by(cls, recording: str, load: LoadEstimate, link: str | None = None) -> Self:
         """Tell an estimate.
 
         Args:
             recording: Name of the recording.
             load: The estimate.
+            link: Link of the robot that it hangs on; none on a wrist sensor.
 
         Returns:
             Its row.
         """
-        return cls(recording=recording, **dict(LoadRow.of(load)))
+        return cls(recording=recording, **dict(LoadRow.of(load, link)))
 
 
 class HypothesisRow(Row):

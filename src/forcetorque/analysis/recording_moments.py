@@ -7,14 +7,11 @@ from collections.abc import Sequence
 from pathlib import Path
 from urllib.parse import quote
 
-import numpy as np
-
 from forcetorque.analysis.campaign import Campaign, Runs
 from forcetorque.analysis.campaign_recording import CampaignRecording
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration import IntervalMoments, LinearVariable, RecordingMoments, VariableDescription, gate
-from forcetorque.calibration.generative import ACCURACY_SHARE
-from forcetorque.errors import ExperimentError
+from forcetorque.experiment.full_scale import full_scale_of
 from forcetorque.recording import Use
 
 
@@ -96,21 +93,8 @@ def channel_full_scale(recording: CampaignRecording) -> FloatArray:
 
     Returns:
         Full scales; shape (c,); counts, or N and N m where the logged wrench takes the place of counts.
-
-    Raises:
-        ExperimentError: If a wrench takes the place of counts, and neither its full scale nor an accuracy is stated.
     """
-    sensor, accuracy = recording.sensor, recording.options.accuracy
-    if sensor.prior_source != "identity":
-        return np.full(recording.channels, sensor.limit_counts)
-    if sensor.full_scale is not None:
-        return sensor.full_scale
-    if accuracy is not None and (accuracy > 0.0).all():
-        return accuracy / ACCURACY_SHARE
-    raise ExperimentError(
-        f'sensor {sensor.name!r}: expected full_scale with the prior "identity", which says nothing of sizes: six '
-        "numbers in its [[sensor]], N and N m, as its data sheet has them; or accuracy of [calibration]"
-    )
+    return full_scale_of(recording.sensor, recording.options.accuracy, channels=recording.channels)
 
 
 def store_moments(runs: Runs, folder: Path | str) -> list[Path]:

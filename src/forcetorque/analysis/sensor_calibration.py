@@ -17,6 +17,7 @@ from forcetorque.analysis.campaign import Campaign, Runs
 from forcetorque.analysis.findings import doubtful_spans
 from forcetorque.analysis.joint_outcome import JointOutcome
 from forcetorque.analysis.learnt import LearntDirection, learnt_directions, learnt_words
+from forcetorque.analysis.load_doubts import load_doubts
 from forcetorque.analysis.sensor_run import SensorRun
 from forcetorque.array_field import ArrayField
 from forcetorque.arrays import FloatArray
@@ -156,6 +157,7 @@ def data_doubts(run: SensorRun, *, by_model: bool = True) -> Iterator[str]:
             "the load was estimated with this sensor's own reading, so a wrong gain cannot be seen; "
             "give mass_kg and centre_of_mass_m to judge it"
         )
+    yield from load_doubts(run)
     if by_model:
         yield from _touched(run)
     start_ns, alone = experiment.recording.start_ns, replace(experiment, sensors=(run.sensor,))

@@ -145,7 +145,7 @@ class TorqueSources:
         """Torques from the sensors, with every contact unknown, or from contacts that are all known."""
         if interval.support is None:
             raise ExperimentError(f"interval {interval.label!r}: expected a support frame")
-        tree = build_tree(self.experiment.model, interval.support.frame)
+        tree = build_tree(self.experiment.model_on(interval.support), interval.support.frame)
         sensors = tuple(sensor.name for sensor in self.experiment.sensors)
         contacts = [entry.contact for entry in contacts_in(interval, self.experiment.contacts)]
         if ft:

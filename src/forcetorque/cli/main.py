@@ -18,6 +18,7 @@ from forcetorque.cli.estimate import estimate
 from forcetorque.cli.evaluate import evaluate
 from forcetorque.cli.export import export
 from forcetorque.cli.gains import gains
+from forcetorque.cli.init import init
 from forcetorque.cli.inspect import inspect
 from forcetorque.cli.output import report_error
 from forcetorque.cli.payload import payload
@@ -66,6 +67,7 @@ _COMMANDS = (
     evaluate,
     export,
     gains,
+    init,
     inspect,
     payload,
     plan,

@@ -99,6 +99,23 @@ def recognised_format(path: Path) -> LogFormat[Any] | None:
     return formats[0] if formats else None
 
 
+_LOOSE_PORT = "data.log"
+_MOST_NAMED = 12
+
+
+def _is_log_file(entry: Path) -> bool:
+    return entry.is_file() and any(known.recognises(entry) for known in LOG_FORMATS)
+
+
+def _loose_ports(path: Path) -> str:
+    """Words about messages of ports that lie beside each other, as `left_data.log`: each needs a folder of its own."""
+    entries = sorted(path.iterdir()) if path.is_dir() else [path]
+    loose = [entry.name for entry in entries if entry.name.endswith(_LOOSE_PORT) and entry.name != _LOOSE_PORT]
+    if not loose:
+        return ""
+    return f"; {loose[0]} looks like a port's: put it into a folder of its own as {_LOOSE_PORT}, its info.log beside it"
+
+
 def not_recognised(path: Path) -> FormatError:
     """Say what would have made a path a log.
 
@@ -108,10 +125,16 @@ def not_recognised(path: Path) -> FormatError:
     Returns:
         The error to raise.
     """
+    logs = [entry.name for entry in sorted(path.iterdir()) if _is_log_file(entry)] if path.is_dir() else []
+    if logs:
+        shown = ", ".join(logs[:_MOST_NAMED]) + (f" and {len(logs) - _MOST_NAMED} more" if logs[_MOST_NAMED:] else "")
+        return FormatError(
+            f"{path}: expected a log, got a folder of several: {shown}; name one, or those of one recording"
+        )
     signs = [known.sign for known in LOG_FORMATS if known.sign is not None]
     return FormatError(
         f"{path}: expected {', or '.join(signs)}; found none of them; name the folder that holds them, or an "
-        f"experiment file with a [recording] of format {', '.join(map(format_name, LOG_FORMATS))}"
+        f"experiment file with a [recording] of format {', '.join(map(format_name, LOG_FORMATS))}{_loose_ports(path)}"
     )
 
 

@@ -22,6 +22,7 @@ from forcetorque.recording import Interval, MovingSupport, Recording, ScalarSour
 from forcetorque.robot import RobotModel
 
 if TYPE_CHECKING:
+    from forcetorque.experiment.link_loads import LinkLoads
     from forcetorque.experiment.wrist_load import WristLoads
 
 
@@ -200,6 +201,8 @@ class Experiment:
     """Its patches of skin; None without any."""
     wrist: WristLoads | None = None
     """What hangs on a wrist sensor; None for a robot."""
+    link_loads: LinkLoads | None = None
+    """What hangs on links of a robot beside what its URDF says; None for nothing."""
 
     def __repr__(self) -> str:
         sensors = ", ".join(f"{sensor.name} ({sensor.serial})" for sensor in self.sensors)
@@ -230,7 +233,7 @@ class Experiment:
         return self.wrist is None and bool(self.supports)
 
     def model_on(self, support: Support | MovingSupport) -> RobotModel:
-        """Give the robot as it stands on a support, with what hangs on a wrist sensor then.
+        """Give the robot as it stands on a support, with what hangs on a wrist sensor or on its links then.
 
         A load that nobody stated is estimated when it is first asked for, and once.
 
@@ -243,6 +246,8 @@ class Experiment:
         Raises:
             ExperimentError: If the recording does not determine a load that is to be estimated.
         """
+        if self.link_loads is not None:
+            return self.link_loads.model_on(support, self)
         return self.model if self.wrist is None else self.wrist.model_on(support, self)
 
     def sensor(self, name: str) -> ExperimentSensor:

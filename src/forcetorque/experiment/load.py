@@ -15,6 +15,7 @@ from forcetorque.experiment.contacts import read_contacts
 from forcetorque.experiment.content import Experiment, FitOptions, Role
 from forcetorque.experiment.inputs import Inputs, stated_in
 from forcetorque.experiment.intervals import read_intervals, read_supports
+from forcetorque.experiment.link_loads import read_link_loads, with_loads_named
 from forcetorque.experiment.load_cases import read_load_cases
 from forcetorque.experiment.motors import require_motors
 from forcetorque.experiment.parse import parse_experiment
@@ -56,7 +57,7 @@ def load_experiment(path: Path | str) -> Experiment:
             f"{file}: expected [[sensor]], a force-torque sensor, got {known}; {readers}; `forcetorque estimate` does "
             "with [robot] and a patch's table"
         )
-    return _of_wrist(parsed, file) if parsed.load is not None else _of_robot(parsed, file)
+    return _of_wrist(parsed, file) if parsed.wrist_load else _of_robot(parsed, file)
 
 
 def load_touched_robot(path: Path | str) -> Experiment:
@@ -122,10 +123,15 @@ def _of_robot(parsed: schema.ExperimentFile, file: Path) -> Experiment:
     logs = inputs.names() - before
     model = _side_by_side(parsed, file, streams, inputs) if robot is None else robot
     supports = read_supports(parsed.support, file, streams, model)
-    intervals = read_intervals(parsed, file, streams, supports, model, loads=None)
+    intervals, hung = with_loads_named(
+        read_intervals(parsed, file, streams, supports, model, loads=None),
+        [span.load for span in parsed.interval],
+        parsed.link_load,
+    )
     with stated_in(str(file)):
         recording = streams.with_intervals(intervals)
     sensors = read_sensors(parsed, file, model, recording, inputs)
+    link_loads = read_link_loads(parsed.link_load, file, model, sensors, hung, inputs)
     skin = skin_of_robot(parsed, file, model, recording, inputs)
     hashes = inputs.sha256()
     return Experiment(
@@ -152,6 +158,7 @@ def _of_robot(parsed: schema.ExperimentFile, file: Path) -> Experiment:
         motors=require_motors(parsed.motor, file, model, recording),
         fusion=parsed.fusion,
         plan=read_plan(parsed.plan, file, model, supports.values()),
+        link_loads=link_loads,
         skin=skin,
     )
 
@@ -169,14 +176,13 @@ def _side_by_side(parsed: schema.ExperimentFile, file: Path, streams: Recording,
 
 def _of_wrist(parsed: schema.ExperimentFile, file: Path) -> Experiment:
     """A wrist sensor: the robot is its load, whose motion is logged and whose mass may be estimated."""
-    if parsed.load is None:
-        raise ExperimentError(f"{file}: expected [robot] or [load]")
-    load, name, inputs = parsed.load[0], parsed.sensor[0].name, Inputs(file.parent)
+    loads = parsed.wrist_load
+    load, name, inputs = loads[0], parsed.sensor[0].name, Inputs(file.parent)
     inputs.file(Path(file.name))
     before = inputs.names()
     streams = read_streams(parsed, file, None, inputs)
     logs = inputs.names() - before
-    supports = {one.name: MovingSupport(frame=load.frame, motion_streams=load.streams) for one in parsed.load}
+    supports = {one.name: MovingSupport(frame=load.frame, motion_streams=load.streams) for one in loads}
     with stated_in(f"{file}: load"):
         for stream in load.streams:
             streams.stream(stream)
@@ -184,7 +190,7 @@ def _of_wrist(parsed: schema.ExperimentFile, file: Path) -> Experiment:
             streams.stream(load.applied).signal("applied_wrench")
     intervals = read_intervals(parsed, file, streams, {}, None, loads=supports)
     (sensor,) = read_sensors(parsed, file, load_model(load, name, Inertia.zero()), streams, inputs)
-    wrist = read_loads(parsed.load, file, supports, sensor)
+    wrist = read_loads(loads, file, supports, sensor)
     processing = processing_of(parsed.processing, gravity=Processing().gravity)
     with stated_in(str(file)):
         recording = streams.with_intervals(intervals)

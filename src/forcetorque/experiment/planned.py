@@ -21,7 +21,8 @@ from forcetorque.experiment.load_case_schema import LoadCaseTable
 from forcetorque.experiment.load_cases import read_load_cases
 from forcetorque.experiment.plan_limits import read_plan
 from forcetorque.experiment.plan_schema import PlanTable
-from forcetorque.experiment.sensors import declare_sensors, read_prior
+from forcetorque.experiment.prior import full_scale_of, read_prior
+from forcetorque.experiment.sensors import declare_sensors
 from forcetorque.recording import Recording, ScalarSource, Support
 from forcetorque.robot import RobotModel, read_urdf
 from forcetorque.toml_table import Table, Text, read_toml
@@ -134,14 +135,15 @@ def _sensor(where: str, entry: PlannedSensor, model: RobotModel, inputs: Inputs)
         )
         for variable in entry.variable
     ]
+    prior = read_prior(where, entry, inputs)
     return ExperimentSensor(
         name=model.sensor(entry.name).name,
         serial=entry.serial,
         stream=entry.stream,
         quantity="raw",
-        prior=read_prior(where, entry, inputs),
-        prior_source=None if entry.prior is None else Path(entry.prior).as_posix(),
+        prior=None if prior is None else prior.matrix,
+        prior_source=None if prior is None else prior.source,
         limit_counts=entry.limit_counts,
-        full_scale=None if entry.full_scale is None else np.array(entry.full_scale),
+        full_scale=full_scale_of(entry, prior),
         variables=tuple(variables),
     )

@@ -25,6 +25,7 @@ from forcetorque.errors import known_names
 from forcetorque.estimation import ContactType
 from forcetorque.exchange.formats import AnyLog
 from forcetorque.experiment.fusion_schema import FusionTable, MotorTable, SixPositive
+from forcetorque.experiment.link_load_schema import AnyLoad, LinkLoad, require_link_loads
 from forcetorque.experiment.load_case_schema import LoadCaseTable
 from forcetorque.experiment.plan_schema import PlanTable
 from forcetorque.experiment.wrist_schema import Load, OneOrSeveral, require_loads_of, require_one_sensor
@@ -63,6 +64,24 @@ class Variable(Table):
     one full scale over the range that was seen."""
 
 
+def _word_or_table(value: Any) -> str:
+    return "word" if isinstance(value, str | Path) else "table"
+
+
+class PriorTable(Table):
+    """A file with a calibration, and what it does not say itself."""
+
+    path: Path
+    """The file."""
+    force_unit: Text | None = None
+    """Unit of the forces of a plain table, such as N."""
+    moment_unit: Text | None = None
+    """Unit of the moments of a plain table, such as N m."""
+    volts_per_count: Positive | None = None
+    """Of a matrix per volt, what one count of the log is worth: span of the converter over its steps; 1 for a log in
+    volts."""
+
+
 class Sensor(Table):
     """A force-torque sensor to calibrate or evaluate."""
 
@@ -72,9 +91,16 @@ class Sensor(Table):
     """Stream of the recording that holds its reading."""
     serial: Text
     """Serial number."""
-    prior: Literal["identity"] | Path | None = None
-    """Matrix file that the sensor was calibrated with before, and whose counts a calibrated stream recovers;
-    `identity` if that matrix is not known: the calibrated reading then takes the place of counts."""
+    prior: (
+        Annotated[
+            Annotated[PriorTable, Tag("table")] | Annotated[Literal["identity"] | Path, Tag("word")],
+            Discriminator(_word_or_table),
+        ]
+        | None
+    ) = None
+    """File of the calibration that the sensor came with, and whose counts a calibrated stream recovers: a matrix file
+    of iCub, .dat of FirmwareUpdater, .cal of ATI, or a plain table; `identity` if that matrix is not known: the
+    calibrated reading then takes the place of counts."""
     limit_counts: Positive = 32767.0
     """Largest magnitude of a raw reading; counts."""
     full_scale: Annotated[tuple[Positive, ...], Field(min_length=6, max_length=6)] | None = None
@@ -228,7 +254,7 @@ class Interval(Table):
     """Stretch of time in which nothing was switched off, such as a day; a study chooses on some sessions and scores on
     others; a calibration has an offset for each; one for the whole recording if left out."""
     load: Text | None = None
-    """Name of the load that hangs on a wrist sensor; needed where there are several."""
+    """Name of the load that hangs on the wrist sensor or on the robot; needed where there are several."""
     support: Text | None = None
     """Support frame; required unless the use is ignore, or the links that touch are named."""
     touched: Annotated[tuple[Text, ...], Field(min_length=1)] | None = None
@@ -254,16 +280,12 @@ class Smoothing(Table):
     """Order of the polynomial."""
 
 
-def _form_of_derivatives(value: Any) -> str:
-    return "word" if isinstance(value, str) else "table"
-
-
 class ProcessingTable(Table):
     """How logged samples become reading and reference."""
 
     derivatives: Annotated[
         Annotated[Smoothing, Tag("table")] | Annotated[Literal["logged"], Tag("word")],
-        Discriminator(_form_of_derivatives),
+        Discriminator(_word_or_table),
     ] = Smoothing(window_s=0.3, order=3)
     """Filter that differentiates joint positions, or `logged` to take velocity and acceleration from the log."""
     smoothing: Smoothing | None = None
@@ -351,9 +373,10 @@ class ExperimentFile(Table):
     name: Text
     """Name of the experiment."""
     robot: Robot | None = None
-    """The robot model; a wrist sensor has `load` instead."""
-    load: Annotated[tuple[Load, ...], OneOrSeveral()] | None = None
-    """What hangs on a wrist sensor, in place of a robot; of several `[[load]]` an interval says which."""
+    """The robot model; a wrist sensor may have `load` instead."""
+    load: Annotated[tuple[AnyLoad, ...], OneOrSeveral()] | None = None
+    """What hangs on a wrist sensor, in place of a robot, or on a link of the robot; of several `[[load]]` an interval
+    says which."""
     recording: AnyLog
     """Where the recording is."""
     sensor: Annotated[tuple[Sensor, ...], Field(min_length=1)] = ()
@@ -361,7 +384,7 @@ class ExperimentFile(Table):
     patch: Annotated[tuple[Patch, ...], Field(min_length=1)] = ()
     """Patches of artificial skin; without these and sensors a file is about contacts that a skinManager saw."""
     support: tuple[Support, ...] = ()
-    """Support frames; none with `load`."""
+    """Support frames; none with `load` in place of a robot."""
     interval: Annotated[tuple[Interval, ...], Field(min_length=1)]
     """Intervals."""
     contact: tuple[Contact, ...] = ()
@@ -387,16 +410,29 @@ class ExperimentFile(Table):
     def _robot_or_load(self) -> ExperimentFile:
         if not self.sensor:
             return self
-        if (self.robot is None) == (self.load is None):
+        if self.robot is None and self.load is None:
             raise PydanticCustomError("robot_or_load", "expected [robot] with a URDF, or [load] for a wrist sensor")
+        if self.load is not None and self.robot is not None:
+            require_link_loads(self.load)
+        if self.robot is None and self.link_load:
+            raise PydanticCustomError(
+                "load_link", "[[load]] with link hangs on a link of a robot: expected [robot] with its URDF, got none"
+            )
         if self.robot is not None and not self.support and not any(one.touched for one in self.interval):
             raise PydanticCustomError(
                 "no_support", "expected [[support]]: the frame that the robot stands on, or touched in [[interval]]"
             )
-        if self.load is not None and (self.support or len(self.sensor) > 1):
+        alone = self.load is not None and self.robot is None
+        if alone and (self.support or len(self.sensor) > 1):
             raise PydanticCustomError("load_alone", "with [load] there is one [[sensor]] and no [[support]]")
-        if self.load is not None and any(one.touched for one in self.interval):
+        if alone and any(one.touched for one in self.interval):
             raise PydanticCustomError("load_touched", "with [load] nothing else is touched: leave out touched")
+        if self.load is not None and any(one.touched and one.use is not Use.IGNORE for one in self.interval):
+            raise PydanticCustomError(
+                "load_touched",
+                "with [[load]] on a link every interval names its support: leave out touched, or state the load in the "
+                "URDF",
+            )
         if self.load is None and any(one.load for one in self.interval):
             raise PydanticCustomError("load_of_none", "load of [[interval]] names a [[load]], of which there is none")
         return self
@@ -404,6 +440,17 @@ class ExperimentFile(Table):
     @model_validator(mode="after")
     def _loads_of_one_sensor(self) -> ExperimentFile:
         if self.load is not None:
-            require_one_sensor(self.load)
+            if self.robot is None:
+                require_one_sensor(self.wrist_load)
             require_loads_of(self.load, [one for one in self.interval if one.use is not Use.IGNORE])
         return self
+
+    @property
+    def wrist_load(self) -> tuple[Load, ...]:
+        """Loads on a wrist sensor, in place of a robot."""
+        return tuple(load for load in self.load or () if isinstance(load, Load))
+
+    @property
+    def link_load(self) -> tuple[LinkLoad, ...]:
+        """Loads on links of the robot."""
+        return tuple(load for load in self.load or () if isinstance(load, LinkLoad))

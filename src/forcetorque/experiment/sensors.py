@@ -8,13 +8,12 @@ from pathlib import Path
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray
 from forcetorque.calibration import LinearVariable
 from forcetorque.errors import ExperimentError
-from forcetorque.exchange.icub import read_matrix_file, serial_number_in_name
 from forcetorque.experiment import schema
 from forcetorque.experiment.content import ExperimentSensor, SensorVariable
 from forcetorque.experiment.inputs import Inputs, stated_in
+from forcetorque.experiment.prior import full_scale_of, read_prior
 from forcetorque.recording import Recording, ScalarSource
 from forcetorque.robot import RobotModel, SensorFrame
 
@@ -99,15 +98,16 @@ def _sensor(
             f"{where}: expected amplifier_gain of {channels} numbers, one per channel of {entry.stream!r}, "
             f"got {len(entry.amplifier_gain)}"
         )
+    prior = read_prior(where, entry, inputs)
     return ExperimentSensor(
         name=model.sensor(entry.name).name,
         serial=entry.serial,
         stream=entry.stream,
         quantity=present[0],
-        prior=read_prior(where, entry, inputs),
-        prior_source=None if entry.prior is None else Path(entry.prior).as_posix(),
+        prior=None if prior is None else prior.matrix,
+        prior_source=None if prior is None else prior.source,
         limit_counts=entry.limit_counts,
-        full_scale=None if entry.full_scale is None else np.array(entry.full_scale),
+        full_scale=full_scale_of(entry, prior),
         reading_noise=None if entry.reading_noise is None else np.array(entry.reading_noise),
         reading_deviation=None if entry.reading_deviation is None else np.array(entry.reading_deviation),
         amplifier_gain=entry.amplifier_gain,
@@ -139,30 +139,3 @@ def _variable(where: str, variable: schema.Variable, entry: schema.Sensor, recor
             prior_deviation=None if variable.prior_deviation is None else np.array(variable.prior_deviation),
         )
     return SensorVariable(linear=linear, source=source)
-
-
-def read_prior(where: str, entry: schema.Sensor, inputs: Inputs) -> FloatArray | None:
-    """Read the prior matrix of a sensor.
-
-    Args:
-        where: File and table, for messages.
-        entry: The sensor.
-        inputs: Resolves and remembers the files.
-
-    Returns:
-        The matrix; shape (6, c); N/count, N m/count; None where the file states none.
-
-    Raises:
-        ExperimentError: If it is that of another sensor.
-    """
-    if entry.prior is None:
-        return None
-    if entry.prior == "identity":
-        return np.eye(6)
-    serial = serial_number_in_name(entry.prior)
-    if serial is not None and serial != entry.serial:
-        raise ExperimentError(
-            f"{where}: expected the prior matrix of the sensor {entry.serial!r}, got that of {serial!r} "
-            f"({entry.prior}); every sensor has its own"
-        )
-    return read_matrix_file(inputs.file(Path(entry.prior))).matrix

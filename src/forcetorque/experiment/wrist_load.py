@@ -14,8 +14,8 @@ from forcetorque.errors import ExperimentError
 from forcetorque.experiment.content import ExperimentSensor
 from forcetorque.experiment.inputs import stated_in
 from forcetorque.experiment.wrist_schema import Load as LoadTable
-from forcetorque.loads import Load, LoadSolution, solve
-from forcetorque.recording import MovingSupport, Support
+from forcetorque.loads import Load, LoadProblem, LoadSolution, solve
+from forcetorque.recording import MovingSupport, Support, Use
 from forcetorque.robot import ForceTorqueSensor, Joint, JointType, RobotModel, SensorFrame
 from forcetorque.spatial import Inertia, MeasureDirection
 
@@ -78,6 +78,33 @@ class WristLoads:
             second_moment=np.zeros((3, 3)) if load.inertia is None else load.inertia,
         )
 
+    def problem(self, experiment: Experiment, *, use: Use = Use.CALIBRATION) -> LoadProblem:
+        """Ask what intervals tell of the loads.
+
+        Args:
+            experiment: The experiment.
+            use: Use of the intervals.
+
+        Returns:
+            The problem.
+        """
+        from forcetorque.experiment.load_rows import load_problem
+
+        return load_problem(experiment, self, use=use)
+
+    def left_out(self, experiment: Experiment) -> int:
+        """Count samples of the calibration intervals that lack a finite reading or motion.
+
+        Args:
+            experiment: The experiment.
+
+        Returns:
+            Their number.
+        """
+        from forcetorque.experiment.load_rows import samples_left_out
+
+        return samples_left_out(experiment, self)
+
     def solution(self, experiment: Experiment) -> LoadSolution:
         """Estimate the loads on the calibration intervals, when it is first asked for.
 
@@ -90,15 +117,13 @@ class WristLoads:
         Raises:
             ExperimentError: If the wrench of the load is stated, so that there is nothing to estimate.
         """
-        from forcetorque.experiment.load_rows import load_problem
-
         if self.table.applied is not None:
             raise ExperimentError(
                 f"load: the wrench of {self.table.applied!r} says what the sensor must read, so there is nothing to "
                 "weigh; state motion in place of applied"
             )
         if "solution" not in self._known:
-            self._known["solution"] = solve(load_problem(experiment, self))
+            self._known["solution"] = solve(self.problem(experiment))
         return self._known["solution"]
 
     def model_on(self, support: Support | MovingSupport, experiment: Experiment) -> RobotModel:

@@ -99,7 +99,7 @@ def _loads(value: Any) -> Any:
 
 
 def require_one_sensor(loads: Sequence[Load]) -> None:
-    """Refuse no load, loads of one name, or that say different things of the sensor.
+    """Refuse no load, one on a link, loads of one name, or that say different things of the sensor.
 
     Args:
         loads: The loads.
@@ -117,6 +117,11 @@ def require_one_sensor(loads: Sequence[Load]) -> None:
             raise PydanticCustomError("load_shared", "{message}", {"message": message})
 
 
+class _Named(Protocol):
+    @property
+    def name(self) -> str: ...
+
+
 class _Interval(Protocol):
     @property
     def label(self) -> str: ...
@@ -124,7 +129,7 @@ class _Interval(Protocol):
     def load(self) -> str | None: ...
 
 
-def require_loads_of(loads: Sequence[Load], intervals: Sequence[_Interval]) -> None:
+def require_loads_of(loads: Sequence[_Named], intervals: Sequence[_Interval]) -> None:
     """Refuse intervals that do not say which load hangs on the sensor.
 
     Args:

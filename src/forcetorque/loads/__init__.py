@@ -4,6 +4,7 @@
 from forcetorque.loads.expected import Guess, instants, load_wrench
 from forcetorque.loads.load import Load
 from forcetorque.loads.open import spanned_directions
+from forcetorque.loads.partly_known import MatrixSpread, settled
 from forcetorque.loads.problem import LoadProblem
 from forcetorque.loads.rows import LoadRows
 from forcetorque.loads.solution import (
@@ -31,11 +32,13 @@ __all__ = [
     "LoadProblem",
     "LoadRows",
     "LoadSolution",
+    "MatrixSpread",
     "OpenDirection",
     "SessionEstimate",
     "VariableEstimate",
     "instants",
     "load_wrench",
+    "settled",
     "solve",
     "spanned_directions",
     "together",

@@ -148,7 +148,8 @@ def turned_by(rotation: FloatArray) -> FloatArray:
     Returns:
         What turns force and moment; shape (6, 6).
     """
-    return np.kron(np.eye(2), rotation)
+    turned: FloatArray = np.asarray(np.kron(np.eye(2), rotation), dtype=np.float64)
+    return turned
 
 
 def _second_columns(vector: FloatArray) -> FloatArray:

@@ -241,15 +241,18 @@ def _lag(problem: LoadProblem, residual: FloatArray, *, drift: bool) -> Iterator
 
 def _behind(rows: LoadRows, time_s: FloatArray, lag: float) -> LoadRows:
     """Rows whose motion, turning aside, is that of other instants."""
-    moved = {"proper_acceleration": rows.proper_acceleration, "columns": rows.columns, "known": rows.known}
-    then = {
-        field: np.stack(
-            [np.interp(time_s - lag, time_s, column) for column in values.reshape(len(rows), -1).T], axis=1
-        ).reshape(values.shape)
-        for field, values in moved.items()
-        if values is not None
-    }
-    return replace(rows, orientation=None, **then)
+
+    def then(values: FloatArray) -> FloatArray:
+        columns = [np.interp(time_s - lag, time_s, column) for column in values.reshape(len(rows), -1).T]
+        return np.stack(columns, axis=1).reshape(values.shape)
+
+    return replace(
+        rows,
+        orientation=None,
+        proper_acceleration=then(rows.proper_acceleration),
+        columns=None if rows.columns is None else then(rows.columns),
+        known=None if rows.known is None else then(rows.known),
+    )
 
 
 def _jump(fitted: Fit, residual: FloatArray, *, drift: bool) -> Iterator[Hypothesis]:

@@ -55,11 +55,8 @@ class Load:
             raise FitError(f"load {self.name!r}: expected and precision: expected both or neither")
         if self.expected is None or self.precision is None:
             return
-        if not (self.mass is None and self.centre_of_mass is None and isinstance(self.inertia, str)):
-            raise FitError(
-                f"load {self.name!r}: expected: what is known in part is estimated; leave mass and centre_of_mass out, "
-                'and state inertia = "unknown"'
-            )
+        if self.is_known:
+            raise FitError(f"load {self.name!r}: expected: it is stated already; leave out what is known in part only")
         for field, shape in (("expected", (INERTIAL,)), ("precision", (INERTIAL, INERTIAL))):
             values = read_only(getattr(self, field), name=f"load {self.name!r}: {field}", shape=shape)
             object.__setattr__(self, field, values)

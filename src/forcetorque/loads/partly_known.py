@@ -145,7 +145,7 @@ def _covariance_of_rows(problem: LoadProblem, guess: Guess, noise: FloatArray) -
     """Covariance of every row of E if the loads were known; shape (6, 6, 6)."""
     wrench = _about_sessions(problem, load_wrench(problem, guess))
     told = np.einsum("n,ni,nj->ij", problem.rows.share, wrench, wrench)
-    prior = np.linalg.inv(problem.matrix_prior)
+    prior = np.linalg.inv(np.zeros((6, 6, 6)) if problem.matrix_prior is None else problem.matrix_prior)
     covariance: FloatArray = np.linalg.inv(prior + told / noise[:, None, None] ** 2)
     return covariance
 

@@ -8,6 +8,8 @@ from collections.abc import Collection, Mapping
 from pathlib import Path
 from typing import ClassVar
 
+import numpy as np
+
 from forcetorque.arrays import FloatArray
 from forcetorque.errors import FormatError, MissingExtraError, known_names
 from forcetorque.exchange.array_file.hdf5 import MAGIC_73, hdf5_shapes, is_matlab_73, labels_itself, read_hdf5
@@ -17,6 +19,7 @@ from forcetorque.exchange.array_file.statement import ArrayLog, Hdf5Log, MatlabL
 from forcetorque.exchange.array_file.streams import array_stream, wanted_arrays
 from forcetorque.exchange.hdf5_file import is_hdf5_file
 from forcetorque.exchange.log_format import LogContext, LogDescription, LogReading
+from forcetorque.exchange.log_sketch import LogSketch, SketchedColumns
 from forcetorque.recording import Finding, Stream
 
 
@@ -37,12 +40,25 @@ class _ArrayFormat(ABC):
     def _arrays(self, path: Path, names: Collection[str]) -> Mapping[str, FloatArray]:
         """Arrays with these names."""
 
+    def sketch(self, path: Path) -> LogSketch:
+        """Look at names and shapes of all arrays, and at the numbers of those that may be times."""
+        shapes = self._shapes(path)
+        single = self._arrays(path, [name for name, (rows, columns) in shapes.items() if columns == 1 < rows])
+        return LogSketch(
+            path=path,
+            is_table=False,
+            columns=tuple(
+                _sketched(name, rows, columns, single.get(name) if columns == 1 else None)
+                for name, (rows, columns) in shapes.items()
+            ),
+        )
+
     def describe(self, path: Path) -> LogDescription:
         """Refuse: nothing is guessed from names or numbers; say which there are."""
         names = [f"{name} ({rows} x {columns})" for name, (rows, columns) in self._shapes(path).items()]
         raise FormatError(
             f"{path}: expected a log that says what it holds, got the variables {', '.join(names) or 'none'}; state "
-            "their columns and units in an experiment file"
+            "their columns and units in an experiment file; `forcetorque init` begins one"
         )
 
     def read(self, stated: ArrayLog, context: LogContext) -> LogReading:
@@ -114,6 +130,22 @@ class NpzFormat(_ArrayFormat):
 
     def _arrays(self, path: Path, names: Collection[str]) -> Mapping[str, FloatArray]:
         return read_npz(path, names)
+
+
+def _sketched(name: str, rows: int, columns: int, values: FloatArray | None) -> SketchedColumns:
+    """An array; of a single column with its range, and its step where it may be times: it rises all along."""
+    if values is None or not np.isfinite(values).all():
+        return SketchedColumns(name=name, rows=rows, columns=columns)
+    steps = np.diff(values[:, 0])
+    return SketchedColumns(
+        name=name,
+        rows=rows,
+        columns=columns,
+        smallest=float(values.min()),
+        largest=float(values.max()),
+        mean=float(values.mean()),
+        step=float(np.median(steps)) if (steps > 0.0).all() else None,
+    )
 
 
 def _labels_itself(path: Path) -> bool:

@@ -16,6 +16,7 @@ from forcetorque.exchange.tabular.rows import LARGEST_TABLE, Rows, wanted_column
 MAGIC = b"PAR1"
 """What a Parquet file begins with."""
 BATCH_ROWS = 1 << 17
+_FIRST_CELLS = 1 << 20
 
 _STUMBLES = (ArithmeticError, LookupError, MemoryError, OSError, RuntimeError, TypeError, ValueError, pa.ArrowException)
 
@@ -68,6 +69,39 @@ def parquet_columns(file: Path) -> list[str]:
         Their names.
     """
     return list(_opened(file).schema_arrow.names)
+
+
+def parquet_size(file: Path) -> tuple[list[str], int]:
+    """Name the columns of a Parquet file, and count its rows.
+
+    Args:
+        file: The file.
+
+    Returns:
+        Names, and number of rows.
+    """
+    table = _opened(file)
+    return list(table.schema_arrow.names), int(table.metadata.num_rows)
+
+
+def first_batch(file: Path) -> Any:
+    """Read the first rows of a Parquet file.
+
+    Args:
+        file: The file.
+
+    Returns:
+        A few rows with all columns, the fewer the more columns there are; None where it has none.
+
+    Raises:
+        FormatError: If it is damaged.
+    """
+    table = _opened(file)
+    rows = max(1, _FIRST_CELLS // max(len(table.schema_arrow.names), 1))
+    try:
+        return next(table.iter_batches(batch_size=rows), None)
+    except _STUMBLES as error:
+        raise FormatError(_damaged(file, error)) from error
 
 
 def _opened(file: Path) -> Any:

@@ -10,8 +10,10 @@ from pydantic import Field
 
 from forcetorque.errors import FormatError
 from forcetorque.exchange.log_format import LogContext, LogDescription, LogReading, LogTable
+from forcetorque.exchange.log_sketch import LogSketch
 from forcetorque.exchange.signal_table import StatedSignal
 from forcetorque.exchange.tabular.layout import StampColumn, TableLayout, TableSignal
+from forcetorque.exchange.tabular.sketch import is_table, sketch_table
 from forcetorque.exchange.tabular.table import read_table, table_columns
 from forcetorque.toml_table import Table, Text
 
@@ -67,21 +69,25 @@ class TabularLog(LogTable):
 
 
 class TabularFormat:
-    """Text tables and Parquet, which say nothing of their units: none is recognised, all that is read is stated."""
+    """Text tables and Parquet, which say nothing of what they hold: all that is read is stated."""
 
     table = TabularLog
-    sign = None
+    sign = "a table of numbers (CSV, TSV, Parquet)"
 
     def recognises(self, path: Path) -> bool:
-        """Recognise none."""
-        return False
+        """Look at the first lines."""
+        return is_table(path)
+
+    def sketch(self, path: Path) -> LogSketch:
+        """Look at names and numbers."""
+        return sketch_table(path)
 
     def describe(self, path: Path) -> LogDescription:
         """Refuse: nothing is guessed from names or numbers."""
         names = f"the columns {', '.join(table_columns(path)[:200])}" if path.is_file() else "text tables"
         raise FormatError(
             f"{path}: expected a log that says what it holds, got {names}; state their columns and units in an "
-            "experiment file"
+            "experiment file; `forcetorque init` begins one"
         )
 
     def read(self, stated: TabularLog, context: LogContext) -> LogReading:

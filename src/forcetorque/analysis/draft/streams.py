@@ -1,0 +1,50 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Streams of a log before anybody says what they are."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from forcetorque.analysis.draft.likeness import Likeness
+from forcetorque.exchange.log_format import LogDescription
+from forcetorque.exchange.log_sketch import LogSketch, SketchedColumns
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class DraftedStream:
+    """A stream of the log, before anybody says whose it is."""
+
+    name: str
+    """Its name in the recording."""
+    quantities: tuple[str, ...]
+    """What it holds, or looks as if it held."""
+    joints: tuple[str, ...] = ()
+    """Joints of the robot that it holds by their names."""
+    frame: str | None = None
+    """Frame of its wrench, where the log says it."""
+    table: LogSketch | None = None
+    """The table that it is read from; None where the log describes itself."""
+    groups: tuple[Likeness, ...] = ()
+    """Columns of the table by what they look like."""
+
+    @property
+    def reads_load(self) -> bool:
+        """Whether it is the reading of a force-torque sensor."""
+        return "wrench" in self.quantities or "raw" in self.quantities
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class DraftedLog:
+    """A log, or several tables that are one."""
+
+    paths: tuple[Path, ...]
+    """Its files or its folder."""
+    format: str
+    """Name of its format."""
+    streams: tuple[DraftedStream, ...]
+    """Its streams."""
+    arrays: tuple[SketchedColumns, ...] = ()
+    """All arrays of a file of arrays, whether they look like something or not."""
+    description: LogDescription | None = None
+    """What it says of itself; None for tables and arrays."""

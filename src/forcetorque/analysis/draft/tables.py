@@ -1,0 +1,205 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The `[recording]` of tables: columns by their headings, units where these state them, else questions."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+from forcetorque.analysis.draft.boards import joints_question
+from forcetorque.analysis.draft.likeness import Likeness, likenesses, time_column
+from forcetorque.analysis.draft.paths import relative
+from forcetorque.analysis.draft.streams import DraftedLog, DraftedStream
+from forcetorque.analysis.draft.text import Asked, line, listed, question, remark, toml_value
+from forcetorque.analysis.draft.units import (
+    TIME_UNITS,
+    USUAL_UNITS,
+    axes_line,
+    likeliest_time,
+    likeliest_units,
+    time_words,
+)
+from forcetorque.exchange.heading import Heading, read_heading
+from forcetorque.exchange.log_sketch import LogSketch
+from forcetorque.recording import QUANTITIES, Labels
+from forcetorque.robot import RobotModel
+from forcetorque.toml_table import OPEN
+
+_FEW = 9
+"""Units that are written out in a question."""
+
+
+def table_streams(sketches: Sequence[LogSketch], joints: Sequence[str]) -> tuple[DraftedStream, ...]:
+    """Group the columns of tables by what they look like.
+
+    Args:
+        sketches: The tables.
+        joints: Joints of the robot that move.
+
+    Returns:
+        A stream for each table.
+    """
+    streams = []
+    for sketch in sketches:
+        groups = _groups(sketch, joints)
+        streams.append(
+            DraftedStream(
+                name=_stream_name(sketch.path, sketches),
+                quantities=tuple(group.quantity for group in groups),
+                joints=tuple(joint for group in groups if group.quantity == "position" for joint in group.names or ()),
+                table=sketch,
+                groups=groups,
+            )
+        )
+    return tuple(streams)
+
+
+def _stream_name(path: Path, sketches: Sequence[LogSketch]) -> str:
+    stems = [sketch.path.stem for sketch in sketches]
+    return path.stem if stems.count(path.stem) == 1 else path.name
+
+
+def _headings(sketch: LogSketch) -> list[Heading]:
+    return [read_heading(column.name) for column in sketch.columns]
+
+
+def _groups(sketch: LogSketch, joints: Sequence[str]) -> tuple[Likeness, ...]:
+    """Groups of columns, each quantity once; an orientation rules over what may be gravity, which follows from it."""
+    if not sketch.has_headings:
+        return ()
+    groups: dict[str, Likeness] = {}
+    for group in likenesses(_headings(sketch), joints):
+        groups.setdefault(group.quantity, group)
+    if "orientation" in groups:
+        groups.pop("gravity", None)
+        groups.pop(OPEN, None)
+    return tuple(groups.values())
+
+
+def table_lines(log: DraftedLog, folder: Path, model: RobotModel | None, frames: Mapping[str, str]) -> list[str]:
+    """Write the `[recording]` table.
+
+    Args:
+        log: The log.
+        folder: Folder of the experiment file, from which paths count.
+        model: The robot; None for a wrist sensor without one.
+        frames: Frame of the wrench of a stream, by the stream.
+
+    Returns:
+        Its lines.
+    """
+    root = Path(os.path.commonpath([path.resolve().parent for path in log.paths]))
+    lines = ["[recording]", line("format", "tabular"), line("path", relative(root, folder))]
+    for stream in log.streams:
+        sketch = stream.table
+        if sketch is not None:
+            lines += ["", "[[recording.stream]]", line("name", stream.name)]
+            lines.append(line("file", sketch.path.resolve().relative_to(root).as_posix()))
+            lines += _form_lines(sketch)
+            lines.append(_stamp_line(sketch))
+            lines += _signal_lines(stream, sketch, model, frames)
+    return lines
+
+
+def _form_lines(sketch: LogSketch) -> list[str]:
+    lines = [] if sketch.delimiter in (None, ",") else [line("delimiter", sketch.delimiter)]
+    if not sketch.has_headings:
+        words = f"the file has no line of headings: a name for each of its {len(sketch.columns)} columns"
+        for first in sketch.quaternion:
+            words += f", of which {first + 1} to {first + 4} have norm 1 as quaternions do"
+        lines.append(question("column_names", f'{words}, as ["t", "fx", ...]'))
+    return lines
+
+
+def _stamp_line(sketch: LogSketch) -> str:
+    place = time_column(_headings(sketch), [column.step for column in sketch.columns])
+    if place is None:
+        words = 'no column rises as a time does: "row" for poses that are still, whose rows are then a second apart'
+        return question("stamp", f'{words}; or {{ column = "...", unit = "..." }}')
+    column = sketch.columns[place]
+    name = column.name
+    unit = read_heading(name).unit
+    if unit in TIME_UNITS:
+        return line("stamp", {"column": name, "unit": unit})
+    likeliest = likeliest_time(column)
+    return Asked(
+        f"stamp = {toml_value({'column': name, 'unit': OPEN})}  {remark(time_words(column))}",
+        None if likeliest is None else line("stamp", {"column": name, "unit": likeliest}),
+    )
+
+
+def _signal_lines(
+    stream: DraftedStream, sketch: LogSketch, model: RobotModel | None, frames: Mapping[str, str]
+) -> list[str]:
+    lines: list[str] = []
+    for group in stream.groups:
+        lines += ["", "[[recording.stream.signal]]", *_group_lines(group, sketch, model, stream.name, frames)]
+    used = {k for group in stream.groups for k in group.columns}
+    used.add(-1 if (time := time_column(_headings(sketch), [c.step for c in sketch.columns])) is None else time)
+    rest = [column.name for k, column in enumerate(sketch.columns) if k not in used]
+    if not stream.groups:
+        lines += ["", "[[recording.stream.signal]]"]
+        names = "" if not sketch.has_headings else f", by the headings {listed(rest)}"
+        lines += [
+            question("quantity", f"one of {listed(QUANTITIES, 99)}"),
+            question("columns", f"names of its columns in the order of the quantity{names}"),
+            question("units", "unit of each column"),
+        ]
+    elif rest:
+        lines += ["", remark(f"not read: {listed(rest)}")]
+    return lines
+
+
+def _group_lines(
+    group: Likeness, sketch: LogSketch, model: RobotModel | None, stream: str, frames: Mapping[str, str]
+) -> list[str]:
+    names = [sketch.columns[k].name for k in group.columns]
+    units = [read_heading(name).unit for name in names]
+    quantity = QUANTITIES.get(group.quantity)
+    lines = [
+        question("quantity", group.words) if quantity is None else line("quantity", group.quantity),
+        line("columns", names),
+    ]
+    if group.form is not None:
+        units = ["1"] * len(names)
+    if all(units):
+        lines.append(line("units", units))
+    else:
+        usual = USUAL_UNITS.get(group.quantity, "")
+        extent = _range_words(sketch, group)
+        likeliest = likeliest_units(group.quantity, len(names), _largest(sketch, group))
+        shown = "" if likeliest is None else f", as {_repeated(likeliest)}"
+        choice = f" ({usual})" if " or " in usual else ""
+        example = f"{shown}{choice}"
+        lines.append(question("units", f"unit of each column{example}{extent}", likeliest))
+    if quantity is not None and quantity.labels is Labels.JOINTS:
+        if group.names is None:
+            lines.append(joints_question(len(names), "", model, key="names"))
+        elif list(group.names) != names:
+            lines.append(line("names", group.names))
+    if quantity is None or quantity.has_frame:
+        lines.append(axes_line(group.quantity, stream, frames))
+    if group.form is not None:
+        stated = {"form": str(group.form), "sense": OPEN}
+        words = "sensor_to_world where it turns vectors along the frame's axes to the world's, else world_to_sensor"
+        likeliest_sense = line("orientation", {**stated, "sense": "sensor_to_world"})
+        lines.append(Asked(f"orientation = {toml_value(stated)}  {remark(words)}", likeliest_sense))
+    return lines
+
+
+def _repeated(units: Sequence[str]) -> str:
+    return toml_value(units) if len(units) <= _FEW else f"[{toml_value(units[0])}, ...]"
+
+
+def _largest(sketch: LogSketch, group: Likeness) -> float | None:
+    columns = (sketch.columns[k] for k in group.columns)
+    ends = [abs(end) for column in columns for end in (column.smallest, column.largest) if end is not None]
+    return max(ends, default=None)
+
+
+def _range_words(sketch: LogSketch, group: Likeness) -> str:
+    values = [sketch.columns[k] for k in group.columns]
+    low = [column.smallest for column in values if column.smallest is not None]
+    high = [column.largest for column in values if column.largest is not None]
+    return f"; they run from {min(low):.4g} to {max(high):.4g}" if low and high else ""

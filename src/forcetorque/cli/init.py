@@ -1,0 +1,40 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""`forcetorque init`: the first experiment file of a log."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from forcetorque.atomic import STANDARD_OUTPUT
+from forcetorque.cli.options import FormatOption
+from forcetorque.cli.output import Format, refuse_two_on_standard_output, show, start_logging
+
+
+def init(
+    log: Annotated[list[Path], typer.Argument(help="A log of any format, or several tables of one recording.")],
+    urdf: Annotated[
+        Path | None, typer.Option("--urdf", help="The robot. Default: none, a wrist sensor whose pose is logged.")
+    ] = None,
+    output: Annotated[
+        Path, typer.Option("--output", "-o", help="Experiment file to write; - for standard output.")
+    ] = Path("experiment.toml"),
+    log_format: Annotated[
+        str | None,
+        typer.Option(help="Format of the log, such as ros or hdf5, as in [recording]. Default: by what is there."),
+    ] = None,
+    output_format: FormatOption = Format.TABLE,
+) -> None:
+    """Begin an experiment file of a log: what it does not say is a question.
+
+    Example: forcetorque init log.csv --urdf robot.urdf -o experiment.toml
+    """
+    from forcetorque import analysis
+
+    start_logging().info("reading %s", ", ".join(map(str, log)))
+    refuse_two_on_standard_output(output, output_format)
+    draft = analysis.draft_experiment(log, output, urdf=urdf, log_format=log_format)
+    if output != STANDARD_OUTPUT:  # else the file itself went there
+        show(draft, output_format)

@@ -1,0 +1,107 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Headings of tables that state a unit, such as `fx [N]`, `time_s` or `elbow (rad)`; none is guessed for others."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+
+_BRACKETED = re.compile(r"^(?P<name>.*?)\s*[\[(](?P<unit>[^\[\]()]*)[\])]\s*$")
+_SPELLINGS = {
+    "n": "N",
+    "mn": "mN",
+    "kn": "kN",
+    "nm": "N m",
+    "n m": "N m",
+    "n.m": "N m",
+    "n-m": "N m",
+    "n*m": "N m",
+    "nmm": "N mm",
+    "n mm": "N mm",
+    "n-mm": "N mm",
+    "lbf": "lbf",
+    "kgf": "kgf",
+    "rad": "rad",
+    "deg": "deg",
+    "°": "deg",
+    "rad/s": "rad/s",
+    "radps": "rad/s",
+    "deg/s": "deg/s",
+    "rad/s2": "rad/s2",
+    "rad/s^2": "rad/s2",
+    "m/s2": "m/s2",
+    "m/s^2": "m/s2",
+    "mps2": "m/s2",
+    "m/s": "m/s",
+    "m": "m",
+    "mm": "mm",
+    "g": "g",
+    "s": "s",
+    "sec": "s",
+    "ms": "ms",
+    "us": "us",
+    "µs": "us",
+    "ns": "ns",
+    "a": "A",
+    "ma": "mA",
+    "pa": "Pa",
+    "kpa": "kPa",
+    "bar": "bar",
+    "degc": "degC",
+    "°c": "degC",
+    "v": "V",
+    "count": "counts",
+    "counts": "counts",
+}
+"""How people write units, in small letters, and how experiment files do."""
+_BEHIND_LOW_LINE = {"n", "mn", "nm", "nmm", "rad", "deg", "radps", "mps2", "degc", "counts", "ms", "us", "ns", "ma"}
+"""Spellings that are a unit behind a low line too: a single letter may be part of a name, as in `force_a`."""
+_TIMES = {"s", "sec"}
+_TIME_NAMES = {"t", "time", "stamp", "timestamp", "seconds"}
+
+
+@dataclass(frozen=True, slots=True)
+class Heading:
+    """A heading of a table, taken apart."""
+
+    text: str
+    """As the table has it."""
+    name: str
+    """Without its unit."""
+    unit: str | None
+    """Unit that it states, as experiment files spell it; None for none."""
+
+
+def read_heading(text: str) -> Heading:
+    """Take a heading apart.
+
+    Args:
+        text: As the table has it.
+
+    Returns:
+        Name and unit.
+    """
+    plain = text.strip().strip("\"'")  # some programs put headings in quotes, which readers take as they are
+    bracketed = _BRACKETED.match(plain)
+    if bracketed is not None:
+        unit = _SPELLINGS.get(bracketed["unit"].strip().lower())
+        return Heading(text, bracketed["name"] if unit else plain, unit)
+    name, _, last = plain.rpartition("_")
+    small = last.lower()
+    # `_N` is newton and `_n` may be a number
+    stated = small in _BEHIND_LOW_LINE and (small != "n" or last == "N")
+    if name and (stated or (small in _TIMES and name.lower() in _TIME_NAMES)):
+        return Heading(text, name, _SPELLINGS[small])
+    return Heading(text, plain, None)
+
+
+def is_time_name(name: str) -> bool:
+    """Tell whether a column is called like a time.
+
+    Args:
+        name: Its name, without the unit.
+
+    Returns:
+        Whether it is.
+    """
+    return name.lower().strip(" #%") in _TIME_NAMES

@@ -1,0 +1,67 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What can be told of a log that names its numbers but not what they are: an experiment file must say the rest."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Protocol, runtime_checkable
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SketchedColumns:
+    """A column of a table, or an array of a file of arrays."""
+
+    name: str
+    """Its name."""
+    rows: int
+    """How many rows it has."""
+    columns: int = 1
+    """How many columns; 1 for that of a table."""
+    unit: str | None = None
+    """Unit that its name states; None for none."""
+    is_number: bool = True
+    """Whether it holds numbers, as far as it was looked at."""
+    smallest: float | None = None
+    """Smallest of the numbers that were looked at; None for none."""
+    largest: float | None = None
+    """Largest of the numbers that were looked at; None for none."""
+    mean: float | None = None
+    """Mean of the numbers that were looked at; None for none."""
+    step: float | None = None
+    """Median step, where every number that was looked at is larger than the one before, as times are; else None."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LogSketch:
+    """A log that does not say what it holds."""
+
+    path: Path
+    """The file."""
+    columns: tuple[SketchedColumns, ...]
+    """Its columns or arrays, in their order."""
+    is_table: bool = True
+    """Whether its columns are those of one table, not arrays of a file."""
+    delimiter: str | None = None
+    """Of a text table the character between columns; a space for any run of blanks."""
+    has_headings: bool = True
+    """Whether the file itself names them; without, they are called by their number, from 1."""
+    quaternion: tuple[int, ...] = ()
+    """Places of the first columns of four that have norm 1 in every row, as quaternions do."""
+    rows_looked_at: int | None = None
+    """How many rows were looked at from the first; None where no number was."""
+
+
+@runtime_checkable
+class SketchingFormat(Protocol):
+    """A format whose logs say nothing of units."""
+
+    def sketch(self, path: Path) -> LogSketch:
+        """Look at a log that is recognised.
+
+        Args:
+            path: The file.
+
+        Returns:
+            What can be told.
+        """

@@ -1,0 +1,198 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A UR5 with tools on its flange: weighed by the sensor, shared by recordings, and calibrated from."""
+
+from __future__ import annotations
+
+import json
+import runpy
+import shutil
+from pathlib import Path
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from forcetorque.analysis import SensorRun, WeighedLoad, data_doubts, weigh_load
+from forcetorque.errors import ForceTorqueError
+from forcetorque.experiment import load_experiment
+from tests.robots import example_robot
+
+EXAMPLE = Path(__file__).resolve().parents[2] / "examples" / "27_arm_and_tools.py"
+UR5 = "ur_description/urdf/ur5_robot.urdf"
+TRUTH = {"gripper": (1.3, [0.01, 0.02, 0.06]), "weight": (2.2, [-0.04, 0.05, 0.12])}
+STATED = "mass_kg = 2.2\ncentre_of_mass_m = [-0.04, 0.05, 0.12]\n"
+
+
+@pytest.fixture(scope="module")
+def example() -> SimpleNamespace:
+    """The example, which simulates."""
+    return SimpleNamespace(**runpy.run_path(str(EXAMPLE)))
+
+
+@pytest.fixture(scope="module")
+def arm(example: SimpleNamespace, tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, np.ndarray]:
+    """Twenty seconds with each of two tools, of which the second is stated; and the truth about the sensor."""
+    folder = tmp_path_factory.mktemp("ur5")
+    truth = example.simulate(folder, example_robot(UR5), seed=4, weighed=("weight",), duration_s=20.0)
+    return folder, truth
+
+
+def _run(file: Path) -> SensorRun:
+    return SensorRun(load_experiment(file), "wrist_ft")
+
+
+def _edited(arm: tuple[Path, np.ndarray], folder: Path, tool: str, *changes: tuple[str, str]) -> Path:
+    """A copy of an experiment with something else in its file."""
+    copy = Path(shutil.copytree(arm[0], folder / "copy", dirs_exist_ok=True))
+    text = (copy / f"{tool}.toml").read_text(encoding="utf-8")
+    for old, new in changes:
+        assert old in text
+        text = text.replace(old, new)
+    (copy / f"{tool}.toml").write_text(text, encoding="utf-8")
+    return copy / f"{tool}.toml"
+
+
+@pytest.fixture(scope="module")
+def weighed(arm: tuple[Path, np.ndarray]) -> WeighedLoad:
+    """Both recordings, weighed together."""
+    return weigh_load([_run(arm[0] / f"{tool}.toml") for tool in TRUTH])
+
+
+def test_a_weighed_tool_weighs_the_other(weighed: WeighedLoad) -> None:
+    """Mass and centre of mass lie in their intervals, which one recording by itself leaves twenty times as wide."""
+    gripper, weight = weighed.loads
+    mass, centre = TRUTH["gripper"]
+    assert gripper.mass_kg == pytest.approx(mass, abs=1.5 * (gripper.mass_half_width_95_kg or 0.0))
+    assert (gripper.mass_half_width_95_kg or 1.0) < 0.01
+    halves = np.array(gripper.centre_of_mass_half_width_95_m, dtype=np.float64)
+    assert (np.abs(np.subtract(gripper.centre_of_mass_m, centre)) < 2.0 * halves).all()
+    assert (weight.estimated, gripper.link) == (False, "ee_link")
+    alone = next(row for row in weighed.recordings if row.load == "gripper")
+    assert (alone.mass_half_width_95_kg or 0.0) > 5.0 * (gripper.mass_half_width_95_kg or 0.0)
+    assert any("beside 'weight', which is stated" in words for words in weighed.warnings)
+    assert not any(row.touched for row in weighed.judged)
+
+
+def test_the_calibration_reads_pushes_better_than_the_maker(
+    example: SimpleNamespace, arm: tuple[Path, np.ndarray], tmp_path: Path
+) -> None:
+    """With one weighed tool, and with none; a mass that is stated a fifth too large is seen to harm."""
+    folder, truth = arm
+    inverse = np.linalg.inv(truth)
+    before = np.array(example.push_errors(inverse))
+    unknown = _edited(arm, tmp_path, "weight", (STATED, "")).parent
+    right, after = (
+        np.array(example.push_errors(example.calibrated(files, tuple(TRUTH)) @ inverse)) for files in (folder, unknown)
+    )
+    assert (right < 0.95 * before).all()
+    assert (after < 0.95 * before).all()
+    wrong = _edited(arm, tmp_path / "wrong", "weight", ("mass_kg = 2.2", "mass_kg = 2.64")).parent
+    try:
+        heavy = np.array(example.push_errors(example.calibrated(wrong, tuple(TRUTH)) @ inverse))
+    except ForceTorqueError as refusal:  # the gate sees a factor
+        assert "factor" in str(refusal) or "gain" in str(refusal)  # noqa: PT017
+    else:
+        assert heavy[0] > 1.3 * right[0]
+
+
+def test_a_weighed_tool_is_named_by_its_result(
+    arm: tuple[Path, np.ndarray], weighed: WeighedLoad, tmp_path: Path
+) -> None:
+    """What a run told of a tool enters the next with its covariance; the same result of another link is refused."""
+    file = _edited(arm, tmp_path, "gripper", ('link = "ee_link"\n', 'link = "ee_link"\nfrom = "tool.json"\n'))
+    (file.parent / "tool.json").write_text(weighed.model_dump_json(by_alias=True), encoding="utf-8")
+    (again,) = weigh_load(_run(file)).loads
+    first = weighed.loads[0]
+    assert again.mass_kg == pytest.approx(first.mass_kg, abs=2.0 * (first.mass_half_width_95_kg or 0.0))
+    assert (again.mass_half_width_95_kg or 1.0) < 2.0 * (first.mass_half_width_95_kg or 0.0)
+    elsewhere = json.loads((file.parent / "tool.json").read_text(encoding="utf-8"))
+    elsewhere["loads"][0]["link"] = "wrist_3_link"
+    (file.parent / "tool.json").write_text(json.dumps(elsewhere), encoding="utf-8")
+    with pytest.raises(ForceTorqueError, match="on the link 'ee_link', got 'gripper' on 'wrist_3_link'"):
+        load_experiment(file)
+
+
+def test_an_arm_on_the_ceiling_is_weighed(example: SimpleNamespace, tmp_path: Path) -> None:
+    """Gravity is that of the support."""
+    example.simulate(
+        tmp_path,
+        example_robot(UR5),
+        seed=5,
+        tools={"gripper": TRUTH["gripper"]},
+        gravity=(0.0, 0.0, 1.0),
+        relative=0.0,
+        duration_s=10.0,
+    )
+    (load,) = weigh_load(_run(tmp_path / "gripper.toml")).loads
+    assert load.mass_kg == pytest.approx(1.3, rel=0.03)
+
+
+def test_a_tool_that_the_urdf_has_too_is_named(arm: tuple[Path, np.ndarray], tmp_path: Path) -> None:
+    """Counted twice it is a warning; counted once it is none."""
+    assert not any("have it already" in words for words in data_doubts(_run(arm[0] / "weight.toml")))
+    file = _edited(arm, tmp_path, "weight", (str(example_robot(UR5).resolve()), "twice.urdf"))
+    tool = (
+        '<inertial><origin xyz="-0.04 0.05 0.12"/><mass value="2.2"/><inertia ixx="0.003" ixy="0" ixz="0" iyy="0.003" '
+    )
+    tool += 'iyz="0" izz="0.003"/></inertial>'
+    urdf = example_robot(UR5).read_text(encoding="utf-8")
+    assert '<link name="ee_link">' in urdf
+    urdf = urdf.replace('<link name="ee_link">', f'<link name="ee_link">{tool}')
+    (file.parent / "twice.urdf").write_text(urdf, encoding="utf-8")
+    assert any("seems to have it already" in words for words in data_doubts(_run(file)))
+
+
+SECOND = '[[load]]\nname = "other"\nlink = "ee_link"\nmass_kg = 1.0\n'
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "match"),
+    [
+        ('link = "ee_link"', 'link = "ee_lnk"', "no link 'ee_lnk'; did you mean"),
+        ('link = "ee_link"', 'link = "forearm_link"', "whose load no sensor feels"),
+        ('link = "ee_link"\n', "", r"load\[0\].link: Field required"),
+        ('link = "ee_link"\n', 'link = "ee_link"\nframe = "wrist_ft"\n', "frame"),
+        ('label = "fit"', 'label = "fit"\nload = "tool"', "no load|load 'tool'|'tool'"),
+        ("[[interval]]", f"{SECOND}\n[[interval]]", "load"),
+        ("[[interval]]", f'{SECOND.replace("other", "gripper")}\n[[interval]]', "names that differ"),
+        ('link = "ee_link"\n', 'link = "ee_link"\nfrom = "x.json"\nmass_kg = 1.0\n', "from says what the load is"),
+        ('link = "ee_link"\n', 'link = "ee_link"\nfrom = "none.json"\n', "none.json"),
+        ("[[support]]", "[[suport]]", "support"),
+    ],
+)  # fmt: skip
+def test_what_contradicts_is_refused(
+    arm: tuple[Path, np.ndarray], tmp_path: Path, old: str, new: str, match: str
+) -> None:
+    """Each is one line that names the file."""
+    text = (arm[0] / "gripper.toml").read_text(encoding="utf-8")
+    assert old in text
+    (tmp_path / "gripper.toml").write_text(text.replace(old, new, 1), encoding="utf-8")
+    shutil.copy(arm[0] / "gripper.csv", tmp_path)
+    with pytest.raises(ForceTorqueError, match=match) as caught:
+        load_experiment(tmp_path / "gripper.toml")
+    assert "\n" not in str(caught.value)
+
+
+def test_recordings_that_say_different_things_of_one_tool_are_refused(
+    arm: tuple[Path, np.ndarray], tmp_path: Path
+) -> None:
+    """A name is a tool."""
+    other = _edited(arm, tmp_path, "gripper", ('name = "gripper"\nlink', 'name = "weight"\nlink'))
+    with pytest.raises(ForceTorqueError, match="give another tool another name"):
+        weigh_load([_run(arm[0] / "weight.toml"), _run(other)])
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("weighed", [(), ("weight",)])
+def test_pushes_are_read_better_on_many_sensors(
+    example: SimpleNamespace, tmp_path: Path, weighed: tuple[str, ...]
+) -> None:
+    """Of twenty sensors, motions and noises none is read worse than by the maker's matrix, known tools or unknown."""
+    ratios = []
+    for seed in range(20):
+        truth = example.simulate(tmp_path / str(seed), example_robot(UR5), seed=1000 + seed, weighed=weighed)
+        inverse = np.linalg.inv(truth)
+        matrix = example.calibrated(tmp_path / str(seed), tuple(TRUTH))
+        ratios.append(np.divide(example.push_errors(matrix @ inverse), example.push_errors(inverse)))
+    assert np.max(ratios) < 1.0
+    assert np.mean(ratios) < 0.85
