@@ -12,8 +12,7 @@ from forcetorque.analysis.load_error import load_error_of
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration import GenerativeFit, WindowMeans, fit_generative
 from forcetorque.calibration.generative import Assumptions
-from forcetorque.loads import Load, LoadProblem, LoadRows, LoadSolution, load_wrench, solve
-from forcetorque.loads.partly_known import MatrixSpread, settled
+from forcetorque.loads import Load, LoadProblem, LoadRows, LoadSolution, MatrixSpread, load_wrench, settled, solve
 from forcetorque.spatial import MeasureDirection
 
 POSES = 24
