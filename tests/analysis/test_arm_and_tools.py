@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import json
+import re
 import runpy
 import shutil
 from pathlib import Path
@@ -12,7 +13,15 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from forcetorque.analysis import SensorRun, WeighedLoad, data_doubts, weigh_load
+from forcetorque.analysis import (
+    SensorRun,
+    WeighedLoad,
+    calibrate_sensor,
+    data_doubts,
+    draft_experiment,
+    evaluate,
+    weigh_load,
+)
 from forcetorque.errors import ForceTorqueError
 from forcetorque.experiment import load_experiment
 from tests.robots import example_robot
@@ -93,6 +102,14 @@ def test_the_calibration_reads_pushes_better_than_the_maker(
         assert "factor" in str(refusal) or "gain" in str(refusal)  # noqa: PT017
     else:
         assert heavy[0] > 1.3 * right[0]
+
+
+def test_a_stated_tool_is_a_reference_as_any_other(arm: tuple[Path, np.ndarray]) -> None:
+    """Held-out loads judge a calibration; without the tool, the reference lacks 22 N."""
+    run = _run(arm[0] / "weight.toml")
+    calibration = calibrate_sensor(run, code_version="", created="2026-01-01T00:00:00")
+    prior, new = evaluate(run, {"new": calibration}).verdicts[:2]
+    assert new.force_error_mean_N < prior.force_error_mean_N < 3.0
 
 
 def test_a_weighed_tool_is_named_by_its_result(
@@ -196,3 +213,30 @@ def test_pushes_are_read_better_on_many_sensors(
         ratios.append(np.divide(example.push_errors(matrix @ inverse), example.push_errors(inverse)))
     assert np.max(ratios) < 1.0
     assert np.mean(ratios) < 0.85
+
+
+ANSWERS = {
+    "serial": '"FT-17"',
+    "full_scale": "[150, 150, 150, 10, 10, 10]",
+    "joint": '"ee_fixed_joint"',
+    "measure_direction": '"child_to_parent"',
+    "gravity_direction": "[0.0, 0.0, -1.0]",
+    "link": '"ee_link"',
+}
+
+
+@pytest.mark.long
+def test_answers_to_a_draft_are_enough(example: SimpleNamespace, tmp_path: Path) -> None:
+    """From the logs alone, by `init` and the answers to its questions, to a matrix that is better than the maker's."""
+    truth = example.simulate(tmp_path, example_robot(UR5), seed=7)
+    for tool in TRUTH:
+        (tmp_path / f"{tool}.toml").unlink()
+    for tool in TRUTH:
+        file = tmp_path / f"{tool}.toml"
+        text = draft_experiment([tmp_path / f"{tool}.csv"], file, urdf=example_robot(UR5)).content
+        for key, answer in (ANSWERS | {"name": f'"{tool}"'}).items():
+            text = re.sub(rf'^{key} = "\?"', f"{key} = {answer}", text, flags=re.MULTILINE)
+        file.write_text(text.replace('"ft_sensor"', '"wrist_ft"'), encoding="utf-8")
+    inverse = np.linalg.inv(truth)
+    after = example.push_errors(example.calibrated(tmp_path, tuple(TRUTH)) @ inverse)
+    assert (np.array(after) < example.push_errors(inverse)).all()
