@@ -204,15 +204,20 @@ def test_recordings_that_say_different_things_of_one_tool_are_refused(
 def test_pushes_are_read_better_on_many_sensors(
     example: SimpleNamespace, tmp_path: Path, weighed: tuple[str, ...]
 ) -> None:
-    """Of twenty sensors, motions and noises none is read worse than by the maker's matrix, known tools or unknown."""
+    """Of twenty sensors no force is read worse than by the maker's matrix, nor a moment if one tool was weighed.
+
+    If none was, moments of at most two are: a rate of one in sixty passes in 99.6 of 100 runs, one in four in 9.
+    """
     ratios = []
     for seed in range(20):
         truth = example.simulate(tmp_path / str(seed), example_robot(UR5), seed=1000 + seed, weighed=weighed)
         inverse = np.linalg.inv(truth)
         matrix = example.calibrated(tmp_path / str(seed), tuple(TRUTH))
         ratios.append(np.divide(example.push_errors(matrix @ inverse), example.push_errors(inverse)))
-    assert np.max(ratios) < 1.0
-    assert np.mean(ratios) < 0.85
+    force, moment = np.transpose(ratios)
+    assert force.max() < 1.0
+    assert (moment >= 1.0).sum() <= (0 if weighed else 2)
+    assert max(force.mean(), moment.mean()) < 0.85
 
 
 ANSWERS = {
