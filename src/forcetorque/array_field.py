@@ -23,6 +23,9 @@ class ArrayField:
     """Least value; `None` accepts any."""
 
     def _validate(self, values: Any) -> FloatArray:
+        if isinstance(values, list) and not values and self.shape[0] is None:
+            # lists within an empty one are lost: their lengths are those that are expected
+            values = np.zeros([length or 0 for length in self.shape])
         try:
             array = read_only(values, name="array", shape=self.shape)
         except TypeError as error:

@@ -31,6 +31,7 @@ from forcetorque.calibration import (
     require_same_sensor,
     try_correction,
 )
+from forcetorque.calibration.load_error import LoadError
 
 _RULE = "readings regressed on loads; sizes of prior deviations and slow noise by evidence"
 
@@ -60,6 +61,9 @@ def generative_calibration(
     if first.nonlinear:
         trial = try_correction(stretches, first.prior, first.assumptions, variables=variables, drift=first.drift)
         fit = corrected_fit(fit, stretches, trial.kept) if trial.kept else fit
+    load_error = LoadError.largest(recording.load_error for recording in recordings)
+    if load_error is not None and first.prior is not None:
+        fit = replace(fit, posterior=load_error.widened(fit.posterior, first.prior))
     moments = pooled(interval.moments for interval in intervals)
     sessions = _sessions(fit, intervals, first.prior)
     errors = fit.posterior.coefficient_error(fit.model.coefficients)

@@ -9,8 +9,11 @@ from urllib.parse import quote
 
 from forcetorque.analysis.campaign import Campaign, Runs
 from forcetorque.analysis.campaign_recording import CampaignRecording
+from forcetorque.analysis.load_error import load_error_of
+from forcetorque.analysis.sensor_run import SensorRun
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration import IntervalMoments, LinearVariable, RecordingMoments, VariableDescription, gate
+from forcetorque.calibration.load_error import LoadError
 from forcetorque.experiment.full_scale import full_scale_of
 from forcetorque.recording import Use
 
@@ -42,8 +45,17 @@ def recording_moments(runs: Runs, *, with_variables: bool | None = None) -> list
             continue
         kept = [IntervalMoments.of(i.data_set, i.fitted, dropped=i.part.samples.dropped) for i in own]
         stated_by = CampaignRecording.of(run)
-        results.append(moments_of(stated_by, kept, variables=variables, doubts=[doubt.message for doubt in doubts]))
+        moments = moments_of(stated_by, kept, variables=variables, doubts=[doubt.message for doubt in doubts])
+        results.append(moments.model_copy(update={"load_error": _load_error(run)}))
     return results
+
+
+def _load_error(run: SensorRun) -> LoadError | None:
+    """What is not known of loads on links that the sensor itself weighed, with the matrix of the same fit."""
+    loads = run.experiment.link_loads
+    if loads is None or loads.are_stated or loads.weigher.name != run.sensor.name:
+        return None
+    return load_error_of(loads.solution(run.experiment))
 
 
 def moments_of(

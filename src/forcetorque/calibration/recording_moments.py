@@ -19,6 +19,7 @@ from forcetorque.calibration.data_set import DataSet
 from forcetorque.calibration.generative.assumptions import Assumptions
 from forcetorque.calibration.generative.means import WindowMeans
 from forcetorque.calibration.linear_variable import LinearVariable
+from forcetorque.calibration.load_error import LoadError
 from forcetorque.calibration.moments import Moments
 from forcetorque.errors import FitError
 from forcetorque.part import Part, read_part
@@ -235,6 +236,8 @@ class RecordingMoments(Part):
     """The intervals."""
     doubts: tuple[str, ...] = ()
     """What makes any fit of them doubtful."""
+    load_error: LoadError | None = None
+    """What is not known of loads that the sensor weighed itself; None where all were stated."""
     inputs_sha256: dict[str, str]
     """SHA-256 of every input file, by its path."""
 
