@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from forcetorque.analysis import TorqueLoop, TorqueLoopFile, read_torque_loop, torque_loop
+from forcetorque.analysis import TorqueLoopFile, TorqueLoopStudy, read_torque_loop, torque_loop
 from forcetorque.errors import ControlError, FormatError
 from tests.cli.outcome import Run
 from tests.page_scripts import unmarked
@@ -37,12 +37,12 @@ def file(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.fixture(scope="module")
-def loop(file: Path) -> TorqueLoop:
+def loop(file: Path) -> TorqueLoopStudy:
     """Its result."""
     return torque_loop(read_torque_loop(file))
 
 
-def test_errors_cost_tracking(loop: TorqueLoop) -> None:
+def test_errors_cost_tracking(loop: TorqueLoopStudy) -> None:
     """The robot without E tracks better than the one with; rows say of what size it is under the weight."""
     none, some = loop.rows
     assert (none.errors, none.scale, none.force_error_N, none.runs) == ("none", 0.0, 0.0, 2)
@@ -76,11 +76,13 @@ def test_gains_that_are_unstable_alone_are_refused() -> None:
         torque_loop(TorqueLoopFile(gain_factors=(6.0,)))
 
 
-def test_it_is_typed(loop: TorqueLoop, run: Run, file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_it_is_typed(
+    loop: TorqueLoopStudy, run: Run, file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """The command asks what Python asks, shows it and draws it."""
     asked = []
 
-    def answer(content: TorqueLoopFile, **_: object) -> TorqueLoop:
+    def answer(content: TorqueLoopFile, **_: object) -> TorqueLoopStudy:
         asked.append(content)
         return loop
 

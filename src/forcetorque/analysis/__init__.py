@@ -102,7 +102,7 @@ if TYPE_CHECKING:
     from forcetorque.analysis.thermal import Thermal, thermal
     from forcetorque.analysis.thermal_rows import SensorThermal, ThermalCurve, ThermalDriftRow
     from forcetorque.analysis.torque_fusion import TorqueFusion, fuse_experiment
-    from forcetorque.analysis.torque_loop import TorqueLoop, torque_loop
+    from forcetorque.analysis.torque_loop import TorqueLoopStudy, torque_loop
     from forcetorque.analysis.torque_loop_file import TorqueLoopFile, read_torque_loop
     from forcetorque.analysis.torque_loop_rows import TorqueLoopOnsetRow, TorqueLoopRow
     from forcetorque.analysis.torque_picture import TorquePicture, torque_picture
@@ -217,7 +217,7 @@ __all__ = [
     "ThermalCurve",
     "ThermalDriftRow",
     "TorqueFusion",
-    "TorqueLoop",
+    "TorqueLoopStudy",
     "TorqueLoopFile",
     "TorqueLoopOnsetRow",
     "TorqueLoopRow",

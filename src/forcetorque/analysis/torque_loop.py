@@ -36,7 +36,7 @@ _EVERY = 10
 _SUPPORTS: Final = {"both feet": Phase.DOUBLE, "the left foot": Phase.LEFT, "the right foot": Phase.RIGHT}
 
 
-class TorqueLoop(Result):
+class TorqueLoopStudy(Result):
     """A robot that balances by torque control, with errors of its force-torque sensors."""
 
     schema_name: Literal["forcetorque/torque_loop/1"] = Field(default="forcetorque/torque_loop/1", alias="schema")
@@ -70,7 +70,9 @@ class TorqueLoop(Result):
         )
 
 
-def torque_loop(file: TorqueLoopFile | None = None, *, progress: Callable[[str], None] = lambda _: None) -> TorqueLoop:
+def torque_loop(
+    file: TorqueLoopFile | None = None, *, progress: Callable[[str], None] = lambda _: None
+) -> TorqueLoopStudy:
     """Let a small biped in MuJoCo change its support under torque control, with errors of its sensors.
 
     Drives, controllers and rates are settled by the file before any error is drawn, and proven stable without.
@@ -102,7 +104,7 @@ def torque_loop(file: TorqueLoopFile | None = None, *, progress: Callable[[str],
             onsets += case.onset_rows(robots, unit)
             rows += case.rows(unit, rng, progress)
     weight_N = biped.mass * STANDARD_GRAVITY
-    return TorqueLoop(
+    return TorqueLoopStudy(
         name=asked.name,
         weight_N=weight_N,
         duration_s=asked.timing.duration_s,

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from forcetorque.analysis.torque_loop_file import PERIOD_S, DriveTable, SensorTable, TorqueLoopFile
-from forcetorque.arrays import FloatArray
+from forcetorque.arrays import BoolArray, FloatArray
 from forcetorque.errors import ControlError
 from forcetorque.simulation.torque_loop.biped import SENSORS, Biped
 from forcetorque.simulation.torque_loop.linear_robot import LinearRobot, linear_robot, require_stable
@@ -78,30 +78,35 @@ def test_gains_that_are_unstable_alone_are_refused(biped: Biped) -> None:
 
 
 def _balanced(robot: LinearRobot, matrices: FloatArray) -> SensorErrors:
-    """Errors with the offsets that make up for them at rest: what is left is what they do to the loop."""
+    """None, and errors with the offsets that make up for them at rest: what is left is what they do to the loop."""
+    matrices = np.concatenate([np.zeros_like(matrices[:1]), matrices])
     at_rest = robot.wrenches_at_rest.reshape(len(SENSORS), 6)
     return errors_of(matrices, -np.einsum("bsij,sj->bsi", matrices, at_rest))
 
 
-def _ends_unstable(run: LoopRun) -> FloatArray:
-    """Whether each copy fell, or what the push did is larger at the end than soon after it."""
+def _ends_unstable(run: LoopRun) -> BoolArray:
+    """Whether each copy but the first, which has no E, fell, or moves in the last quarter by more than a push does."""
     steps = run.centre_error.shape[1]
+    of_push = np.abs(run.centre_error[0]).max()
     fell = run.fallen < steps
-    centre = np.where(fell[:, None, None], 0.0, run.centre_error)
-    early = centre[:, steps // 4 : steps // 2].std(axis=1).max(axis=1)
-    late = centre[:, 3 * steps // 4 :].std(axis=1).max(axis=1)
-    return fell | (late > early)
+    late = np.where(fell[:, None, None], 0.0, run.centre_error[:, 3 * steps // 4 :]).std(axis=1).max(axis=1)
+    return (fell | (late > _LASTING * of_push))[1:]
+
+
+_LASTING = 3.0
+"""A swing near the limit dies away slowly, at 0.8 of its size to twice what the push did at most; those that last are
+tens of times as large."""
 
 
 @pytest.mark.long
 @pytest.mark.parametrize("phase", [Phase.DOUBLE, Phase.LEFT])
 def test_the_linear_loop_says_from_which_size_on_it_swings(biped: Biped, setting: LoopSetting, phase: Phase) -> None:
-    """Of twelve draws at least ten die away at 0.8 of the predicted size, and grow or fall at 1.2 of it.
+    """Of twelve draws ten at least die away at 0.8 of the predicted size, and go on or fall at 1.2 of it.
 
     The push is small, so that feet stay on the ground, as the linear loop takes them.
     """
     robot = linear_robot(biped, setting, standing(biped, phase, 2, LIFT_M, PERIOD_S), 0)
-    unit = drawn_matrices(PRINTED["workbench"], LEVER_M, np.random.default_rng(77), 12)
+    unit = drawn_matrices(PRINTED["workbench"], LEVER_M, np.random.default_rng(78), 12)
     scales = [robot.onset(matrix, largest=40.0) for matrix in unit]
     matrices = np.array([one.scale * matrix for one, matrix in zip(scales, unit, strict=True) if one is not None])
     assert len(matrices) >= 10

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from itertools import groupby
 from typing import TYPE_CHECKING
 
-from forcetorque.analysis import TorqueLoop, TorqueLoopRow
+from forcetorque.analysis import TorqueLoopRow, TorqueLoopStudy
 from forcetorque.report.figures.canvas import (
     ROW_INCHES,
     SMALL_POINTS,
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-def torque_loop_figure(loop: TorqueLoop) -> Figure:
+def torque_loop_figure(loop: TorqueLoopStudy) -> Figure:
     """Draw what the error of the sensors does, a curve per soles, gains and kind of error.
 
     Args:
