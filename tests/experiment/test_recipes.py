@@ -108,6 +108,16 @@ def test_a_wrench_of_the_base_frame_is_turned_into_the_sensor(poses: Path) -> No
     assert "moment about the origin of 'tool'" in finding.message
 
 
+def test_a_wrench_of_another_frame_is_not_taken_for_the_sensors(poses: Path) -> None:
+    """Without [[transform]] nothing would move it: a load weighed by it would be wrong without a word."""
+    with pytest.raises(
+        ExperimentError, match=r"in the frame of 'wrist', 'tool' .*got one in 'base'.*\[\[transform\]\]"
+    ):
+        _recording(poses, HEAD + POSE + WRENCH + REST)
+    own = WRENCH.replace('frame = "base"', 'frame = "tool"')
+    assert _recording(poses, HEAD + POSE + own + REST).stream("wrench").signal("wrench").frame == "tool"
+
+
 def test_the_other_sense_of_the_pose_gives_another_wrench(poses: Path) -> None:
     """Negative control: what is turned the wrong way round is not what was sensed."""
     wrench = _recording(poses, TEXT.replace("sensor_to_world", "world_to_sensor")).stream("wrench").signal("wrench")

@@ -62,8 +62,8 @@ def read_sensors(
         ExperimentError: If two entries are one sensor or share a stream.
     """
     found: list[ExperimentSensor] = []
-    for index, entry in enumerate(parsed.sensor):
-        sensor = _sensor(file, index, entry, model, recording, inputs)
+    for index in range(len(parsed.sensor)):
+        sensor = _sensor(parsed, file, index, model, recording, inputs)
         for earlier in found:
             if sensor.name == earlier.name:
                 raise ExperimentError(f"{file}: sensor[{index}]: {sensor.name!r} is listed twice; keep one")
@@ -77,9 +77,9 @@ def read_sensors(
 
 
 def _sensor(
-    file: Path, index: int, entry: schema.Sensor, model: RobotModel, recording: Recording, inputs: Inputs
+    parsed: schema.ExperimentFile, file: Path, index: int, model: RobotModel, recording: Recording, inputs: Inputs
 ) -> ExperimentSensor:
-    where = f"{file}: sensor[{index}]"
+    where, entry = f"{file}: sensor[{index}]", parsed.sensor[index]
     with stated_in(where):
         stream = recording.stream(entry.stream)
     present = [quantity for quantity in ("raw", "wrench") if quantity in stream.signals]
@@ -92,6 +92,8 @@ def _sensor(
             f"{where}: expected prior, the matrix file that {entry.stream!r} was calibrated with; "
             'raw counts cannot be recovered without it; "identity" where that matrix is not known'
         )
+    if present[0] == "wrench":
+        _require_own_frame(where, entry, model, stream.signal("wrench").frame, of_load=bool(parsed.load))
     channels = len(stream.signals[present[0]].columns)
     if entry.amplifier_gain is not None and len(entry.amplifier_gain) != channels:
         raise ExperimentError(
@@ -117,6 +119,20 @@ def _sensor(
             for k, variable in enumerate(entry.variable)
         ),
     )
+
+
+def _require_own_frame(
+    where: str, entry: schema.Sensor, model: RobotModel, frame: str | None, *, of_load: bool
+) -> None:
+    """Refuse a wrench that is stated in a frame which is known not to be the sensor's: nothing would move it there."""
+    joint = model.joints[model.sensor(entry.name).joint]
+    if frame in {None, entry.name, entry.stream, joint.parent, joint.child}:
+        return
+    if of_load or frame in model.links:  # other names are those of ports and devices
+        raise ExperimentError(
+            f"{where}: expected a wrench in the frame of {entry.name!r}, {joint.parent!r} or {joint.child!r}, got one "
+            f"in {frame!r} from the stream {entry.stream!r}; state [[transform]] to move it, or the frame that it is in"
+        )
 
 
 def _variable(where: str, variable: schema.Variable, entry: schema.Sensor, recording: Recording) -> SensorVariable:
