@@ -191,7 +191,7 @@ def test_a_calibrated_stream_is_corrected_with_its_temperature(warm: Path) -> No
     """Counts recovered through the prior, with the temperature: a board's wrenches are fitted and estimated exactly."""
     prior = read_matrix_file(warm / "matrix_SIM001.txt").matrix
     assert is_invertible(prior)
-    recording = calibrated_by_board(read_recording(warm / "recording"), "arm_ft", matrix=prior, frame="forearm")
+    recording = calibrated_by_board(read_recording(warm / "recording"), "arm_ft", matrix=prior, frame="arm_ft")
     put(warm, recording.stream("arm_ft"))
     experiment = load_experiment(with_variables(warm / PARQUET, TEMPERATURE))
     assert experiment.sensors[0].quantity == "wrench"

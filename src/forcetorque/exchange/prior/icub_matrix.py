@@ -12,7 +12,7 @@ from forcetorque.exchange.icub import read_matrix_file, serial_number_in_name
 from forcetorque.exchange.prior.prior_file import PriorFile, RawUnit, StatedUnits
 
 _CODES = 36
-_MOST_CODES_LOOKED_AT = 12
+_MOST_CODES_LOOKED_AT, _FEWEST_CODES = 12, 10
 
 
 class IcubMatrix:
@@ -24,7 +24,8 @@ class IcubMatrix:
         """Look for one number of hex digits a line; a short or damaged file is one too, by its name."""
         lines = text.split("\n")
         codes = [line.strip() for line in lines[:_MOST_CODES_LOOKED_AT]]
-        hex_only = all(re.fullmatch("[0-9A-Fa-f]{1,4}", code) for code in codes)
+        # nearly all: what is wrong with one of them is said by its reader, line by line
+        hex_only = sum(re.fullmatch("[0-9A-Fa-f]{1,4}", code) is not None for code in codes) >= _FEWEST_CODES
         return (hex_only and len(lines) > _CODES) or serial_number_in_name(path) is not None
 
     def read(self, path: Path, text: str, units: StatedUnits) -> PriorFile:
