@@ -32,6 +32,8 @@ from forcetorque.analysis import (
     SkinWrenchPicture,
     ThermalCurve,
     ThermalDriftRow,
+    TorqueLoopRow,
+    TorqueLoopStudy,
     TrialGroup,
     TrialSphere,
     UseError,
@@ -82,6 +84,7 @@ from forcetorque.report.figures import (
     taxel_figure,
     thermal_figure,
     torque_figure,
+    torque_loop_figure,
     use_figure,
 )
 from forcetorque.report.figures.canvas import png_bytes
@@ -133,6 +136,34 @@ def _balance(rng: np.random.Generator) -> Figure:
             feet=tuple(feet),
             robot=RobotBalance(frame="l_sole", pressure=feet[0].pressure),
         )
+    )
+
+
+def _torque_loop(rng: np.random.Generator) -> Figure:
+    rows = [
+        TorqueLoopRow(
+            tilt_deg=tilt_deg,
+            gain_factor=1.0,
+            errors=errors,
+            scale=scale,
+            force_error_N=16.4 * scale,
+            runs=30,
+            tracking_rms_Nm=0.2 + scale * rng.uniform(1.0, 1.5),
+            tracking_half_width_95_Nm=0.2,
+            centre_rms_mm=3.0,
+            falls=int(7 * scale),
+            falls_least_percent=20.0 * scale,
+            falls_most_percent=25.0 * scale,
+            oscillating=int(scale),
+            oscillating_least_percent=2.0 * scale,
+            oscillating_most_percent=10.0 * scale,
+            amplitude_mm=None,
+        )
+        for tilt_deg in (0.0, 10.0)
+        for errors, scale in (("none", 0.0), ("workbench", 1.0), ("workbench", 2.0), ("in situ", 0.2))
+    ]
+    return torque_loop_figure(
+        TorqueLoopStudy(name="biped", weight_N=303.0, duration_s=6.7, delay_s=0.001, rows=tuple(rows), onsets=())
     )
 
 
@@ -672,6 +703,7 @@ FIGURES: dict[str, Callable[[np.random.Generator], Figure]] = {
     "response": _response,
     "thermal": _thermal,
     "torque": _torque,
+    "torque loop": _torque_loop,
     "index": _index,
     "skin layout": _skin_layout,
     "use": _use,
