@@ -16,7 +16,7 @@ from forcetorque.arrays import BoolArray, FloatArray
 from forcetorque.constants import STANDARD_GRAVITY
 from forcetorque.evaluation.oscillation import evened, find_oscillations
 from forcetorque.noise import half_width
-from forcetorque.result import Result, Table, table_of
+from forcetorque.result import Result, Table, finite_or_none, table_of
 from forcetorque.simulation.torque_loop.biped import SENSORS, Biped
 from forcetorque.simulation.torque_loop.linear_robot import LinearRobot, linear_robot, require_stable
 from forcetorque.simulation.torque_loop.loop import LoopRun, LoopSetting, run_loop
@@ -150,9 +150,9 @@ class _Case:
                     errors=errors,
                     support=words,
                     draws=len(scales),
-                    least_scale=_finite(float(scales.min())),
-                    median_scale=_finite(median),
-                    median_force_error_N=_finite(median * size * weight_N),
+                    least_scale=finite_or_none(float(scales.min())),
+                    median_scale=finite_or_none(median),
+                    median_force_error_N=finite_or_none(median * size * weight_N),
                     below_one_percent=100.0 * float(np.mean(scales < 1.0)),
                     median_frequency_hz=float(np.median(frequencies)) if frequencies else None,
                     largest_scale=largest / size,
@@ -204,7 +204,7 @@ class _Case:
             force_error_N=size * self.biped.mass * STANDARD_GRAVITY,
             runs=len(rms),
             tracking_rms_Nm=float(rms.mean()),
-            tracking_half_width_95_Nm=_finite(half),
+            tracking_half_width_95_Nm=finite_or_none(half),
             centre_rms_mm=1e3 * float(np.sqrt(np.nanmean((run.centre_error**2).sum(axis=-1)))),
             falls=int(fell.sum()),
             falls_least_percent=falls[0],
@@ -244,7 +244,3 @@ def _share_interval(happened: BoolArray) -> tuple[float, float]:
     low = float(betaincinv(k, n - k + 1, 0.025)) if k else 0.0
     high = float(betaincinv(k + 1, n - k, 0.975)) if k < n else 1.0
     return 100.0 * low, 100.0 * high
-
-
-def _finite(value: float) -> float | None:
-    return value if np.isfinite(value) else None

@@ -10,12 +10,12 @@ import pytest
 
 from forcetorque.constants import STANDARD_GRAVITY
 from forcetorque.errors import RobotError
+from forcetorque.estimation.balance import centre_of_mass
 from forcetorque.robot import JointMotion
 from forcetorque.robot.newton_euler import expected_wrenches
 from forcetorque.robot.urdf_text import write_urdf
 from forcetorque.simulation.torque_loop.biped import JOINTS, LEGS, SENSORS, SOLES, Biped
 from forcetorque.simulation.torque_loop.joint_drive import JointDrive
-from forcetorque.simulation.torque_loop.switching import centre_of_mass
 from forcetorque.simulation.torque_loop.torque_estimate import (
     estimated_torques,
     pelvis_motion,
@@ -126,7 +126,8 @@ def test_centre_of_mass_is_that_of_mujoco(states: Any) -> None:
     world = World(biped, FREE, copies=POSTURES, step_s=1e-3)
     world.place(position)
     posture = world.look(np.ones(POSTURES, dtype=bool))
-    turned = np.einsum("nij,nj->ni", rotations(position[:, 3:7]), centre_of_mass(biped, position[:, 7:]))
+    in_pelvis = centre_of_mass(biped.tree, JointMotion.at_rest(JOINTS, position[:, 7:]))
+    turned = np.einsum("nij,nj->ni", rotations(position[:, 3:7]), in_pelvis)
     np.testing.assert_allclose(posture.centre_of_mass, position[:, :3] + turned, rtol=0, atol=EQUAL)
 
 

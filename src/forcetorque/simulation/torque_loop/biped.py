@@ -10,6 +10,7 @@ import numpy as np
 
 from forcetorque.arrays import FloatArray
 from forcetorque.errors import RobotError
+from forcetorque.estimation.balance import mass_of
 from forcetorque.robot import BodyTree, JointType, RobotModel, build_tree, read_urdf
 from forcetorque.simulation.robots import BIPED_URDF
 from forcetorque.spatial import make_pose
@@ -74,7 +75,7 @@ class Biped:
     @property
     def mass(self) -> float:
         """Mass of the robot; kg."""
-        return sum(inertia.mass for inertia in self.model.links.values())
+        return mass_of(self.tree)
 
 
 def _turn_about_y(angle_deg: float) -> FloatArray:

@@ -10,8 +10,8 @@ from typing import Final
 import numpy as np
 
 from forcetorque.arrays import FloatArray
+from forcetorque.estimation.balance import centre_of_mass
 from forcetorque.robot import JointMotion, link_pose
-from forcetorque.robot.kinematics import body_poses
 from forcetorque.simulation.motions.inverse_kinematics import joints_reaching
 from forcetorque.simulation.motions.waypoints import minimum_jerk
 from forcetorque.simulation.torque_loop.biped import JOINTS, LEGS, SOLE_CENTRE, SOLES, Biped
@@ -151,7 +151,7 @@ def posture_reference(
     place = np.tile(pelvis, (len(share), 1))
     for _ in range(_ROUNDS):
         joints = _legs(biped, soles, place, lift)
-        place[:, :2] += wanted - (place[:, :2] + centre_of_mass(biped, joints)[:, :2])
+        place[:, :2] += wanted - (place[:, :2] + centre_of_mass(biped.tree, JointMotion.at_rest(JOINTS, joints))[:, :2])
     joints = _legs(biped, soles, place, lift)
     upright = np.tile([1.0, 0.0, 0.0, 0.0], (len(share), 1))
     return Reference(
@@ -163,25 +163,6 @@ def posture_reference(
         centre_acceleration=_rate(_rate(wanted, period_s), period_s),
         share=share,
     )
-
-
-def centre_of_mass(biped: Biped, joints: FloatArray) -> FloatArray:
-    """Find the centre of mass.
-
-    Args:
-        biped: The robot.
-        joints: Positions of `JOINTS`; shape (n, 12); rad.
-
-    Returns:
-        Its place in the axes of the pelvis; shape (n, 3); m.
-    """
-    bodies = biped.tree.bodies
-    poses = body_poses(biped.tree, JointMotion.at_rest(JOINTS, joints), range(len(bodies)))
-    moment = np.zeros((len(joints), 3))
-    for index, body in enumerate(bodies):
-        pose = poses[index]
-        moment = moment + pose[..., :3, :3] @ body.inertia.first_moment + body.inertia.mass * pose[..., :3, 3]
-    return moment / biped.mass
 
 
 def _standing(biped: Biped) -> tuple[FloatArray, FloatArray]:
