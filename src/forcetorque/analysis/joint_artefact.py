@@ -118,7 +118,7 @@ def sensor_artefact(
             [one.reference + one.rest for one in data],
         ),
         selection=Selection(rule=_RULE),
-        doubts=tuple(_unfitted_variables(campaign)),
+        doubts=(*_unfitted_variables(campaign), *campaign.added),
         provenance=Provenance(
             code_version=code_version,
             created=created,

@@ -10,11 +10,12 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
+from forcetorque.analysis.added import added_to
 from forcetorque.analysis.calibrate import calibrate_sensor
 from forcetorque.analysis.calibration_doubts import fit_doubts
 from forcetorque.analysis.calibration_tables import calibration_blocks, component_records
 from forcetorque.analysis.campaign import Campaign, Runs
-from forcetorque.analysis.findings import ADDED, doubtful_spans
+from forcetorque.analysis.findings import doubtful_spans
 from forcetorque.analysis.joint_outcome import JointOutcome
 from forcetorque.analysis.learnt import LearntDirection, learnt_directions, learnt_words
 from forcetorque.analysis.load_doubts import load_doubts
@@ -133,7 +134,12 @@ def calibrate_for_file(
         learnt=learnt_directions(calibration),
     )
     campaign = None if runs is None else Campaign.of(runs)
-    doubts = [sentence for run in (campaign.runs if campaign else ()) for sentence in data_doubts(run)]
+    doubts = [
+        sentence
+        for run in (campaign.runs if campaign else ())
+        for sentence in data_doubts(run)
+        if sentence not in calibration.doubts
+    ]
     return SensorCalibrations(
         experiment=calibration.provenance.experiment,
         calibrations=(entry,),
@@ -163,7 +169,7 @@ def data_doubts(run: SensorRun, *, by_model: bool = True) -> Iterator[str]:
         yield from _touched(run)
         if (sentence := possible_touch(run)) is not None:
             yield sentence
-    yield from (f"{one.stream}: {one.message}" for one in experiment.recording.findings if one.kind in ADDED)
+    yield from added_to(experiment.recording)
     start_ns, alone = experiment.recording.start_ns, replace(experiment, sensors=(run.sensor,))
     for interval, finding in doubtful_spans(alone, Use.CALIBRATION, by_model=by_model):
         start, end = (((stamp_ns or 0) - start_ns) * 1e-9 for stamp_ns in (finding.start_ns, finding.end_ns))

@@ -77,7 +77,7 @@ def thesis_calibration(
         created=created,
         experiment="; ".join(dict.fromkeys(campaign.experiments)),
         inputs_sha256=campaign.inputs_sha256,
-        doubts=[doubt.message for doubt in doubts],
+        doubts=[*(doubt.message for doubt in doubts), *campaign.added],
     )
 
 
