@@ -37,7 +37,9 @@ class ClockShift:
     @property
     def words(self) -> str:
         """What was done, and how surely."""
-        later = f"{1e3 * abs(self.delay_s):.4g} ms {'later' if self.delay_s >= 0.0 else 'earlier'} than {self.to!r}"
+        # epochs are apart by years, and what is within them counts all the same
+        size = f"{1e3 * abs(self.delay_s):.4g} ms" if abs(self.delay_s) < 1.0 else f"{abs(self.delay_s):.4f} s"
+        later = f"{size} {'later' if self.delay_s >= 0.0 else 'earlier'} than {self.to!r}"
         brought = "its stamps are brought to that clock"
         growing = f", growing by {1e6 * self.drift:.4g} us a second" if self.drift else ""
         if self.shown_by is None or self.delay_half_width_s is None or self.explained is None:
