@@ -33,6 +33,8 @@ class ClockShift:
     """Share of its movement that the one explains of the other; None where it was stated."""
     unasked_drift: float | None = None
     """Drift of an estimated delay that nobody asked for; None where it was asked for, or the interval holds none."""
+    untold: str | None = None
+    """Why the recording does not tell the delay that was to be estimated; None where it does, or it was stated."""
 
     @property
     def words(self) -> str:
