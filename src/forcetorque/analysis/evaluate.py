@@ -16,6 +16,7 @@ from forcetorque.analysis.decide import use_verdicts
 from forcetorque.analysis.evaluation_tables import ERROR_WORDS, error_tables, smoothing_words
 from forcetorque.analysis.judged import JudgedWrenches
 from forcetorque.analysis.judged_excitation import JudgedExcitation, fewest_independent, still_words
+from forcetorque.analysis.load_doubts import circular_loads
 from forcetorque.analysis.prior_comparison import PriorComparison, comparison_sentence, prior_comparisons
 from forcetorque.analysis.unseen import doubts_about_choice, require_unseen
 from forcetorque.analysis.use_verdict import UseVerdict, use_sentences
@@ -217,6 +218,7 @@ def judge_errors(runs: Runs, calibrations: Mapping[str, Calibration]) -> Evaluat
                 require_unseen(name, calibration, run)
             wrenches[campaign.recording(run)] = run.judged(calibrations)
         said = [words for name, one in calibrations.items() for words in doubts_about_choice(run, name, one)]
+        said += circular_loads(run)
         warnings += [f"{campaign.recording(run)}: {sentence}" for sentence in said] if len(campaign.runs) > 1 else said
     validity = readings_outside(campaign, calibrations)
     judged = {recording: list(_judged(wrenches[recording])) for recording in wrenches}
