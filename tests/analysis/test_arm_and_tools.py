@@ -148,7 +148,7 @@ def test_a_tool_that_the_sensor_itself_weighed_is_named(
 
 @pytest.mark.long
 def test_a_tool_weighed_by_a_wrong_sensor_hides_that_it_is_wrong(example: SimpleNamespace, tmp_path: Path) -> None:
-    """A sensor 3 % off weighs the tool by as much wrong, and calibrated by that it stays so; by the true mass it does not.
+    """A sensor 3 % off weighs the tool by as much wrong, and calibrated by that stays so; by the true mass not.
 
     What two sensors that differ by 6 % in everything read of the tool's weight is compared.
     """
