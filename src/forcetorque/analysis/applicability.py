@@ -7,11 +7,15 @@ from collections.abc import Iterable, Iterator, Mapping
 
 import numpy as np
 
+from forcetorque.analysis.logged_content import LoggedReadings
 from forcetorque.calibration import Calibration, FittedInterval
 from forcetorque.errors import ExperimentError
 from forcetorque.experiment.content import Experiment, ExperimentSensor
 from forcetorque.experiment.inputs import stated_in
 from forcetorque.recording import Interval
+
+_DAY_NS = 86_400_000_000_000
+"""Stamps below count from the start of a recording: nobody records on the first of January 1970 (heuristic)."""
 
 
 def require_fit(name: str, calibration: Calibration, experiment: Experiment, sensor: ExperimentSensor) -> None:
@@ -110,8 +114,9 @@ def overlapping(
 ) -> Iterator[tuple[str, str]]:
     """Find what a calibration was made on among intervals.
 
-    Stamps of two recordings may count from their starts, so those of another experiment count only where the files of
-    this recording went into the calibration too.
+    Readings that were seen are known again, whatever their stamps. Else stamps say it: where the files of this
+    recording went into the calibration, and in an experiment of the same name, unless they count from the start of a
+    recording, as those of many do, and the readings are others.
 
     Args:
         experiment: The experiment.
@@ -125,10 +130,15 @@ def overlapping(
     log_went_in = bool(experiment.log_sha256) and experiment.log_sha256 <= set(
         calibration.provenance.inputs_sha256.values()
     )
-    for interval in intervals:
-        for earlier in used:
-            same = log_went_in or earlier.experiment in (None, experiment.name)
-            if same and interval.start_ns < earlier.end_ns and earlier.start_ns < interval.end_ns:
+    sensor = experiment.sensor(calibration.sensor.name)
+    earlier_ones = tuple(used)
+    for interval in intervals if earlier_ones else ():
+        readings = LoggedReadings(experiment, sensor, interval)
+        for earlier in earlier_ones:
+            seen = readings.were_in(earlier.content)
+            named = earlier.experiment in (None, experiment.name) and (seen is None or earlier.start_ns >= _DAY_NS)
+            at_once = interval.start_ns < earlier.end_ns and earlier.start_ns < interval.end_ns
+            if seen or (at_once and (log_went_in or named)):
                 yield interval.label, earlier.label
 
 

@@ -10,6 +10,7 @@ import numpy as np
 
 from forcetorque.analysis.campaign import Campaign
 from forcetorque.analysis.joint_interval import JointInterval, required_prior
+from forcetorque.analysis.logged_content import logged_content
 from forcetorque.analysis.thesis_calibration import validity_of
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration import (
@@ -140,15 +141,15 @@ def _windows(
     if not used.any():
         return None
     wrench = raw.means[used] @ matrix.T + result.fit.offset(sensor, stretch.session)
+    experiment = next(run.experiment for run in campaign.runs if campaign.recording(run) == stretch.recording)
     return SensorWindows(
         interval=FittedInterval(
             label=stretch.label,
             start_ns=interval.interval.start_ns,
             end_ns=interval.interval.end_ns,
             session=stretch.session,
-            experiment=next(
-                run.experiment.name for run in campaign.runs if campaign.recording(run) == stretch.recording
-            ),
+            experiment=experiment.name,
+            content=logged_content(experiment, campaign.sensor, interval.interval),
         ),
         session=stretch.session,
         raw=raw.means[used],

@@ -153,6 +153,15 @@ class SessionOffset(Part):
     """Offset that the same data give with the prior matrix; shape (6,); N, N m."""
 
 
+class Content(Part):
+    """By what the samples of an interval are known again in another log (`recording.fingerprint`)."""
+
+    quantity: str
+    """Quantity of the reading as it was logged: `raw` or `wrench`."""
+    windows: tuple[str, ...] = Field(min_length=1)
+    """Hashes of windows of its samples."""
+
+
 class FittedInterval(Part):
     """A stretch of time that was fitted."""
 
@@ -166,6 +175,8 @@ class FittedInterval(Part):
     """Session that it belongs to; None in files of earlier versions."""
     experiment: str | None = None
     """Experiment that it is of; None in files of earlier versions, where there was one."""
+    content: Content | None = None
+    """By what its samples are known again; None in files of earlier versions, and where they hardly change."""
 
 
 class Selection(Part):
