@@ -115,8 +115,8 @@ def overlapping(
     """Find what a calibration was made on among intervals.
 
     Readings that were seen are known again, whatever their stamps. Else stamps say it: where the files of this
-    recording went into the calibration, and in an experiment of the same name, unless they count from the start of a
-    recording, as those of many do, and the readings are others.
+    recording went into the calibration, or in an experiment of the same name; and only where both are so of stamps that
+    count from the start of a recording, as those of many do, if the readings are others.
 
     Args:
         experiment: The experiment.
@@ -136,9 +136,11 @@ def overlapping(
         readings = LoggedReadings(experiment, sensor, interval)
         for earlier in earlier_ones:
             seen = readings.were_in(earlier.content)
-            named = earlier.experiment in (None, experiment.name) and (seen is None or earlier.start_ns >= _DAY_NS)
+            own = earlier.experiment in (None, experiment.name)
+            others = seen is False and earlier.start_ns < _DAY_NS
+            one_log = log_went_in and own if others else log_went_in or own
             at_once = interval.start_ns < earlier.end_ns and earlier.start_ns < interval.end_ns
-            if seen or (at_once and (log_went_in or named)):
+            if seen or (at_once and one_log):
                 yield interval.label, earlier.label
 
 
