@@ -9,7 +9,7 @@ from forcetorque.arrays import FloatArray
 from forcetorque.calibration import Content
 from forcetorque.experiment.content import Experiment, ExperimentSensor
 from forcetorque.recording import Interval
-from forcetorque.recording.fingerprint import fingerprint, window_hashes
+from forcetorque.recording.fingerprint import fingerprint, kept_hashes, window_hashes
 
 
 def logged_content(experiment: Experiment, sensor: ExperimentSensor, interval: Interval) -> Content | None:
@@ -53,8 +53,7 @@ class LoggedReadings:
         """
         if content is None or content.quantity != self._quantity or not len(self._hashes):
             return None
-        seen = np.array([int(window, 16) for window in content.windows], dtype=np.uint64)
-        return bool(np.isin(seen, self._hashes).any())
+        return bool(np.isin(kept_hashes(content.windows), self._hashes).any())
 
 
 def _logged(experiment: Experiment, sensor: ExperimentSensor, interval: Interval) -> FloatArray:

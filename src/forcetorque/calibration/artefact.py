@@ -158,8 +158,8 @@ class Content(Part):
 
     quantity: str
     """Quantity of the reading as it was logged: `raw` or `wrench`."""
-    windows: tuple[str, ...] = Field(min_length=1)
-    """Hashes of windows of its samples."""
+    windows: str = Field(pattern=r"^([0-9a-f]{16})+$", repr=False)
+    """Hashes of windows of its samples, hexadecimal numbers of 16 letters one behind the other."""
 
 
 class FittedInterval(Part):

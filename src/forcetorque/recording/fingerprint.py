@@ -54,16 +54,29 @@ def window_hashes(values: FloatArray) -> Hashes:
     return np.unique(total[whole & (_summed(changes) >= _LEAST_DISTINCT)])
 
 
-def fingerprint(values: FloatArray) -> tuple[str, ...]:
+def fingerprint(values: FloatArray) -> str:
     """Give the hashes by which samples are known again.
 
     Args:
         values: Samples; shape (n, k).
 
     Returns:
-        At most `KEPT` hashes, as hexadecimal numbers; none of samples that are too few, or hardly change.
+        At most `KEPT` hashes, hexadecimal numbers of 16 letters one behind the other; empty of samples that are too
+        few, or hardly change.
     """
-    return tuple(f"{int(value):016x}" for value in window_hashes(values)[:KEPT])
+    return "".join(f"{int(value):016x}" for value in window_hashes(values)[:KEPT])
+
+
+def kept_hashes(text: str) -> Hashes:
+    """Read the hashes of a fingerprint.
+
+    Args:
+        text: What `fingerprint` gave.
+
+    Returns:
+        The hashes.
+    """
+    return np.array([int(text[k : k + 16], 16) for k in range(0, len(text), 16)], dtype=np.uint64)
 
 
 def _rounded(values: FloatArray) -> FloatArray:
