@@ -13,6 +13,7 @@ import pytest
 from forcetorque.analysis import draft_experiment, inspect_log
 from forcetorque.errors import FormatError
 from forcetorque.experiment import Experiment, load_experiment
+from forcetorque.recording import Recording, Signal, Stream, write_recording
 from forcetorque.simulation.robots import BIPED_URDF
 from forcetorque.toml_table import open_questions
 from tests.tutorial_log import FOLDER
@@ -105,6 +106,42 @@ def test_clocks_of_two_tables(tmp_path: Path, late_s: float, asked: bool) -> Non
     assert f"{late_s:.3f} s to " in text
     recording = _loaded(text, tmp_path, delay_s=f"delay_s = {late_s}").recording
     np.testing.assert_array_equal(recording.stream("wrist").stamp_ns, recording.stream("joints").stamp_ns)
+
+
+def test_streams_of_clocks_with_names_are_asked_for(tmp_path: Path) -> None:
+    """Nothing combines them before, though they have the same stamps; those of one clock have one question."""
+    times = np.arange(200, dtype=np.int64) * 10_000_000
+    rng = np.random.default_rng(1)
+
+    def stream(name: str, clock: str, quantity: str, columns: tuple[str, ...], unit: str) -> Stream:
+        values = rng.normal(size=(200, len(columns)))
+        frame = None if quantity == "position" else "ft"
+        signal = Signal(quantity=quantity, columns=columns, units=(unit,) * len(columns), values=values, frame=frame)
+        return Stream(name=name, clock=clock, stamp_ns=times, signals={quantity: signal})
+
+    axes = ("x", "y", "z")
+    streams = (
+        stream("joints", "robot", "position", ("wrist",), "rad"),
+        stream("acc", "board", "proper_acceleration", axes, "m/s2"),
+        stream("gyro", "board", "angular_velocity", axes, "rad/s"),
+    )
+    write_recording(tmp_path / "log", Recording(streams={one.name: one for one in streams}))
+    text = draft_experiment([tmp_path / "log"], urdf=FOLDER / "robot.urdf").content
+    (clock,) = (question for question in open_questions(text) if question.key == "delay_s")
+    assert "the clock 'board' stamped it, 'robot' stamped 'joints'" in clock.words
+    assert 'stream = ["acc", "gyro"]\nto = "joints"' in text
+
+
+def test_tables_with_open_units_have_clocks_too(tmp_path: Path) -> None:
+    """A first look takes the likeliest answers, with a robot and without."""
+    tables = {
+        "wrench": "t,fx,fy,fz,tx,ty,tz\n" + "".join(f"{0.01 * k:.2f},1,2,3,4,5,6\n" for k in range(200)),
+        "imu": "t,ax,ay,az\n" + "".join(f"{0.3 + 0.004 * k:.3f},0,0,9.8\n" for k in range(400)),
+    }
+    for name, text in tables.items():
+        (tmp_path / f"{name}.csv").write_text(text, encoding="utf-8")
+    text = draft_experiment([tmp_path / f"{name}.csv" for name in tables]).content
+    assert '# stream = "imu"\n# to = "wrench"\n# delay_s = "estimate"' in text
 
 
 def test_tables_with_the_same_stamps_have_one_clock(tmp_path: Path) -> None:

@@ -156,7 +156,7 @@ def _written(
     recorded = recording_lines(log, folder, model, frames)
     recording, reason = _read("\n".join(recorded), folder, sensors, model)
     first_look = recording
-    if recording is None and model is not None:
+    if recording is None:
         first_look, _ = _read(likeliest_text(recorded), folder, sensors, model)
     base = None if model is None else base_of_arm(model)
     sensors = tuple(_with_evidence(sensor, first_look, model, base) for sensor in sensors)
