@@ -98,8 +98,10 @@ def test_every_answer_says_what_was_added_once(asked: Asked, question: str) -> N
 
 def test_a_calibration_keeps_what_was_added(asked: Asked) -> None:
     """Its file goes to other recordings, where nobody knows of that any more; so do stored moments."""
-    for doubts in (asked.calibration.doubts, *(one.doubts for one in recording_moments(asked.run))):
-        assert len([doubt for doubt in doubts if ADDED in doubt]) == asked.times
+    for added in (asked.calibration.provenance.added, *(one.added for one in recording_moments(asked.run))):
+        assert added == added_to(asked.run.experiment.recording)
+        assert len(added) == asked.times
+    assert not asked.calibration.doubts
 
 
 class _Answer(Result):

@@ -119,7 +119,7 @@ def sensor_artefact(
             [one.reference + one.rest for one in data],
         ),
         selection=Selection(rule=_RULE),
-        doubts=(*_unfitted_variables(campaign), *campaign.added),
+        doubts=tuple(_unfitted_variables(campaign)),
         provenance=Provenance(
             code_version=code_version,
             created=created,
@@ -128,6 +128,7 @@ def sensor_artefact(
             samples=sum(one.samples for one in raw),
             dropped=sum(one.missing for one in raw),
             inputs_sha256=campaign.inputs_sha256,
+            added=campaign.added,
         ),
     )
 

@@ -66,10 +66,9 @@ def calibrate_jointly(
         *joint.doubts(),
         *(
             doubt
-            for name, calibration in calibrations.items()
+            for name in calibrations
             for run in data.campaigns[name].runs
             for doubt in data_doubts(run, by_model=False)
-            if doubt not in calibration.doubts
         ),
         *(doubt for calibration in calibrations.values() for doubt in fit_doubts(calibration)),
     ]

@@ -71,7 +71,7 @@ def moments_of(
         recording: The recording.
         intervals: What is kept of its intervals.
         variables: Linear variables that are fitted.
-        doubts: What makes any fit of them doubtful, beside what the file adds to the log.
+        doubts: What makes any fit of them doubtful.
 
     Returns:
         The moments of the recording.
@@ -92,7 +92,8 @@ def moments_of(
         nonlinear=options.nonlinear,
         variables=tuple(map(VariableDescription.of, variables)),
         intervals=tuple(intervals),
-        doubts=(*doubts, *recording.added),
+        doubts=tuple(doubts),
+        added=recording.added,
         inputs_sha256=dict(recording.inputs_sha256),
     )
 

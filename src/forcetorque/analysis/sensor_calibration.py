@@ -134,12 +134,8 @@ def calibrate_for_file(
         learnt=learnt_directions(calibration),
     )
     campaign = None if runs is None else Campaign.of(runs)
-    doubts = [
-        sentence
-        for run in (campaign.runs if campaign else ())
-        for sentence in data_doubts(run)
-        if sentence not in calibration.doubts
-    ]
+    doubts = [sentence for run in (campaign.runs if campaign else ()) for sentence in data_doubts(run)]
+    doubts += [sentence for sentence in calibration.provenance.added if sentence not in doubts]  # of stored moments
     return SensorCalibrations(
         experiment=calibration.provenance.experiment,
         calibrations=(entry,),

@@ -206,7 +206,7 @@ def study_warnings(study: SensorStudy) -> tuple[str, ...]:
         *(f"session {name!r} is fitted and judged: its score is not what another session gives" for name in both),
         *(f"left out: {sentence}" for sentence in study.left_out),
         *unfitted_warnings(study),
-        *dict.fromkeys(sentence for recording in study.data.recordings.values() for sentence in recording.added),
+        *study.data.added,
     )
 
 

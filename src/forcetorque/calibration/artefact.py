@@ -211,6 +211,8 @@ class Provenance(Part):
     """Samples of the intervals that were left out."""
     inputs_sha256: dict[str, str]
     """SHA-256 of every input file, by its path as the experiment file names it."""
+    added: tuple[str, ...] = ()
+    """What experiment files add to their logs: clocks, frames, joints, rates; in sentences."""
 
 
 class Calibration(Part):

@@ -9,7 +9,7 @@ from contextlib import nullcontext
 from pathlib import Path
 
 from forcetorque.analysis import Campaign, SensorRun
-from forcetorque.analysis.added import ADDED, added_to
+from forcetorque.analysis.added import ADDED
 from forcetorque.analysis.campaign_recording import refuse_a_file_twice
 from forcetorque.calibration import Calibration, RecordingMoments, read_calibration, read_moments
 from forcetorque.errors import ExperimentError, ForceTorqueError
@@ -57,10 +57,7 @@ def read_shown(path: Path, log: logging.Logger) -> Experiment:
     Returns:
         The experiment.
     """
-    experiment = _with_findings(load_shown, path, log)
-    for sentence in added_to(experiment.recording):
-        log.warning("%s", sentence)
-    return experiment
+    return _with_findings(load_shown, path, log)
 
 
 def _with_findings(load: Callable[[Path], Experiment], path: Path, log: logging.Logger) -> Experiment:
