@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from forcetorque.analysis.reading import Correction
+from forcetorque.analysis.runs.reading import Correction
 from forcetorque.arrays import FloatArray, IntArray
 from forcetorque.calibration import WrenchModel
 from forcetorque.estimation.balance import Sole

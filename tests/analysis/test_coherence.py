@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 from forcetorque.analysis import Coherence, coherence, corrections_of, estimate_experiment, force_error
-from forcetorque.analysis.estimate_summary import summarise_estimates
-from forcetorque.analysis.still import still_seconds
+from forcetorque.analysis.estimate.summary import summarise_estimates
+from forcetorque.analysis.runs.still import still_seconds
 from forcetorque.arrays import FloatArray
 from forcetorque.errors import ExperimentError, FitError
 from forcetorque.evaluation import Offset, OffsetPolicy

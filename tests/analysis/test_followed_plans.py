@@ -10,8 +10,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from forcetorque.analysis.plan_proposal import Demand, Effort, proposals
-from forcetorque.analysis.plan_workplace import Workplace, supports_of, workplaces
+from forcetorque.analysis.plan.proposal import Demand, Effort, proposals
+from forcetorque.analysis.plan.workplace import Workplace, supports_of, workplaces
 from forcetorque.calibration.generative import Assumptions
 from forcetorque.evaluation.planning import Criterion, Knowledge, Nuisance
 from forcetorque.experiment.plan_schema import PlanTable

@@ -8,8 +8,8 @@ from collections.abc import Mapping
 import numpy as np
 import pytest
 
-from forcetorque.analysis.estimate import estimate_experiment
-from forcetorque.analysis.reading import Correction
+from forcetorque.analysis.estimate.estimate import estimate_experiment
+from forcetorque.analysis.runs.reading import Correction
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration import WrenchModel
 from forcetorque.experiment import Experiment, load_experiment

@@ -12,7 +12,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from forcetorque.analysis import SensorRun, inspect_experiment
-from forcetorque.analysis.sensor_calibration import data_doubts
+from forcetorque.analysis.calibration.sensor_calibration import data_doubts
 from forcetorque.arrays import BoolArray
 from forcetorque.errors import ExperimentError, ForceTorqueError, FormatError, RecordingError, RobotError
 from forcetorque.experiment import load_experiment

@@ -19,7 +19,7 @@ from forcetorque.analysis.draft.spans import DraftedInterval, draft_intervals, i
 from forcetorque.analysis.draft.streams import DraftedLog
 from forcetorque.analysis.draft.supports import base_of_arm, has_no_tool, interval_support, load_lines, support_lines
 from forcetorque.analysis.draft.text import likeliest_text, line, listed, question, toml_value
-from forcetorque.analysis.inspected_streams import StreamRow, stream_rows, stream_table
+from forcetorque.analysis.inspect.inspected_streams import StreamRow, stream_rows, stream_table
 from forcetorque.atomic import STANDARD_OUTPUT, write_bytes_atomically
 from forcetorque.constants import STANDARD_GRAVITY
 from forcetorque.errors import ExperimentError, ForceTorqueError

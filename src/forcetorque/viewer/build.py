@@ -9,7 +9,7 @@ from importlib.metadata import version
 from pathlib import Path
 
 from forcetorque.analysis import inspect_experiment
-from forcetorque.analysis.applicability import by_sensor
+from forcetorque.analysis.runs.applicability import by_sensor
 from forcetorque.calibration import Calibration
 from forcetorque.experiment import Experiment
 from forcetorque.experiment.skin_alone import BESIDE_M, is_skin_alone
