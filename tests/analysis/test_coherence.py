@@ -16,7 +16,7 @@ from forcetorque.arrays import FloatArray
 from forcetorque.errors import ExperimentError, FitError
 from forcetorque.evaluation import Offset, OffsetPolicy
 from forcetorque.experiment import Experiment, load_experiment
-from forcetorque.experiment.simulated import write_scenario
+from forcetorque.experiment.simulated.recordings import write_scenario
 from forcetorque.recording import Interval, Use
 from forcetorque.simulation.scenario import SimulatedRecording, build_scenario, simulate
 from tests.coherence_truth import net_force_errors, stamps_in

@@ -16,7 +16,7 @@ from forcetorque.arrays import FloatArray
 from forcetorque.errors import ExperimentError, ShapeError
 from forcetorque.evaluation import Offset, OffsetEstimate, OffsetPolicy, mean_offset
 from forcetorque.experiment import Experiment, load_experiment
-from forcetorque.experiment.simulated import write_scenario
+from forcetorque.experiment.simulated.recordings import write_scenario
 from forcetorque.simulation.scenario import build_scenario, simulate
 from tests.switchings import short_switching
 

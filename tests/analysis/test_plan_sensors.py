@@ -18,7 +18,7 @@ from forcetorque.arrays import FloatArray
 from forcetorque.calibration.generative import Assumptions, GenerativeFit
 from forcetorque.evaluation.planning import Criterion, Knowledge, Nuisance
 from forcetorque.evaluation.use import LoadCase, PredictedError, predict_by
-from forcetorque.experiment.plan_schema import PlanTable
+from forcetorque.experiment.tables.plan import PlanTable
 from forcetorque.simulation.motions import Movement, MovementKind
 from forcetorque.simulation.scenario import LINEAR_ONLY, ScenarioFile, build_scenario, bundled_scenario, load_scenario
 from forcetorque.simulation.scenario.specimen import Specimen

@@ -18,7 +18,7 @@ from forcetorque.calibration import ESTIMATION_TYPES, read_calibration, write_ca
 from forcetorque.errors import FormatError
 from forcetorque.evaluation import Offset, push_error
 from forcetorque.experiment import load_experiment
-from forcetorque.experiment.truth import true_matrix
+from forcetorque.experiment.simulated.truth import true_matrix
 from forcetorque.study import FAR_SD, Candidate, tables
 from tests.experiments import edit
 from tests.studies import CALIBRATION, FILES, SENSOR, SERIAL, VALIDATION, scenario

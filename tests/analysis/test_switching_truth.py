@@ -13,7 +13,7 @@ from forcetorque.analysis.runs.reading import Correction
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration import WrenchModel
 from forcetorque.experiment import Experiment, load_experiment
-from forcetorque.experiment.simulated import write_scenario
+from forcetorque.experiment.simulated.recordings import write_scenario
 from forcetorque.recording import Recording, read_recording
 from forcetorque.recording.alignment import interpolate
 from forcetorque.simulation import SimulatedSensor

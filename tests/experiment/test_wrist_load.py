@@ -16,7 +16,8 @@ from forcetorque.analysis import (
 )
 from forcetorque.analysis.inspect.findings import inspect_experiment
 from forcetorque.errors import ExperimentError, ForceTorqueError
-from forcetorque.experiment import load_experiment, wrist_load
+from forcetorque.experiment import load_experiment
+from forcetorque.experiment.loads import wrist_load
 from forcetorque.loads import LoadSolution, solve
 from forcetorque.recording import Use
 

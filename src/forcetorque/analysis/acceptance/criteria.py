@@ -23,7 +23,7 @@ from forcetorque.analysis.validate.contact_forces import ContactForceErrors, con
 from forcetorque.calibration import Calibration
 from forcetorque.errors import ExperimentError, ForceTorqueError
 from forcetorque.evaluation import Offset, OtherSensors, PopulationPosition
-from forcetorque.experiment.load_case_schema import LoadCaseTable
+from forcetorque.experiment.tables.load_case import LoadCaseTable
 from forcetorque.spatial import WRENCH_COMPONENTS
 
 _Checked = TypeVar("_Checked")

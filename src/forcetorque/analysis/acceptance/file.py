@@ -10,7 +10,7 @@ from pydantic import BeforeValidator, Field, WithJsonSchema, model_validator
 from pydantic_core import PydanticCustomError
 
 from forcetorque.evaluation import OtherSensors
-from forcetorque.experiment.load_case_schema import LoadCaseTable
+from forcetorque.experiment.tables.load_case import LoadCaseTable
 from forcetorque.toml_table import Positive, Table, Text, read_toml
 
 Component = Literal["fx", "fy", "fz", "tx", "ty", "tz"]

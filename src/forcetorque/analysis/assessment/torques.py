@@ -13,7 +13,7 @@ from forcetorque.analysis.torque.fusion import TorqueFusion, fuse_experiment, su
 from forcetorque.calibration import Calibration
 from forcetorque.errors import ForceTorqueError
 from forcetorque.experiment import Experiment
-from forcetorque.experiment.skin_alone import is_skin_alone
+from forcetorque.experiment.skin.skin_alone import is_skin_alone
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

@@ -13,8 +13,8 @@ from forcetorque.analysis.device.rows import DeviceRecordingRow
 from forcetorque.arrays import FloatArray
 from forcetorque.exchange.icub import encode_matrix, write_matrix_file
 from forcetorque.exchange.trajectory import write_trajectory
-from forcetorque.experiment.device_file import device_experiment_text, matrix_file
-from forcetorque.experiment.truth import TRUTH_FILE, TRUTH_SCHEMA
+from forcetorque.experiment.simulated.device_file import device_experiment_text, matrix_file
+from forcetorque.experiment.simulated.truth import TRUTH_FILE, TRUTH_SCHEMA
 from forcetorque.exsitu.device import (
     DeviceFile,
     DeviceRecording,

@@ -14,7 +14,7 @@ from forcetorque.arrays import FloatArray
 from forcetorque.errors import ExperimentError
 from forcetorque.exchange.load import RobotLoad, write_load_file
 from forcetorque.exchange.load_format import LoadFormat
-from forcetorque.experiment.wrist_load import LOAD_LINK
+from forcetorque.experiment.loads.wrist_load import LOAD_LINK
 from forcetorque.spatial import WRENCH_COMPONENTS
 
 

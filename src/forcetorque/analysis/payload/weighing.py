@@ -8,9 +8,9 @@ from collections.abc import Iterator
 from forcetorque.analysis.runs.campaign import Campaign
 from forcetorque.analysis.runs.sensor_run import SensorRun
 from forcetorque.errors import ExperimentError
-from forcetorque.experiment.link_loads import LinkLoads
-from forcetorque.experiment.loads_together import joined_problem
-from forcetorque.experiment.wrist_load import WristLoads
+from forcetorque.experiment.loads.link_loads import LinkLoads
+from forcetorque.experiment.loads.loads_together import joined_problem
+from forcetorque.experiment.loads.wrist_load import WristLoads
 from forcetorque.loads import LoadEstimate, LoadProblem, LoadSolution, solve, together
 from forcetorque.recording import Use
 

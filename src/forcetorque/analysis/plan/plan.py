@@ -23,7 +23,7 @@ from forcetorque.calibration.generative import ACCURACY_SHARE, Assumptions
 from forcetorque.errors import ExperimentError, FitError, known_names
 from forcetorque.evaluation.planning import Criterion, Knowledge, Nuisance, unfitted_posterior
 from forcetorque.evaluation.use import LoadCase, PredictedError, predict_by
-from forcetorque.experiment.plan_schema import PlanTable
+from forcetorque.experiment.tables.plan import PlanTable
 from forcetorque.result import Result, Table
 
 RECORDINGS, SECONDS = 3, 60.0

@@ -11,7 +11,7 @@ import numpy as np
 from forcetorque.analysis.runs.sensor_run import SensorRun
 from forcetorque.arrays import FloatArray
 from forcetorque.errors import ExperimentError, RobotError
-from forcetorque.experiment.plan_schema import PlanTable, PlanTool
+from forcetorque.experiment.tables.plan import PlanTable, PlanTool
 from forcetorque.recording import Support, Use
 from forcetorque.robot import JointMotion, JointType, RobotModel, RootMotion, expected_wrenches
 from forcetorque.robot.sub_model import outboard_bodies

@@ -13,7 +13,7 @@ from forcetorque.calibration import DataSet, SensorIdentity
 from forcetorque.errors import ExperimentError
 from forcetorque.experiment.content import ExperimentSensor
 from forcetorque.experiment.inputs import stated_in
-from forcetorque.experiment.loads_together import weighed_together
+from forcetorque.experiment.loads.loads_together import weighed_together
 from forcetorque.recording import Use
 
 

@@ -19,7 +19,7 @@ from forcetorque.errors import ExperimentError
 from forcetorque.experiment.content import ExperimentSensor
 from forcetorque.experiment.inputs import stated_in
 from forcetorque.experiment.load import load_experiment
-from forcetorque.experiment.truth import true_matrix
+from forcetorque.experiment.simulated.truth import true_matrix
 from forcetorque.recording import Use
 
 

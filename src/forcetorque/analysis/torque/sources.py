@@ -29,8 +29,8 @@ from forcetorque.estimation.samples import robot_motion_at
 from forcetorque.estimation.uncertain import SkinSource, Uncertainty
 from forcetorque.experiment.contacts import contacts_at_sensors, contacts_in
 from forcetorque.experiment.content import Experiment, ExperimentContact
-from forcetorque.experiment.fusion_schema import FusionTable
 from forcetorque.experiment.inputs import stated_in
+from forcetorque.experiment.tables.fusion import FusionTable
 from forcetorque.recording import Interval, Use
 from forcetorque.recording.alignment import interpolate, require_overlap
 from forcetorque.robot import JointMotion, RootMotion, Wrenches, build_tree

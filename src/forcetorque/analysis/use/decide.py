@@ -17,7 +17,7 @@ from forcetorque.calibration import Calibration
 from forcetorque.errors import FitError
 from forcetorque.evaluation import Offset
 from forcetorque.evaluation.use import UseOffset
-from forcetorque.experiment.load_case_schema import LoadCaseTable
+from forcetorque.experiment.tables.load_case import LoadCaseTable
 
 
 def use_verdicts(

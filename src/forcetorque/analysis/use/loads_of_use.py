@@ -12,7 +12,7 @@ from forcetorque.analysis.runs.sensor_run import SensorRun
 from forcetorque.arrays import FloatArray
 from forcetorque.errors import ExperimentError, ForceTorqueError, RobotError
 from forcetorque.evaluation.use import LoadCase, pushes_at, pushes_within, shares_of, weights
-from forcetorque.experiment.load_case_schema import LoadCaseTable
+from forcetorque.experiment.tables.load_case import LoadCaseTable
 from forcetorque.robot import BodyTree, JointMotion, RobotModel, build_tree
 from forcetorque.robot.kinematics import body_pose, joints_between, link_pose
 from forcetorque.robot.sub_model import outboard_bodies

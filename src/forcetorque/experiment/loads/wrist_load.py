@@ -13,7 +13,7 @@ import numpy as np
 from forcetorque.errors import ExperimentError
 from forcetorque.experiment.content import ExperimentSensor
 from forcetorque.experiment.inputs import stated_in
-from forcetorque.experiment.wrist_schema import Load as LoadTable
+from forcetorque.experiment.tables.wrist import Load as LoadTable
 from forcetorque.loads import Load, LoadProblem, LoadSolution, solve
 from forcetorque.recording import MovingSupport, Support, Use
 from forcetorque.robot import ForceTorqueSensor, Joint, JointType, RobotModel, SensorFrame
@@ -88,7 +88,7 @@ class WristLoads:
         Returns:
             The problem.
         """
-        from forcetorque.experiment.load_rows import load_problem
+        from forcetorque.experiment.loads.load_rows import load_problem
 
         return load_problem(experiment, self, use=use)
 
@@ -101,7 +101,7 @@ class WristLoads:
         Returns:
             Their number.
         """
-        from forcetorque.experiment.load_rows import samples_left_out
+        from forcetorque.experiment.loads.load_rows import samples_left_out
 
         return samples_left_out(experiment, self)
 

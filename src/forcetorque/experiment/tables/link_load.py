@@ -12,7 +12,7 @@ from pydantic_core import PydanticCustomError
 
 from forcetorque.array_field import ArrayField
 from forcetorque.arrays import FloatArray
-from forcetorque.experiment.wrist_schema import Load
+from forcetorque.experiment.tables.wrist import Load
 from forcetorque.toml_table import NotNegative, Table, Text
 
 _OF_A_SENSOR = {"frame", "motion", "applied", "measure_direction"}

@@ -15,9 +15,9 @@ from pydantic import Field
 from forcetorque.arrays import FloatArray
 from forcetorque.atomic import write_bytes_atomically
 from forcetorque.exchange.icub import encode_matrix, write_matrix_file
-from forcetorque.experiment.simulated_file import experiment_text
-from forcetorque.experiment.simulated_network import write_port_logs
-from forcetorque.experiment.truth import TRUTH_FILE, TRUTH_SCHEMA
+from forcetorque.experiment.simulated.network import write_port_logs
+from forcetorque.experiment.simulated.recording_file import experiment_text
+from forcetorque.experiment.simulated.truth import TRUTH_FILE, TRUTH_SCHEMA
 from forcetorque.new_folder import new_folder
 from forcetorque.recording import write_recording
 from forcetorque.recording.quality import spans

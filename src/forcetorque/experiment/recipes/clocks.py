@@ -15,8 +15,8 @@ from forcetorque.errors import ExperimentError
 from forcetorque.estimation import Processing
 from forcetorque.experiment import schema
 from forcetorque.experiment.inputs import stated_in
-from forcetorque.experiment.recipe_schema import ClockTable
-from forcetorque.experiment.shown_motion import Motion, shared_motion
+from forcetorque.experiment.recipes.shown_motion import Motion, shared_motion
+from forcetorque.experiment.tables.recipes import ClockTable
 from forcetorque.recording import Finding, Recording, Support, Use
 from forcetorque.recording.clock import ClockShift, on_clock_of
 from forcetorque.recording.delay import estimate_delay

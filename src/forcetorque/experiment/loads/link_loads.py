@@ -15,8 +15,8 @@ from forcetorque.errors import ExperimentError, known_names
 from forcetorque.experiment.content import ExperimentSensor
 from forcetorque.experiment.full_scale import full_scale_of
 from forcetorque.experiment.inputs import Inputs, stated_in
-from forcetorque.experiment.link_load_schema import LinkLoad
-from forcetorque.experiment.weighed_load import read_weighed
+from forcetorque.experiment.loads.weighed_load import read_weighed
+from forcetorque.experiment.tables.link_load import LinkLoad
 from forcetorque.loads import Load, LoadEstimate, LoadProblem, LoadSolution, MatrixSpread, settled, solve
 from forcetorque.loads.load import INERTIAL
 from forcetorque.recording import Interval, MovingSupport, Support, Use
@@ -26,7 +26,7 @@ from forcetorque.spatial import Inertia, skew
 
 if TYPE_CHECKING:
     from forcetorque.experiment.content import Experiment
-    from forcetorque.experiment.link_load_rows import HungInterval
+    from forcetorque.experiment.loads.link_load_rows import HungInterval
 
 GYRATION_M: Final = 0.1
 """Radius of gyration about its centre of mass that an unknown load is expected to stay below (one s.d.); m."""
@@ -78,7 +78,7 @@ class LinkLoads:
         Returns:
             The same with link and number of the load.
         """
-        from forcetorque.experiment.link_load_rows import HungInterval
+        from forcetorque.experiment.loads.link_load_rows import HungInterval
 
         numbers = [self.number_of(interval.support) or 0 for interval in intervals]
         return [
@@ -114,7 +114,7 @@ class LinkLoads:
         return self._problem_and_left_out(experiment, use)[1]
 
     def _problem_and_left_out(self, experiment: Experiment, use: Use) -> tuple[LoadProblem, int]:
-        from forcetorque.experiment.link_load_rows import link_load_problem
+        from forcetorque.experiment.loads.link_load_rows import link_load_problem
 
         if use in self._problems:
             return self._problems[use]
@@ -142,7 +142,7 @@ class LinkLoads:
         Returns:
             Loads and offsets.
         """
-        from forcetorque.experiment.loads_together import joined_problem
+        from forcetorque.experiment.loads.loads_together import joined_problem
 
         if "solution" not in self._known:
             problem = joined_problem(self.beside or {experiment.name: experiment})

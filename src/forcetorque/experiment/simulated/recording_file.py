@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import json
 
-from forcetorque.experiment.simulated_phases import phases_text, support_text
+from forcetorque.experiment.simulated.phases import phases_text, support_text
 from forcetorque.simulation.motions import Movement
 from forcetorque.simulation.scenario import INTERVAL_MARGIN_S, Scenario, SimulatedRecording
 

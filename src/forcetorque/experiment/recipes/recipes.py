@@ -12,9 +12,9 @@ import numpy as np
 from forcetorque.arrays import FloatArray
 from forcetorque.errors import ExperimentError
 from forcetorque.experiment import schema
-from forcetorque.experiment.clocks import aligned_clocks
 from forcetorque.experiment.inputs import Inputs, stated_in
-from forcetorque.experiment.recipe_schema import PoseTable, TransformTable
+from forcetorque.experiment.recipes.clocks import aligned_clocks
+from forcetorque.experiment.tables.recipes import PoseTable, TransformTable
 from forcetorque.recording import Finding, Recording
 from forcetorque.recording.wrench_frame import orientation_at, wrench_in_frame
 from forcetorque.robot import RobotModel, fix_joints, read_urdf

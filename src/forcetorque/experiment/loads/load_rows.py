@@ -12,7 +12,7 @@ from forcetorque.arrays import FloatArray, IntArray
 from forcetorque.errors import ExperimentError
 from forcetorque.estimation import support_motion_at
 from forcetorque.experiment.content import Experiment, ExperimentSensor
-from forcetorque.experiment.wrist_load import WristLoads
+from forcetorque.experiment.loads.wrist_load import WristLoads
 from forcetorque.loads import LoadProblem, LoadRows
 from forcetorque.noise import means_over, window_for
 from forcetorque.recording import Interval, Recording, Use

@@ -11,7 +11,7 @@ import numpy as np
 from forcetorque.exchange.icub import read_matrix_file
 from forcetorque.exchange.yarp import StreamPort, write_ports
 from forcetorque.exchange.yarp.discover import PortKind
-from forcetorque.experiment.simulated_file import experiment_text
+from forcetorque.experiment.simulated.recording_file import experiment_text
 from forcetorque.recording import Recording
 from forcetorque.simulation import calibrated_by_board, fail_groups, jitter_stamps, lose_messages, offset_clocks
 from forcetorque.simulation.scenario import Scenario, SimulatedRecording
