@@ -71,6 +71,10 @@ _COUNTS = {
 }
 
 
+def _turns_about(axes: str) -> bool:
+    return len(axes) == 3 and set(axes) <= set("xyz") and axes[0] != axes[1] != axes[2]
+
+
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class OrientationLayout:
     """What the numbers of a log say of the orientation of a frame."""
@@ -123,6 +127,14 @@ class OrientationLayout:
         return vector
 
 
+QUATERNION_XYZW = OrientationLayout(form=OrientationForm.QUAT_XYZW, sense=OrientationSense.SENSOR_TO_WORLD)
+"""The scalar last, as ROS and Eigen write quaternions."""
+ROLL_PITCH_YAW = OrientationLayout(
+    form=OrientationForm.EULER, sense=OrientationSense.SENSOR_TO_WORLD, axes="xyz", about=EulerAxes.FIXED
+)
+"""`R = Rz(yaw) Ry(pitch) Rx(roll)`, as YARP and URDF define it."""
+
+
 def orientation_signals(
     numbers: Any,
     layout: OrientationLayout,
@@ -171,10 +183,6 @@ def orientation_signals(
     if len(known):
         world_R_sensor[known] = _rotations(values[known], layout, lambda row: where(int(known[row])))
     return _signals(world_R_sensor, layout.world_gravity, frame), tuple(_doubts(values[known], unit, stream))
-
-
-def _turns_about(axes: str) -> bool:
-    return len(axes) == 3 and set(axes) <= set("xyz") and axes[0] != axes[1] != axes[2]
 
 
 def _rotations(values: FloatArray, layout: OrientationLayout, where: Callable[[int], str]) -> FloatArray:
