@@ -16,7 +16,7 @@ from forcetorque.experiment.inputs import Inputs, stated_in
 from forcetorque.experiment.recipes.clocks import aligned_clocks
 from forcetorque.experiment.tables.recipes import PoseTable, TransformTable
 from forcetorque.recording import Finding, Recording
-from forcetorque.recording.wrench_frame import orientation_at, wrench_in_frame
+from forcetorque.recording.wrench_frame import orientation_at, pose_at, wrench_in_frame
 from forcetorque.robot import RobotModel, fix_joints, read_urdf
 from forcetorque.spatial import make_pose, rotation_from_rpy
 
@@ -86,19 +86,30 @@ def _standing(fixed: Mapping[str, float], parsed: schema.ExperimentFile) -> Sequ
 def _transformed(recording: Recording, entry: TransformTable) -> Recording:
     stream = recording.stream(entry.stream)
     own = stream.signal("wrench").frame
-    if entry.orientation is not None:
-        pose = orientation_at(stream, recording.stream(entry.orientation), entry.to)
-        by = f"the orientation of {entry.orientation!r}"
-    else:
-        pose = _pose(entry.pose)
-        by = "a pose that does not change"
-    moved = wrench_in_frame(stream, entry.to, pose)
-    point = f"the origin of {own!r}" if entry.moment_about == "own_frame" else f"the origin of {entry.to!r}"
+    by = "a pose that does not change" if entry.orientation is None else f"the orientation of {entry.orientation!r}"
+    moved = wrench_in_frame(stream, entry.to, _pose_of_wrench(recording, entry))
+    point = {
+        "sensor": f"the origin of {entry.to!r}",
+        "own_frame": f"the origin of {own!r}",
+        "point": f"a point that moves with {entry.to!r}",
+    }[entry.moment_about]
     text = f"the wrench is logged along the axes of {own!r}, its moment about {point}: moved into {entry.to!r} by {by}"
     finding = Finding(stream=entry.stream, kind="transformed", message=text, count=len(stream))
     return replace(
         recording, streams={**recording.streams, entry.stream: moved}, findings=(*recording.findings, finding)
     )
+
+
+def _pose_of_wrench(recording: Recording, entry: TransformTable) -> FloatArray:
+    """Axes of the wrench in the frame of the sensor, and there the point that its moment is about; ([n,] 4, 4); m."""
+    if entry.orientation is not None:
+        stream, source = recording.stream(entry.stream), recording.stream(entry.orientation)
+        pose = (pose_at if entry.moment_about == "own_frame" else orientation_at)(stream, source, entry.to)
+    else:
+        pose = _pose(entry.pose)
+    if entry.point_m is not None:
+        pose[..., :3, 3] = entry.point_m
+    return pose
 
 
 def _pose(table: PoseTable | None) -> FloatArray:

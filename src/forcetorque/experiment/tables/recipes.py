@@ -29,10 +29,14 @@ class TransformTable(Table):
     """Stream with the wrench; its signal's `frame` is the one along whose axes it is given."""
     to: Text
     """Frame of the sensor."""
-    moment_about: Literal["sensor", "own_frame"]
-    """About which point the log gives moments: the origin of the sensor's frame, or that of the wrench's own frame."""
+    moment_about: Literal["sensor", "own_frame", "point"]
+    """About which point the log gives moments: the origin of the sensor's frame, that of the wrench's own frame, or a
+    point that moves with the sensor, such as that of a tool."""
+    point_m: Annotated[FloatArray, ArrayField((3,))] | None = None
+    """That point, along the axes of the sensor's frame from its origin; m."""
     orientation: Text | None = None
-    """Stream with the orientation of the sensor's frame; the wrench is along the axes of its world."""
+    """Stream with the orientation of the sensor's frame; the wrench is along the axes of its world. With moments about
+    the origin of that world it has the translation of the sensor's frame too."""
     pose: PoseTable | None = None
     """In place of an orientation: pose of the wrench's frame in the sensor's, where that does not change."""
 
@@ -42,17 +46,14 @@ class TransformTable(Table):
             raise PydanticCustomError(
                 "transform_pose", "expected orientation, a stream, or pose, where it does not change: one of them"
             )
-        own = self.moment_about == "own_frame"
-        if own and self.pose is None:
-            raise PydanticCustomError(
-                "transform_moving",
-                'moment_about = "own_frame" needs pose with position_m: an orientation alone does not say where the '
-                "origin of that frame is",
-            )
-        if self.pose is not None and own != (self.pose.position_m is not None):
+        if self.pose is not None and (self.moment_about == "own_frame") != (self.pose.position_m is not None):
             raise PydanticCustomError(
                 "transform_point",
-                'position_m of pose is needed where moment_about = "own_frame", and moves nothing where it is "sensor"',
+                'position_m of pose is needed where moment_about = "own_frame", and moves nothing elsewhere',
+            )
+        if (self.moment_about == "point") != (self.point_m is not None):
+            raise PydanticCustomError(
+                "transform_point", 'point_m is needed where moment_about = "point", and moves nothing elsewhere'
             )
         return self
 
