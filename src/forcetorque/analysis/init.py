@@ -238,6 +238,10 @@ def _notes(log: DraftedLog, sensors: Sequence[DraftedSensor], model: RobotModel 
         yield f"{sensor.stream}: looks like {what}; sensor {'to be named' if sensor.tags else sensor.name}"
     if not sensors:
         yield "no stream looks like the reading of a force-torque sensor; without one a log is inspected and viewed"
+    if log.description is not None:
+        left_out = [one.stream for one in log.description.reading.findings if one.kind == "not_read"]
+        if left_out:
+            yield f"not read: {listed(left_out, 12)}; `forcetorque inspect {log.paths[0]}` says why, and what to state"
     if model is None:
         return
     moving = {name for name, joint in model.joints.items() if joint.type is not JointType.FIXED and joint.mimic is None}

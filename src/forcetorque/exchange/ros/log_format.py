@@ -41,7 +41,7 @@ class RosFormat:
                         readings[topic] = _read(bag, RosStream(name=topic, topic=topic), {})
                         reason = _unread_orientations(bag, topic, kind)
                     except ForceTorqueError as error:
-                        reason = str(error)
+                        reason = _unread_orientations(bag, topic, kind) or str(error)
                 if reason is not None:
                     unread.append(Finding(stream=topic, kind="not_read", message=reason, count=0))
         if not readings:
@@ -137,4 +137,4 @@ def _unread_orientations(bag: Bag, topic: str, kind: str) -> str | None:
         _read(bag, RosStream(name=topic, topic=topic, orientation=sense), {})
     except FormatError:
         return None
-    return f"orientations beside acceleration and angular velocity: state, for a stream of its own, {_SENSE}"
+    return f"orientations of an IMU: state, in a stream of its own, {_SENSE}"
