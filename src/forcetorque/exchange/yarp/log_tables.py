@@ -36,7 +36,7 @@ class StateExtPort(Table):
     port: Text
     """Folder of the port below the log's folder."""
     joints: Annotated[tuple[Text, ...], Field(min_length=1)]
-    """Joints of the board, in its order, named as in the URDF."""
+    """All joints of the board, in its order, named as in the URDF; `-` for one that the URDF lacks."""
 
 
 class InertialPort(Table):
@@ -64,7 +64,7 @@ class StatePort(Table):
     port: Text
     """Folder of the port below the log's folder."""
     joints: Annotated[tuple[Text, ...], Field(min_length=1)]
-    """Joints of the board, in its order, named as in the URDF."""
+    """All joints of the board, in its order, named as in the URDF; `-` for one that the URDF lacks."""
 
 
 class MeasuresEntry(Table):
