@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from pathlib import Path
 
@@ -24,21 +25,6 @@ ROWS = 400
 BOARD = (*JOINTS[:2], "finger", *JOINTS[2:])
 PERIOD_NS = 10_000_000
 START_NS = 1_706_000_000_000_000_000
-STATED = """format = "yarp"
-path = "log"
-
-[[recording.stream]]
-kind = "analog"
-name = "arm_ft"
-port = "arm_ft/analog:o"
-
-[[recording.stream]]
-kind = "state_ext"
-name = "joints"
-port = "arm/stateExt:o"
-joints = [{joints}]
-"""
-"""What the file of the tests states of its log."""
 
 
 def _sent(arm: Path) -> tuple[FloatArray, FloatArray]:
@@ -66,8 +52,14 @@ def _yarp(arm: Path, wrench: FloatArray, names: tuple[str, ...], position: Float
         StreamPort(path="arm/stateExt:o", kind=PortKind.STATE_EXT, stream="joints"),
     )
     write_ports(arm / "ports", Recording(streams=streams), ports)
-    stated = ", ".join(f'"{name}"' if name in JOINTS else '"-"' for name in names)
-    return STATED.format(joints=stated).replace('path = "log"', 'path = "ports"')
+    joints = ", ".join(f'"{name}"' if name in JOINTS else '"-"' for name in names)
+    return re.sub(r"joints = \[.*\]", f"joints = [{joints}]", _stated(arm)).replace('path = "log"', 'path = "ports"')
+
+
+def _stated(arm: Path) -> str:
+    """What the file of the tests states of its log of YARP."""
+    text = (arm / YARP).read_text(encoding="utf-8")
+    return text[text.index('format = "yarp"') : text.index("[[sensor]]")]
 
 
 def _ros(arm: Path, wrench: FloatArray, names: tuple[str, ...], position: FloatArray) -> str:
@@ -103,8 +95,7 @@ def _reference(arm: Path, write: Write, names: tuple[str, ...], position: FloatA
     for name in ("arm.urdf", "matrix_SIM001.txt", YARP):
         (folder / name).write_bytes((arm / name).read_bytes())
     wrench, _ = _sent(arm)
-    stated = STATED.format(joints=", ".join(f'"{joint}"' for joint in JOINTS))
-    file = edit(folder / YARP, stated, write(folder, wrench, names, position))
+    file = edit(folder / YARP, _stated(arm), f"{write(folder, wrench, names, position)}\n")
     edit(file, "end_s = 14.0", "end_s = 3.0")
     experiment = load_experiment(edit(file, "start_s = 14.5\nend_s = 23.5", "start_s = 3.0\nend_s = 3.9"))
     (samples, *_) = SensorRun(experiment, experiment.sensors[0]).samples(Use.CALIBRATION)

@@ -190,6 +190,7 @@ def _rotations(values: FloatArray, layout: OrientationLayout, where: Callable[[i
     from scipy.spatial.transform import Rotation  # here because importing it takes longer than most commands
 
     if layout.form is OrientationForm.EULER:
+        _require_angles(values, where)
         axes = layout.axes or ""
         rotation = Rotation.from_euler(axes.upper() if layout.about is EulerAxes.MOVING else axes, values)
     elif layout.count == 4:
@@ -204,6 +205,11 @@ def _rotations(values: FloatArray, layout: OrientationLayout, where: Callable[[i
         rotation = Rotation.from_matrix(matrices)  # the nearest rotation
     matrix: FloatArray = rotation.as_matrix()
     return matrix if layout.sense is OrientationSense.SENSOR_TO_WORLD else matrix.transpose(0, 2, 1)
+
+
+def _require_angles(angles: FloatArray, where: Callable[[int], str]) -> None:
+    for row in np.flatnonzero(~np.isfinite(angles).all(axis=1))[:1]:
+        raise FormatError(f"{where(int(row))}: orientation: expected three angles, got {angles[row].tolist()}")
 
 
 def _require_unit(quaternions: FloatArray, where: Callable[[int], str]) -> None:

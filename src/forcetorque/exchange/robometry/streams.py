@@ -141,7 +141,9 @@ def orientation_stream(
             f"{channel.path}: expected the {layout.count} elements r, p, y, got {channel.values.shape[1]}{elements}"
         )
     values, (unit, *_) = _in_si(channel, units, (layout.unit,))
-    signals, findings = orientation_signals(values, layout, unit=unit, frame=frame, stream=name)
+    signals, findings = orientation_signals(
+        values, layout, unit=unit, frame=frame, stream=name, place=lambda row: f"{channel.path}: sample {row + 1}"
+    )
     return Stream(name=name, clock=CLOCK, stamp_ns=channel.stamp_ns, signals=signals), findings
 
 
