@@ -183,6 +183,10 @@ def test_inspecting_says_what_to_state(tmp_path: Path) -> None:
     leaves = {"orientations/imu": Leaf(values=RPY, units=["deg"]), "gyros/imu": Leaf(values=RPY, units=["deg/s"])}
     (finding,) = RobometryFormat().describe(write_log(tmp_path / "log.mat", leaves)).reading.findings
     assert 'orientation = { sense = "sensor_to_world" }' in finding.message
+    _inertial(tmp_path / "yarp", SENSE)
+    (finding,) = YarpFormat().describe(tmp_path / "yarp").reading.findings
+    assert (finding.stream, finding.kind) == ("imu", "not_read")
+    assert 'orientation = { sense = "sensor_to_world" }' in finding.message
 
 
 @pytest.mark.parametrize(

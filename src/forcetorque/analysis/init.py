@@ -241,7 +241,7 @@ def _notes(log: DraftedLog, sensors: Sequence[DraftedSensor], model: RobotModel 
     if log.description is not None:
         left_out = [one.stream for one in log.description.reading.findings if one.kind == "not_read"]
         if left_out:
-            yield f"not read: {listed(left_out, 12)}; `forcetorque inspect {log.paths[0]}` says why, and what to state"
+            yield f"not read, or not all of it: {listed(left_out, 12)}; `forcetorque inspect {log.paths[0]}` says what"
     if model is None:
         return
     moving = {name for name, joint in model.joints.items() if joint.type is not JointType.FIXED and joint.mimic is None}

@@ -16,6 +16,9 @@ from forcetorque.errors import FormatError
 from forcetorque.recording import ROLL_PITCH_YAW, EulerAxes, OrientationForm, OrientationLayout, OrientationSense
 from forcetorque.toml_table import Positive, Table, Text
 
+STATE_SENSE = 'orientation = { sense = "sensor_to_world" } or "world_to_sensor"'
+"""What to state of orientations of which a log does not say what they turn into what."""
+
 
 class WorldTable(Table):
     """The world in which an orientation is seen."""

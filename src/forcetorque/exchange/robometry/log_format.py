@@ -20,6 +20,7 @@ from forcetorque.exchange.robometry.streams import (
     sensor_quantity,
     sensor_stream,
 )
+from forcetorque.exchange.signal_table import STATE_SENSE
 from forcetorque.recording import QUANTITIES, ROLL_PITCH_YAW, Finding, Stream
 
 _Reading = tuple[Stream, tuple[Finding, ...]]
@@ -110,8 +111,8 @@ def _read(group: Any, paths: Sequence[str], entry: RobometryStream, *, units: Ma
     quantity = sensor_quantity(entry.channel)
     if (quantity == "orientation") != (entry.orientation is not None):
         raise FormatError(
-            f'{file}: {entry.channel}: expected orientation = {{ sense = "sensor_to_world" }} or "world_to_sensor" for '
-            "roll, pitch and yaw, of which the file does not say what they turn into what, and for nothing else"
+            f"{file}: {entry.channel}: expected {STATE_SENSE} for roll, pitch and yaw, of which the file does not say "
+            "what they turn into what, and for nothing else"
         )
     if entry.channel == JOINTS:
         joints = [f"{JOINTS}/{leaf}" for leaf in JOINT_QUANTITIES if f"{JOINTS}/{leaf}" in paths]

@@ -13,10 +13,10 @@ from forcetorque.exchange.ros.bag import Bag, bag_files, is_bag, opened_bag
 from forcetorque.exchange.ros.log_table import RosLog, RosOrientation, RosStream
 from forcetorque.exchange.ros.messages import IMU_TYPE, MESSAGES, POSE_TYPES, QUATERNION_TYPE
 from forcetorque.exchange.ros.streams import topic_stream
+from forcetorque.exchange.signal_table import STATE_SENSE
 from forcetorque.recording import QUATERNION_XYZW, Finding, OrientationLayout, OrientationSense, Stream
 
 _Reading = tuple[Stream, tuple[Finding, ...]]
-_SENSE = 'orientation = { sense = "sensor_to_world" } or "world_to_sensor"'
 
 
 class RosFormat:
@@ -84,7 +84,7 @@ def _not_described(kind: str) -> str | None:
     if kind in POSE_TYPES:
         return "poses: state frame, whose they are, and world, in which they are seen, for each that is wanted"
     if kind == QUATERNION_TYPE:
-        return f"orientations: state frame, whose they are, and {_SENSE}"
+        return f"orientations: state frame, whose they are, and {STATE_SENSE}"
     return None if kind in MESSAGES else f"nothing reads messages of {kind}"
 
 
@@ -118,13 +118,13 @@ def _layout(place: str, kind: str, entry: RosStream) -> OrientationLayout | None
             raise FormatError(f"{place}: expected no sense: a pose turns vectors from its frame to the world")
         return QUATERNION_XYZW if stated is None else stated.applied_to(QUATERNION_XYZW)
     if kind == QUATERNION_TYPE and (stated is None or entry.frame is None):
-        raise FormatError(f"{place}: expected frame, whose orientations these are, and {_SENSE}")
+        raise FormatError(f"{place}: expected frame, whose orientations these are, and {STATE_SENSE}")
     if stated is None:
         return None
     if kind not in (IMU_TYPE, QUATERNION_TYPE):
         raise FormatError(f"{place}: expected no orientation for messages of {kind}, which have none")
     if stated.sense is None:
-        raise FormatError(f"{place}: expected {_SENSE}: messages do not say which")
+        raise FormatError(f"{place}: expected {STATE_SENSE}: messages do not say which")
     return stated.applied_to(replace(QUATERNION_XYZW, sense=stated.sense))
 
 
@@ -137,4 +137,4 @@ def _unread_orientations(bag: Bag, topic: str, kind: str) -> str | None:
         _read(bag, RosStream(name=topic, topic=topic, orientation=sense), {})
     except FormatError:
         return None
-    return f"orientations of an IMU: state, in a stream of its own, {_SENSE}"
+    return f"orientations of an IMU: state, in a stream of its own, {STATE_SENSE}"
