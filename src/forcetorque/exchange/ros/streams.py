@@ -45,7 +45,7 @@ def read_topic(bag: Bag, topic: str, *, child: str | None = None, parent: str | 
     Args:
         bag: The bag.
         topic: Topic, of a type in `MESSAGES`.
-        child: Of poses, the frame whose they are, where messages name it.
+        child: Of poses, the frame whose pose is wanted, where messages name it.
         parent: Of poses, the frame in which they are seen, where messages name it.
 
     Returns:
