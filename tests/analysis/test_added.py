@@ -31,7 +31,7 @@ from forcetorque.analysis import (
     tare,
     validate,
 )
-from forcetorque.analysis.added import added_to, saying_what_was_added
+from forcetorque.analysis.runs.added import added_to, saying_what_was_added
 from forcetorque.calibration import Calibration
 from forcetorque.experiment import load_experiment
 from forcetorque.result import Result

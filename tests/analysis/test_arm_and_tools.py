@@ -23,7 +23,7 @@ from forcetorque.analysis import (
     evaluate,
     weigh_load,
 )
-from forcetorque.analysis.load_doubts import circular_loads
+from forcetorque.analysis.payload.load_doubts import circular_loads
 from forcetorque.errors import ForceTorqueError
 from forcetorque.experiment import load_experiment
 from tests.robots import example_robot
