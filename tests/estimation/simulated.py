@@ -16,7 +16,7 @@ from scipy.spatial.transform import Rotation
 from forcetorque.arrays import FloatArray
 from forcetorque.estimation import Contact
 from forcetorque.robot import JointMotion, JointType, RobotModel, RootMotion, SensorFrame
-from forcetorque.spatial import MeasureDirection
+from forcetorque.spatial import MeasureDirection, cross
 
 
 @dataclass(frozen=True)
@@ -126,17 +126,17 @@ class Simulation:
     def _needed(self, link: str) -> FloatArray:
         """What moves a link, by Newton's and Euler's laws about its centre of mass."""
         inertia, motion = self.model.links[link], self.links[link]
+        if inertia.is_zero:
+            return np.zeros((len(self.joints), 6))
         rotation, origin = motion.pose[:, :3, :3], motion.pose[:, :3, 3]
         centre = inertia.first_moment / inertia.mass if inertia.mass else np.zeros(3)
         about_centre = inertia.second_moment - inertia.mass * (centre @ centre * np.eye(3) - np.outer(centre, centre))
         tensor = rotation @ about_centre @ rotation.transpose(0, 2, 1)
         omega, alpha = motion.angular_velocity, motion.angular_acceleration
         arm = rotation @ centre
-        force = inertia.mass * (
-            motion.proper_acceleration + np.cross(alpha, arm) + np.cross(omega, np.cross(omega, arm))
-        )
-        spin = np.einsum("nij,nj->ni", tensor, alpha) + np.cross(omega, np.einsum("nij,nj->ni", tensor, omega))
-        return np.concatenate([force, spin + np.cross(origin + arm, force)], axis=1)
+        force = inertia.mass * (motion.proper_acceleration + cross(alpha, arm) + cross(omega, cross(omega, arm)))
+        spin = np.einsum("nij,nj->ni", tensor, alpha) + cross(omega, np.einsum("nij,nj->ni", tensor, omega))
+        return np.concatenate([force, spin + cross(origin + arm, force)], axis=1)
 
     def _across(self, name: str, here: str, *, downwards: bool) -> Motion:
         joint, near = self.model.joints[name], self.links[here]
@@ -157,14 +157,14 @@ class Simulation:
         turning = 0.0 if slides or not joint.type.moves else sign
         omega = near.angular_velocity + turning * rates[0][:, None] * axis
         alpha = near.angular_acceleration + turning * (
-            rates[1][:, None] * axis + rates[0][:, None] * np.cross(near.angular_velocity, axis)
+            rates[1][:, None] * axis + rates[0][:, None] * cross(near.angular_velocity, axis)
         )
         # the points of both links on the joint's axis: relative motion is seen from the parent link
         of_parent = (near.angular_velocity, near.angular_acceleration) if downwards else (omega, alpha)
         arm = sign * (pose[:, :3, 3] - near.pose[:, :3, 3])  # from the parent link to the child link
-        child_over_parent = np.cross(of_parent[1], arm) + np.cross(of_parent[0], np.cross(of_parent[0], arm))
+        child_over_parent = cross(of_parent[1], arm) + cross(of_parent[0], cross(of_parent[0], arm))
         if slides:
-            child_over_parent += rates[1][:, None] * axis + 2 * rates[0][:, None] * np.cross(of_parent[0], axis)
+            child_over_parent += rates[1][:, None] * axis + 2 * rates[0][:, None] * cross(of_parent[0], axis)
         return Motion(pose, omega, alpha, near.proper_acceleration + sign * child_over_parent)
 
 
@@ -172,12 +172,12 @@ def to_root(pose: FloatArray, wrench: FloatArray) -> FloatArray:
     """Express wrenches (n, 6) in frames at these poses (n, 4, 4) in the root link's."""
     force = np.einsum("nij,nj->ni", pose[:, :3, :3], wrench[:, :3])
     moment = np.einsum("nij,nj->ni", pose[:, :3, :3], wrench[:, 3:])
-    return np.concatenate([force, moment + np.cross(pose[:, :3, 3], force)], axis=1)
+    return np.concatenate([force, moment + cross(pose[:, :3, 3], force)], axis=1)
 
 
 def from_root(pose: FloatArray, wrench: FloatArray) -> FloatArray:
     """Express wrenches (n, 6) in the root link's frame in frames at these poses (n, 4, 4)."""
-    about = wrench[:, 3:] - np.cross(pose[:, :3, 3], wrench[:, :3])
+    about = wrench[:, 3:] - cross(pose[:, :3, 3], wrench[:, :3])
     force = np.einsum("nji,nj->ni", pose[:, :3, :3], wrench[:, :3])
     return np.concatenate([force, np.einsum("nji,nj->ni", pose[:, :3, :3], about)], axis=1)
 
