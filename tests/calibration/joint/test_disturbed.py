@@ -82,6 +82,6 @@ def test_readings_that_come_late_are_found_to(delay_s: float) -> None:
     fit = fit_stretches(stretches).fit
     ((delay, deviation),) = ((v, d) for term, v, d in fit.model_errors() if term.name.startswith("delay of"))
     assert delay == pytest.approx(delay_s, abs=max(1e-3, 3.0 * deviation))
-    believing = fit_stretches(stretches, ModelTolerance(delay_s=0.0)).fit
     if delay_s:
+        believing = fit_stretches(stretches, ModelTolerance(delay_s=0.0)).fit
         assert _errors(fit, other).mean() < _errors(believing, other).mean()

@@ -3,13 +3,22 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from functools import cache
+
 import numpy as np
 
 from forcetorque.calibration.joint import Stretch, part_windows, window_means
 from forcetorque.calibration.joint.nodes import WindowNodes
 from forcetorque.calibration.joint.windows import PIECE_S, WINDOW_S
 from forcetorque.estimation.part_equations import untouched_parts
-from tests.calibration.joint.swaying import FEET, SENSORS, swaying
+from tests.calibration.joint.swaying import FEET, RATE_HZ, SENSORS, swaying
+
+
+@cache
+def _stretch() -> Stretch:
+    """Twenty seconds of a motion."""
+    return swaying(1, noise=0.0).stretch
 
 
 def _with_readings(stretch: Stretch, values: np.ndarray) -> Stretch:
@@ -28,7 +37,7 @@ def _with_readings(stretch: Stretch, values: np.ndarray) -> Stretch:
 
 def test_products_of_parabolas_have_their_exact_means() -> None:
     """The product is of fourth degree; its mean over a window is that of the integral."""
-    stretch = swaying(1, noise=0.0).stretch
+    stretch = _stretch()
     time = stretch.time_s
     windows = WindowNodes(time, 0.25)
     values = np.stack([1.0 + 3.0 * time - 2.0 * time**2] * 6, axis=1)
@@ -44,7 +53,7 @@ def test_products_of_parabolas_have_their_exact_means() -> None:
 
 def test_noise_is_averaged_as_far_as_a_parabola_can() -> None:
     """The mean over the nodes is nearly that over the samples: noise of 25 samples is down to a fifth."""
-    stretch = swaying(1, noise=0.0).stretch
+    stretch = _stretch()
     noise = np.random.default_rng(1).normal(size=(len(stretch), 6))
     windows = WindowNodes(stretch.time_s, 0.25)
     (at_nodes,) = windows.condensed(_with_readings(stretch, noise)).readings.values()
@@ -56,7 +65,7 @@ def test_noise_is_averaged_as_far_as_a_parabola_can() -> None:
 
 def test_windows_of_few_samples_are_no_parabolas() -> None:
     """One sample stays as it is, two make a line; a gap stays in its window."""
-    stretch = swaying(1, noise=0.0).stretch
+    stretch = _stretch()
     rows = np.r_[np.arange(0, 25), 25, 50, 60, np.arange(75, 100)]
     piece = Stretch(
         label="",
@@ -82,7 +91,7 @@ def test_windows_of_few_samples_are_no_parabolas() -> None:
 
 def test_pieces_are_the_stretch() -> None:
     """Equal pieces that follow each other; one of a short stretch."""
-    stretch = swaying(1, noise=0.0).stretch
+    stretch = _stretch()
     pieces = list(stretch.pieces(6.0))
     assert len(pieces) == 4
     np.testing.assert_array_equal(np.concatenate([piece.time_s for piece in pieces]), stretch.time_s)
@@ -91,7 +100,15 @@ def test_pieces_are_the_stretch() -> None:
 
 def test_what_else_was_logged_is_averaged_over_the_windows_of_the_equations() -> None:
     """Also where a recording is so long that it is worked on in pieces, which begin anywhere between two windows."""
-    stretch = swaying(1, noise=0.0, duration_s=130.13).stretch
+    once, rows = _stretch(), np.arange(13013)
+    again = rows % len(once)
+    stretch = replace(
+        once,
+        time_s=rows / RATE_HZ,
+        joints=once.joints.samples(again),
+        root=once.root.samples(again),
+        readings={name: values[again] for name, values in once.readings.items()},
+    )
     parts = untouched_parts(stretch.tree, SENSORS, FEET)
     assert len(list(stretch.pieces(PIECE_S))) == 2
     times, means = window_means(stretch, stretch.time_s[:, None])
