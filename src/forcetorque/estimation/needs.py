@@ -5,6 +5,8 @@ from __future__ import annotations
 
 from collections.abc import Collection
 from dataclasses import dataclass
+from functools import lru_cache
+from typing import Final
 
 import numpy as np
 
@@ -13,6 +15,9 @@ from forcetorque.estimation.contact import ContactType
 from forcetorque.estimation.question import Question, TorqueSum
 from forcetorque.robot import BodyTree
 from forcetorque.robot.sub_model import SubModel, cut_of, outboard_bodies
+
+QUESTIONS: Final = 32
+"""Questions whose needs are remembered: a control loop asks the same one for every sample."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -53,31 +58,7 @@ def needs_of(question: Question, *, switched: Collection[str] = ()) -> Needs:
     Returns:
         The needs.
     """
-    tree = question.tree
-    wanted = np.zeros(len(tree.bodies), dtype=bool)
-    solved = {part.name for part in question.parts if part.name in question.layout.parts or question.unknown_in(part)}
-    leaving: set[str] = set()
-    for index, body in enumerate(tree.bodies):
-        if body.joint in question.torques and body.joint is not None:
-            _add_torque(question, index, switched, wanted, solved, leaving)
-    for part in question.parts:
-        if part.name in solved:
-            wanted[list(part.bodies)] = True
-    path = question.expected_path()
-    for sensor in question.expected:
-        cut = cut_of(tree, sensor)
-        wanted |= True if cut in path else outboard_bodies(tree, cut)
-    carrying = wanted & _with_content(question)
-    moving = carrying.copy()
-    moving[[tree.frames[link][0] for link in question.net_wrenches]] = True
-    for index in reversed(range(1, len(tree.bodies))):
-        moving[tree.bodies[index].parent] |= moving[index]
-    return Needs(
-        moving=moving,
-        carrying=carrying,
-        solved=tuple(part for part in question.parts if part.name in solved),
-        leaving=tuple(part for part in question.parts if part.name in leaving),
-    )
+    return _needs(question, frozenset(switched))
 
 
 def required_joints_of(question: Question, *, switched: Collection[str] = ()) -> tuple[str, ...]:
@@ -104,6 +85,37 @@ def closed_form(question: Question, part: SubModel) -> bool:
         True for a single unknown contact of type wrench.
     """
     return [contact.type for contact in question.unknown_in(part)] == [ContactType.WRENCH]
+
+
+@lru_cache(maxsize=QUESTIONS)
+def _needs(question: Question, switched: frozenset[str]) -> Needs:
+    tree = question.tree
+    wanted = np.zeros(len(tree.bodies), dtype=bool)
+    solved = {part.name for part in question.parts if part.name in question.layout.parts or question.unknown_in(part)}
+    leaving: set[str] = set()
+    for index, body in enumerate(tree.bodies):
+        if body.joint in question.torques and body.joint is not None:
+            _add_torque(question, index, switched, wanted, solved, leaving)
+    for part in question.parts:
+        if part.name in solved:
+            wanted[list(part.bodies)] = True
+    path = question.expected_path()
+    for sensor in question.expected:
+        cut = cut_of(tree, sensor)
+        wanted |= True if cut in path else outboard_bodies(tree, cut)
+    carrying = wanted & _with_content(question)
+    moving = carrying.copy()
+    moving[[tree.frames[link][0] for link in question.net_wrenches]] = True
+    for index in reversed(range(1, len(tree.bodies))):
+        moving[tree.bodies[index].parent] |= moving[index]
+    for marks in (moving, carrying):
+        marks.setflags(write=False)
+    return Needs(
+        moving=moving,
+        carrying=carrying,
+        solved=tuple(part for part in question.parts if part.name in solved),
+        leaving=tuple(part for part in question.parts if part.name in leaving),
+    )
 
 
 def _add_torque(

@@ -4,13 +4,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from functools import lru_cache
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from forcetorque.arrays import BoolArray, FloatArray, IntArray
 from forcetorque.estimation.contact import Contact
-from forcetorque.estimation.needs import Needs, closed_form
+from forcetorque.estimation.needs import QUESTIONS, Needs, closed_form
 from forcetorque.estimation.question import Question
 from forcetorque.robot.sub_model import SubModel, path_to_root
 from forcetorque.robot.tree import Connection, Coordinate
@@ -109,6 +110,7 @@ class Plan(NamedTuple):
     length_scale: float
 
 
+@lru_cache(maxsize=QUESTIONS)
 def plan_of(question: Question, needs: Needs, switched: frozenset[str]) -> tuple[Plan, tuple[str, ...]]:
     """Lay a question out as arrays.
 

@@ -57,12 +57,15 @@ def run_compiled(
             refuse_infinite(inputs, block)
         return int(block.stop)
 
-    with announced("compiling the dynamics for this machine, once; it takes about a minute"):
-        task(slice(0, 0))  # two threads would compile the same
     workers = threads or os.cpu_count() or 1
     chunks = _chunks(len(out), workers)
-    # a control loop asks for few samples at a time, and starting a thread takes longer than answering
-    with ThreadPoolExecutor(workers) if len(chunks) > 1 else nullcontext() as pool:
+    with (
+        announced("compiling the dynamics for this machine, once; it takes about a minute"),
+        # a control loop asks for few samples at a time, and starting a thread takes longer than answering
+        ThreadPoolExecutor(workers) if len(chunks) > 1 else nullcontext() as pool,
+    ):
+        if pool is not None:
+            task(slice(0, 0))  # two threads would compile the same
         for done in map(task, chunks) if pool is None else pool.map(task, chunks):
             if progress is not None:
                 progress(done)
