@@ -12,7 +12,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from enum import StrEnum
+from functools import lru_cache
 from types import MappingProxyType
+from typing import Final
 
 import numpy as np
 
@@ -20,6 +22,9 @@ from forcetorque.arrays import FloatArray
 from forcetorque.errors import RobotError, known_names
 from forcetorque.robot.model import ForceTorqueSensor, Joint, JointType, RobotModel, SensorFrame
 from forcetorque.spatial import Inertia, invert_pose, make_pose, reading_sign, rotation_with_z_along, split_pose
+
+_TREES: Final = 32
+"""Trees that are remembered: one robot is asked about over and over, from a few of its links."""
 
 
 class Connection(StrEnum):
@@ -112,6 +117,11 @@ def build_tree(model: RobotModel, root_link: str) -> BodyTree:
     """
     if root_link not in model.links:
         raise RobotError(f"robot {model.name!r} has no link {root_link!r}; {known_names(root_link, model.links)}")
+    return _tree(model, root_link)
+
+
+@lru_cache(maxsize=_TREES)
+def _tree(model: RobotModel, root_link: str) -> BodyTree:
     builder = _Builder(model)
     builder.add_root(root_link)
     neighbours: dict[str, list[Joint]] = {link: [] for link in model.links}
@@ -180,7 +190,7 @@ class _Builder:
         coordinate: Coordinate | None,
         parent_H_joint: FloatArray,
     ) -> int:
-        rotation, position = split_pose(parent_H_joint)
+        rotation, position = split_pose(_shared(parent_H_joint))
         self.shells.append(
             Body(
                 parent=parent,
@@ -198,7 +208,7 @@ class _Builder:
         return len(self.shells) - 1
 
     def _place(self, link: str, body: int, body_H_link: FloatArray) -> None:
-        self.frames[link] = (body, body_H_link)
+        self.frames[link] = (body, _shared(body_H_link))
         self.inertias[body] += self.model.links[link].expressed_in(body_H_link)
         self.links[body].append(link)
 
@@ -235,3 +245,9 @@ class _Builder:
             body_H_sensor=frames[sensor.frame],  # both halves of a cut share the body's frame
             sign=reading_sign(sensor.direction, child_is_outboard=child_is_outboard),
         )
+
+
+def _shared(pose: FloatArray) -> FloatArray:
+    """A pose of a tree that many hold: nobody may change it."""
+    pose.setflags(write=False)
+    return pose
