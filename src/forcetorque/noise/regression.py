@@ -126,52 +126,55 @@ def regress(
     if n <= p:
         return _undetermined(start.T if about is None else about)
     columns = np.asfortranarray(np.column_stack([design, residual]))
-    fits = [_fit(line, columns, p, noise) for noise in shapes]
-    log_weight = np.array([fit.log_evidence + log_prior(noise) for fit, noise in zip(fits, shapes, strict=True)])
+    fits = _Fits.of(line, columns, p, shapes)
+    log_weight = fits.log_evidence + np.array([log_prior(noise) for noise in shapes])[:, None]
     weight = np.exp(log_weight - log_weight.max(axis=0))
     weight /= weight.sum(axis=0)  # (shapes, k)
-    mean = np.einsum("sk,skp->kp", weight, np.array([fit.coefficients for fit in fits]))
+    mean = np.einsum("sk,skp->kp", weight, fits.coefficients)
     centre = mean if about is None else about - start.T
-    covariance = np.zeros((len(mean), p, p))
-    for share, fit in zip(weight, fits, strict=True):
-        apart = fit.coefficients - centre
-        within = fit.variance[:, None, None] * fit.inverse
-        covariance += share[:, None, None] * (within + apart[:, :, None] * apart[:, None, :])
+    apart = fits.coefficients - centre
+    within = fits.variance[:, :, None, None] * fits.inverse[:, None]
+    covariance = weight[:, :, None, None] * (within + apart[..., :, None] * apart[..., None, :])
     alone = np.diag(np.linalg.inv(design.T @ (design * line.share[:, None])))  # were there no slow noise
-    counts = np.array(
-        [
-            np.clip((1.0 + noise.ratio) * n * alone / np.diag(fit.inverse), p + 1.0, n)
-            for noise, fit in zip(shapes, fits, strict=True)
-        ]
-    )
+    ratio = np.array([noise.ratio for noise in shapes])[:, None]
+    worth = np.diagonal(fits.inverse, axis1=1, axis2=2)
+    counts = np.clip((1.0 + ratio) * n * alone / worth, p + 1.0, n)
     return Regression(
         coefficients=centre + start.T,
-        covariance=covariance,
+        covariance=covariance.sum(axis=0),
         degrees_of_freedom=1.0 / np.einsum("sk,sp->kp", weight, 1.0 / counts) - p,
-        noise=np.sqrt(np.einsum("sk,sk->k", weight, np.array([fit.variance for fit in fits]))),
+        noise=np.sqrt(np.einsum("sk,sk->k", weight, fits.variance)),
     )
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class _Fit:
-    """Coefficients were the noise of one shape."""
+class _Fits:
+    """Coefficients were the noise of each of s shapes."""
 
-    coefficients: FloatArray  # (k, p)
-    inverse: FloatArray  # (X' V^-1 X)^-1, shape (p, p)
-    variance: FloatArray  # of the white part; (k,)
-    log_evidence: FloatArray  # restricted; (k,)
+    coefficients: FloatArray  # (s, k, p)
+    inverse: FloatArray  # (X' V^-1 X)^-1, shape (s, p, p)
+    variance: FloatArray  # of the white part; (s, k)
+    log_evidence: FloatArray  # restricted; (s, k)
 
-
-def _fit(line: Timeline, columns: FloatArray, p: int, noise: SlowNoise) -> _Fit:
-    n = len(line)
-    moments, log_determinant = line.product(columns, noise)
-    inverse = np.asarray(np.linalg.inv(moments[:p, :p]), dtype=np.float64)
-    coefficients = moments[p:, :p] @ inverse
-    squares = np.diag(moments)[p:] - np.einsum("kp,kp->k", coefficients, moments[p:, :p])
-    squares = np.maximum(squares, 0.0)
-    changing = np.where(squares > 0.0, squares, 1.0)  # of what never changes every shape says the same
-    log_evidence = -0.5 * ((n - p) * np.log(changing) + log_determinant - np.linalg.slogdet(inverse)[1])
-    return _Fit(coefficients=coefficients, inverse=inverse, variance=squares / (n - p), log_evidence=log_evidence)
+    @classmethod
+    def of(cls, line: Timeline, columns: FloatArray, p: int, shapes: Sequence[SlowNoise]) -> _Fits:
+        n = len(line)
+        products = [line.product(columns, noise) for noise in shapes]
+        moments = np.array([product for product, _ in products])
+        log_determinant = np.array([logarithm for _, logarithm in products])
+        inverse = np.asarray(np.linalg.inv(moments[:, :p, :p]), dtype=np.float64)
+        shared = moments[:, p:, :p]
+        coefficients = shared @ inverse
+        squares = np.diagonal(moments, axis1=1, axis2=2)[:, p:] - np.einsum("skp,skp->sk", coefficients, shared)
+        squares = np.maximum(squares, 0.0)
+        changing = np.where(squares > 0.0, squares, 1.0)  # of what never changes every shape says the same
+        constant = log_determinant - np.linalg.slogdet(inverse)[1]
+        return cls(
+            coefficients=coefficients,
+            inverse=inverse,
+            variance=squares / (n - p),
+            log_evidence=-0.5 * ((n - p) * np.log(changing) + constant[:, None]),
+        )
 
 
 def log_prior(noise: SlowNoise) -> float:
