@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import cache
 from pathlib import Path
 
 import numpy as np
@@ -101,6 +102,12 @@ def _positions(data_dir: Path) -> Path:
     return data_dir / "icub_skin_positions"
 
 
+@cache
+def _checked(data_dir: Path, name: str) -> SkinCheck:
+    """What the check says of a published layout."""
+    return check_skin(_positions(data_dir) / f"{name}.txt")
+
+
 def _counts(answer: SkinCheck) -> dict[Defect, tuple[int, ...]]:
     counts: dict[Defect, tuple[int, ...]] = {}
     for finding in answer.findings:
@@ -114,7 +121,7 @@ def _counts(answer: SkinCheck) -> dict[Defect, tuple[int, ...]]:
 @pytest.mark.parametrize("name", PUBLISHED)
 def test_published_layouts_have_these_findings(data_dir: Path, name: str) -> None:
     """Every one has some, none has others."""
-    assert _counts(check_skin(_positions(data_dir) / f"{name}.txt")) == PUBLISHED[name]
+    assert _counts(_checked(data_dir, name)) == PUBLISHED[name]
 
 
 @pytest.mark.real_data
@@ -138,7 +145,7 @@ def test_published_plans_have_gaps_at_most(data_dir: Path) -> None:
 def test_messages_have_the_numbers_of_the_files(data_dir: Path) -> None:
     """Entries against rows, distinct places, lengths of normals, modules on each other."""
     said = {
-        name: " ".join(finding.message for finding in check_skin(_positions(data_dir) / f"{name}.txt").findings)
+        name: " ".join(finding.message for finding in _checked(data_dir, name).findings)
         for name in ("right_leg_lower", "right_leg_upper", "r_lower_leg_cad_V2", "left_forearm_V2", "left_arm_mesh")
     }
     assert "960 entries for 768 rows" in said["right_leg_lower"]
@@ -198,7 +205,7 @@ def test_every_board_of_a_curved_patch_is_numbered_the_same_way_round(data_dir: 
 @pytest.mark.parametrize("name", ["left_forearm_mesh", "left_arm_mesh"])
 def test_rebuilt_normals_agree_with_good_ones(data_dir: Path, name: str) -> None:
     """Of files with normals by a mesh of their makers: 4 and 7 degrees in the median, most at rims."""
-    answer = check_skin(_positions(data_dir) / f"{name}.txt")
+    answer = _checked(data_dir, name)
     written = answer.normals["as written"]
     written = written / np.linalg.norm(written, axis=1, keepdims=True)
     cosine = (written * answer.normals["rebuilt"]).sum(axis=1)

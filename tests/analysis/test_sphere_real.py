@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from functools import cache
 from itertools import product
 from pathlib import Path
 
@@ -24,6 +26,9 @@ ARM_KG, LEG_KG = 1.92, 4.73
 ARMS = ("l_arm_ft_sensor", "r_arm_ft_sensor")
 SCATTER_KG = (1.3, 3.5)
 """Masses that fits of one radius to these arms give, depending on window and method."""
+
+Yoga = Callable[[str, float, float, str], SensorSphere]
+"""Analyses by log, start, end and sensor."""
 
 
 def _experiment(data_dir: Path, folder: Path, *, run: str, start_s: float, end_s: float) -> Experiment:
@@ -48,18 +53,23 @@ def _analysed(experiment: Experiment, sensor: str) -> SensorSphere:
     return sphere
 
 
+@pytest.fixture(scope="module")
+def yoga(data_dir: Path, tmp_path_factory: pytest.TempPathFactory) -> Yoga:
+    """The logs of a robot on one foot, every window analysed once."""
+    folder = tmp_path_factory.mktemp("yoga")
+    of_window = cache(lambda run, start_s, end_s: _experiment(data_dir, folder, run=run, start_s=start_s, end_s=end_s))
+    return cache(lambda run, start_s, end_s, sensor: _analysed(of_window(run, start_s, end_s), sensor))
+
+
 WINDOWS = [(25.0, 58.0), (25.0, 41.5), (15.0, 62.0), (0.0, 70.0)]
 
 
 @pytest.mark.parametrize("run", ["dumperLeftLegNoIMU", "dumperRightLegNoIMU"])
 @pytest.mark.parametrize(("start_s", "end_s"), WINDOWS)
-def test_arms_are_caps_and_not_identifiable(
-    data_dir: Path, tmp_path: Path, run: str, start_s: float, end_s: float
-) -> None:
+def test_arms_are_caps_and_not_identifiable(yoga: Yoga, run: str, start_s: float, end_s: float) -> None:
     """Whatever the window, the mass of the model lies in the interval, and neither radius nor ellipsoid is believed."""
-    experiment = _experiment(data_dir, tmp_path, run=run, start_s=start_s, end_s=end_s)
     for name in ARMS:
-        sphere = _analysed(experiment, name)
+        sphere = yoga(run, start_s, end_s, name)
         analysis, one = sphere.analysis, sphere.analysis.radius
         assert sphere.no_reference is not None
         assert analysis.mass == pytest.approx(ARM_KG, abs=0.01)
@@ -75,22 +85,23 @@ def test_arms_are_caps_and_not_identifiable(
 
 
 @pytest.mark.parametrize("run", ["dumperLeftLegNoIMU", "dumperRightLegNoIMU"])
-def test_the_interval_of_the_arms_holds_the_scatter(data_dir: Path, tmp_path: Path, run: str) -> None:
+def test_the_interval_of_the_arms_holds_the_scatter(yoga: Yoga, run: str) -> None:
     """Over the contact-free window: all that windows and methods give for one radius, 1.3 to 3.5 kg."""
-    experiment = _experiment(data_dir, tmp_path, run=run, start_s=25.0, end_s=58.0)
     for name in ARMS:
-        one = _analysed(experiment, name).analysis.radius
+        one = yoga(run, 25.0, 58.0, name).analysis.radius
         assert one.low / GRAVITY <= SCATTER_KG[0]
         assert one.high / GRAVITY >= SCATTER_KG[1]
 
 
-def test_windows_and_methods_do_scatter(data_dir: Path, tmp_path: Path) -> None:
+WINDOWS_APART = [(25.0, 58.0), (25.0, 36.0), (36.0, 47.0)]
+
+
+def test_windows_and_methods_do_scatter(yoga: Yoga) -> None:
     """Negative control: single fits over windows that move range from below 1.2 to above 3.5 kg."""
     masses = []
-    for run, (start_s, end_s) in product(("dumperLeftLegNoIMU", "dumperRightLegNoIMU"), [(25, 58), (25, 36), (36, 47)]):
-        experiment = _experiment(data_dir, tmp_path, run=run, start_s=start_s, end_s=end_s)
+    for run, (start_s, end_s) in product(("dumperLeftLegNoIMU", "dumperRightLegNoIMU"), WINDOWS_APART):
         for name in ARMS:
-            one = _analysed(experiment, name).analysis.radius
+            one = yoga(run, start_s, end_s, name).analysis.radius
             masses += [one.algebraic / GRAVITY, one.geometric / GRAVITY]
     assert len(masses) == 24
     assert min(masses) < 1.2
@@ -98,10 +109,9 @@ def test_windows_and_methods_do_scatter(data_dir: Path, tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(("start_s", "end_s"), WINDOWS[:2])
-def test_the_free_leg_is_nearly_a_plane(data_dir: Path, tmp_path: Path, start_s: float, end_s: float) -> None:
+def test_the_free_leg_is_nearly_a_plane(yoga: Yoga, start_s: float, end_s: float) -> None:
     """Its radius has no upper end; the weight of the model is not excluded; with the model it is not known either."""
-    experiment = _experiment(data_dir, tmp_path, run="dumperLeftLegNoIMU", start_s=start_s, end_s=end_s)
-    sphere = _analysed(experiment, "r_leg_ft_sensor")
+    sphere = yoga("dumperLeftLegNoIMU", start_s, end_s, "r_leg_ft_sensor")
     analysis = sphere.analysis
     assert sphere.no_reference is None
     assert analysis.mass == pytest.approx(LEG_KG, abs=0.01)
