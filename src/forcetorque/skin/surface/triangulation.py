@@ -8,6 +8,7 @@ see one diagonal and some the other, and the triangles with more votes win.
 
 from __future__ import annotations
 
+from functools import lru_cache
 from typing import Final
 
 import numpy as np
@@ -25,6 +26,8 @@ _TIE: Final = 1e-8
 which diagonal is taken, and a layout that is turned would get another surface."""
 _SAME_LENGTH_M: Final = 1e-9
 """Difference between lengths that is rounding."""
+_PATCHES: Final = 16
+"""Patches whose triangles are remembered: a flat one asks for them with every hint at its outer side."""
 
 
 def surface_triangles(positions: FloatArray, longest_edge_m: float) -> IntArray:
@@ -37,13 +40,21 @@ def surface_triangles(positions: FloatArray, longest_edge_m: float) -> IntArray:
     Returns:
         Triangles, in no particular orientation; shape (m, 3).
     """
+    return _triangles(positions.astype(np.float64).tobytes(), longest_edge_m)
+
+
+@lru_cache(maxsize=_PATCHES)
+def _triangles(packed: bytes, longest_edge_m: float) -> IntArray:
+    positions = np.frombuffer(packed).reshape(-1, 3)
     candidates, votes = _voted_triangles(positions, longest_edge_m)
     sides = np.linalg.norm(positions[candidates] - positions[np.roll(candidates, 1, axis=1)], axis=2)
     longest = sides.max(axis=1)
     # taxels on a line, as along the side of a module, make triangles of nothing but rounding
     fits = (longest <= longest_edge_m) & (_circumradius(positions[candidates], sides) <= longest_edge_m)
     order = np.lexsort((np.rint(longest[fits] / _SAME_LENGTH_M), -votes[fits]))
-    return _without_overlap(positions, candidates[fits][order])
+    triangles = _without_overlap(positions, candidates[fits][order])
+    triangles.setflags(write=False)
+    return triangles
 
 
 def _circumradius(corners: FloatArray, sides: FloatArray) -> FloatArray:
