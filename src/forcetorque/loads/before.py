@@ -27,10 +27,10 @@ def before(problem: LoadProblem, guess: Guess) -> tuple[FloatArray, FloatArray]:
     listed = guess.parameters
     precision, sides = np.zeros((len(listed), len(listed))), np.zeros(len(listed))
     if problem.matrix_prior is not None:
-        for row in range(6):
+        for row, known in enumerate(np.linalg.inv(problem.matrix_prior)):
             own = places(listed, Kind.MATRIX, row)
-            precision[np.ix_(own, own)] = np.linalg.inv(problem.matrix_prior[row])
-            sides[own] = -precision[np.ix_(own, own)] @ guess.values[own]
+            precision[np.ix_(own, own)] = known
+            sides[own] = -known @ guess.values[own]
     for number, load in enumerate(problem.loads):
         own = [place for kind in _OF_LOAD for place in places(listed, kind, number)]
         if not own:

@@ -148,7 +148,8 @@ def turned_by(rotation: FloatArray) -> FloatArray:
     Returns:
         What turns force and moment; shape (6, 6).
     """
-    turned: FloatArray = np.asarray(np.kron(np.eye(2), rotation), dtype=np.float64)
+    turned = np.zeros((6, 6))
+    turned[:3, :3] = turned[3:, 3:] = rotation
     return turned
 
 
