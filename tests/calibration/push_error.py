@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from types import MappingProxyType
 from typing import Any
 
@@ -27,6 +28,7 @@ from forcetorque.simulation.scenario import (
     trace_recordings,
 )
 from forcetorque.simulation.scenario.specimen import Specimen
+from forcetorque.simulation.trace import Trace
 from forcetorque.toml_table import read_toml
 
 TEMPERATURE = LinearVariable(name="temperature", unit="degC")
@@ -131,13 +133,8 @@ def cases(
     Yields:
         A case for every seed, sensor and motion.
     """
-    used = {name for names in motions.values() for name in names}
-    content = read_toml(bundled_scenario("icub-insitu"), ScenarioFile, what="a scenario")
-    # a recording that is not fitted sets the error of the workbench matrix
-    kept = tuple(entry for entry in content.recording if entry.name in used or entry.name == "bsl_day1")
-    changed = content.model_copy(update={"recording": kept}).with_sensors(names=tuple(moved), **changes)
-    scenario = build_scenario(changed)
-    traces, references = trace_recordings(scenario), {}
+    used = frozenset(name for names in motions.values() for name in names)
+    scenario, traces, references = _moved(used, tuple(moved), tuple(changes.items()))
     for seed in seeds:
         drawn = scenario.with_sensors(seed=seed)
         data: dict[tuple[str, str], DataSet] = {}
@@ -156,6 +153,19 @@ def cases(
                     data=[data[sensor, name] for name in motions[motion]],
                     specimen=drawn.specimens[sensor],
                 )
+
+
+@lru_cache(maxsize=1)
+def _moved(
+    used: frozenset[str], sensors: tuple[str, ...], changes: tuple[tuple[str, Any], ...]
+) -> tuple[Scenario, dict[str, Trace], dict[tuple[str, str], tuple[FloatArray, FloatArray, FloatArray]]]:
+    """The recordings without their sensors, and room for their references; two files ask for the same."""
+    content = read_toml(bundled_scenario("icub-insitu"), ScenarioFile, what="a scenario")
+    # a recording that is not fitted sets the error of the workbench matrix
+    kept = tuple(entry for entry in content.recording if entry.name in used or entry.name == "bsl_day1")
+    changed = content.model_copy(update={"recording": kept}).with_sensors(names=sensors, **dict(changes))
+    scenario = build_scenario(changed)
+    return scenario, trace_recordings(scenario), {}
 
 
 def _reference(
