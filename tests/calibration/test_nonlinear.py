@@ -36,8 +36,8 @@ def _kept(seeds: range, crosstalk_counts: float) -> list[int]:
 
 
 def test_a_linear_sensor_keeps_no_correction() -> None:
-    """None of 3; of quadratic ones, the negative control, both do."""
-    assert _kept(range(100, 103), 0.0) == [0] * 3
+    """Of two recordings as of three; of quadratic ones, the negative control, both do."""
+    assert _kept(range(100, 102), 0.0) == [0, 0]
     assert _kept(range(106, 108), CROSSTALK_COUNTS) == [2, 2]
 
 
@@ -48,10 +48,11 @@ def test_hardly_any_linear_sensor_keeps_a_correction() -> None:
     assert sum(_kept(range(400, 420), CROSSTALK_COUNTS)) == 40
 
 
-def test_a_quadratic_sensor_is_corrected_and_reads_motions_better_that_were_not_fitted() -> None:
-    """Of 4 sensors all keep it in force and moment; on other motions the error is a third, and at most half."""
+@pytest.mark.parametrize("seeds", [range(200, 202), pytest.param(range(200, 204), marks=pytest.mark.long)])
+def test_a_quadratic_sensor_is_corrected_and_reads_motions_better_that_were_not_fitted(seeds: range) -> None:
+    """All keep it in force and moment; on other motions the error is a third, and at most half."""
     ratios = []
-    for seed in range(200, 204):
+    for seed in seeds:
         sensor = Specimen(seed, CROSSTALK_COUNTS)
         data = [sensor.recording(k) for k in range(RECORDINGS)]
         corrected, linear = (calibrated(data, nonlinear=nonlinear) for nonlinear in (True, False))
