@@ -67,7 +67,8 @@ else:
 def library(tmp_path: Path) -> Path:
     """A copy of the library in which the strategy has its member and its letter."""
     source = Path(forcetorque.__file__).parent
-    ignored = shutil.ignore_patterns("__pycache__", "viewer", "report", "cli")
+    # with what is compiled of the files that stay as they are
+    ignored = shutil.ignore_patterns("*.nbi", "*.nbc", "viewer", "report", "cli")
     shutil.copytree(source, tmp_path / "forcetorque", ignore=ignored)
     file = tmp_path.joinpath(*TYPE)
     edit(file, MEMBER, f'{MEMBER}    TARED = "tared"\n')
