@@ -254,7 +254,9 @@ def _log_ratios(squares: FloatArray, count: int, least: float) -> FloatArray:
     Returns:
         Log ratios; shape (count or n,).
     """
-    parts = np.array_split(squares, min(count, squares.shape[1]), axis=1)
-    means = np.maximum([part.mean(axis=1) for part in parts], least)
-    logs: FloatArray = 0.5 * np.log(means[:, 0] / means[:, 1])
+    size, longer = divmod(squares.shape[1], min(count, squares.shape[1]))
+    cut = longer * (size + 1)  # the first parts have a sample more
+    parts = squares[:, :cut].reshape(2, longer, size + 1), squares[:, cut:].reshape(2, -1, size)
+    means = np.maximum(np.concatenate([part.mean(axis=2) for part in parts], axis=1), least)
+    logs: FloatArray = 0.5 * np.log(means[0] / means[1])
     return logs
