@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
 import pytest
@@ -107,13 +108,19 @@ def test_sessions_share_a_matrix_and_have_offsets_of_their_own() -> None:
     np.testing.assert_array_equal(fit.model.offset, fit.offsets[-1])
 
 
+@cache
+def _two_sessions() -> tuple[list[WindowMeans], GenerativeFit]:
+    """A body and another, each after a power-up of its own, and their fit."""
+    loads = [hanging(5.0, (0.0, 0.0, -0.1)), hanging(5.0, (0.1, 0.0, 0.0), seed=1)]
+    data = [read_by(load, session=name) for load, name in zip(loads, "ab", strict=True)]
+    return data, fit_generative(data, PRIOR, assumptions())
+
+
 @settings(max_examples=5)
 @given(st.lists(st.floats(-1e4, 1e4), min_size=6, max_size=6))
 def test_what_a_power_up_adds_moves_the_offset_of_its_session_alone(added: list[float]) -> None:
     """Counts added to a whole session change neither the matrix nor another offset; added to half of it they do."""
-    loads = [hanging(5.0, (0.0, 0.0, -0.1)), hanging(5.0, (0.1, 0.0, 0.0), seed=1)]
-    data = [read_by(load, session=name) for load, name in zip(loads, "ab", strict=True)]
-    fit = fit_generative(data, PRIOR, assumptions())
+    data, fit = _two_sessions()
     moved = fit_generative([data[0], replace(data[1], raw=data[1].raw + added)], PRIOR, assumptions())
     np.testing.assert_allclose(moved.model.matrix, fit.model.matrix, rtol=0.0, atol=ROUNDING * np.abs(PRIOR).max())
     change = moved.offsets - fit.offsets
@@ -281,13 +288,19 @@ def test_masses_in_grams_are_no_sensor() -> None:
         fit_generative([replace(data, reference=1000.0 * data.reference)], PRIOR, assumptions())
 
 
+@cache
+def _one_session() -> tuple[WindowMeans, GenerativeFit]:
+    """A body, and its fit."""
+    data = read_by(hanging(5.0, (0.03, 0.0, -0.1)))
+    return data, fit_generative([data], PRIOR, assumptions())
+
+
 @settings(max_examples=5)
 @given(st.floats(-3.0, 3.0))
 def test_the_unit_of_a_count_does_not_matter(decades: float) -> None:
     """Counts ten times as large, with a tenth of the matrix, tell the same."""
     factor = 10.0**decades
-    data = read_by(hanging(5.0, (0.03, 0.0, -0.1)))
-    fit = fit_generative([data], PRIOR, assumptions())
+    data, fit = _one_session()
     known = assumptions()
     scaled = fit_generative(
         [replace(data, raw=factor * data.raw)], PRIOR / factor, replace(known, full_scale=factor * known.full_scale)

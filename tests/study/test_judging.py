@@ -13,7 +13,7 @@ import pytest
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration import WrenchModel
 from forcetorque.errors import FitError, ShapeError
-from forcetorque.evaluation import PooledErrors, wrench_errors
+from forcetorque.evaluation import PooledErrors
 from forcetorque.evaluation.offset import KNOWN_BEFORE, Offset
 from forcetorque.study import (
     OFFSET_S,
@@ -35,14 +35,11 @@ BOTH = pytest.mark.parametrize("source", list(KNOWN_BEFORE))
 
 
 def _by_samples(models: Sequence[WrenchModel], sets: Sequence[ValidationSet], source: Offset) -> PooledErrors:
-    verdicts = []
-    for model in models:
-        errors = np.concatenate([errors_by_samples(model, one, source) for one in sets])
-        verdicts.append(wrench_errors(errors, np.zeros_like(errors), np.arange(float(len(errors)))))
+    errors = np.array([np.concatenate([errors_by_samples(model, one, source) for one in sets]) for model in models])
     return PooledErrors(
-        mean_absolute=np.array([v.mean_absolute for v in verdicts]),
-        force_mean=np.array([v.force_mean for v in verdicts]),
-        moment_mean=np.array([v.moment_mean for v in verdicts]),
+        mean_absolute=np.abs(errors).mean(axis=1),
+        force_mean=np.linalg.norm(errors[..., :3], axis=2).mean(axis=1),
+        moment_mean=np.linalg.norm(errors[..., 3:], axis=2).mean(axis=1),
     )
 
 
