@@ -10,9 +10,9 @@ from forcetorque.analysis.response.decays import Decays, free_decays
 from forcetorque.analysis.response.force import driven_response
 from forcetorque.analysis.response.records import ExcitedRecord
 from forcetorque.arrays import FloatArray
+from forcetorque.constants import NORMAL_95
 from forcetorque.errors import FitError
 from forcetorque.evaluation.response import EvenRecord, ExcitationKind, SecondOrder, inverse_filter
-from forcetorque.evaluation.response.second_order import NORMAL_95
 from tests.excited_sensors import GRAVITY, MASS_KG, Spring, released, swung, tapped
 
 DRAWS = 200

@@ -8,6 +8,7 @@ from importlib import import_module
 import numpy as np
 import pytest
 from scipy.signal import lfilter
+from scipy.special import ndtri
 
 from forcetorque.errors import ShapeError
 from forcetorque.evaluation import autocorrelation
@@ -50,7 +51,7 @@ def test_by_hand() -> None:
     np.testing.assert_allclose(found.rho, [1.0, -1 / 3, -1.0, 1.0], atol=ROUNDING)
     np.testing.assert_array_equal(found.lag_s, [0.0, 0.5, 1.0, 1.5])
     np.testing.assert_array_equal(found.pairs, [4, 3, 2, 1])
-    np.testing.assert_allclose(found.white_band, 1.96 / np.sqrt([4, 3, 2, 1]))
+    np.testing.assert_allclose(found.white_band, ndtri(0.975) / np.sqrt([4, 3, 2, 1]))
     # lags 0 and 1 sum to 1 - 1/4, lags 2 and 3 to -2/4 + 1/4, which ends it; 2 x 3/4 - 1
     assert (found.count, found.segments, found.window) == (4, 1, 2)
     assert found.integrated_time == pytest.approx(0.5)

@@ -14,13 +14,12 @@ from typing import Any
 import numpy as np
 
 from forcetorque.arrays import FloatArray, IntArray, read_only, require_shape
+from forcetorque.constants import NORMAL_95
 from forcetorque.errors import ShapeError
 from forcetorque.recording.alignment import GAP_PERIODS
 
 LEAST_PAIRS = 0.25
 """Lags are given up to where the pairs are fewer than this part of the samples; beyond, few pairs scatter widely."""
-WHITE_DEVIATIONS = 1.96
-"""Standard deviations within which 95 % of the autocorrelations of white noise lie."""
 
 CLEAR_DEVIATIONS = 2.0
 """Standard deviations of noise by which lags from some k to 2 k must add up to more than 0 to count after all."""
@@ -61,8 +60,8 @@ class Autocorrelation:
 
     @property
     def white_band(self) -> FloatArray:
-        """Bound below which 95 % of the magnitudes of rho of white noise lie, `1.96 / sqrt(pairs)`; shape (l,)."""
-        band: FloatArray = WHITE_DEVIATIONS / np.sqrt(self.pairs)
+        """Bound below which 95 % of the magnitudes of rho of white noise lie, `NORMAL_95 / sqrt(pairs)`; shape (l,)."""
+        band: FloatArray = NORMAL_95 / np.sqrt(self.pairs)
         return band
 
 

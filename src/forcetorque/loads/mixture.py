@@ -15,11 +15,10 @@ from itertools import product
 import numpy as np
 
 from forcetorque.arrays import FloatArray
+from forcetorque.constants import NORMAL_95
 from forcetorque.loads.stacked import Group
 from forcetorque.noise import CONFIDENCE, SlowNoise, half_width, log_prior
 
-_NORMAL = 1.959964
-"""Half-width of a 95 % interval in standard deviations, of a normal distribution."""
 _WIDE = 6.0
 """Deviations within which everything is."""
 _HALVINGS = 40
@@ -87,7 +86,7 @@ class Estimate:
             enough = self.weights @ inside >= CONFIDENCE
             low, high = np.where(enough, low, middle), np.where(enough, middle, high)
         quantile = half_width(np.ones(len(basis)), self.degrees_of_freedom)
-        return np.asarray(high * quantile / _NORMAL, dtype=np.float64)
+        return np.asarray(high * quantile / NORMAL_95, dtype=np.float64)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

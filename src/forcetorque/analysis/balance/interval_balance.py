@@ -9,8 +9,8 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from forcetorque.arrays import FloatArray, IntArray
+from forcetorque.constants import NORMAL_95
 from forcetorque.estimation.balance import (
-    HALF_95,
     RELEASE_SHARE,
     TOUCH_SHARE,
     ComAcceleration,
@@ -213,5 +213,5 @@ def half_widths(covariance: FloatArray) -> FloatArray:
     Returns:
         Half-widths; shape (n, 2); m.
     """
-    half: FloatArray = HALF_95 * np.sqrt(np.maximum(np.einsum("nii->ni", covariance), 0.0))
+    half: FloatArray = NORMAL_95 * np.sqrt(np.maximum(np.einsum("nii->ni", covariance), 0.0))
     return half

@@ -11,6 +11,7 @@ import numpy as np
 from forcetorque.analysis.response.records import ExcitedRecord
 from forcetorque.analysis.response.rows import DecayCurve, EventRow
 from forcetorque.arrays import FloatArray
+from forcetorque.constants import NORMAL_95
 from forcetorque.errors import FitError
 from forcetorque.evaluation.response import (
     EvenRecord,
@@ -25,7 +26,6 @@ from forcetorque.evaluation.response import (
     ring_downs,
     step_direction,
 )
-from forcetorque.evaluation.response.second_order import NORMAL_95
 from forcetorque.spatial import WRENCH_COMPONENTS
 
 

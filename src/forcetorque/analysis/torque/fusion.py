@@ -13,6 +13,7 @@ from forcetorque.analysis.runs.reading import Correction
 from forcetorque.analysis.skin.wrench import PatchFrames
 from forcetorque.analysis.torque.sources import TorqueSources
 from forcetorque.arrays import FloatArray
+from forcetorque.constants import NORMAL_95
 from forcetorque.estimation.fusion import Friction, Fusion, TorqueSource, fuse
 from forcetorque.experiment.content import Experiment, ExperimentContact
 from forcetorque.experiment.inputs import stated_in
@@ -22,8 +23,6 @@ from forcetorque.robot import JointType, RobotModel
 
 FUSED = "fused"
 """Name of all sources together."""
-
-_HALF_95 = 1.959963984540054
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -217,7 +216,7 @@ def _torques(one: IntervalFusion, model: RobotModel) -> Iterator[JointTorqueRow]
                 source=name,
                 samples=int(np.count_nonzero(known)),
                 mean=float(torque[known, k].mean()) if known.any() else None,
-                half_width_95=_HALF_95 * float(np.sqrt(covariance[known, k, k].mean())) if known.any() else None,
+                half_width_95=NORMAL_95 * float(np.sqrt(covariance[known, k, k].mean())) if known.any() else None,
                 from_fused=_root_mean_square(apart),
             )
 
@@ -246,7 +245,7 @@ def _sources(one: IntervalFusion) -> Iterator[SourceRow]:
 
 def _friction(friction: Friction) -> FrictionRow:
     coulomb, viscous, inertia, offset = (float(value) for value in friction.coefficients)
-    half = _HALF_95 * np.sqrt(np.diag(friction.covariance))
+    half = NORMAL_95 * np.sqrt(np.diag(friction.covariance))
     return FrictionRow(
         joint=friction.joint,
         coulomb=coulomb,

@@ -4,7 +4,6 @@
 from forcetorque.estimation.balance.centre_of_mass import centre_of_mass, mass_of
 from forcetorque.estimation.balance.centre_of_pressure import PressureCentres, centre_of_pressure
 from forcetorque.estimation.balance.com_acceleration import (
-    HALF_95,
     STAY_S,
     ComAcceleration,
     com_acceleration,
@@ -29,7 +28,6 @@ from forcetorque.estimation.balance.support_phases import (
 )
 
 __all__ = [
-    "HALF_95",
     "NO_FOOT",
     "RELEASE_SHARE",
     "STAY_S",

@@ -9,14 +9,13 @@ from typing import Final
 import numpy as np
 
 from forcetorque.arrays import BoolArray, FloatArray, read_only
+from forcetorque.constants import NORMAL_95
 from forcetorque.errors import EstimationError
 from forcetorque.estimation.balance.centre_of_pressure import PressureCentres
 from forcetorque.estimation.balance.contact_state import stretches
 
 STAY_S: Final = 1.0
 """How long the height has to stay in its band: who passes through it at speed is not at constant height; s."""
-HALF_95: Final = 1.959963984540054
-"""Half of a 95 % interval, in standard deviations."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -111,5 +110,5 @@ def com_acceleration(
     if pressure.covariance is not None:
         of_point = np.einsum("nii->ni", pressure.covariance) * (gravity[2] / com[:, 2])[:, None] ** 2
         off = np.nanmean(np.where(inside[:, None], neglected, np.nan) ** 2, axis=0)
-        half = np.where(inside[:, None], HALF_95 * np.sqrt(of_point + off), np.nan)
+        half = np.where(inside[:, None], NORMAL_95 * np.sqrt(of_point + off), np.nan)
     return ComAcceleration(acceleration=acceleration, half_width_95=half)

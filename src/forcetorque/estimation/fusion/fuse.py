@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from forcetorque.arrays import FloatArray, IntArray
+from forcetorque.constants import NORMAL_95
 from forcetorque.errors import EstimationError
 from forcetorque.estimation.fusion.combination import combined
 from forcetorque.estimation.fusion.conflict import Conflict, conflict_between
@@ -20,9 +21,6 @@ FALSE_ALARM = 0.01
 
 WINDOW_S = 1.0
 """Length of the windows in which sources are compared: noise averages out, and motions are still seen; s."""
-
-_NORMAL_95 = 1.959963984540054
-"""Half a 95 % interval over the standard deviation of what is normal."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -48,7 +46,7 @@ class Fusion:
     @property
     def half_width(self) -> FloatArray:
         """Half of the 95 % intervals; shape (n, j); N m."""
-        half: FloatArray = _NORMAL_95 * np.sqrt(np.einsum("njj->nj", self.covariance))
+        half: FloatArray = NORMAL_95 * np.sqrt(np.einsum("njj->nj", self.covariance))
         return half
 
 

@@ -10,10 +10,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from forcetorque.arrays import FloatArray
+from forcetorque.constants import NORMAL_95
 from forcetorque.errors import RecordingError
 from forcetorque.evaluation.autocorrelation import autocorrelation
 from forcetorque.evaluation.oscillation.evened import EvenedSignal
-from forcetorque.evaluation.response.second_order import NORMAL_95
 
 END_SHARE = 1.0 / 3.0
 """Part of the time until the next step that tells where a signal ends, and how much it moves there anyway."""

@@ -12,8 +12,9 @@ from dataclasses import replace
 import numpy as np
 
 from forcetorque.arrays import FloatArray
+from forcetorque.constants import NORMAL_95
 from forcetorque.evaluation.response.frequency_response import FrequencyResponse, frequency_response
-from forcetorque.evaluation.response.second_order import NORMAL_95, SecondOrder, fit_second_order
+from forcetorque.evaluation.response.second_order import SecondOrder, fit_second_order
 from forcetorque.noise import half_width
 
 

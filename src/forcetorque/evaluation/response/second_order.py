@@ -13,11 +13,10 @@ from typing import Any
 import numpy as np
 
 from forcetorque.arrays import FloatArray, read_only
+from forcetorque.constants import NORMAL_95
 from forcetorque.errors import FitError
 from forcetorque.evaluation.response.frequency_response import FrequencyResponse
 
-NORMAL_95 = 1.959963984540054
-"""Deviations of half a 95 % interval of normal errors."""
 MISFIT = 2.0
 """Noise that a fit leaves, over that which coherence knows, from which on one resonance is too few."""
 _LEAST_FREQUENCIES = 4

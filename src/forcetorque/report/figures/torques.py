@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from forcetorque.arrays import FloatArray
+from forcetorque.constants import NORMAL_95
 from forcetorque.errors import ShapeError
 from forcetorque.report.figures.canvas import (
     REFERENCE_COLOUR,
@@ -29,8 +30,6 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-_HALF_WIDTH = 1.96
-"""Standard deviations of half an interval of 95 %."""
 _REFERENCE: dict[str, Any] = {"color": REFERENCE_COLOUR, "linestyle": (0, (4, 1.5)), "linewidth": 1.4}
 
 
@@ -102,7 +101,7 @@ def _draw(
     if sd is None:
         at, lines = thinned_line(time, torque[:, None])
     else:
-        half = _HALF_WIDTH * sd
+        half = NORMAL_95 * sd
         at, lines = thinned_line(time, np.column_stack([torque, torque - half, torque + half]))
         panel.fill_between(at, lines[:, 1], lines[:, 2], color=style.colour, alpha=0.2, linewidth=0.0)
     draw_over_time(panel, at, lines[:, 0], style, turn=turn, count=count)
