@@ -15,6 +15,7 @@ from forcetorque.errors import ExperimentError, known_names
 from forcetorque.experiment.content import ExperimentSensor
 from forcetorque.experiment.full_scale import full_scale_of
 from forcetorque.experiment.inputs import Inputs, stated_in
+from forcetorque.experiment.load_inertia import inertia_of_estimated, inertia_of_stated
 from forcetorque.experiment.loads.weighed_load import WeighedLoad, read_weighed
 from forcetorque.experiment.tables.link_load import LinkLoad
 from forcetorque.loads import Load, LoadEstimate, LoadProblem, LoadSolution, MatrixSpread, settled, solve
@@ -183,10 +184,8 @@ class LinkLoads:
         if load.is_known:
             return carrying(experiment.model, self.links[number], inertia_of_stated(load))
         solution = self.solution(experiment)
-        names = [one.name for one in solution.loads]
-        return carrying(
-            experiment.model, self.links[number], _inertia(solution, solution.loads[names.index(load.name)])
-        )
+        estimated = next(one for one in solution.loads if one.name == load.name)
+        return carrying(experiment.model, self.links[number], inertia_of_estimated(solution, estimated))
 
 
 def read_link_loads(
@@ -302,40 +301,6 @@ def carrying(model: RobotModel, link: str, load: Inertia) -> RobotModel:
         The robot with it.
     """
     return replace(model, links={**model.links, link: model.links[link] + load})
-
-
-def inertia_of_stated(load: Load) -> Inertia:
-    """Give the inertia of a load of which nothing is to be estimated.
-
-    Args:
-        load: The load.
-
-    Returns:
-        Its inertia in its own frame.
-    """
-    if not load.mass or isinstance(load.inertia, str):
-        return Inertia.zero()
-    return Inertia.about_centre_of_mass(
-        mass=load.mass,
-        centre_of_mass=np.zeros(3) if load.centre_of_mass is None else load.centre_of_mass,
-        second_moment=np.zeros((3, 3)) if load.inertia is None else load.inertia,
-    )
-
-
-def _inertia(solution: LoadSolution, estimate: LoadEstimate) -> Inertia:
-    if not estimate.is_determined:
-        words = "; ".join(entry.words for entry in solution.open_directions) or "no calibration interval has it"
-        raise ExperimentError(
-            f"load {estimate.name!r}: the calibration intervals do not determine it: {words}; `forcetorque payload` "
-            "says what they do determine, and mass_kg with centre_of_mass_m state the load"
-        )
-    if not estimate.mass >= 0.0:
-        words = "; ".join(entry.words for entry in solution.hypotheses) or "see `forcetorque payload`"
-        raise ExperimentError(
-            f"load {estimate.name!r}: the readings fit a mass of {estimate.mass:.3g} kg beside the links of the URDF; "
-            f"expected a positive one: {words}"
-        )
-    return estimate.as_inertia()
 
 
 def spread_of(experiment: Experiment, sensor: ExperimentSensor) -> MatrixSpread:

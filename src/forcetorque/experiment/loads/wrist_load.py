@@ -13,6 +13,7 @@ import numpy as np
 from forcetorque.errors import ExperimentError
 from forcetorque.experiment.content import ExperimentSensor
 from forcetorque.experiment.inputs import stated_in
+from forcetorque.experiment.load_inertia import inertia_of_estimated, inertia_of_stated
 from forcetorque.experiment.tables.wrist import Load as LoadTable
 from forcetorque.loads import Load, LoadProblem, LoadSolution, solve
 from forcetorque.recording import MovingSupport, Support, Use
@@ -70,13 +71,7 @@ class WristLoads:
             Its inertia in the frame of the sensor; zero where there are several, or something is to be estimated.
         """
         (load, *others) = self.loads
-        if others or not load.is_known or isinstance(load.inertia, str):
-            return Inertia.zero()
-        return Inertia.about_centre_of_mass(
-            mass=load.mass or 0.0,
-            centre_of_mass=np.zeros(3) if load.centre_of_mass is None else load.centre_of_mass,
-            second_moment=np.zeros((3, 3)) if load.inertia is None else load.inertia,
-        )
+        return Inertia.zero() if others or not load.is_known else inertia_of_stated(load)
 
     def problem(self, experiment: Experiment, *, use: Use = Use.CALIBRATION) -> LoadProblem:
         """Ask what intervals tell of the loads.
@@ -148,19 +143,8 @@ class WristLoads:
                 "then leave mount and tilt out"
             )
         solution = self.solution(experiment)
-        load = solution.loads[number]
-        if not load.is_determined:
-            words = "; ".join(entry.words for entry in solution.open_directions) or "no calibration interval has it"
-            raise ExperimentError(
-                f"load {load.name!r}: the calibration intervals do not determine it: {words}; `forcetorque payload` "
-                "says what they do determine, and mass_kg with centre_of_mass_m state the load"
-            )
-        if not load.mass >= 0.0:
-            words = "; ".join(entry.words for entry in solution.hypotheses) or "see `forcetorque payload`"
-            raise ExperimentError(
-                f"load {load.name!r}: the readings fit a mass of {load.mass:.3g} kg; expected a positive one: {words}"
-            )
-        return load_model(self.table, self.sensor.name, load.as_inertia())
+        inertia = inertia_of_estimated(solution, solution.loads[number])
+        return load_model(self.table, self.sensor.name, inertia)
 
 
 def read_loads(
