@@ -198,6 +198,21 @@ def test_an_arm_on_the_ceiling_is_weighed(example: SimpleNamespace, tmp_path: Pa
     assert load.mass_kg == pytest.approx(1.3, rel=0.03)
 
 
+def test_an_unknown_tool_is_no_point_mass(example: SimpleNamespace, tmp_path: Path) -> None:
+    """Its inertia lies within its interval; taken for none it moves the centre of mass, and with that the matrix."""
+    tool = {"gripper": TRUTH["gripper"]}
+    example.simulate(tmp_path, example_robot(UR5), seed=6, tools=tool, relative=0.0, duration_s=20.0)
+    file = tmp_path / "gripper.toml"
+    (load,) = weigh_load(_run(file)).loads
+    off = np.abs(np.array(load.inertia_kgm2) - 1.3 * 0.04**2 * np.eye(3))
+    assert (off < 2.0 * np.array(load.inertia_half_width_95_kgm2)).all()
+    point = f"inertia_kgm2 = {np.zeros((3, 3)).tolist()}"
+    file.write_text(file.read_text(encoding="utf-8").replace('link = "ee_link"', f'link = "ee_link"\n{point}'))
+    (taken,) = weigh_load(_run(file)).loads
+    right, wrong = (np.linalg.norm(np.subtract(one.centre_of_mass_m, TRUTH["gripper"][1])) for one in (load, taken))
+    assert right < 0.001 < 0.5 * wrong, (right, wrong)
+
+
 def test_a_tool_that_the_urdf_has_too_is_named(arm: tuple[Path, np.ndarray], tmp_path: Path) -> None:
     """Counted twice it is a warning; counted once it is none."""
     assert not any("have it already" in words for words in data_doubts(_run(arm[0] / "weight.toml")))
@@ -254,24 +269,33 @@ def test_recordings_that_say_different_things_of_one_tool_are_refused(
 
 
 @pytest.mark.long
-@pytest.mark.parametrize("weighed", [(), ("weight",)])
+@pytest.mark.parametrize(
+    ("tools", "weighed", "worse"),
+    [(("gripper",), (), (5, 5)), (("gripper", "weight"), (), (0, 1)), (("gripper", "weight"), ("weight",), (0, 0))],
+)
 def test_pushes_are_read_better_on_many_sensors(
-    example: SimpleNamespace, tmp_path: Path, weighed: tuple[str, ...]
+    example: SimpleNamespace, tmp_path: Path, tools: tuple[str, ...], weighed: tuple[str, ...], worse: tuple[int, int]
 ) -> None:
-    """Of twenty sensors no force is read worse than by the maker's matrix, nor a moment if one tool was weighed.
+    """Of forty sensors force and moment of few are read worse than by the maker's matrix, after one tool too.
 
-    If none was, moments of at most two are: a rate of one in sixty passes in 99.6 of 100 runs, one in four in 9.
+    That nobody weighed it: of a rate of one in twenty, which was measured, six of forty or more in 1 of 70 runs; of one
+    in four, as while the tool was taken for a point, five or fewer in 1 of 25.
     """
     ratios = []
-    for seed in range(20):
-        truth = example.simulate(tmp_path / str(seed), example_robot(UR5), seed=1000 + seed, weighed=weighed)
+    for seed in range(5000, 5040):
+        truth = example.simulate(
+            tmp_path / str(seed),
+            example_robot(UR5),
+            seed=seed,
+            weighed=weighed,
+            tools={tool: TRUTH[tool] for tool in tools},
+        )
         inverse = np.linalg.inv(truth)
-        matrix = example.calibrated(tmp_path / str(seed), tuple(TRUTH))
+        matrix = example.calibrated(tmp_path / str(seed), tools)
         ratios.append(np.divide(example.push_errors(matrix @ inverse), example.push_errors(inverse)))
-    force, moment = np.transpose(ratios)
-    assert force.max() < 1.0
-    assert (moment >= 1.0).sum() <= (0 if weighed else 2)
-    assert max(force.mean(), moment.mean()) < 0.85
+    ratio = np.array(ratios)
+    assert ((ratio >= 1.0).sum(axis=0) <= worse).all(), (ratio >= 1.0).sum(axis=0)
+    assert (ratio.mean(axis=0) < (0.9 if len(tools) == 1 else 0.6)).all(), ratio.mean(axis=0)
 
 
 ANSWERS = {

@@ -19,7 +19,9 @@ from forcetorque.experiment.load_inertia import inertia_of_estimated, inertia_of
 from forcetorque.experiment.loads.weighed_load import WeighedLoad, read_weighed
 from forcetorque.experiment.tables.link_load import LinkLoad
 from forcetorque.loads import Load, LoadEstimate, LoadProblem, LoadSolution, MatrixSpread, settled, solve
+from forcetorque.loads.fit import fit
 from forcetorque.loads.load import INERTIAL
+from forcetorque.loads.solve import load_estimates
 from forcetorque.recording import Interval, MovingSupport, Support, Use
 from forcetorque.robot import RobotModel, build_tree
 from forcetorque.robot.sub_model import path_to_root
@@ -252,7 +254,11 @@ def read_link_loads(
 
 
 def _stated(table: LinkLoad) -> Load:
-    return Load(name=table.name, mass=table.mass_kg, centre_of_mass=table.centre_of_mass_m, inertia=table.inertia_kgm2)
+    load = Load(name=table.name, mass=table.mass_kg, centre_of_mass=table.centre_of_mass_m, inertia=table.inertia_kgm2)
+    if load.is_known or load.inertia is not None:
+        return load
+    # taken for a point, what its inertia does passes for another centre of mass, and that for rows of the matrix
+    return replace(load, inertia="unknown")
 
 
 def _inboard_sensors(model: RobotModel, support: str, link: str) -> list[str]:
@@ -339,10 +345,10 @@ def with_matrix_in_part(problem: LoadProblem, spread: MatrixSpread) -> LoadProbl
     points = tuple(
         replace(load, inertia=None) if unknown else load for load, unknown in zip(problem.loads, free, strict=True)
     )
-    first = solve(settled(replace(problem, loads=points), spread))
+    first = fit(settled(replace(problem, loads=points), spread), drift=bool(problem.drift))
     sized = tuple(
         _of_usual_size(load, estimate) if unknown and estimate.is_determined else load
-        for load, estimate, unknown in zip(problem.loads, first.loads, free, strict=True)
+        for load, estimate, unknown in zip(problem.loads, load_estimates(first), free, strict=True)
     )
     return settled(replace(problem, loads=sized), spread)
 

@@ -31,7 +31,8 @@ class LinkLoad(Table):
     centre_of_mass_m: Annotated[FloatArray, ArrayField((3,))] | None = None
     """Centre of mass in the frame of the link; left out to estimate it."""
     inertia_kgm2: Annotated[FloatArray, ArrayField((3, 3))] | Literal["unknown"] | None = None
-    """Inertia about the centre of mass, along the link's axes; `unknown` to estimate it; a point mass if left out."""
+    """Inertia about the centre of mass, along the link's axes; `unknown` to estimate it. If left out it is estimated
+    where mass or centre of mass is, and that of a point mass where both are stated."""
     weighed: Path | None = Field(default=None, alias="from")
     """In place of these: the load of that name in a result of `forcetorque payload --format json`, as surely as it was
     told there."""
