@@ -24,7 +24,7 @@ from forcetorque.analysis import (
     weigh_load,
 )
 from forcetorque.analysis.payload.load_doubts import circular_loads
-from forcetorque.errors import ForceTorqueError
+from forcetorque.errors import FitError, ForceTorqueError
 from forcetorque.experiment import load_experiment
 from tests.robots import example_robot
 
@@ -183,19 +183,27 @@ def test_a_tool_weighed_by_a_wrong_sensor_hides_that_it_is_wrong(example: Simple
     assert circular[1] / circular[0] == pytest.approx(1.03 / 0.97, abs=0.01)
 
 
-def test_an_arm_on_the_ceiling_is_weighed(example: SimpleNamespace, tmp_path: Path) -> None:
-    """Gravity is that of the support."""
+DOWN = {"ceiling": (0.0, 0.0, 1.0), "wall": (0.0, -1.0, 0.0)}
+
+
+@pytest.mark.parametrize("place", DOWN)
+def test_an_arm_that_does_not_stand_upright_is_weighed(example: SimpleNamespace, tmp_path: Path, place: str) -> None:
+    """Gravity is that of the support; an arm on the wall that is said to stand upright is refused."""
+    tool = {"gripper": TRUTH["gripper"]}
     example.simulate(
-        tmp_path,
-        example_robot(UR5),
-        seed=5,
-        tools={"gripper": TRUTH["gripper"]},
-        gravity=(0.0, 0.0, 1.0),
-        relative=0.0,
-        duration_s=10.0,
+        tmp_path, example_robot(UR5), seed=5, tools=tool, gravity=DOWN[place], relative=0.0, duration_s=10.0
     )
-    (load,) = weigh_load(_run(tmp_path / "gripper.toml")).loads
+    file = tmp_path / "gripper.toml"
+    (load,) = weigh_load(_run(file)).loads
     assert load.mass_kg == pytest.approx(1.3, rel=0.03)
+    np.testing.assert_allclose(load.centre_of_mass_m, TRUTH["gripper"][1], atol=0.003)
+    if place == "wall":
+        text = file.read_text(encoding="utf-8")
+        stated = f"gravity_direction = {list(DOWN[place])}"
+        assert stated in text
+        file.write_text(text.replace(stated, "gravity_direction = [0.0, 0.0, -1.0]"), encoding="utf-8")
+        with pytest.raises(FitError, match="no matrix near its prior explains the readings.*gravity_direction"):
+            weigh_load(_run(file))
 
 
 def test_an_unknown_tool_is_no_point_mass(example: SimpleNamespace, tmp_path: Path) -> None:

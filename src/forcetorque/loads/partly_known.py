@@ -23,6 +23,7 @@ import numpy as np
 from forcetorque.arrays import FloatArray, IntArray
 from forcetorque.calibration.generative.assumptions import FRAME, SENSOR, Assumptions
 from forcetorque.calibration.generative.rows import rows_of
+from forcetorque.errors import FitError
 from forcetorque.loads.expected import Guess, load_columns, load_wrench
 from forcetorque.loads.fit import plain_fit
 from forcetorque.loads.groups import noise_sizes
@@ -34,6 +35,8 @@ _ROUNDS = 40
 """Rounds in which sizes and loads settle; eight are usual."""
 _SETTLED = 1e-4
 """Relative change of the sizes at which they are settled."""
+_FARTHEST = 0.5
+"""Size of the deviations beyond which the matrix is no longer known in part: they and the loads would run away."""
 _COMPONENTS = 6
 _KINDS: Final = (SENSOR, FRAME)
 
@@ -124,6 +127,9 @@ def settled(problem: LoadProblem, spread: MatrixSpread) -> LoadProblem:
 
     Returns:
         The problem with `matrix_prior` and `slope`, to solve.
+
+    Raises:
+        FitError: If no matrix near the prior explains the rows.
     """
     sizes = spread.expected
     problem = replace(problem, matrix_prior=spread.covariance(sizes))
@@ -133,6 +139,11 @@ def settled(problem: LoadProblem, spread: MatrixSpread) -> LoadProblem:
         posterior = _covariance_of_rows(problem, guess, noise)
         told = spread.told(sizes, guess.response - np.eye(_COMPONENTS), posterior)
         slope = _slope(problem, guess, posterior, noise)
+        if told.max() > _FARTHEST:
+            raise FitError(
+                f"loads: no matrix near its prior explains the readings, it would have to be {told.max():.0%} off; "
+                "check gravity_direction and measure_direction, the units of joints and wrench, and the prior"
+            )
         change = np.abs(told / sizes - 1.0).max()
         sizes = told
         problem = replace(problem, matrix_prior=spread.covariance(sizes), slope=slope)
