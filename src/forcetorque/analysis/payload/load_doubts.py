@@ -45,8 +45,8 @@ def load_doubts(run: SensorRun) -> Iterator[str]:
     hung = {load.name for own in (loads, *_beside(loads)) for load in own.loads if load.mass != 0.0}
     if names and len(hung) == 1:
         yield (
-            f"load {names}: one tool moves three of the six directions of a wrench, and may leave moments worse than "
-            "the maker's matrix; record a second one, with its centre of mass elsewhere"
+            f"load {names}: one tool moves three of the six directions of a wrench, the others stay as the prior has "
+            "them; record a second one, with its centre of mass elsewhere"
         )
     yield from circular_loads(run)
     if loads.sensor is not None and run.has(Use.CALIBRATION):
