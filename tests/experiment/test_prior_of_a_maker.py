@@ -152,7 +152,11 @@ def test_a_board_file_and_a_plain_table_are_priors(tmp_path: Path) -> None:
         ('{ path = "board.dat", volts_per_count = 1.0 }', "SN7", "expected no volts_per_count: FirmwareUpdater file"),
         ('{ path = "board.dat", force_unit = "N" }', "SN7", "expected no force_unit nor moment_unit"),
         ('"ati.cal"', "FT7", r"expected volts_per_count, for ATI calibration 1.0 of Gamma SI-65-5 is per volt"),
-        ('"model.xml"', "SN7", "expected a matrix that takes counts, got model file of Mohamed 2023"),
+        (
+            '"model.xml"',
+            "SN7",
+            'expected a matrix that takes counts, got model file of Mohamed 2023.*prior = "identity"',
+        ),
         ('"robot.urdf"', "SN7", "expected a calibration: .*; got XML with the root 'robot'"),
         ('{ path = "board.dat", gain = 2 }', "SN7", "unknown key 'gain'"),
     ],

@@ -92,8 +92,8 @@ def _volts_per_count(file: PriorFile, stated: schema.PriorTable) -> float:
     """What makes the matrix per count."""
     if file.raw_unit is RawUnit.WRENCH:
         raise ExperimentError(
-            f"prior: expected a matrix that takes counts, got {file.form}, which corrects wrenches; for a stream of "
-            'wrenches state prior = "identity"'
+            f"prior: expected a matrix that takes counts, got {file.form}, which corrects wrenches of another "
+            'calibration; apply it to the log, or leave it out, and state prior = "identity" for a stream of wrenches'
         )
     if file.raw_unit is RawUnit.COUNTS:
         if stated.volts_per_count is not None:

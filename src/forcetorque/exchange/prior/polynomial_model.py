@@ -114,7 +114,8 @@ def _read(root: Element | None) -> PolynomialModel:
     if order != 1 or outputs != 6 or lags[0] != 0 or lags[1] > 1:
         raise FormatError(
             f"expected a linear model (np 1) of six outputs without memory (na 0, nb 0 or 1), got np {order}, "
-            f"ny {outputs}, na {lags[0]}, nb {lags[1]}; no matrix does what that does"
+            f"ny {outputs}, na {lags[0]}, nb {lags[1]}; no matrix does what that does: apply it to the log, "
+            'and state prior = "identity" for a stream of wrenches'
         )
     rows = sorted((int(match[1]), text) for name, text in params.items() if (match := _ROW.fullmatch(name)))
     if len(rows) != inputs + 1 or [k for k, _ in rows] != list(range(rows[0][0], rows[0][0] + len(rows))):
