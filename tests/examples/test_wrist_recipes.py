@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from forcetorque.analysis import SensorRun, weigh_load
@@ -14,6 +15,55 @@ from forcetorque.experiment import Experiment, load_experiment
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
 
 pytestmark = pytest.mark.real_data
+
+AT_REST = """schema = "forcetorque/experiment/1"
+name = "wrist sensor at rest"
+
+[load]
+frame = "wrist_ft"
+motion = ["imu"]
+measure_direction = "child_to_parent"
+
+[recording]
+format = "tabular"
+path = "../../shared/data/ati_gamma_kuka_med14_skrede"
+
+[[recording.stream]]
+name = "wrench"
+file = "0-steady-state_wrench.csv"
+rate_hz = 698.0
+start_s = 0.0
+
+[[recording.stream.signal]]
+quantity = "wrench"
+columns = ["fx", "fy", "fz", "tx", "ty", "tz"]
+units = ["N", "N", "N", "N m", "N m", "N m"]
+frame = "wrist_ft"
+
+[[recording.stream]]
+name = "imu"
+file = "0-steady-state_accel.csv"
+rate_hz = 254.0
+start_s = 0.0
+
+[[recording.stream.signal]]
+quantity = "proper_acceleration"
+columns = ["ax", "ay", "az"]
+units = ["g", "g", "g"]
+frame = "imu"
+
+[[sensor]]
+name = "wrist"
+stream = "wrench"
+serial = "ATI Gamma"
+prior = "identity"
+
+[[interval]]
+label = "at rest"
+start_s = 0.0
+use = "validation"
+"""
+"""The two files without a time and without a pose."""
 
 
 def _load(text: str, data_dir: Path, tmp_path: Path) -> Experiment:
@@ -54,3 +104,19 @@ def test_a_wrench_of_the_base_frame(data_dir: Path, tmp_path: Path) -> None:
     untold = (text[:begin] + text[end:]).replace('frame = "base"', 'frame = "wrist_ft"')
     experiment = _load(untold, data_dir, tmp_path)
     assert abs((weigh_load(SensorRun(experiment, experiment.sensors[0])).loads[0].mass_kg or 0.0) - 1.164) > 0.5
+
+
+def test_a_second_at_rest_is_read_without_time_or_pose(data_dir: Path, tmp_path: Path) -> None:
+    """Its force less the bias weighs what the poses say, about the same point; with the bias of no load it does not."""
+    still = _load(AT_REST, data_dir, tmp_path).recording
+    assert [len(still.stream(name)) for name in ("wrench", "imu")] == [698, 256]
+    reading = still.stream("wrench").signal("wrench").values.mean(axis=0)
+    experiment = _load((EXAMPLES / "07_wrist_payload.toml").read_text(), data_dir, tmp_path)
+    assert experiment.wrist is not None
+    solution = experiment.wrist.solution(experiment)
+    (load,), (session,) = solution.loads, solution.sessions
+    wrench = reading - session.bias
+    gravity = 9.82085
+    assert np.linalg.norm(wrench[:3]) == pytest.approx(gravity * load.mass, abs=0.1)
+    np.testing.assert_allclose(wrench[3:], np.cross(load.centre_of_mass, wrench[:3]), atol=0.01)
+    assert abs(np.linalg.norm(reading[:3]) - gravity * load.mass) > 5.0
