@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -12,6 +13,8 @@ from scipy.spatial.transform import Rotation
 from forcetorque.errors import FitError
 from forcetorque.exchange.tabular import TableLayout, TableSignal, read_table
 from forcetorque.loads import Load, LoadProblem, LoadRows, solve
+from forcetorque.loads.fit import plain_fit
+from forcetorque.loads.unknowns import Kind
 from forcetorque.robot import ForceTorqueSensor, JointMotion, RobotModel, RootMotion, build_tree, expected_wrenches
 from forcetorque.robot.model import Joint, JointType, SensorFrame
 from forcetorque.spatial import Inertia, MeasureDirection
@@ -160,6 +163,30 @@ def test_a_matrix_that_is_known_in_part_widens_the_mass() -> None:
     known = (Load(name="tool", mass=MASS, centre_of_mass=CENTRE),)
     response = solve(problem_of(louder, gravity, loads=known, matrix_prior=prior)).response
     np.testing.assert_allclose(np.diag(response)[:3], 1.02, atol=0.002)
+
+
+def test_a_slope_moves_a_mass_by_its_variance() -> None:
+    """By the closed form: a slope of the density moves the least squares by it times the variance under the noise.
+
+    Set against the whole reading, which is what is left before the first step, it would move the mass by 100 kg.
+    """
+    rng, force_noise, slope = np.random.default_rng(3), 0.02, 1e4
+    acceleration = rng.normal(size=(40, 3))
+    acceleration *= 9.8 / np.linalg.norm(acceleration, axis=1, keepdims=True)
+    reading = np.hstack([1.3 * acceleration, np.zeros((40, 3))])
+    reading += rng.normal(size=(40, 6)) * np.repeat([force_noise, 1e-3], 3)
+    problem = LoadProblem(
+        rows=LoadRows.of_poses(reading, acceleration),
+        loads=(Load(name="tool", centre_of_mass=np.zeros(3)),),
+        sessions=("all",),
+        blocks=("poses",),
+        direction=MeasureDirection.PARENT_TO_CHILD,
+        drift=False,
+    )
+    steep = replace(problem, slope=(np.append(slope, np.zeros(9)),))
+    flat_mass, steep_mass = (plain_fit(one, drift=False)[0].of(Kind.MASS)[0] for one in (problem, steep))
+    variance = force_noise**2 / ((acceleration - acceleration.mean(axis=0)) ** 2).sum()
+    assert flat_mass - steep_mass == pytest.approx(slope * variance, rel=0.2)
 
 
 def test_rows_must_be_finite_and_named() -> None:

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -104,6 +104,7 @@ def plain_fit(
     counts = rows.share * (np.ones(len(rows)) if weight is None else weight)
     guess = Guess.zero(unknowns_of(problem, drift=drift), first_mount(problem) if problem.mount else None)
     now = expected(problem, guess)
+    flat = replace(problem, slope=())
     sizes = noise_sizes(rows.wrench - now)
     rounding = _ROUNDING * noise_sizes(rows.wrench)
     for step in range(_STEPS):
@@ -112,11 +113,13 @@ def plain_fit(
         if alike:
             sizes = np.repeat(np.sqrt((sizes.reshape(2, 3) ** 2).mean(axis=1)), 3)
         root = np.sqrt(counts)[:, None] / sizes
-        moved = _step(problem, guess, changes(problem, guess) * root[:, :, None], residual * root)
+        # the slope is that under the noise at the end: against that of the first steps it would outweigh the rows
+        posed = problem if step >= _WEIGHED else flat
+        moved = _step(posed, guess, changes(problem, guess) * root[:, :, None], residual * root)
         guess = guess.moved(guess.values + moved)
         before, now = now, expected(problem, guess)
         shift = np.abs((now - before) / np.maximum(_SETTLED * sizes, rounding)).max(initial=0.0)
-        if shift < 1.0 and (step >= _WEIGHED or alike):
+        if shift < 1.0 and (step >= _WEIGHED or (alike and not problem.slope)):
             break
     return guess, rows.wrench - now
 

@@ -345,7 +345,9 @@ def with_matrix_in_part(problem: LoadProblem, spread: MatrixSpread) -> LoadProbl
     points = tuple(
         replace(load, inertia=None) if unknown else load for load, unknown in zip(problem.loads, free, strict=True)
     )
-    first = fit(settled(replace(problem, loads=points), spread), drift=bool(problem.drift))
+    # only their places are wanted of it: sizes of the matrix would run after what the inertias do
+    expected = replace(problem, loads=points, matrix_prior=spread.covariance(spread.expected))
+    first = fit(expected, drift=bool(problem.drift))
     sized = tuple(
         _of_usual_size(load, estimate) if unknown and estimate.is_determined else load
         for load, estimate, unknown in zip(problem.loads, load_estimates(first), free, strict=True)
