@@ -9,8 +9,8 @@ import numpy as np
 
 from forcetorque.analysis.runs.sensor_run import SensorRun
 from forcetorque.arrays import FloatArray, IntArray
-from forcetorque.experiment.load_inertia import inertia_of_stated
 from forcetorque.experiment.loads.link_loads import LinkLoads
+from forcetorque.experiment.loads.load_inertia import inertia_of_stated
 from forcetorque.loads.unknowns import six_of
 from forcetorque.recording import Use
 from forcetorque.spatial import reading_sign

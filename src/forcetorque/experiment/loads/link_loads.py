@@ -15,7 +15,7 @@ from forcetorque.errors import ExperimentError, known_names
 from forcetorque.experiment.content import ExperimentSensor
 from forcetorque.experiment.full_scale import full_scale_of
 from forcetorque.experiment.inputs import Inputs, stated_in
-from forcetorque.experiment.load_inertia import inertia_of_estimated, inertia_of_stated
+from forcetorque.experiment.loads.load_inertia import inertia_of_estimated, inertia_of_stated
 from forcetorque.experiment.loads.weighed_load import WeighedLoad, read_weighed
 from forcetorque.experiment.tables.link_load import LinkLoad
 from forcetorque.loads import Load, LoadEstimate, LoadProblem, LoadSolution, MatrixSpread, settled, solve

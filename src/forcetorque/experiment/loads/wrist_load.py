@@ -13,7 +13,7 @@ import numpy as np
 from forcetorque.errors import ExperimentError
 from forcetorque.experiment.content import ExperimentSensor
 from forcetorque.experiment.inputs import stated_in
-from forcetorque.experiment.load_inertia import inertia_of_estimated, inertia_of_stated
+from forcetorque.experiment.loads.load_inertia import inertia_of_estimated, inertia_of_stated
 from forcetorque.experiment.tables.wrist import Load as LoadTable
 from forcetorque.loads import Load, LoadProblem, LoadSolution, solve
 from forcetorque.recording import MovingSupport, Support, Use
