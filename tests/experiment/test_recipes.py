@@ -77,7 +77,7 @@ start_s = 0
 use = "calibration"
 """
 TEXT = HEAD + POSE + WRENCH + TRANSFORM + REST
-TURN = Rotation.random(30, rng=np.random.default_rng(3))
+TURN = Rotation.random(30, random_state=np.random.default_rng(3))
 SENSED = np.random.default_rng(4).normal(0.0, 5.0, size=(30, 6))
 """Wrench along the sensor's axes."""
 

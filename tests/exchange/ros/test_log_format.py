@@ -25,7 +25,7 @@ ROWS = 30
 RNG = np.random.default_rng(4)
 WRENCHES = RNG.normal(size=(ROWS, 6))
 POSITIONS = RNG.normal(size=(ROWS, 3))
-ROTATIONS = Rotation.random(ROWS, rng=5).as_quat()
+ROTATIONS = Rotation.random(ROWS, random_state=5).as_quat()
 STAMPS = START_NS + PERIOD_NS * np.arange(ROWS)
 EMPTY = np.zeros(0)
 KINDS = {name: f"{package}/msg/{name}" for package, name in [("geometry_msgs", "WrenchStamped")]} | {
