@@ -131,17 +131,6 @@ class World:
             sole_jacobian=self._sole_jacobian[..., self._order],
         )
 
-    def mass_matrices(self) -> FloatArray:
-        """Give the mass matrices of the postures that were looked at.
-
-        Returns:
-            With the rotors; shape (B, 18, 18).
-        """
-        matrices = np.zeros((len(self.copies), self.model.nv, self.model.nv))
-        for matrix, data in zip(matrices, self.copies, strict=True):
-            self._mujoco.mj_fullM(self.model, data, matrix)
-        return matrices[:, self._order[:, None], self._order]
-
     def advance(
         self, torque: FloatArray, awake: BoolArray, *, pelvis_N: float = 0.0, soles: FloatArray | None = None
     ) -> tuple[FloatArray, FloatArray]:
