@@ -43,17 +43,18 @@ def response_figure(response: Response) -> Figure:
     """
     decays = response.decays[:MOST_DECAYS]
     curved = response.curve is not None
-    rows = (1 if curved else 0) + -(-len(decays) // _COLUMNS)
-    figure = new_figure(ROW_INCHES[1] * 0.9 * max(rows, 1))
-    grid = figure.add_gridspec(max(rows, 1), 12)
+    decay_rows = -(-len(decays) // _COLUMNS)
+    rows = max(curved + decay_rows, 1)
+    figure = new_figure(ROW_INCHES[1] * 0.9 * rows)
+    # a grid inside for each kind of panel: of columns that both divide, Matplotlib 3.8 leaves the panels nothing
+    grid = figure.add_gridspec(rows, 1)
     if response.curve is not None:
-        panels = [figure.add_subplot(grid[0, 4 * k : 4 * k + 4]) for k in range(3)]
-        _bode(panels, response.curve, response)
-    width = 12 // _COLUMNS
-    for k, decay in enumerate(decays):
-        row, column = divmod(k, _COLUMNS)
-        panel = figure.add_subplot(grid[row + (1 if curved else 0), width * column : width * (column + 1)])
-        _decay(panel, decay, first=column == 0, signal=response.signal)
+        third = grid[0].subgridspec(1, 3)
+        _bode([figure.add_subplot(third[k]) for k in range(3)], response.curve, response)
+    if decays:
+        quarter = grid[int(curved) :].subgridspec(decay_rows, _COLUMNS)
+        for k, decay in enumerate(decays):
+            _decay(figure.add_subplot(quarter[k]), decay, first=k % _COLUMNS == 0, signal=response.signal)
     keys: list[tuple[str, Any]] = [
         ("measured", {"color": _MEASURED.colour, "linestyle": _MEASURED.dashes}),
         ("fitted", {"color": _FITTED.colour, "linestyle": _FITTED.dashes}),
