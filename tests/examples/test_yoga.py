@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import subprocess
 import sys
 from dataclasses import replace
 from pathlib import Path
@@ -26,6 +25,7 @@ from forcetorque.estimation import SensorSamples
 from forcetorque.experiment import Experiment, load_experiment
 from forcetorque.recording import Use
 from forcetorque.recording.smoothing import smooth
+from tests.page_scripts import printed
 
 ROOT = Path(__file__).resolve().parents[2]
 YOGA = sorted((ROOT / "examples").glob("0[2-5]_icub_yoga_*.toml"))
@@ -166,14 +166,15 @@ def test_joints_that_the_sensor_does_not_need_may_be_absent(data_dir: Path, tmp_
     assert set(experiment.recording.streams) == {"right_leg_ft", "left_leg", "right_leg"}
 
 
-def test_the_curve_script_shows_every_lambda(data_dir: Path, tmp_path: Path) -> None:
+def test_the_curve_script_shows_every_lambda(data_dir: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """The example script prints a row per candidate and marks one."""
     copy = tmp_path / YOGA[0].name
     copy.write_text(YOGA[0].read_text(encoding="utf-8").replace("../../shared/data", data_dir.as_posix()))
     script = ROOT / "examples" / "06_lambda_curve.py"
-    done = subprocess.run([sys.executable, str(script), str(copy)], capture_output=True, text=True, check=True)
-    assert done.stdout.count("<- chosen") == 1
-    assert len(done.stdout.splitlines()) > 40
+    monkeypatch.setattr(sys, "argv", [script.name, str(copy)])
+    shown = printed(script.read_text(encoding="utf-8"), script.name)
+    assert shown.count("<- chosen") == 1
+    assert len(shown.splitlines()) > 40
 
 
 def test_nothing_touches_the_free_leg(data_dir: Path, tmp_path: Path) -> None:
