@@ -78,6 +78,7 @@ def test_the_readme_shows_what_the_demo_prints(demo: tuple[Path, str]) -> None:
     assert printed[-len(shown) :] == shown
 
 
+@pytest.mark.usefixtures("blank_pictures")
 def test_the_readmes_script_runs(demo: tuple[Path, str], monkeypatch: pytest.MonkeyPatch) -> None:
     """The Python block of the README runs after the demo: short, and with the verdict of the command line."""
     folder, output = demo
