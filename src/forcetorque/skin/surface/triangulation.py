@@ -8,6 +8,7 @@ see one diagonal and some the other, and the triangles with more votes win.
 
 from __future__ import annotations
 
+from functools import lru_cache
 from typing import Final
 
 import numpy as np
@@ -30,20 +31,31 @@ _SAME_LENGTH_M: Final = 1e-9
 def surface_triangles(positions: FloatArray, longest_edge_m: float) -> IntArray:
     """Join points of a surface to triangles whose inner edges belong to two of them.
 
+    Normals and pressures each ask for the surface of the same taxels, every recording again: the last ones are kept.
+
     Args:
         positions: Points, all of them distinct; shape (n, 3); m.
         longest_edge_m: Longest edge; m.
 
     Returns:
-        Triangles, in no particular orientation; shape (m, 3).
+        Triangles, in no particular orientation; shape (m, 3); read-only.
     """
+    return _triangles_between(positions.tobytes(), longest_edge_m)
+
+
+@lru_cache(maxsize=16)
+def _triangles_between(points: bytes, longest_edge_m: float) -> IntArray:
+    """Those triangles, of points as their bytes."""
+    positions = np.frombuffer(points).reshape(-1, 3)
     candidates, votes = _voted_triangles(positions, longest_edge_m)
     sides = np.linalg.norm(positions[candidates] - positions[np.roll(candidates, 1, axis=1)], axis=2)
     longest = sides.max(axis=1)
     # taxels on a line, as along the side of a module, make triangles of nothing but rounding
     fits = (longest <= longest_edge_m) & (_circumradius(positions[candidates], sides) <= longest_edge_m)
     order = np.lexsort((np.rint(longest[fits] / _SAME_LENGTH_M), -votes[fits]))
-    return _without_overlap(positions, candidates[fits][order])
+    triangles = _without_overlap(positions, candidates[fits][order])
+    triangles.setflags(write=False)
+    return triangles
 
 
 def _circumradius(corners: FloatArray, sides: FloatArray) -> FloatArray:
