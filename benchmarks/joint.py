@@ -17,7 +17,7 @@ from forcetorque.arrays import FloatArray
 from forcetorque.calibration.joint import Stretch, UntouchedStretch, fit_stretches
 from forcetorque.estimation.part_equations import part_equations
 from forcetorque.experiment import load_experiment
-from forcetorque.experiment.simulated import write_scenario
+from forcetorque.experiment.simulated.recordings import write_scenario
 from forcetorque.recording import Use
 from forcetorque.robot import JointMotion, RootMotion
 from forcetorque.simulation.scenario import ScenarioFile, build_scenario, bundled_scenario

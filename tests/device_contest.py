@@ -9,8 +9,8 @@ from pathlib import Path
 
 import numpy as np
 
-from forcetorque.analysis.contest_entries import Contestant, ContestRun
-from forcetorque.analysis.contest_file import PHASES, Method
+from forcetorque.analysis.contest.entries import Contestant, ContestRun
+from forcetorque.analysis.contest.file import PHASES, Method
 from forcetorque.arrays import FloatArray
 from forcetorque.estimation import Processing
 from forcetorque.evaluation.contest import MotionPath, trial_of

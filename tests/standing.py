@@ -9,12 +9,12 @@ from pathlib import Path
 
 import numpy as np
 
-from forcetorque.analysis.reading import Correction
+from forcetorque.analysis.runs.reading import Correction
 from forcetorque.arrays import FloatArray, IntArray
 from forcetorque.calibration import WrenchModel
 from forcetorque.estimation.balance import Sole
 from forcetorque.experiment import Experiment, load_experiment
-from forcetorque.experiment.simulated import write_scenario
+from forcetorque.experiment.simulated.recordings import write_scenario
 from forcetorque.experiment.soles import ExperimentSole
 from forcetorque.recording import Interval, Recording, Signal, Stream, Support, Use, read_recording
 from forcetorque.recording.alignment import interpolate

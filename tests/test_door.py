@@ -20,16 +20,16 @@ def test_a_question_is_imported_without_the_others() -> None:
     listed = "import sys; print(*(name for name in sys.modules if name.startswith('forcetorque.analysis')))"
     one = set(_run(f"from forcetorque.analysis import weigh_load; {listed}").split())
     every = set(_run(f"from forcetorque.analysis import *; {listed}").split())
-    assert "forcetorque.analysis.payload" in one
-    assert not {"forcetorque.analysis.device", "forcetorque.analysis.skin_wrench"} & one
-    assert {"forcetorque.analysis.device", "forcetorque.analysis.skin_wrench"} < every
+    assert "forcetorque.analysis.payload.payload" in one
+    assert not {"forcetorque.analysis.device.device", "forcetorque.analysis.skin.wrench"} & one
+    assert {"forcetorque.analysis.device.device", "forcetorque.analysis.skin.wrench"} < every
     assert len(one) < 0.5 * len(every)
 
 
-@pytest.mark.parametrize("before", ["", "import forcetorque.analysis.evaluate; "])
+@pytest.mark.parametrize("before", ["", "import forcetorque.analysis.evaluate.evaluate; "])
 def test_a_function_wins_over_the_module_of_its_name(before: str) -> None:
     """Whether the module was imported before or was not."""
-    code = f"{before}from forcetorque.analysis import evaluate; import forcetorque.analysis.evaluate; "
+    code = f"{before}from forcetorque.analysis import evaluate; import forcetorque.analysis.evaluate.evaluate; "
     assert _run(
         code + "from forcetorque.analysis import evaluate as again; print(callable(evaluate), again is evaluate)"
     ) == ("True True\n")

@@ -10,6 +10,7 @@ import sys
 import tomllib
 from collections.abc import Iterable, Iterator
 from functools import cache
+from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
 
 import pytest
@@ -136,6 +137,34 @@ def test_a_number_in_the_command_line_is_noticed(tmp_path: Path) -> None:
 def test_a_later_package_is_noticed() -> None:
     """Negative control: an import against the order is a violation."""
     assert _violations("recording", {"spatial", "errors", "calibration"}) == {"calibration"}
+
+
+def _questions() -> dict[str, set[str]]:
+    """Of every question in `analysis`, a file or a folder, the others that it imports."""
+    graph: dict[str, set[str]] = {}
+    for path in _files("analysis"):
+        question = path.relative_to(ROOT / "analysis").with_suffix("").parts[0]
+        modules = [node.module for node in _nodes(path) if isinstance(node, ast.ImportFrom) and node.module]
+        others = {name.split(".")[2] for name in modules if name.startswith("forcetorque.analysis.")}
+        if question != "__init__":
+            graph.setdefault(question, set()).update(others - {question})
+    return graph
+
+
+def test_questions_do_not_import_each_other_in_circles() -> None:
+    """A question may ask another, but not be asked by it; all stand on `runs`, which asks none."""
+    questions = _questions()
+    assert list(TopologicalSorter(questions).static_order())
+    assert questions["runs"] == set()
+    assert sum("runs" in others for others in questions.values()) > 15
+
+
+def test_a_circle_of_questions_is_noticed() -> None:
+    """Negative control: calibrating asks what was weighed, so weighing may not calibrate."""
+    questions = _questions()
+    questions["payload"].add("calibration")
+    with pytest.raises(CycleError):
+        TopologicalSorter(questions).prepare()
 
 
 DISTRIBUTIONS = {

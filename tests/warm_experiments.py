@@ -13,7 +13,7 @@ from pathlib import Path
 
 import numpy as np
 
-from forcetorque.analysis.samples import samples_over
+from forcetorque.analysis.runs.samples import samples_over
 from forcetorque.arrays import FloatArray, IntArray
 from forcetorque.experiment import load_experiment
 from forcetorque.recording import QUANTITIES, Recording, Signal, Stream, read_recording, write_recording

@@ -24,7 +24,7 @@ from forcetorque.calibration import Calibration
 from forcetorque.calibration.joint import ModelTolerance
 from forcetorque.errors import RobotError
 from forcetorque.experiment import Experiment, load_experiment
-from forcetorque.experiment.simulated import write_scenario
+from forcetorque.experiment.simulated.recordings import write_scenario
 from forcetorque.simulation.scenario import ScenarioFile, build_scenario, bundled_scenario, simulate, trace_recordings
 
 WAYS = {"sway": ["sway"], "steps": ["stepping"], "both": ["sway", "stepping"]}

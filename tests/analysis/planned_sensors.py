@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from forcetorque.analysis import SensorRun
-from forcetorque.analysis.plan_proposal import Proposal
+from forcetorque.analysis.plan.proposal import Proposal
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration import DataSet, LinearVariable
 from forcetorque.calibration.generative import REPEATABILITY, Assumptions, GenerativeFit, WindowMeans, fit_generative

@@ -10,8 +10,8 @@ from typing import cast
 
 import numpy as np
 
-from forcetorque.analysis.use_judge import HOPELESS, UseJudge
-from forcetorque.analysis.use_verdict import Decision
+from forcetorque.analysis.use.judge import HOPELESS, UseJudge
+from forcetorque.analysis.use.verdict import Decision
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration import Calibration, DataSet
 from forcetorque.calibration.generative import GenerativeFit

@@ -25,7 +25,7 @@ from forcetorque.analysis import (
     evaluate,
     read_acceptance,
 )
-from forcetorque.analysis.validity import sentences
+from forcetorque.analysis.runs.validity import sentences
 from forcetorque.calibration import Calibration, FittedInterval, Selection
 from forcetorque.errors import ExperimentError, ForceTorqueError, FormatError, MissingFileError
 from forcetorque.evaluation import Offset

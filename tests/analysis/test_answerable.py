@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import pytest
 
-from forcetorque.analysis.answerable import narrowed
+from forcetorque.analysis.estimate.answerable import narrowed
 from forcetorque.errors import ExperimentError
 from forcetorque.estimation import Contact, ContactType, Question, TorqueSum
 from forcetorque.robot import build_tree, read_urdf

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 import pytest
 
-from forcetorque.analysis.balance_rows import phase_rows
-from forcetorque.analysis.interval_balance import IntervalBalance
+from forcetorque.analysis.balance.interval_balance import IntervalBalance
+from forcetorque.analysis.balance.rows import phase_rows
 from forcetorque.arrays import FloatArray
 from forcetorque.estimation.balance import ContactThresholds, support_phases
 from forcetorque.noise import mean_error

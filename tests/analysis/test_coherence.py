@@ -10,13 +10,13 @@ import numpy as np
 import pytest
 
 from forcetorque.analysis import Coherence, coherence, corrections_of, estimate_experiment, force_error
-from forcetorque.analysis.estimate_summary import summarise_estimates
-from forcetorque.analysis.still import still_seconds
+from forcetorque.analysis.estimate.summary import summarise_estimates
+from forcetorque.analysis.runs.still import still_seconds
 from forcetorque.arrays import FloatArray
 from forcetorque.errors import ExperimentError, FitError
 from forcetorque.evaluation import Offset, OffsetPolicy
 from forcetorque.experiment import Experiment, load_experiment
-from forcetorque.experiment.simulated import write_scenario
+from forcetorque.experiment.simulated.recordings import write_scenario
 from forcetorque.recording import Interval, Use
 from forcetorque.simulation.scenario import SimulatedRecording, build_scenario, simulate
 from tests.coherence_truth import net_force_errors, stamps_in

@@ -11,7 +11,7 @@ import pytest
 
 from forcetorque.analysis import SensorRun, calibrate_sensor, coherence
 from forcetorque.experiment import Experiment, load_experiment
-from forcetorque.experiment.simulated import write_scenario
+from forcetorque.experiment.simulated.recordings import write_scenario
 from forcetorque.simulation.scenario import Scenario, SimulatedRecording, build_scenario, simulate, trace_recordings
 from tests.switchings import short_switching
 

@@ -18,8 +18,8 @@ from forcetorque.analysis import (
     evaluate,
     joint_torques,
 )
-from forcetorque.analysis.contact_wrenches import contact_wrenches
-from forcetorque.analysis.free_sub_model import FreeSubModel
+from forcetorque.analysis.runs.free_sub_model import FreeSubModel
+from forcetorque.analysis.validate.contact_wrenches import contact_wrenches
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration import Calibration
 from forcetorque.errors import EstimationError, ExperimentError, SerialNumberError

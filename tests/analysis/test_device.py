@@ -20,8 +20,8 @@ GAP_DEG = 3.0
 def design() -> DeviceDesign:
     """Three sensors in the stack, without what it excites and what is demanded of it."""
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("forcetorque.analysis.device.device_demands", lambda _: DeviceDemands.model_construct())
-        patch.setattr("forcetorque.analysis.device.device_span", lambda _: DeviceSpan.model_construct())
+        patch.setattr("forcetorque.analysis.device.device.device_demands", lambda _: DeviceDemands.model_construct())
+        patch.setattr("forcetorque.analysis.device.device.device_span", lambda _: DeviceSpan.model_construct())
         return design_device(read_device().with_sensors(3))
 
 

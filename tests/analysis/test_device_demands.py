@@ -8,9 +8,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from forcetorque.analysis.device_demand_rows import RequirementRow, Verdict
-from forcetorque.analysis.device_demands import DeviceDemands, device_demands
-from forcetorque.analysis.device_requirements import requirement_rows
+from forcetorque.analysis.device.demand_rows import RequirementRow, Verdict
+from forcetorque.analysis.device.demands import DeviceDemands, device_demands
+from forcetorque.analysis.device.requirements import requirement_rows
 from forcetorque.errors import RobotError
 from forcetorque.exsitu.device import (
     DeviceMotion,

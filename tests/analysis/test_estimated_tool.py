@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 
 from forcetorque.analysis import SensorRun
-from forcetorque.analysis.generative_calibration import generative_calibration
-from forcetorque.analysis.recording_moments import recording_moments
+from forcetorque.analysis.calibration.generative import generative_calibration
+from forcetorque.analysis.calibration.recording_moments import recording_moments
 from forcetorque.calibration import RecordingMoments, read_moments
 from forcetorque.experiment import load_experiment
 from tests.robots import example_robot

@@ -10,11 +10,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from forcetorque.analysis.plan_proposal import Demand, Effort, proposals
-from forcetorque.analysis.plan_workplace import Workplace, supports_of, workplaces
+from forcetorque.analysis.plan.proposal import Demand, Effort, proposals
+from forcetorque.analysis.plan.workplace import Workplace, supports_of, workplaces
 from forcetorque.calibration.generative import Assumptions
 from forcetorque.evaluation.planning import Criterion, Knowledge, Nuisance
-from forcetorque.experiment.plan_schema import PlanTable
+from forcetorque.experiment.tables.plan import PlanTable
 from forcetorque.simulation.scenario import Scenario, bundled_scenario, load_scenario
 from tests.analysis.planned_sensors import LIMIT_COUNTS, planned_motions, planned_run
 from tests.analysis.simulated_uses import FOOT, LEG, Outcome, outcome_of, outcomes

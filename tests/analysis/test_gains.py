@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from forcetorque.analysis import Gains, SensorGains, SensorRun, calibrate_sensor, select_gains, sensor_gains
-from forcetorque.analysis.gain_rows import SensorRow
+from forcetorque.analysis.gains.rows import SensorRow
 from forcetorque.calibration import Calibration, recover_raw
 from forcetorque.errors import ExperimentError
 from forcetorque.evaluation import MARGIN, GainChange

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from forcetorque.analysis import Campaign, SensorRun, calibrate_for_file, calibrate_sensor, evaluate, recording_moments
-from forcetorque.analysis.calibration_doubts import fit_doubts
+from forcetorque.analysis.calibration.doubts import fit_doubts
 from forcetorque.calibration import (
     GENERATIVE,
     Calibration,

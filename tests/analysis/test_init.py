@@ -202,6 +202,13 @@ def test_boards_that_count_their_joints_are_asked_for_names(tmp_path: Path) -> N
     assert asked["frame"].startswith("link that stands still")
 
 
+def test_what_is_left_out_is_said(tmp_path: Path) -> None:
+    """Angles of an inertial port, of which the log does not say what they turn into what."""
+    write_port(tmp_path / "log" / "inertial", "".join(f"{k} {k}.5 1 2 3 0 0 9.8 0 0 0 0 0 0\n" for k in range(1, 30)))
+    (words,) = (note for note in draft_experiment([tmp_path / "log"]).notes if note.startswith("not read"))
+    assert "not all of it: inertial; `forcetorque inspect" in words
+
+
 def test_a_recording_of_our_own_leaves_nothing_of_itself_open(tmp_path: Path) -> None:
     """It says all; a tag of the URDF says place and sign. The answered file is read."""
     table = pacsv.read_csv(FOLDER / "log.csv")

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from forcetorque.analysis.study_calibrations import joined_by_axis
+from forcetorque.analysis.study.calibrations import joined_by_axis
 from forcetorque.calibration import Calibration, SessionOffset
 from tests.calibrations import make_calibration
 

@@ -15,10 +15,10 @@ import numpy as np
 import pytest
 
 from forcetorque.analysis import SensorRun, calibrate_jointly, calibrate_sensor, evaluate, joint_interval
-from forcetorque.analysis.joint_outcome import JointOutcome
-from forcetorque.analysis.joint_rows import PartRow
-from forcetorque.analysis.part_residuals import part_residuals
-from forcetorque.analysis.sensor_calibration import data_doubts
+from forcetorque.analysis.calibration.joint_outcome import JointOutcome
+from forcetorque.analysis.calibration.joint_rows import PartRow
+from forcetorque.analysis.calibration.sensor_calibration import data_doubts
+from forcetorque.analysis.joint.part_residuals import part_residuals
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration.joint import UNITS, JointFit, PartWindows, part_windows, residuals
 from forcetorque.errors import ExperimentError, FitError

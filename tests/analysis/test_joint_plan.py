@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from forcetorque.analysis import SensorRun, calibrate_jointly, plan_jointly
-from forcetorque.analysis.loads_of_use import loads_of_use
+from forcetorque.analysis.use.loads_of_use import loads_of_use
 from forcetorque.evaluation.use import predict
 from forcetorque.experiment import Experiment, load_experiment
 

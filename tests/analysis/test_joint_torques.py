@@ -19,8 +19,8 @@ from forcetorque.analysis import (
     estimate_experiment,
     joint_torques,
 )
-from forcetorque.analysis.free_sub_model import FreeSubModel
-from forcetorque.analysis.torque_samples import judged_torques
+from forcetorque.analysis.runs.free_sub_model import FreeSubModel
+from forcetorque.analysis.torque.samples import judged_torques
 from forcetorque.arrays import FloatArray, IntArray
 from forcetorque.calibration import Calibration, WrenchModel
 from forcetorque.errors import ExperimentError

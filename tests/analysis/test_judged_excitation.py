@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from forcetorque.analysis import Evaluation, SensorRun, assess, calibrate_sensor, evaluate
-from forcetorque.analysis.judged_excitation import HARDLY
+from forcetorque.analysis.use.judged_excitation import HARDLY
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration import Calibration
 from forcetorque.experiment import load_experiment

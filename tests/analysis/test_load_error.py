@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from forcetorque.analysis.load_error import load_error_of
+from forcetorque.analysis.calibration.load_error import load_error_of
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration import GenerativeFit, WindowMeans, fit_generative
 from forcetorque.calibration.generative import Assumptions

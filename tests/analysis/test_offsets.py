@@ -9,14 +9,14 @@ import numpy as np
 import pytest
 
 from forcetorque.analysis import SensorRun, corrections_of, offset_policies, tare
-from forcetorque.analysis.offsets import sensor_offset, with_policy
-from forcetorque.analysis.reading import Correction
-from forcetorque.analysis.still import still_seconds
+from forcetorque.analysis.runs.offsets import sensor_offset, with_policy
+from forcetorque.analysis.runs.reading import Correction
+from forcetorque.analysis.runs.still import still_seconds
 from forcetorque.arrays import FloatArray
 from forcetorque.errors import ExperimentError, ShapeError
 from forcetorque.evaluation import Offset, OffsetEstimate, OffsetPolicy, mean_offset
 from forcetorque.experiment import Experiment, load_experiment
-from forcetorque.experiment.simulated import write_scenario
+from forcetorque.experiment.simulated.recordings import write_scenario
 from forcetorque.simulation.scenario import build_scenario, simulate
 from tests.switchings import short_switching
 

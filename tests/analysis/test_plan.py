@@ -151,7 +151,7 @@ def test_a_full_scale_alone_is_enough_to_begin_with(arm: Path) -> None:
 
 def test_a_calibration_is_where_the_plan_begins(arm: Path) -> None:
     """Its predicted error stands before the first recording; nothing is assumed of the noise."""
-    from forcetorque.analysis.loads_of_use import loads_of_use
+    from forcetorque.analysis.use.loads_of_use import loads_of_use
     from forcetorque.evaluation.use import predict
 
     run = _run(arm)

@@ -11,14 +11,14 @@ import numpy as np
 import pytest
 
 from forcetorque.analysis import Plan, SensorRun, plan
-from forcetorque.analysis.loads_of_use import loads_of_use
-from forcetorque.analysis.plan_proposal import Demand, Effort, propose
-from forcetorque.analysis.plan_workplace import Workplace, supports_of, workplaces
+from forcetorque.analysis.plan.proposal import Demand, Effort, propose
+from forcetorque.analysis.plan.workplace import Workplace, supports_of, workplaces
+from forcetorque.analysis.use.loads_of_use import loads_of_use
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration.generative import Assumptions, GenerativeFit
 from forcetorque.evaluation.planning import Criterion, Knowledge, Nuisance
 from forcetorque.evaluation.use import LoadCase, PredictedError, predict_by
-from forcetorque.experiment.plan_schema import PlanTable
+from forcetorque.experiment.tables.plan import PlanTable
 from forcetorque.simulation.motions import Movement, MovementKind
 from forcetorque.simulation.scenario import LINEAR_ONLY, ScenarioFile, build_scenario, bundled_scenario, load_scenario
 from forcetorque.simulation.scenario.specimen import Specimen

@@ -6,9 +6,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from forcetorque.analysis.response_decays import Decays, free_decays
-from forcetorque.analysis.response_force import driven_response
-from forcetorque.analysis.response_records import ExcitedRecord
+from forcetorque.analysis.response.decays import Decays, free_decays
+from forcetorque.analysis.response.force import driven_response
+from forcetorque.analysis.response.records import ExcitedRecord
 from forcetorque.arrays import FloatArray
 from forcetorque.errors import FitError
 from forcetorque.evaluation.response import EvenRecord, ExcitationKind, SecondOrder, inverse_filter

@@ -12,8 +12,8 @@ import numpy as np
 import pytest
 
 from forcetorque.analysis import SensorRun, assess, calibrate_sensor, evaluate, validate
-from forcetorque.analysis import samples as samples_module
-from forcetorque.analysis import sensor_run as run_module
+from forcetorque.analysis.runs import samples as samples_module
+from forcetorque.analysis.runs import sensor_run as run_module
 from forcetorque.calibration import Calibration
 from forcetorque.errors import ExperimentError
 from forcetorque.experiment import load_experiment

@@ -19,7 +19,7 @@ from forcetorque.analysis import (
     evaluate,
     spheres,
 )
-from forcetorque.analysis.reading import wrench_at
+from forcetorque.analysis.runs.reading import wrench_at
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration import Calibration, FittedInterval, SessionOffset
 from forcetorque.errors import ExperimentError

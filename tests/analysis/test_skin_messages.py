@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from forcetorque.analysis.skin_messages import patch_messages
+from forcetorque.analysis.skin.messages import patch_messages
 from forcetorque.arrays import FloatArray
 from forcetorque.errors import SkinError
 from forcetorque.experiment import ExperimentPatch, PatchExperiment

@@ -22,8 +22,8 @@ from forcetorque.analysis import (
     study_sensor,
     study_warnings,
 )
-from forcetorque.analysis.campaign_interval import CampaignInterval
-from forcetorque.analysis.study import combinations_of
+from forcetorque.analysis.runs.campaign_interval import CampaignInterval
+from forcetorque.analysis.study.study import combinations_of
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration import (
     ESTIMATION_TYPES,

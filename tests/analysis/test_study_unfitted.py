@@ -11,14 +11,14 @@ import numpy as np
 import pytest
 
 from forcetorque.analysis import SensorStudy, StudyData, calibrate_sensor, read_study_data, study_sensor, study_warnings
-from forcetorque.analysis.campaign import Campaign
-from forcetorque.analysis.sensor_run import SensorRun
-from forcetorque.analysis.study_result import studied_sensor
+from forcetorque.analysis.runs.campaign import Campaign
+from forcetorque.analysis.runs.sensor_run import SensorRun
+from forcetorque.analysis.study.result import studied_sensor
 from forcetorque.calibration import ESTIMATION_TYPES, read_calibration, write_calibration
 from forcetorque.errors import FormatError
 from forcetorque.evaluation import Offset, push_error
 from forcetorque.experiment import load_experiment
-from forcetorque.experiment.truth import true_matrix
+from forcetorque.experiment.simulated.truth import true_matrix
 from forcetorque.study import FAR_SD, Candidate, tables
 from tests.experiments import edit
 from tests.studies import CALIBRATION, FILES, SENSOR, SERIAL, VALIDATION, scenario

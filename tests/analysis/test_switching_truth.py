@@ -8,12 +8,12 @@ from collections.abc import Mapping
 import numpy as np
 import pytest
 
-from forcetorque.analysis.estimate import estimate_experiment
-from forcetorque.analysis.reading import Correction
+from forcetorque.analysis.estimate.estimate import estimate_experiment
+from forcetorque.analysis.runs.reading import Correction
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration import WrenchModel
 from forcetorque.experiment import Experiment, load_experiment
-from forcetorque.experiment.simulated import write_scenario
+from forcetorque.experiment.simulated.recordings import write_scenario
 from forcetorque.recording import Recording, read_recording
 from forcetorque.recording.alignment import interpolate
 from forcetorque.simulation import SimulatedSensor

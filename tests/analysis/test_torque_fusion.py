@@ -18,7 +18,7 @@ from forcetorque.analysis import (
     estimate_experiment,
     fuse_experiment,
 )
-from forcetorque.analysis.estimate_summary import summarise_estimates
+from forcetorque.analysis.estimate.summary import summarise_estimates
 from forcetorque.calibration import Calibration
 from forcetorque.errors import ExperimentError, FormatError, RecordingError
 from forcetorque.experiment import load_experiment

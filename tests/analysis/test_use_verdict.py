@@ -10,10 +10,10 @@ import numpy as np
 import pytest
 
 from forcetorque.analysis import SensorRun, UseVerdict, accept, calibrate_sensor, loads_of_use, use_verdicts
-from forcetorque.analysis.acceptance_file import AcceptanceFile
-from forcetorque.analysis.judged_excitation import JudgedExcitation
-from forcetorque.analysis.prior_comparison import compare_with_prior
-from forcetorque.analysis.use_judge import UseJudge
+from forcetorque.analysis.acceptance.file import AcceptanceFile
+from forcetorque.analysis.use.judge import UseJudge
+from forcetorque.analysis.use.judged_excitation import JudgedExcitation
+from forcetorque.analysis.use.prior_comparison import compare_with_prior
 from forcetorque.calibration import Calibration
 from forcetorque.errors import ExperimentError, ForceTorqueError, FormatError
 from forcetorque.evaluation.use.evidence import Evidence, JudgedStretch, evidence

@@ -13,10 +13,10 @@ from forcetorque.analysis import (
     calibrate_sensor,
     contact_forces,
     joint_torques,
-    sensor_run,
     validate,
 )
-from forcetorque.analysis.validity import sentences
+from forcetorque.analysis.runs import sensor_run
+from forcetorque.analysis.runs.validity import sentences
 from forcetorque.calibration import Calibration
 from forcetorque.estimation.samples import robot_motion_at
 from forcetorque.experiment import load_experiment

@@ -25,7 +25,7 @@ from forcetorque.analysis import (
     summarise_estimates,
     validate,
 )
-from forcetorque.analysis.validity import ReadingsOutside, sentences
+from forcetorque.analysis.runs.validity import ReadingsOutside, sentences
 from forcetorque.calibration import Calibration, read_calibration, write_calibration
 from forcetorque.experiment import load_experiment
 from forcetorque.recording import Use, read_recording, write_recording

@@ -9,7 +9,7 @@ from typing import Any, Literal
 import pytest
 
 from forcetorque.analysis import Assessment, CandidateErrors, LearntDirection, PriorComparison
-from forcetorque.analysis.verdict import verdict
+from forcetorque.analysis.assessment.verdict import verdict
 from forcetorque.evaluation import Judgement, Offset
 from forcetorque.spatial import WRENCH_COMPONENTS
 

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from forcetorque.analysis.generative_calibration import generative_calibration
+from forcetorque.analysis.calibration.generative import generative_calibration
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration import (
     Assumptions,

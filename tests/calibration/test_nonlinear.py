@@ -6,7 +6,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from forcetorque.analysis.calibration_tables import calibration_blocks
+from forcetorque.analysis.calibration.tables import calibration_blocks
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration import Calibration, DataSet, corrected_fit, fit_generative, try_correction
 from forcetorque.errors import FitError

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from forcetorque.calibration import read_calibration
-from forcetorque.experiment.simulated import write_scenario
+from forcetorque.experiment.simulated.recordings import write_scenario
 from forcetorque.simulation.scenario import build_scenario
 from tests.cli.outcome import Run
 from tests.switchings import short_switching

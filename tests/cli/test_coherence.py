@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from forcetorque import analysis, load_experiment, write_calibration
-from forcetorque.experiment.simulated import write_scenario
+from forcetorque.experiment.simulated.recordings import write_scenario
 from forcetorque.simulation.scenario import build_scenario
 from tests.cli.outcome import Run
 from tests.page_scripts import unmarked

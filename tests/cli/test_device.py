@@ -12,7 +12,7 @@ import pytest
 
 from forcetorque import analysis
 from forcetorque.analysis import DeviceDesign, write_device
-from forcetorque.analysis.device_span import device_span
+from forcetorque.analysis.device.span import device_span
 from forcetorque.calibration import read_calibration
 from forcetorque.exsitu.device import DEFAULT_DEVICE, read_device
 from forcetorque.interactive import design_device
@@ -38,15 +38,15 @@ NOISE_N = 0.5
 def design() -> DeviceDesign:
     """The answer to the device that comes with the library, with a motion that is hardly optimised."""
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("forcetorque.analysis.device.device_span", partial(device_span, swaps=5))
+        patch.setattr("forcetorque.analysis.device.device.device_span", partial(device_span, swaps=5))
         return analysis.design_device(read_device())
 
 
 @pytest.fixture(autouse=True)
 def sections_of_the_default(design: DeviceDesign, monkeypatch: pytest.MonkeyPatch) -> None:
     """Ask what a device excites and what is demanded of it but once: it takes seconds, and has tests of its own."""
-    monkeypatch.setattr("forcetorque.analysis.device.device_demands", lambda _: design.demands)
-    monkeypatch.setattr("forcetorque.analysis.device.device_span", lambda _: design.span)
+    monkeypatch.setattr("forcetorque.analysis.device.device.device_demands", lambda _: design.demands)
+    monkeypatch.setattr("forcetorque.analysis.device.device.device_span", lambda _: design.span)
 
 
 @pytest.fixture(scope="module")

@@ -12,8 +12,8 @@ import pyarrow.parquet as pq
 import pytest
 
 from forcetorque.analysis import corrections_of, estimate_experiment, frames_of_patches, fuse_experiment
-from forcetorque.analysis.estimate_summary import summarise_estimates
-from forcetorque.analysis.skin_wrench import PatchFrames
+from forcetorque.analysis.estimate.summary import summarise_estimates
+from forcetorque.analysis.skin.wrench import PatchFrames
 from forcetorque.errors import ForceTorqueError
 from forcetorque.experiment import load_touched_robot
 from tests.cli.outcome import Run

@@ -10,6 +10,7 @@ import pytest
 
 from forcetorque.errors import RecordingError
 from forcetorque.estimation import support_motion_at
+from forcetorque.estimation.root_motion import imu_streams
 from forcetorque.recording import MovingSupport, Recording, SavitzkyGolay, Signal, Stream
 from forcetorque.robot import JointMotion, RobotModel
 from tests.robots import joint_xml, link_xml, read_text, robot_xml
@@ -54,3 +55,15 @@ def test_of_a_robot_it_is_not(tmp_path: Path) -> None:
     """Its links turn, which a gyroscope must tell."""
     with pytest.raises(RecordingError, match=r"expected proper_acceleration and angular_velocity.*got proper_accel"):
         _motion(_robot(tmp_path, "revolute"))
+
+
+def test_an_orientation_beside_an_imu_is_not_taken_for_one() -> None:
+    """It tells gravity alone: it is taken where nothing tells how a link moves."""
+    gravity = Signal.of_fixed("gravity", np.tile(-UP, (SAMPLES, 1)), frame="base")
+    turning = Signal.of_fixed("angular_velocity", np.zeros((SAMPLES, 3)), frame="base")
+    pose, imu = (
+        Stream(name=name, clock="log", stamp_ns=STAMPS, signals={signal.quantity: signal})
+        for name, signal in (("pose", gravity), ("imu", turning))
+    )
+    assert imu_streams(Recording(streams={"pose": pose, "imu": imu})) == ("imu",)
+    assert imu_streams(Recording(streams={"pose": pose})) == ("pose",)

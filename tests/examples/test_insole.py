@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from forcetorque.analysis import SkinCalibration
-from forcetorque.analysis.skin_rows import CandidateRow
+from forcetorque.analysis.skin.rows import CandidateRow
 from forcetorque.interactive import calibrate_skin
 
 PAGE = (Path(__file__).resolve().parents[2] / "docs" / "taxel_calibration.md").read_text(encoding="utf-8")

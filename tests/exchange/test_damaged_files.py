@@ -26,12 +26,13 @@ from forcetorque.exchange.log_sketch import SketchingFormat
 from forcetorque.exchange.ros import RosFormat
 from tests.exchange.array_file import test_hdf5_and_npz as arrays
 from tests.exchange.robometry import test_log_format as robometry
-from tests.exchange.robometry.logger import write_log
+from tests.exchange.robometry.logger import Leaf, write_log
 from tests.exchange.ros import test_log_format as ros
-from tests.exchange.ros.bags import write_bag
+from tests.exchange.ros.bags import Types, write_bag
 from tests.exchange.tabular import test_large_and_columnar as tables
 from tests.fuzzing import sampled
 
+SENSE = {"sense": "sensor_to_world"}
 SLOWEST_S = 20.0
 """Seconds of one case: some 0.6 s were the slowest of thousands, on a machine that seven others shared."""
 LARGEST_GROWTH_MB = 600
@@ -56,8 +57,12 @@ def _array_case(folder: Path, name: str) -> Case:
 
 
 def _robometry_case(folder: Path) -> Case:
-    path = write_log(folder / "log.mat", robometry.LEAVES)
-    return Case(log=path, file=path, read=lambda: robometry._read(path, robometry.FT_ENTRY, robometry.JOINT_ENTRY))
+    turned = {"orientations/waist": Leaf(values=robometry.POSITIONS, elements="rpy", units=["deg"])}
+    path = write_log(folder / "log.mat", robometry.LEAVES | turned)
+    turn = {"name": "turn", "channel": "orientations/waist", "frame": "waist", "orientation": SENSE}
+    return Case(
+        log=path, file=path, read=lambda: robometry._read(path, robometry.FT_ENTRY, robometry.JOINT_ENTRY, turn)
+    )
 
 
 def _table_case(folder: Path, name: str) -> Case:
@@ -71,13 +76,17 @@ def _table_case(folder: Path, name: str) -> Case:
 
 
 def _bag_case(folder: Path, form: str, *, index: bool = False) -> Case:
-    path = write_bag(folder, form, ros._topics(form))
+    types, kind = Types(form), "nav_msgs/msg/Odometry"
+    odometry = [types.posed(kind, k, turn, (1, 2, 3), "map", "base") for k, turn in enumerate(ros.ROTATIONS)]
+    path = write_bag(folder, form, ros._topics(form) | {"/odom": (kind, odometry)})
     names = (".yaml",) if index else (".db3", ".mcap")
     file = path if path.is_file() else next(entry for entry in path.iterdir() if entry.suffix in names)
     topics = {"wrist": "/ft", "joints": "/joint_states", "imu": "/imu", "warm": "/warm"}
     entries = [{"name": name, "topic": topic} for name, topic in topics.items()]
     tf = {"name": "sole", "topic": "/tf", "frame": "sole", "world": "base"}
-    return Case(log=path, file=file, read=lambda: ros._read(path, *entries, tf))
+    turn = {"name": "turn", "topic": "/imu", "orientation": SENSE}
+    odom = {"name": "base", "topic": "/odom", "frame": "base", "world": "map"}
+    return Case(log=path, file=file, read=lambda: ros._read(path, *entries, tf, turn, odom))
 
 
 CASES: dict[str, tuple[Callable[[Path], Case], int]] = {

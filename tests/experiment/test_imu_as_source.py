@@ -14,7 +14,7 @@ from forcetorque.arrays import FloatArray
 from forcetorque.estimation import Processing, sensor_samples
 from forcetorque.experiment import load_experiment
 from forcetorque.experiment.content import Experiment
-from forcetorque.experiment.simulated import write_scenario
+from forcetorque.experiment.simulated.recordings import write_scenario
 from forcetorque.recording import Interval, MovingSupport, Recording, SavitzkyGolay, Signal, Use
 from forcetorque.recording.alignment import seconds_since
 from forcetorque.simulation.scenario import Scenario, ScenarioFile, build_scenario

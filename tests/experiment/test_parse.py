@@ -10,6 +10,7 @@ import pytest
 
 from forcetorque.errors import FormatError, MissingFileError
 from forcetorque.exchange.parquet import ParquetLog
+from forcetorque.exchange.ros import RosLog
 from forcetorque.exchange.tabular.log_format import TabularLog
 from forcetorque.exchange.yarp.log_tables import StateExtPort, YarpLog
 from forcetorque.experiment import ExperimentFile, parse_experiment
@@ -72,7 +73,7 @@ def test_what_may_be_left_out_has_a_default(tmp_path: Path) -> None:
 
 def _documented() -> list[str]:
     blocks = re.findall(r"```toml\n(.*?)```", DOCUMENT.read_text(encoding="utf-8"), re.DOTALL)
-    assert len(blocks) == 9
+    assert len(blocks) == 10
     return blocks
 
 
@@ -145,6 +146,17 @@ def test_the_documented_orientation_takes_the_place_of_gravity(tmp_path: Path) -
     (signal,) = recording.stream[0].signal
     assert signal.orientation is not None
     assert signal.orientation.layout().sense == "sensor_to_world"
+
+
+def test_the_documented_orientation_of_a_message_is_a_stream(tmp_path: Path) -> None:
+    """Its sense and the world's gravity; the form is not asked."""
+    head = 'schema = "forcetorque/experiment/1"\nname = "bag"\n[recording]\nformat = "ros"\npath = "bag"\n'
+    interval = '[[interval]]\nlabel = "all"\nstart_s = 0\nuse = "ignore"\n'
+    recording = _parse(tmp_path, f"{head}{_documented()[8]}\n{interval}").recording
+    assert isinstance(recording, RosLog)
+    (stream,) = recording.stream
+    assert stream.orientation is not None
+    assert (stream.orientation.sense, stream.orientation.gravity) == ("sensor_to_world", 9.82085)
 
 
 def test_the_documented_contact_fits_into_it(tmp_path: Path) -> None:

@@ -12,7 +12,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from forcetorque.analysis import SensorRun, inspect_experiment
-from forcetorque.analysis.sensor_calibration import data_doubts
+from forcetorque.analysis.calibration.sensor_calibration import data_doubts
 from forcetorque.arrays import BoolArray
 from forcetorque.errors import ExperimentError, ForceTorqueError, FormatError, RecordingError, RobotError
 from forcetorque.experiment import load_experiment
@@ -135,6 +135,71 @@ def test_a_fixed_pose_moves_the_moment_too(poses: Path) -> None:
     np.testing.assert_allclose(wrench, np.tile([0.0, 1.0, 0.0, -0.2, 0.0, 3.0], (30, 1)), atol=1e-12)
 
 
+PLACES = np.random.default_rng(6).uniform(-1.0, 1.0, size=(30, 3))
+"""Where the sensor is in the world; m."""
+TRANSLATION = (
+    POSE.replace(', "qw"]', ', "qw", "x", "y", "z"]', 1)
+    + """
+[[recording.stream.signal]]
+quantity = "translation"
+columns = ["x", "y", "z"]
+units = ["mm", "mm", "mm"]
+frame = "tool"
+"""
+)
+ABOUT_WORLD = TRANSFORM.replace('"sensor"', '"own_frame"')
+
+
+@pytest.fixture
+def robot_base(poses: Path) -> Path:
+    """Wrenches along the axes of a base and about its origin, with the places of the sensor in mm."""
+    force = TURN.apply(SENSED[:, :3])
+    moment = TURN.apply(SENSED[:, 3:]) + np.cross(PLACES, force)
+    _table(poses / "pose.txt", np.hstack([TURN.as_quat(), 1000.0 * PLACES]))
+    _table(poses / "wrench.txt", np.hstack([force, moment]))
+    return poses
+
+
+def test_a_moment_about_the_base_is_brought_to_the_sensor(robot_base: Path) -> None:
+    """By where the sensor is in every sample; to take it for one about the sensor is wrong by lever times force."""
+    recording = _recording(robot_base, HEAD + TRANSLATION + WRENCH + ABOUT_WORLD + REST)
+    np.testing.assert_allclose(recording.stream("wrench").signal("wrench").values, SENSED, atol=1e-9)
+    (finding,) = (one for one in recording.findings if one.kind == "transformed")
+    assert "moment about the origin of 'base'" in finding.message
+    taken = _recording(robot_base, HEAD + TRANSLATION + WRENCH + TRANSFORM + REST).stream("wrench").signal("wrench")
+    np.testing.assert_allclose(taken.values[:, :3], SENSED[:, :3], atol=1e-9)
+    lever = TURN.inv().apply(np.cross(PLACES, TURN.apply(SENSED[:, :3])))
+    np.testing.assert_allclose(taken.values[:, 3:] - SENSED[:, 3:], lever, atol=1e-9)
+
+
+def test_a_moment_about_a_point_of_the_tool_is_brought_to_the_sensor(poses: Path) -> None:
+    """Along the axes of the base and about the tool's point, as arms give it; with a pose that stays likewise."""
+    point = np.array([0.02, -0.01, 0.15])
+    about = SENSED[:, 3:] - np.cross(point, SENSED[:, :3])
+    _table(poses / "wrench.txt", np.hstack([TURN.apply(SENSED[:, :3]), TURN.apply(about)]))
+    stated = f'moment_about = "point"\npoint_m = {point.tolist()}'
+    text = TEXT.replace('moment_about = "sensor"', stated)
+    recording = _recording(poses, text)
+    np.testing.assert_allclose(recording.stream("wrench").signal("wrench").values, SENSED, atol=1e-9)
+    (finding,) = (one for one in recording.findings if one.kind == "transformed")
+    assert "moment about a point that moves with 'tool'" in finding.message
+    _table(poses / "wrench.txt", np.hstack([SENSED[:, :3], about]))
+    still = text.replace('orientation = "pose"', "pose = { rpy_rad = [0.0, 0.0, 0.0] }")
+    np.testing.assert_allclose(_recording(poses, still).stream("wrench").signal("wrench").values, SENSED, atol=1e-9)
+
+
+def test_a_moment_about_the_base_needs_the_place_of_the_sensor(robot_base: Path) -> None:
+    """Without a translation, or with that of another frame, it cannot be moved, and the error says what to state."""
+    without = POSE.replace(', "qw"]', ', "qw", "x", "y", "z"]', 1)
+    with pytest.raises(RecordingError, match=r'transform\[0\]: .*quantity translation, in m, .*moment_about = "point"'):
+        _recording(robot_base, HEAD + without + WRENCH + ABOUT_WORLD + REST)
+    other = TRANSLATION.replace(
+        'units = ["mm", "mm", "mm"]\nframe = "tool"', 'units = ["mm", "mm", "mm"]\nframe = "hand"'
+    )
+    with pytest.raises(RecordingError, match="expected the translation of 'tool', got that of 'hand'"):
+        _recording(robot_base, HEAD + other + WRENCH + ABOUT_WORLD + REST)
+
+
 def test_lines_are_skipped_and_a_rate_stands_for_a_time(poses: Path) -> None:
     """Titles in front of the table, and stamps that do not add up rounding."""
     _table(poses / "wrench.txt", SENSED, "made by a logger\n\nN and N m\n")
@@ -200,7 +265,15 @@ REFUSED = {
     "unknown stream": (_replaced('[[transform]]\nstream = "wrench"', '[[transform]]\nstream = "wernch"'), "wernch"),
     "no pose": (_replaced('orientation = "pose"\nmoment', "moment"), "expected orientation, a stream, or pose"),
     "no point": (_replaced('moment_about = "sensor"', ""), "moment_about"),
-    "own frame without a place": (_replaced('about = "sensor"', 'about = "own_frame"'), "needs pose with position_m"),
+    "own frame without a place": (
+        _replaced(
+            'orientation = "pose"\nmoment_about = "sensor"',
+            'pose = { rpy_rad = [0, 0, 0] }\nmoment_about = "own_frame"',
+        ),
+        "position_m of pose is needed",
+    ),
+    "a point that is nowhere": (_replaced('about = "sensor"', 'about = "point"'), "point_m is needed"),
+    "a point for nothing": (_replaced('about = "sensor"', 'about = "sensor"\npoint_m = [0, 0, 0]'), "moves nothing"),
     "place that moves nothing": (
         _replaced('orientation = "pose"', "pose = { rpy_rad = [0.0, 0.0, 0.0], position_m = [0.0, 0.0, 0.1] }"),
         "moves nothing",

@@ -9,8 +9,9 @@ from pathlib import Path
 import pytest
 
 from forcetorque.errors import ForceTorqueError
-from forcetorque.experiment import load_experiment, simulated
-from forcetorque.experiment.simulated import write_scenario
+from forcetorque.experiment import load_experiment
+from forcetorque.experiment.simulated import recordings as simulated
+from forcetorque.experiment.simulated.recordings import write_scenario
 from forcetorque.simulation.scenario import Scenario, ScenarioFile, build_scenario
 from tests.result.showing import require_shown
 

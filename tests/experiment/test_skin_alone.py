@@ -11,7 +11,7 @@ import pytest
 from forcetorque.analysis import inspect_log
 from forcetorque.errors import ExperimentError
 from forcetorque.experiment import load_experiment, load_shown
-from forcetorque.experiment.skin_alone import BESIDE_M, ROOT, is_skin_alone, links_side_by_side
+from forcetorque.experiment.skin.skin_alone import BESIDE_M, ROOT, is_skin_alone, links_side_by_side
 from forcetorque.recording import Use
 from forcetorque.robot import JointMotion, build_tree, link_pose
 from tests.skin_alone import EVENTS, FRAMES, write_events

@@ -14,7 +14,7 @@ from forcetorque.analysis import (
     SensorRun,
     calibrate_sensor,
 )
-from forcetorque.analysis.calibration_doubts import fit_doubts
+from forcetorque.analysis.calibration.doubts import fit_doubts
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration import Calibration
 from forcetorque.errors import ExperimentError, FitError, ForceTorqueError, FormatError, RecordingError

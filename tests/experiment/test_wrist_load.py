@@ -14,9 +14,10 @@ from forcetorque.analysis import (
     evaluate,
     weigh_load,
 )
-from forcetorque.analysis.findings import inspect_experiment
+from forcetorque.analysis.inspect.findings import inspect_experiment
 from forcetorque.errors import ExperimentError, ForceTorqueError
-from forcetorque.experiment import load_experiment, wrist_load
+from forcetorque.experiment import load_experiment
+from forcetorque.experiment.loads import wrist_load
 from forcetorque.loads import LoadSolution, solve
 from forcetorque.recording import Use
 

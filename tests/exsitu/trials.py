@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from forcetorque.analysis.bench_faults import Examined, examine
+from forcetorque.analysis.workbench.bench_faults import Examined, examine
 from forcetorque.exsitu import BenchFaults, Fault, Specimen, Suspect, simulate_specimen, stated_scatter, suspects
 from tests.benches import PLACEMENT, thesis_loads
 

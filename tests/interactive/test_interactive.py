@@ -14,7 +14,7 @@ import forcetorque
 from forcetorque import Experiment, experiment_of_arrays, load_experiment, read_calibration
 from forcetorque.analysis import SensorRun, evaluate
 from forcetorque.analysis import plan as analysis_plan
-from forcetorque.analysis.plan_proposal import Effort
+from forcetorque.analysis.plan.proposal import Effort
 from forcetorque.errors import ExperimentError, FitError, ShapeError
 from forcetorque.interactive import Run
 from forcetorque.recording import Use

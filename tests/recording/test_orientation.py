@@ -9,6 +9,7 @@ from scipy.spatial.transform import Rotation
 
 from forcetorque.errors import FormatError, UnitError
 from forcetorque.recording import (
+    ROLL_PITCH_YAW,
     EulerAxes,
     OrientationForm,
     OrientationLayout,
@@ -116,6 +117,8 @@ def test_what_is_no_rotation_is_refused() -> None:
         _signals(stretched, rows)
     with pytest.raises(UnitError, match="expected a unit that converts to 1, got 'deg'"):
         _signals(matrices.reshape(-1, 9), rows, "deg")
+    with pytest.raises(FormatError, match=r"row 2: orientation: expected three angles, got \[0\.0, inf, 0\.0\]"):
+        _signals(np.array([[0.0, 1.0, 2.0], [0.0, np.inf, 0.0]]), ROLL_PITCH_YAW, "rad")
 
 
 def test_rounded_numbers_are_repaired() -> None:

@@ -42,11 +42,11 @@ from forcetorque.analysis import (
     motion,
     motion_signals_of_arrays,
 )
-from forcetorque.analysis.device_demand_rows import GradeRow
-from forcetorque.analysis.device_span_rows import DirectionRow
-from forcetorque.analysis.interval_balance import FootPressure, IntervalBalance, RobotBalance
-from forcetorque.analysis.skin_event_rows import SkinEventPicture
-from forcetorque.analysis.skin_picture import TaxelPicture
+from forcetorque.analysis.balance.interval_balance import FootPressure, IntervalBalance, RobotBalance
+from forcetorque.analysis.device.demand_rows import GradeRow
+from forcetorque.analysis.device.span_rows import DirectionRow
+from forcetorque.analysis.skin.event_rows import SkinEventPicture
+from forcetorque.analysis.skin.picture import TaxelPicture
 from forcetorque.calibration.joint import PartResidual
 from forcetorque.estimation.balance import ContactThresholds, Sole, centre_of_pressure, support_phases
 from forcetorque.evaluation import Offset

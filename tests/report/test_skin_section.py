@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 
 from forcetorque.analysis import Demands, ExperimentAssessment, skin_wrench
-from forcetorque.analysis.experiment_assessment import assess_experiment
-from forcetorque.analysis.skin_event_rows import skin_event_rows
+from forcetorque.analysis.assessment.experiment_assessment import assess_experiment
+from forcetorque.analysis.skin.event_rows import skin_event_rows
 from forcetorque.errors import ShapeError
 from forcetorque.experiment import load_experiment
 from forcetorque.recording import Recording

@@ -16,7 +16,7 @@ from forcetorque.analysis import (
     fuse_experiment,
     torque_picture,
 )
-from forcetorque.analysis.experiment_assessment import assess_experiment
+from forcetorque.analysis.assessment.experiment_assessment import assess_experiment
 from forcetorque.errors import ExperimentError
 from forcetorque.experiment import Experiment, load_experiment
 from forcetorque.report.document import Figure, List, Section

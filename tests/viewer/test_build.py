@@ -15,7 +15,7 @@ from forcetorque.analysis import (
     SensorRun,
     calibrate_sensor,
 )
-from forcetorque.analysis.samples import samples_over
+from forcetorque.analysis.runs.samples import samples_over
 from forcetorque.arrays import BoolArray, FloatArray
 from forcetorque.calibration import Calibration
 from forcetorque.errors import ExperimentError, RecordingError, SerialNumberError

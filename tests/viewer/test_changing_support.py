@@ -11,7 +11,7 @@ from scipy.spatial.transform import Rotation
 
 from forcetorque.arrays import FloatArray
 from forcetorque.experiment import Experiment, load_experiment
-from forcetorque.experiment.simulated import write_scenario
+from forcetorque.experiment.simulated.recordings import write_scenario
 from forcetorque.recording.alignment import seconds_since
 from forcetorque.simulation import Movement
 from forcetorque.simulation.scenario import build_scenario, simulate

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from forcetorque.analysis import SensorRun, calibrate_sensor
-from forcetorque.analysis.part_residuals import part_residuals
+from forcetorque.analysis.joint.part_residuals import part_residuals
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration import Calibration
 from forcetorque.experiment import Experiment, load_experiment

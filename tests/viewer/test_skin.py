@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from forcetorque.analysis import skin_wrench
-from forcetorque.analysis.skin_event_rows import skin_event_rows
+from forcetorque.analysis.skin.event_rows import skin_event_rows
 from forcetorque.arrays import FloatArray
 from forcetorque.exchange.yarp import SkinPart, read_skin_events
 from forcetorque.experiment import load_experiment, load_patches

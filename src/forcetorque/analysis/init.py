@@ -19,7 +19,7 @@ from forcetorque.analysis.draft.spans import DraftedInterval, draft_intervals, i
 from forcetorque.analysis.draft.streams import DraftedLog
 from forcetorque.analysis.draft.supports import base_of_arm, has_no_tool, interval_support, load_lines, support_lines
 from forcetorque.analysis.draft.text import likeliest_text, line, listed, question, toml_value
-from forcetorque.analysis.inspected_streams import StreamRow, stream_rows, stream_table
+from forcetorque.analysis.inspect.inspected_streams import StreamRow, stream_rows, stream_table
 from forcetorque.atomic import STANDARD_OUTPUT, write_bytes_atomically
 from forcetorque.constants import STANDARD_GRAVITY
 from forcetorque.errors import ExperimentError, ForceTorqueError
@@ -238,6 +238,10 @@ def _notes(log: DraftedLog, sensors: Sequence[DraftedSensor], model: RobotModel 
         yield f"{sensor.stream}: looks like {what}; sensor {'to be named' if sensor.tags else sensor.name}"
     if not sensors:
         yield "no stream looks like the reading of a force-torque sensor; without one a log is inspected and viewed"
+    if log.description is not None:
+        left_out = [one.stream for one in log.description.reading.findings if one.kind == "not_read"]
+        if left_out:
+            yield f"not read, or not all of it: {listed(left_out, 12)}; `forcetorque inspect {log.paths[0]}` says what"
     if model is None:
         return
     moving = {name for name, joint in model.joints.items() if joint.type is not JointType.FIXED and joint.mimic is None}

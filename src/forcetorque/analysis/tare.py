@@ -12,8 +12,8 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from forcetorque.analysis.offsets import sensor_offset
-from forcetorque.analysis.sensor_run import SensorRun
+from forcetorque.analysis.runs.offsets import sensor_offset
+from forcetorque.analysis.runs.sensor_run import SensorRun
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration import Calibration
 from forcetorque.evaluation import Offset, OffsetPolicy

@@ -57,7 +57,7 @@ def balance(
     Example: forcetorque balance standing.toml --touch 50N --release 20N
     """
     from forcetorque.analysis import BalanceOptions
-    from forcetorque.analysis.campaign_recording import refuse_a_file_twice
+    from forcetorque.analysis.runs.campaign_recording import refuse_a_file_twice
     from forcetorque.atomic import write_bytes_atomically
     from forcetorque.cli.figure_file import refuse_figure
     from forcetorque.estimation.balance import ForceLimit

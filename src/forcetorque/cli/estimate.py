@@ -66,7 +66,7 @@ def estimate(
     Example: forcetorque estimate experiment.toml -o estimates.parquet
     """
     from forcetorque import analysis
-    from forcetorque.analysis.campaign_recording import refuse_a_file_twice
+    from forcetorque.analysis.runs.campaign_recording import refuse_a_file_twice
     from forcetorque.cli.figure_file import refuse_figure
     from forcetorque.cli.reading import read_calibrations, read_touched_robot
     from forcetorque.exchange.sample_table import SUFFIXES

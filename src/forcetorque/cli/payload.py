@@ -29,7 +29,7 @@ def payload(
     Example: forcetorque payload wrist.toml --to ft-tools -o load.yaml
     """
     from forcetorque import analysis
-    from forcetorque.analysis.campaign_recording import refuse_a_file_twice
+    from forcetorque.analysis.runs.campaign_recording import refuse_a_file_twice
     from forcetorque.experiment import load_experiment
     from forcetorque.experiment.inputs import stated_in
 

@@ -9,7 +9,7 @@ from contextlib import nullcontext
 from pathlib import Path
 
 from forcetorque.analysis import Campaign, SensorRun
-from forcetorque.analysis.campaign_recording import refuse_a_file_twice
+from forcetorque.analysis.runs.campaign_recording import refuse_a_file_twice
 from forcetorque.calibration import Calibration, RecordingMoments, read_calibration, read_moments
 from forcetorque.errors import ExperimentError, ForceTorqueError
 from forcetorque.experiment import Experiment, ExperimentSensor, load_experiment, load_shown, load_touched_robot

@@ -46,7 +46,7 @@ def response(
     Example: forcetorque response taps.toml -e impact --force hammer
     """
     from forcetorque import analysis
-    from forcetorque.analysis.campaign_recording import refuse_a_file_twice
+    from forcetorque.analysis.runs.campaign_recording import refuse_a_file_twice
     from forcetorque.atomic import write_bytes_atomically
     from forcetorque.cli.figure_file import refuse_figure
     from forcetorque.cli.reading import read_calibrations, read_experiment

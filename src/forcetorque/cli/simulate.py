@@ -23,7 +23,7 @@ def simulate(
 
     Example: forcetorque simulate wrist -o simulated
     """
-    from forcetorque.experiment.simulated import write_scenario
+    from forcetorque.experiment.simulated.recordings import write_scenario
     from forcetorque.simulation.scenario import bundled_scenario, load_scenario
 
     log = start_logging()

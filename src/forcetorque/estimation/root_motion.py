@@ -26,9 +26,10 @@ def imu_streams(recording: Recording) -> tuple[str, ...]:
         recording: The recording.
 
     Returns:
-        Names of the streams; none where it has no IMU.
+        Names of the streams; those of an orientation, which tells gravity alone, only where nothing tells more.
     """
-    return tuple(name for name, stream in recording.streams.items() if stream.signals.keys() & set(IMU_QUANTITIES))
+    told = {name: stream.signals.keys() & set(IMU_QUANTITIES) for name, stream in recording.streams.items()}
+    return tuple(name for name in told if told[name] - {"gravity"}) or tuple(name for name in told if told[name])
 
 
 def joints_to_support(model: RobotModel, recording: Recording, support: Support | MovingSupport) -> tuple[str, ...]:

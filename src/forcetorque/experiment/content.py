@@ -13,18 +13,18 @@ from forcetorque.calibration import EstimationType, LinearVariable, OffsetStrate
 from forcetorque.calibration.generative import REPEATABILITY
 from forcetorque.errors import ExperimentError, known_names
 from forcetorque.estimation import Contact, Processing
-from forcetorque.experiment.fusion_schema import FusionTable, MotorTable
-from forcetorque.experiment.load_case_schema import LoadCaseTable
-from forcetorque.experiment.patches import ExperimentPatch, PatchExperiment
-from forcetorque.experiment.plan_schema import PlanTable
 from forcetorque.experiment.recording_names import path_endings, recording_name
+from forcetorque.experiment.skin.patches import ExperimentPatch, PatchExperiment
 from forcetorque.experiment.soles import ExperimentSole
+from forcetorque.experiment.tables.fusion import FusionTable, MotorTable
+from forcetorque.experiment.tables.load_case import LoadCaseTable
+from forcetorque.experiment.tables.plan import PlanTable
 from forcetorque.recording import Interval, MovingSupport, Recording, ScalarSource, Stream, Support, Use
 from forcetorque.robot import RobotModel
 
 if TYPE_CHECKING:
-    from forcetorque.experiment.link_loads import LinkLoads
-    from forcetorque.experiment.wrist_load import WristLoads
+    from forcetorque.experiment.loads.link_loads import LinkLoads
+    from forcetorque.experiment.loads.wrist_load import WristLoads
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

@@ -15,18 +15,18 @@ from forcetorque.experiment.contacts import read_contacts
 from forcetorque.experiment.content import Experiment, FitOptions, Role
 from forcetorque.experiment.inputs import Inputs, stated_in
 from forcetorque.experiment.intervals import read_intervals, read_supports
-from forcetorque.experiment.link_loads import read_link_loads, with_loads_named
 from forcetorque.experiment.load_cases import read_load_cases
+from forcetorque.experiment.loads.link_loads import read_link_loads, with_loads_named
+from forcetorque.experiment.loads.wrist_load import load_model, read_loads
 from forcetorque.experiment.motors import require_motors
 from forcetorque.experiment.parse import parse_experiment
-from forcetorque.experiment.patches import skin_of_robot
 from forcetorque.experiment.plan_limits import read_plan
-from forcetorque.experiment.recipes import read_robot
+from forcetorque.experiment.recipes.recipes import read_robot
 from forcetorque.experiment.sensors import declare_sensors, read_sensors
-from forcetorque.experiment.skin_alone import links_side_by_side, skin_frames_of
+from forcetorque.experiment.skin.patches import skin_of_robot
+from forcetorque.experiment.skin.skin_alone import links_side_by_side, skin_frames_of
 from forcetorque.experiment.soles import read_soles
 from forcetorque.experiment.streams import read_streams
-from forcetorque.experiment.wrist_load import load_model, read_loads
 from forcetorque.recording import MovingSupport, Recording, SavitzkyGolay, Support, Use
 from forcetorque.robot import RobotModel
 from forcetorque.spatial import Inertia

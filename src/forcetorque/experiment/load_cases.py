@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from forcetorque.errors import ExperimentError, known_names
-from forcetorque.experiment.load_case_schema import LoadCaseTable
+from forcetorque.experiment.tables.load_case import LoadCaseTable
 from forcetorque.robot import RobotModel
 
 

@@ -7,8 +7,8 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from forcetorque.errors import ExperimentError, known_names
-from forcetorque.experiment.fusion_schema import MotorTable
 from forcetorque.experiment.inputs import stated_in
+from forcetorque.experiment.tables.fusion import MotorTable
 from forcetorque.recording import Recording
 from forcetorque.robot import RobotModel
 

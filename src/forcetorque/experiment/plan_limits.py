@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from forcetorque.errors import ExperimentError, known_names
-from forcetorque.experiment.plan_schema import PlanTable
+from forcetorque.experiment.tables.plan import PlanTable
 from forcetorque.recording import MovingSupport, Support
 from forcetorque.robot import RobotModel
 

@@ -17,13 +17,13 @@ from forcetorque.experiment.content import Experiment, ExperimentSensor, SensorV
 from forcetorque.experiment.inputs import Inputs
 from forcetorque.experiment.intervals import read_supports
 from forcetorque.experiment.load import fit_options, load_experiment, processing_of
-from forcetorque.experiment.load_case_schema import LoadCaseTable
 from forcetorque.experiment.load_cases import read_load_cases
 from forcetorque.experiment.plan_limits import read_plan
-from forcetorque.experiment.plan_schema import PlanTable
 from forcetorque.experiment.prior import full_scale_of, read_prior
-from forcetorque.experiment.recipes import read_robot
+from forcetorque.experiment.recipes.recipes import read_robot
 from forcetorque.experiment.sensors import declare_sensors
+from forcetorque.experiment.tables.load_case import LoadCaseTable
+from forcetorque.experiment.tables.plan import PlanTable
 from forcetorque.recording import Recording, ScalarSource, Support
 from forcetorque.robot import RobotModel
 from forcetorque.toml_table import Table, Text, read_toml

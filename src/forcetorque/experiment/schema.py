@@ -24,13 +24,13 @@ from forcetorque.constants import STANDARD_GRAVITY
 from forcetorque.errors import known_names
 from forcetorque.estimation import ContactType
 from forcetorque.exchange.formats import AnyLog
-from forcetorque.experiment.fusion_schema import FusionTable, MotorTable, SixPositive
-from forcetorque.experiment.link_load_schema import AnyLoad, LinkLoad, require_link_loads
-from forcetorque.experiment.load_case_schema import LoadCaseTable
-from forcetorque.experiment.plan_schema import PlanTable
-from forcetorque.experiment.recipe_schema import ClockTable, TransformTable
-from forcetorque.experiment.sole_schema import SoleTable
-from forcetorque.experiment.wrist_schema import Load, OneOrSeveral, require_loads_of, require_one_sensor
+from forcetorque.experiment.tables.fusion import FusionTable, MotorTable, SixPositive
+from forcetorque.experiment.tables.link_load import AnyLoad, LinkLoad, require_link_loads
+from forcetorque.experiment.tables.load_case import LoadCaseTable
+from forcetorque.experiment.tables.plan import PlanTable
+from forcetorque.experiment.tables.recipes import ClockTable, TransformTable
+from forcetorque.experiment.tables.soles import SoleTable
+from forcetorque.experiment.tables.wrist import Load, OneOrSeveral, require_loads_of, require_one_sensor
 from forcetorque.recording import Use
 from forcetorque.robot import SensorFrame
 from forcetorque.spatial import MeasureDirection

@@ -12,7 +12,7 @@ import numpy as np
 from forcetorque.errors import ExperimentError, known_names
 from forcetorque.estimation.balance import Sole
 from forcetorque.experiment.inputs import stated_in
-from forcetorque.experiment.sole_schema import SoleTable
+from forcetorque.experiment.tables.soles import SoleTable
 from forcetorque.recording import Recording
 from forcetorque.robot import RobotModel
 

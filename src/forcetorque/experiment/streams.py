@@ -11,7 +11,7 @@ from forcetorque.exchange.formats import read_log
 from forcetorque.experiment import schema
 from forcetorque.experiment.inputs import Inputs
 from forcetorque.experiment.log_context import ExperimentContext
-from forcetorque.experiment.recipes import follow_recipes
+from forcetorque.experiment.recipes.recipes import follow_recipes
 from forcetorque.recording import Recording, Stream
 from forcetorque.robot import RobotModel
 

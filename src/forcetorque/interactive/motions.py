@@ -9,7 +9,7 @@ from typing import Any
 
 from forcetorque import analysis
 from forcetorque.analysis import Motion
-from forcetorque.analysis.motion import BAND_SHARE
+from forcetorque.analysis.motion.motion import BAND_SHARE
 
 
 def motion(
@@ -27,7 +27,7 @@ def motion(
         columns: Columns of the log, or of `balance`.
         steps_s: Instants of steps; those of what was wanted if none is named; s.
         band_share: Half of the band of settling over the step.
-        options: As of `forcetorque.analysis.motion_signals`: desired, intervals, calibrations.
+        options: As of `forcetorque.analysis.motion.signals`: desired, intervals, calibrations.
 
     Returns:
         Oscillations, settling times and tracking errors.

@@ -4,6 +4,8 @@
 from forcetorque.recording.finding import Finding
 from forcetorque.recording.interval import Interval, MovingSupport, Support, Use
 from forcetorque.recording.orientation import (
+    QUATERNION_XYZW,
+    ROLL_PITCH_YAW,
     EulerAxes,
     OrientationForm,
     OrientationLayout,
@@ -20,6 +22,8 @@ from forcetorque.recording.stream import Signal, Stream
 
 __all__ = [
     "QUANTITIES",
+    "QUATERNION_XYZW",
+    "ROLL_PITCH_YAW",
     "EulerAxes",
     "Finding",
     "Interval",

@@ -71,6 +71,10 @@ _COUNTS = {
 }
 
 
+def _turns_about(axes: str) -> bool:
+    return len(axes) == 3 and set(axes) <= set("xyz") and axes[0] != axes[1] != axes[2]
+
+
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class OrientationLayout:
     """What the numbers of a log say of the orientation of a frame."""
@@ -123,6 +127,14 @@ class OrientationLayout:
         return vector
 
 
+QUATERNION_XYZW = OrientationLayout(form=OrientationForm.QUAT_XYZW, sense=OrientationSense.SENSOR_TO_WORLD)
+"""The scalar last, as ROS and Eigen write quaternions."""
+ROLL_PITCH_YAW = OrientationLayout(
+    form=OrientationForm.EULER, sense=OrientationSense.SENSOR_TO_WORLD, axes="xyz", about=EulerAxes.FIXED
+)
+"""`R = Rz(yaw) Ry(pitch) Rx(roll)`, as YARP and URDF define it."""
+
+
 def orientation_signals(
     numbers: Any,
     layout: OrientationLayout,
@@ -173,15 +185,12 @@ def orientation_signals(
     return _signals(world_R_sensor, layout.world_gravity, frame), tuple(_doubts(values[known], unit, stream))
 
 
-def _turns_about(axes: str) -> bool:
-    return len(axes) == 3 and set(axes) <= set("xyz") and axes[0] != axes[1] != axes[2]
-
-
 def _rotations(values: FloatArray, layout: OrientationLayout, where: Callable[[int], str]) -> FloatArray:
     """Rotations from the sensor's axes to the world's; shape (n, 3, 3)."""
     from scipy.spatial.transform import Rotation  # here because importing it takes longer than most commands
 
     if layout.form is OrientationForm.EULER:
+        _require_angles(values, where)
         axes = layout.axes or ""
         rotation = Rotation.from_euler(axes.upper() if layout.about is EulerAxes.MOVING else axes, values)
     elif layout.count == 4:
@@ -196,6 +205,11 @@ def _rotations(values: FloatArray, layout: OrientationLayout, where: Callable[[i
         rotation = Rotation.from_matrix(matrices)  # the nearest rotation
     matrix: FloatArray = rotation.as_matrix()
     return matrix if layout.sense is OrientationSense.SENSOR_TO_WORLD else matrix.transpose(0, 2, 1)
+
+
+def _require_angles(angles: FloatArray, where: Callable[[int], str]) -> None:
+    for row in np.flatnonzero(~np.isfinite(angles).all(axis=1))[:1]:
+        raise FormatError(f"{where(int(row))}: orientation: expected three angles, got {angles[row].tolist()}")
 
 
 def _require_unit(quaternions: FloatArray, where: Callable[[int], str]) -> None:

@@ -135,6 +135,14 @@ QUANTITIES = {
             description="Rotation matrix of a frame, row by row: it turns vectors along its axes to the world's.",
         ),
         Quantity(
+            name="translation",
+            labels=Labels.FIXED,
+            columns=_XYZ,
+            units=("m",) * 3,
+            has_frame=True,
+            description="Where the origin of a frame is in the world, along the world's axes.",
+        ),
+        Quantity(
             name="gravity",
             labels=Labels.FIXED,
             columns=_XYZ,

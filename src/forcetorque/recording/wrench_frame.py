@@ -58,14 +58,44 @@ def orientation_at(stream: Stream, orientation: Stream, to: str) -> FloatArray:
     """
     from scipy.spatial.transform import Rotation  # here because importing it takes longer than most commands
 
-    signal = orientation.signal("orientation")
-    if signal.frame != to:
-        raise RecordingError(
-            f"stream {orientation.name!r}: expected the orientation of {to!r}, got that of {signal.frame!r}"
-        )
-    require_overlap(stream, orientation)
-    world_R_to = interpolate(orientation, signal.values, stream.stamp_ns).reshape(-1, 3, 3)
+    world_R_to = _interpolated(stream, orientation, "orientation", to).reshape(-1, 3, 3)
     known = np.isfinite(world_R_to).all(axis=(1, 2))
     if known.any():
         world_R_to[known] = Rotation.from_matrix(world_R_to[known]).as_matrix()  # between two rotations lies none
     return make_pose(world_R_to.transpose(0, 2, 1), np.zeros(3))
+
+
+def pose_at(stream: Stream, pose: Stream, to: str) -> FloatArray:
+    """Give the pose of the world in a frame at the samples of a stream.
+
+    Args:
+        stream: The stream.
+        pose: Stream with the orientation and the translation of the frame, on the same clock.
+        to: Name of the frame.
+
+    Returns:
+        `to_H_world`; shape (n, 4, 4); m; NaN where the pose is not known.
+
+    Raises:
+        RecordingError: If the pose is of another frame or lacks something, or the streams do not overlap.
+    """
+    if "translation" not in pose.signals:
+        raise RecordingError(
+            f"stream {pose.name!r}: expected a translation beside the orientation: the moment is about the origin of "
+            f"its world; state where {to!r} is as x, y, z of the quantity translation, in m, or, where the moment is "
+            'about a point that moves with the sensor, moment_about = "point" with point_m'
+        )
+    to_H_world = orientation_at(stream, pose, to)
+    place = _interpolated(stream, pose, "translation", to)
+    to_H_world[:, :3, 3] = -np.einsum("nij,nj->ni", to_H_world[:, :3, :3], place)
+    return to_H_world
+
+
+def _interpolated(stream: Stream, source: Stream, quantity: str, frame: str) -> FloatArray:
+    signal = source.signal(quantity)
+    if signal.frame != frame:
+        raise RecordingError(
+            f"stream {source.name!r}: expected the {quantity} of {frame!r}, got that of {signal.frame!r}"
+        )
+    require_overlap(stream, source)
+    return interpolate(source, signal.values, stream.stamp_ns)

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from forcetorque.analysis import Assessment, learnt_words
-from forcetorque.analysis.calibration_tables import session_table
+from forcetorque.analysis.calibration.tables import session_table
 from forcetorque.calibration import Calibration, Posterior
 from forcetorque.report import figures, tables
 from forcetorque.report.document import Block, Figure, Picture, Text

@@ -7,9 +7,9 @@ from collections.abc import Callable, Iterator
 from typing import Final
 
 from forcetorque.analysis import Assessment, criteria_table
-from forcetorque.analysis.contact_forces import WORTH, mean_contact_table
-from forcetorque.analysis.evaluation_tables import ERROR_WORDS, error_tables
-from forcetorque.analysis.sphere_tables import interval_table, mass_table, moment_table
+from forcetorque.analysis.evaluate.tables import ERROR_WORDS, error_tables
+from forcetorque.analysis.sphere.tables import interval_table, mass_table, moment_table
+from forcetorque.analysis.validate.contact_forces import WORTH, mean_contact_table
 from forcetorque.report import figures, tables
 from forcetorque.report.calibration_sections import (
     excitation_blocks,

@@ -10,7 +10,7 @@ from typing import Annotated, Any, Literal
 from pydantic import Field
 
 from forcetorque.analysis import Demands, ExperimentAssessment, SensorRun, UseVerdict, assess_experiment
-from forcetorque.analysis.use_verdict import Tone
+from forcetorque.analysis.use.verdict import Tone
 from forcetorque.atomic import refuse_unwritable, write_bytes_atomically
 from forcetorque.calibration import Calibration
 from forcetorque.errors import ForceTorqueError

@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from forcetorque.analysis import ExperimentAssessment
-from forcetorque.analysis.skin_wrench import SkinWrench
+from forcetorque.analysis.skin.wrench import SkinWrench
 from forcetorque.report.document import Block, Figure, List, Picture, Section, Text
 from forcetorque.report.figures import skin_event_figure, skin_wrench_figure
 from forcetorque.result import Table, table_of

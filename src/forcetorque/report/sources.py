@@ -13,7 +13,7 @@ from typing import Any
 import forcetorque.analysis
 import forcetorque.experiment
 from forcetorque.analysis import AcceptanceFile, read_acceptance
-from forcetorque.analysis.applicability import calibrations_of
+from forcetorque.analysis.runs.applicability import calibrations_of
 from forcetorque.calibration import Calibration, read_calibration
 from forcetorque.errors import ExperimentError, FormatError, MissingFileError
 from forcetorque.experiment import Experiment

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from functools import partial
 
 from forcetorque.analysis import Campaign, Demands, SensorRun, UseVerdict, use_verdicts
-from forcetorque.analysis.unseen import require_unseen_if_judged
+from forcetorque.analysis.runs.unseen import require_unseen_if_judged
 from forcetorque.calibration import Calibration
 from forcetorque.errors import ForceTorqueError
 from forcetorque.result import Row

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from importlib import import_module
-from pkgutil import iter_modules
+from pkgutil import walk_packages
 from types import ModuleType
 
 from forcetorque.result.result import Result
@@ -18,15 +18,15 @@ def result_classes(*packages: ModuleType) -> dict[str, type[Result]]:
     """Find every result that packages give, so that a new one is known wherever results are.
 
     Args:
-        packages: Packages; all their modules are imported.
+        packages: Packages; all modules below them are imported.
 
     Returns:
         Class by name of its schema, which is that of the command that shows it; sorted.
     """
     modules = {
-        import_module(f"{package.__name__}.{module.name}").__name__
+        import_module(module.name).__name__
         for package in packages
-        for module in iter_modules(package.__path__)
+        for module in walk_packages(package.__path__, f"{package.__name__}.")
     }
     classes = {_name(kind): kind for kind in _below(Result) if kind.__module__ in modules}
     return {name: classes[name] for name in sorted(classes) if name}

@@ -9,11 +9,11 @@ from importlib.metadata import version
 from pathlib import Path
 
 from forcetorque.analysis import inspect_experiment
-from forcetorque.analysis.applicability import by_sensor
+from forcetorque.analysis.runs.applicability import by_sensor
 from forcetorque.calibration import Calibration
 from forcetorque.experiment import Experiment
-from forcetorque.experiment.skin_alone import BESIDE_M, is_skin_alone
-from forcetorque.experiment.wrist_load import is_wrist_load
+from forcetorque.experiment.loads.wrist_load import is_wrist_load
+from forcetorque.experiment.skin.skin_alone import BESIDE_M, is_skin_alone
 from forcetorque.recording import Finding, Interval, Stream
 from forcetorque.recording.alignment import seconds_since
 from forcetorque.viewer.contacts import scene_contacts

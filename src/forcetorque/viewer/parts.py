@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from forcetorque.analysis.part_residuals import part_residuals
+from forcetorque.analysis.joint.part_residuals import part_residuals
 from forcetorque.arrays import BoolArray, FloatArray, IntArray
 from forcetorque.calibration import Calibration
 from forcetorque.calibration.joint import PartResidual

@@ -9,9 +9,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from forcetorque.analysis import Correction, SensorRun, SensorSphere, spheres
-from forcetorque.analysis.applicability import require_fit
-from forcetorque.analysis.candidate import PRIOR
-from forcetorque.analysis.reading import wrench_at
+from forcetorque.analysis.runs.applicability import require_fit
+from forcetorque.analysis.runs.candidate import PRIOR
+from forcetorque.analysis.runs.reading import wrench_at
 from forcetorque.arrays import FloatArray, IntArray
 from forcetorque.calibration import Calibration
 from forcetorque.errors import ForceTorqueError

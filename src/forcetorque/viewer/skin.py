@@ -8,9 +8,9 @@ from typing import Final
 
 import numpy as np
 
-from forcetorque.analysis.skin_frames import AVERAGED
-from forcetorque.analysis.skin_wrench import PatchFrames, patch_frames
-from forcetorque.analysis.skin_wrench_choice import WrenchChoice
+from forcetorque.analysis.skin.frames import AVERAGED
+from forcetorque.analysis.skin.wrench import PatchFrames, patch_frames
+from forcetorque.analysis.skin.wrench_choice import WrenchChoice
 from forcetorque.errors import ForceTorqueError
 from forcetorque.experiment import ExperimentPatch, PatchExperiment
 from forcetorque.recording.alignment import usable_samples

@@ -60,14 +60,22 @@ class Types:
         arrays = {"position": position, "velocity": velocity, "effort": effort}
         return self.make("sensor_msgs/msg/JointState", header=self.header(k, ""), name=names, **arrays)
 
-    def imu(self, k: int, values: np.ndarray, covariance: float = 0.0) -> Any:
-        """Angular velocity, acceleration; the covariance of the former."""
+    def imu(
+        self,
+        k: int,
+        values: np.ndarray,
+        covariance: float = 0.0,
+        *,
+        turn: Iterable[float] = (0.0, 0.0, 0.0, 1.0),
+        turn_covariance: float = 0.0,
+    ) -> Any:
+        """Angular velocity, acceleration; the covariance of the former; an orientation."""
         zeros = np.zeros(9)
         return self.make(
             "sensor_msgs/msg/Imu",
             header=self.header(k, "imu"),
-            orientation=self.quaternion((0.0, 0.0, 0.0, 1.0)),
-            orientation_covariance=zeros,
+            orientation=self.quaternion(turn),
+            orientation_covariance=zeros + turn_covariance,
             angular_velocity=self.vector(values[:3]),
             angular_velocity_covariance=zeros + covariance,
             linear_acceleration=self.vector(values[3:6]),
@@ -79,20 +87,44 @@ class Types:
         header = self.header(k, "tool")
         return self.make("sensor_msgs/msg/Temperature", header=header, temperature=float(value), variance=0.0)
 
+    def pose(self, turn: np.ndarray, place: Iterable[float]) -> Any:
+        """Where a frame is in another."""
+        x, y, z = map(float, place)
+        point = self.make("geometry_msgs/msg/Point", x=x, y=y, z=z)
+        return self.make("geometry_msgs/msg/Pose", position=point, orientation=self.quaternion(turn))
+
+    def posed(self, kind: str, k: int, turn: np.ndarray, place: Iterable[float], parent: str, child: str) -> Any:
+        """A message of any type with the pose of one frame, of which some do not name the child."""
+        header = self.header(k, parent)
+        if kind == "geometry_msgs/msg/QuaternionStamped":
+            return self.make(kind, header=header, quaternion=self.quaternion(turn))
+        if kind == "geometry_msgs/msg/TransformStamped":
+            return self.transform(k, turn, place, parent, child)
+        pose = self.pose(turn, place)
+        if kind == "geometry_msgs/msg/PoseStamped":
+            return self.make(kind, header=header, pose=pose)
+        uncertain = self.make("geometry_msgs/msg/PoseWithCovariance", pose=pose, covariance=np.zeros(36))
+        if kind == "geometry_msgs/msg/PoseWithCovarianceStamped":
+            return self.make(kind, header=header, pose=uncertain)
+        speed = self.make("geometry_msgs/msg/Twist", linear=self.vector((1, 2, 3)), angular=self.vector((4, 5, 6)))
+        twist = self.make("geometry_msgs/msg/TwistWithCovariance", twist=speed, covariance=np.ones(36))
+        return self.make("nav_msgs/msg/Odometry", header=header, child_frame_id=child, pose=uncertain, twist=twist)
+
+    def transform(self, k: int, turn: np.ndarray, place: Iterable[float], parent: str, child: str) -> Any:
+        """A child in its parent."""
+        return self.make(
+            "geometry_msgs/msg/TransformStamped",
+            header=self.header(k, parent),
+            child_frame_id=child,
+            transform=self.make(
+                "geometry_msgs/msg/Transform", translation=self.vector(place), rotation=self.quaternion(turn)
+            ),
+        )
+
     def transforms(self, k: int, rotations: Mapping[tuple[str, str], np.ndarray]) -> Any:
         """Rotations of children in parents, x y z w."""
         message = [
-            self.make(
-                "geometry_msgs/msg/TransformStamped",
-                header=self.header(k, parent),
-                child_frame_id=child,
-                transform=self.make(
-                    "geometry_msgs/msg/Transform",
-                    translation=self.vector((1, 2, 3)),
-                    rotation=self.quaternion(rotation),
-                ),
-            )
-            for (parent, child), rotation in rotations.items()
+            self.transform(k, rotation, (1, 2, 3), parent, child) for (parent, child), rotation in rotations.items()
         ]
         return self.make(TF, transforms=message)
 

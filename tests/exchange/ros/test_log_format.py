@@ -112,19 +112,21 @@ def test_tf_gives_gravity_in_the_support_frame(written: Path) -> None:
     np.testing.assert_allclose(stream.signal("orientation").values, expected.reshape(-1, 9), atol=1e-14)
     gravity = rotations.inv().apply([0.0, 0.0, -STANDARD_GRAVITY])
     np.testing.assert_allclose(stream.signal("gravity").values, gravity, atol=1e-13)
-    with pytest.raises(FormatError, match="expected transforms of sole in world, got base -> sole, world -> base"):
+    np.testing.assert_array_equal(stream.signal("translation").values, [[1.0, 2.0, 3.0]] * ROWS)
+    with pytest.raises(FormatError, match="expected poses of sole in world, got base -> sole, world -> base"):
         _read(written, entry | {"world": "world"})
-    with pytest.raises(FormatError, match="expected frame and world for transforms"):
+    with pytest.raises(FormatError, match="expected frame and world for poses"):
         _read(written, {"name": "sole", "topic": "/tf", "frame": "sole"})
 
 
 def test_it_is_described(written: Path) -> None:
-    """Everything but tf is a stream; the table is what a file may state."""
+    """Everything but tf and the orientations of an IMU is a stream; the table is what a file may state."""
     known = recognised_format(written)
     assert isinstance(known, RosFormat)
     description = known.describe(written)
     assert [stream.name for stream in description.reading.streams] == ["/ft", "/imu", "/joint_states", "/warm"]
-    assert [(finding.kind, finding.stream) for finding in description.reading.findings] == [("not_read", "/tf")]
+    findings = description.reading.findings
+    assert [(finding.kind, finding.stream) for finding in findings] == [("not_read", "/imu"), ("not_read", "/tf")]
     again = _read(written, *(entry.model_dump() for entry in description.table.stream))
     for stream, other in zip(description.reading.streams, again.streams, strict=True):
         np.testing.assert_array_equal(stream.stamp_ns, other.stamp_ns)

@@ -29,6 +29,7 @@ from forcetorque.exchange.yarp import (
     read_state,
     read_state_ext,
 )
+from forcetorque.recording import ROLL_PITCH_YAW
 from tests.exchange.yarp.port_logs import INFO, INFO_TWO_STAMPS, STATE_NAMES, parse_nested, parse_slowly, write_port
 from tests.fuzzing import examples
 
@@ -133,6 +134,11 @@ def _check_inertial(folder: Path, text: str, n_stamps: int) -> None:
     np.testing.assert_array_equal(stream.signal("angular_velocity").values, expected[:, 3:] * (math.pi / 180))
     assert stream.stamp_ns.tolist() == [line.stamps_ns[0] for line in lines]
     np.testing.assert_array_equal(stream.sequence, [line.sequence for line in lines])
+    turned = read_inertial(folder, stream="imu", frame="sensor", orientation=ROLL_PITCH_YAW).stream
+    roll, pitch, _ = np.radians([[float(number) for number in line.numbers[:3]] for line in lines]).T
+    down = np.column_stack([np.sin(pitch), -np.sin(roll) * np.cos(pitch), -np.cos(roll) * np.cos(pitch)])
+    few = np.hypot(roll, pitch) < 100.0  # of angles of many turns little but rounding is left
+    np.testing.assert_allclose(turned.signal("gravity").values[few], 9.80665 * down[few], atol=1e-11)
 
 
 def _check_positions(folder: Path, text: str, n_stamps: int) -> None:

@@ -71,7 +71,7 @@ def test_the_kind_of_a_port(tmp_path: Path, name: str, text: str, kind: PortKind
             "1 10.5 " + "() " * 10 + "\n",
             "expected a device with a sensor .* read .gyroscope, .*, got no sensor",
         ),
-        ("port", "1 10.5 () () () (((1 2 3) 4)) () () () (((1) 2)) ()\n", "got orientation, encoder"),
+        ("port", "1 10.5 () () (((1 2 3) 4)) () () () () (((1) 2)) ()\n", "got magnetometer, encoder"),
         ("port", "1 10.5 " + "() [fail] " * 11 + "\n", "got 22 elements"),
         ("port", "00000001.ppm [rgb]\n", "got '00000001.ppm'"),
         ("port", "", "empty log"),

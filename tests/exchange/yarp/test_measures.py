@@ -17,6 +17,7 @@ from hypothesis import strategies as st
 
 from forcetorque.errors import FormatError, RecordingError
 from forcetorque.exchange.yarp import MeasuresList, MeasuresSensor, PortReading, read_measures
+from forcetorque.exchange.yarp.measures import READ_LISTS
 from forcetorque.recording import QUANTITIES
 from tests.exchange.yarp.port_logs import INFO, INFO_TWO_STAMPS, parse_nested, write_port
 from tests.fuzzing import examples
@@ -40,7 +41,7 @@ _READ = {
     MeasuresList.TEMPERATURE: ("temperature", 1, 1.0),
     MeasuresList.SIX_AXIS_FORCE_TORQUE: ("wrench", 6, 1.0),
 }
-"""Quantity, numbers and factor to SI of each list that is read."""
+"""Quantity, numbers and factor to SI of each list that is read number by number."""
 _PLACES = {
     MeasuresList.GYROSCOPE: 0,
     MeasuresList.ACCELEROMETER: 1,
@@ -282,7 +283,7 @@ def test_a_message_of_another_kind_is_refused(tmp_path: Path, line: str, message
     assert "\n" not in str(caught.value)
 
 
-@pytest.mark.parametrize("name", [name for name in MeasuresList if name not in _READ])
+@pytest.mark.parametrize("name", [name for name in MeasuresList if name not in READ_LISTS])
 def test_lists_that_are_not_read_are_refused(name: MeasuresList) -> None:
     """The error says which ones are."""
     with pytest.raises(

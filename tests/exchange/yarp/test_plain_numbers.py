@@ -57,6 +57,18 @@ def test_joint_positions_by_hand(tmp_path: Path) -> None:
     assert reading.findings == ()
 
 
+def test_joints_that_the_robot_lacks_are_left_out(tmp_path: Path) -> None:
+    """A board may move more than the model has; its numbers are counted all the same."""
+    folder = write_port(tmp_path, _STATE + "\n")
+    position = read_state(folder, stream="leg", joints=["-", "knee", "-"]).stream.signal("position")
+    assert position.columns == ("knee",)
+    assert position.values.tolist() == [[math.radians(-45.5)]]
+    with pytest.raises(FormatError, match='expected 2 numbers knee -, got 3; name all joints .*, "-" for one that the'):
+        read_state(folder, stream="leg", joints=["knee", "-"])
+    with pytest.raises(RecordingError, match="expected the name of at least one joint of the robot, got"):
+        read_state(folder, stream="leg", joints=["-", "-", "-"])
+
+
 def test_prismatic_joints_are_in_metres(tmp_path: Path) -> None:
     """Their positions are taken as they are, those of the other joints are not."""
     folder = write_port(tmp_path, _STATE + "\n")

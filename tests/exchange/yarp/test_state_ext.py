@@ -65,6 +65,21 @@ def test_prismatic_joints_are_in_metres(tmp_path: Path) -> None:
     np.testing.assert_array_equal(stream.signal("position").column("hip"), [0.0, math.radians(1)])
 
 
+def test_joints_that_the_robot_lacks_are_left_out(tmp_path: Path) -> None:
+    """Each of the others keeps its numbers and its unit, whichever group failed; all of the board are still counted."""
+    folder = write_port(tmp_path, _line(0) + _line(1, flags={1: "[fail]"}))
+    stream = read_state_ext(folder, stream="leg", joints=("-", "knee", "slide"), joint_units={"slide": "m"}).stream
+    whole = _read(tmp_path, _line(0) + _line(1, flags={1: "[fail]"}), units={"slide": "m"}).stream
+    for name, signal in stream.signals.items():
+        assert signal.columns == ("knee", "slide")
+        np.testing.assert_array_equal(signal.values, whole.signal(name).values[:, 1:])
+    assert np.isnan(stream.signal("velocity").values[1]).all()
+    with pytest.raises(
+        FormatError, match=r'so many joints were named \(knee, -\), got 3; name all .* "-" for one that'
+    ):
+        read_state_ext(folder, stream="leg", joints=("knee", "-"))
+
+
 def test_unknown_joints_and_units_are_refused(tmp_path: Path) -> None:
     """A unit for a joint that is not there, and degrees, which are what is logged, are mistakes."""
     with pytest.raises(RecordingError, match="no joint 'slid' was named; did you mean \"slide\""):

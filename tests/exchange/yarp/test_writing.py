@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from scipy.spatial.transform import Rotation
 
 from forcetorque.arrays import FloatArray
 from forcetorque.errors import MissingFileError, RecordingError
@@ -26,7 +27,7 @@ from forcetorque.exchange.yarp import (
     write_ports,
     writing,
 )
-from forcetorque.recording import Recording, Signal, Stream
+from forcetorque.recording import ROLL_PITCH_YAW, Recording, Signal, Stream
 from tests.exchange.yarp.port_logs import parse_nested, parse_slowly, read_text
 from tests.experiments import snapshot
 from tests.recording.recordings import jittered_stamps, recording, refused, signal, stream
@@ -79,7 +80,9 @@ def _same(read: Stream, written: Stream, *quantities: str) -> None:
     for quantity in quantities:
         after, before = read.signal(quantity), written.signal(quantity)
         assert (after.columns, after.units) == (before.columns, before.units)
-        np.testing.assert_allclose(after.values, before.values, rtol=PRINTED, atol=0.0)
+        # elements of a matrix are of the size of 1, whichever are near zero
+        small = 10 * PRINTED if quantity == "orientation" else 0.0
+        np.testing.assert_allclose(after.values, before.values, rtol=PRINTED, atol=small)
 
 
 def test_a_force_torque_sensor_reads_back(tmp_path: Path) -> None:
@@ -159,6 +162,9 @@ def test_positions_alone_and_an_inertial_sensor_read_back(tmp_path: Path) -> Non
     write_ports(tmp_path / "log", recording(imu, leg), ports)
     read = read_inertial(tmp_path / "log" / "inertial", stream="imu", frame="frame").stream
     _same(read, imu, "proper_acceleration", "angular_velocity")
+    turned = read_inertial(tmp_path / "log" / "inertial", stream="imu", frame="frame", orientation=ROLL_PITCH_YAW)
+    assert set(turned.stream.signals) == {"orientation", "gravity"}
+    np.testing.assert_array_equal(turned.stream.signal("orientation").values, [np.eye(3).ravel()] * N)
     state = read_state(tmp_path / "log" / "leg/state:o", stream="leg", joints=JOINTS, joint_units={"slide": "m"}).stream
     _same(state, leg, "position")
     assert list(state.signals) == ["position"]
@@ -174,6 +180,7 @@ def _device(path: str = "icub/leg/measures:o") -> tuple[Recording, DevicePort]:
         stream(stamps, signal("temperature", 30 + _values(1, seed=3)), name="warmth"),
         stream(stamps, signal("angular_velocity", _values(3, seed=4)), name="gyro"),
         stream(stamps, signal("proper_acceleration", _values(3, seed=5)), name="accelerometer"),
+        stream(stamps, signal("orientation", Rotation.random(N, rng=6).as_matrix().reshape(N, 9)), name="turn"),
     ]
     ft = MeasuresList.SIX_AXIS_FORCE_TORQUE
     sensors = (
@@ -182,6 +189,7 @@ def _device(path: str = "icub/leg/measures:o") -> tuple[Recording, DevicePort]:
         MeasuresSensor(list=MeasuresList.TEMPERATURE, index=0, stream="warmth"),
         MeasuresSensor(list=MeasuresList.GYROSCOPE, index=0, stream="gyro", frame="frame"),
         MeasuresSensor(list=MeasuresList.ACCELEROMETER, index=0, stream="accelerometer", frame="frame"),
+        MeasuresSensor(list=MeasuresList.ORIENTATION, index=0, stream="turn", frame="frame"),
     )
     return recording(*streams), DevicePort(path=path, sensors=sensors)
 
@@ -199,7 +207,7 @@ def test_a_device_with_several_sensors_reads_back(tmp_path: Path) -> None:
     ticks = made.stream("second").signal("device_stamp").values
     np.testing.assert_array_equal(second.stream.signal("device_stamp").values, ticks)
     _, stamp, *lists = parse_nested(read_text(tmp_path / "log" / port.path).splitlines()[4])
-    assert [len(sensors) for sensors in lists] == [1, 1, 0, 0, 1, 2, 0, 0, 0, 0, 0, 0]
+    assert [len(sensors) for sensors in lists] == [1, 1, 0, 1, 1, 2, 0, 0, 0, 0, 0, 0]
     assert lists[5][1] == [["32.0"] * 6, "3000040012.0"]
     assert lists[5][0][1] == stamp
 

@@ -8,7 +8,7 @@ from functools import cache
 import numpy as np
 import pytest
 
-from forcetorque.analysis.device_span import better_motion, device_span
+from forcetorque.analysis.device.span import better_motion, device_span
 from forcetorque.arrays import FloatArray
 from forcetorque.errors import RobotError
 from forcetorque.exsitu import THESIS_TABLE, Placement, Span, read_loads

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from forcetorque.analysis.torque_loop_file import PERIOD_S, DriveTable, SensorTable, TorqueLoopFile
+from forcetorque.analysis.torque_loop.file import PERIOD_S, DriveTable, SensorTable, TorqueLoopFile
 from forcetorque.arrays import BoolArray, FloatArray
 from forcetorque.errors import ControlError
 from forcetorque.simulation.torque_loop.biped import SENSORS, Biped

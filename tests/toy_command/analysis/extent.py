@@ -8,7 +8,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from forcetorque.analysis.sensor_run import SensorRun
+from forcetorque.analysis.runs.sensor_run import SensorRun
 from forcetorque.result import Result, Row, Shown, Table, table_of
 
 

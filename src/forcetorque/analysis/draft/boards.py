@@ -6,6 +6,7 @@ from __future__ import annotations
 import re
 
 from forcetorque.analysis.draft.text import listed, question, toml_value
+from forcetorque.exchange.yarp import NO_JOINT
 from forcetorque.robot import RobotModel
 
 _MOST_ROWS = 2
@@ -26,6 +27,8 @@ def joints_question(count: int, where: str, model: RobotModel | None, *, key: st
         The line.
     """
     words = f"names of the {count} joints in the order of the log, as the URDF has them"
+    if key == "joints":
+        words += f', "{NO_JOINT}" for one that it lacks'
     if model is None:
         return question(key, words)
     rows = joint_rows(model, count, where)

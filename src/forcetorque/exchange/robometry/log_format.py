@@ -16,10 +16,12 @@ from forcetorque.exchange.robometry.streams import (
     JOINT_QUANTITIES,
     JOINTS,
     joint_stream,
+    orientation_stream,
     sensor_quantity,
     sensor_stream,
 )
-from forcetorque.recording import QUANTITIES, Finding, Stream
+from forcetorque.exchange.signal_table import STATE_SENSE
+from forcetorque.recording import QUANTITIES, ROLL_PITCH_YAW, Finding, Stream
 
 _Reading = tuple[Stream, tuple[Finding, ...]]
 
@@ -106,20 +108,29 @@ def _channel_of(path: str) -> str:
 
 def _read(group: Any, paths: Sequence[str], entry: RobometryStream, *, units: Mapping[str, Sequence[str]]) -> _Reading:
     file = Path(group.file.filename)
+    quantity = sensor_quantity(entry.channel)
+    if (quantity == "orientation") != (entry.orientation is not None):
+        raise FormatError(
+            f"{file}: {entry.channel}: expected {STATE_SENSE} for roll, pitch and yaw, of which the file does not say "
+            "what they turn into what, and for nothing else"
+        )
     if entry.channel == JOINTS:
         joints = [f"{JOINTS}/{leaf}" for leaf in JOINT_QUANTITIES if f"{JOINTS}/{leaf}" in paths]
         _require_known(file, "channel", joints[:1] or [JOINTS], paths)
         channels = [read_channel(group, joint) for joint in joints]
         return joint_stream(channels, name=entry.name, joints=texts(group[DESCRIPTION]), units=units)
     _require_known(file, "channel", [entry.channel], paths)
-    quantity = sensor_quantity(entry.channel)
     if quantity is None:
         raise FormatError(f"{file}: {entry.channel}: expected a channel of a sensor or {JOINTS}; this is neither")
     if QUANTITIES[quantity].has_frame and entry.frame is None:
         raise FormatError(
             f"{file}: {entry.channel}: expected a frame, or a [[sensor]] that reads {entry.name!r}; state frame"
         )
-    return sensor_stream(read_channel(group, entry.channel), name=entry.name, frame=entry.frame, units=units), ()
+    channel = read_channel(group, entry.channel)
+    if entry.orientation is not None:
+        layout = entry.orientation.applied_to(ROLL_PITCH_YAW)
+        return orientation_stream(channel, name=entry.name, frame=str(entry.frame), layout=layout, units=units)
+    return sensor_stream(channel, name=entry.name, frame=entry.frame, units=units), ()
 
 
 def _require_known(file: Path, key: str, wanted: Iterable[str], paths: Sequence[str]) -> None:

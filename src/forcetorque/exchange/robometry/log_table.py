@@ -9,6 +9,7 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from forcetorque.exchange.log_format import LogTable
+from forcetorque.exchange.signal_table import SenseTable
 from forcetorque.toml_table import Table, Text
 
 
@@ -21,6 +22,8 @@ class RobometryStream(Table):
     """`joints_state`, or group and name of a sensor, such as `FTs/l_leg_ft_sensor`."""
     frame: Text | None = None
     """Link of the URDF in whose frame an IMU reads; left out for joints, temperatures and sensors of the experiment."""
+    orientation: SenseTable | None = None
+    """Of a channel of `orientations`, which needs it: what its rotation `Rz(y) Ry(p) Rx(r)` does."""
 
 
 class RobometryLog(LogTable):

@@ -10,7 +10,7 @@ import numpy as np
 from forcetorque.arrays import FloatArray
 from forcetorque.errors import FormatError, UnitError
 from forcetorque.exchange.robometry.channel import Channel
-from forcetorque.recording import QUANTITIES, Finding, Signal, Stream
+from forcetorque.recording import QUANTITIES, Finding, OrientationLayout, Signal, Stream, orientation_signals
 from forcetorque.spatial import SI_FACTORS, si_factor
 
 CLOCK = "logger"
@@ -30,6 +30,7 @@ SENSOR_QUANTITIES = {
     "temperatures": "temperature",
     "gyros": "angular_velocity",
     "accelerometers": "proper_acceleration",
+    "orientations": "orientation",
 }
 """What sensors of a group read."""
 
@@ -112,6 +113,38 @@ def sensor_stream(channel: Channel, *, name: str, frame: str | None, units: Mapp
         raise UnitError(f"{channel.path}: expected units that convert to {form.units}, got {si_units}")
     signal = Signal.of_fixed(quantity, values, frame=frame if form.has_frame else None)
     return Stream(name=name, clock=CLOCK, stamp_ns=channel.stamp_ns, signals={quantity: signal})
+
+
+def orientation_stream(
+    channel: Channel, *, name: str, frame: str, layout: OrientationLayout, units: Mapping[str, Sequence[str]]
+) -> tuple[Stream, tuple[Finding, ...]]:
+    """Make a stream of the roll, pitch and yaw of a sensor.
+
+    Args:
+        channel: Its channel.
+        name: Name for the stream.
+        frame: Frame whose orientation it is.
+        layout: What the angles mean.
+        units: Units of channels without a label, by path.
+
+    Returns:
+        The stream, and what is doubtful in it.
+
+    Raises:
+        FormatError: If the channel holds something else.
+        UnitError: If a unit is missing, or none of angles.
+    """
+    initials = tuple(element.strip()[:1] for element in channel.elements)
+    if channel.values.shape[1] != layout.count or initials not in ((), ("r", "p", "y")):
+        elements = f": {', '.join(channel.elements[:9])}" if channel.elements else ""
+        raise FormatError(
+            f"{channel.path}: expected the {layout.count} elements r, p, y, got {channel.values.shape[1]}{elements}"
+        )
+    values, (unit, *_) = _in_si(channel, units, (layout.unit,))
+    signals, findings = orientation_signals(
+        values, layout, unit=unit, frame=frame, stream=name, place=lambda row: f"{channel.path}: sample {row + 1}"
+    )
+    return Stream(name=name, clock=CLOCK, stamp_ns=channel.stamp_ns, signals=signals), findings
 
 
 def _in_si(

@@ -4,15 +4,17 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 
 from forcetorque.errors import ForceTorqueError, FormatError, known_names
 from forcetorque.exchange.log_format import LogContext, LogDescription, LogReading
 from forcetorque.exchange.ros.bag import Bag, bag_files, is_bag, opened_bag
-from forcetorque.exchange.ros.log_table import RosLog, RosStream
-from forcetorque.exchange.ros.messages import MESSAGES, TF_TYPES
+from forcetorque.exchange.ros.log_table import RosLog, RosOrientation, RosStream
+from forcetorque.exchange.ros.messages import IMU_TYPE, MESSAGES, POSE_TYPES, QUATERNION_TYPE
 from forcetorque.exchange.ros.streams import topic_stream
-from forcetorque.recording import Finding, Stream
+from forcetorque.exchange.signal_table import STATE_SENSE
+from forcetorque.recording import QUATERNION_XYZW, Finding, OrientationLayout, OrientationSense, Stream
 
 _Reading = tuple[Stream, tuple[Finding, ...]]
 
@@ -37,8 +39,9 @@ class RosFormat:
                 if reason is None:
                     try:
                         readings[topic] = _read(bag, RosStream(name=topic, topic=topic), {})
+                        reason = _unread_orientations(bag, topic, kind)
                     except ForceTorqueError as error:
-                        reason = str(error)
+                        reason = _unread_orientations(bag, topic, kind) or str(error)
                 if reason is not None:
                     unread.append(Finding(stream=topic, kind="not_read", message=reason, count=0))
         if not readings:
@@ -78,8 +81,10 @@ class RosFormat:
 
 
 def _not_described(kind: str) -> str | None:
-    if kind in TF_TYPES:
-        return "transforms: state frame and world for each that is wanted"
+    if kind in POSE_TYPES:
+        return "poses: state frame, whose they are, and world, in which they are seen, for each that is wanted"
+    if kind == QUATERNION_TYPE:
+        return f"orientations: state frame, whose they are, and {STATE_SENSE}"
     return None if kind in MESSAGES else f"nothing reads messages of {kind}"
 
 
@@ -90,11 +95,46 @@ def _read(bag: Bag, entry: RosStream, joint_units: Mapping[str, str]) -> _Readin
     kind = types[entry.topic]
     if kind not in MESSAGES:
         raise FormatError(f"{bag.path}: {entry.topic}: expected messages of {', '.join(MESSAGES)}, got {kind}")
-    is_tf = kind in TF_TYPES
-    if is_tf != (entry.world is not None) or (is_tf and entry.frame is None):
-        raise FormatError(
-            f"{bag.path}: {entry.topic}: expected frame and world for transforms of tf, and world for nothing else"
-        )
     return topic_stream(
-        bag, entry.topic, name=entry.name, frame=entry.frame, world=entry.world, joint_units=joint_units
+        bag,
+        entry.topic,
+        name=entry.name,
+        frame=entry.frame,
+        world=entry.world,
+        joint_units=joint_units,
+        orientation=_layout(f"{bag.path}: {entry.topic}", kind, entry),
     )
+
+
+def _layout(place: str, kind: str, entry: RosStream) -> OrientationLayout | None:
+    """What the quaternions of a topic mean, if they are wanted; ROS fixes their order, and the sense of poses."""
+    poses, stated = kind in POSE_TYPES, entry.orientation
+    if poses != (entry.world is not None) or (poses and entry.frame is None):
+        raise FormatError(
+            f"{place}: expected frame and world for poses and transforms of tf, and world for nothing else"
+        )
+    if poses:
+        if stated is not None and stated.sense is not None:
+            raise FormatError(f"{place}: expected no sense: a pose turns vectors from its frame to the world")
+        return QUATERNION_XYZW if stated is None else stated.applied_to(QUATERNION_XYZW)
+    if kind == QUATERNION_TYPE and (stated is None or entry.frame is None):
+        raise FormatError(f"{place}: expected frame, whose orientations these are, and {STATE_SENSE}")
+    if stated is None:
+        return None
+    if kind not in (IMU_TYPE, QUATERNION_TYPE):
+        raise FormatError(f"{place}: expected no orientation for messages of {kind}, which have none")
+    if stated.sense is None:
+        raise FormatError(f"{place}: expected {STATE_SENSE}: messages do not say which")
+    return stated.applied_to(replace(QUATERNION_XYZW, sense=stated.sense))
+
+
+def _unread_orientations(bag: Bag, topic: str, kind: str) -> str | None:
+    """Words about orientations that an IMU estimates, if it does: nobody says yet what they turn into what."""
+    if kind != IMU_TYPE:
+        return None
+    sense = RosOrientation(sense=OrientationSense.SENSOR_TO_WORLD)
+    try:
+        _read(bag, RosStream(name=topic, topic=topic, orientation=sense), {})
+    except FormatError:
+        return None
+    return f"orientations of an IMU: state, in a stream of its own, {STATE_SENSE}"

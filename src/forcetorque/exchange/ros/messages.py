@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The messages that are read, field by field, as geometry_msgs, sensor_msgs and tf2_msgs define them."""
+"""The messages that are read, field by field, as geometry_msgs, nav_msgs, sensor_msgs and tf2_msgs define them."""
 
 from __future__ import annotations
 
@@ -25,6 +25,11 @@ class Fields:
     names: tuple[str, ...] = ()
     """Joints of a JointState, or the child of a transform."""
 
+    @property
+    def frames(self) -> tuple[str, ...]:
+        """Frame of the header and child of a transform, without the slashes that ROS 1 had."""
+        return tuple(frame.strip("/") for frame in (self.frame, *self.names))
+
 
 def wrench_stamped(cursor: Cursor) -> tuple[Fields, ...]:
     """Find force and torque."""
@@ -40,14 +45,25 @@ def temperature(cursor: Cursor) -> tuple[Fields, ...]:
 
 
 def imu(cursor: Cursor) -> tuple[Fields, ...]:
-    """Find angular velocity and proper acceleration, and the first numbers of their covariances: -1 is not measured."""
+    """Find orientation x y z w, angular velocity and proper acceleration, and where each has its covariance begin."""
     counter, stamp, frame = _header(cursor)
     numbers = {}
-    cursor.doubles(4 + 9)  # the orientation, whose world no message names
-    for name in ("angular_velocity", "proper_acceleration"):
-        numbers[name] = (cursor.doubles(3), 3)
-        numbers[f"{name} covariance"] = (cursor.doubles(9), 1)
+    for name, count in (("orientation", 4), ("angular_velocity", 3), ("proper_acceleration", 3)):
+        numbers[name] = (cursor.doubles(count), count)
+        numbers[not_measured(name)] = (cursor.doubles(9), 1)
     return (Fields(counter=counter, stamp=stamp, frame=frame, numbers=numbers),)
+
+
+def not_measured(quantity: str) -> str:
+    """Name the number of an Imu that is -1 where it does not measure a quantity: the first of its covariances.
+
+    Args:
+        quantity: The quantity.
+
+    Returns:
+        Its key in `Fields.numbers`.
+    """
+    return f"{quantity} covariance"
 
 
 def joint_state(cursor: Cursor) -> tuple[Fields, ...]:
@@ -68,33 +84,63 @@ def joint_state(cursor: Cursor) -> tuple[Fields, ...]:
 
 
 def transforms(cursor: Cursor) -> tuple[Fields, ...]:
-    """Find the rotation of every transform, from child to frame, x y z w; translations are left out."""
-    fields = []
-    for _ in range(cursor.count()):
-        counter, stamp, frame = _header(cursor)
-        child = cursor.text()
-        cursor.doubles(3)
-        rotation = (cursor.doubles(4), 4)
-        fields.append(
-            Fields(counter=counter, stamp=stamp, frame=frame, numbers={"orientation": rotation}, names=(child,))
-        )
-    return tuple(fields)
+    """Find every transform of tf."""
+    return tuple(field for _ in range(cursor.count()) for field in transform_stamped(cursor))
 
 
+def transform_stamped(cursor: Cursor) -> tuple[Fields, ...]:
+    """Find the pose of the child in the frame of the header."""
+    counter, stamp, frame = _header(cursor)
+    child = cursor.text()
+    return (Fields(counter=counter, stamp=stamp, frame=frame, numbers=_pose(cursor), names=(child,)),)
+
+
+def odometry(cursor: Cursor) -> tuple[Fields, ...]:
+    """Find the pose of the child in the frame of the header; its velocity is left out."""
+    (fields,) = transform_stamped(cursor)
+    cursor.doubles(36 + 6 + 36)
+    return (fields,)
+
+
+def pose_stamped(cursor: Cursor) -> tuple[Fields, ...]:
+    """Find the pose, in the frame of the header, of something that the message does not name."""
+    counter, stamp, frame = _header(cursor)
+    return (Fields(counter=counter, stamp=stamp, frame=frame, numbers=_pose(cursor)),)
+
+
+def quaternion_stamped(cursor: Cursor) -> tuple[Fields, ...]:
+    """Find the orientation x y z w; of what, and in what, differs from driver to driver."""
+    counter, stamp, frame = _header(cursor)
+    return (Fields(counter=counter, stamp=stamp, frame=frame, numbers={"orientation": (cursor.doubles(4), 4)}),)
+
+
+IMU_TYPE = "sensor_msgs/msg/Imu"
+QUATERNION_TYPE = "geometry_msgs/msg/QuaternionStamped"
 MESSAGES: dict[str, Callable[[Cursor], tuple[Fields, ...]]] = {
     "geometry_msgs/msg/WrenchStamped": wrench_stamped,
     "sensor_msgs/msg/JointState": joint_state,
-    "sensor_msgs/msg/Imu": imu,
+    IMU_TYPE: imu,
     "sensor_msgs/msg/Temperature": temperature,
+    QUATERNION_TYPE: quaternion_stamped,
+    "geometry_msgs/msg/PoseStamped": pose_stamped,
+    "geometry_msgs/msg/PoseWithCovarianceStamped": pose_stamped,
+    "geometry_msgs/msg/TransformStamped": transform_stamped,
+    "nav_msgs/msg/Odometry": odometry,
     "tf2_msgs/msg/TFMessage": transforms,
     "tf/msg/tfMessage": transforms,
 }
 """How to find the fields, by the type of message."""
-TF_TYPES = ("tf2_msgs/msg/TFMessage", "tf/msg/tfMessage")
-"""Types of tf, of which one topic has many transforms."""
+_POSES = (transforms, transform_stamped, odometry, pose_stamped)
+POSE_TYPES = tuple(name for name, find in MESSAGES.items() if find in _POSES)
+"""Types of poses of a frame: as ROS has it they turn vectors along its axes to those of the header's frame."""
 
 
 def _header(cursor: Cursor) -> tuple[int | None, int, str]:
     counter = None if cursor.cdr else cursor.skip(4, align=4)
     stamp = cursor.skip(8, align=4)
     return counter, stamp, cursor.text()
+
+
+def _pose(cursor: Cursor) -> dict[str, tuple[int, int]]:
+    translation = (cursor.doubles(3), 3)
+    return {"translation": translation, "orientation": (cursor.doubles(4), 4)}

@@ -8,27 +8,17 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray, IntArray
+from forcetorque.arrays import BoolArray, FloatArray, IntArray
 from forcetorque.errors import FormatError
 from forcetorque.exchange.ros.bag import Bag
 from forcetorque.exchange.ros.decoding import Batch, decode
-from forcetorque.exchange.ros.messages import MESSAGES, TF_TYPES, Fields
-from forcetorque.recording import (
-    QUANTITIES,
-    Finding,
-    OrientationForm,
-    OrientationLayout,
-    OrientationSense,
-    Signal,
-    Stream,
-    orientation_signals,
-)
+from forcetorque.exchange.ros.messages import MESSAGES, POSE_TYPES, Fields, not_measured
+from forcetorque.recording import QUANTITIES, Finding, OrientationLayout, Signal, Stream, orientation_signals
 
 CLOCK = "ros"
 """Clock of all streams: the stamps of headers, which ROS demands to be of one time."""
 
 _RATES = {"position": "", "velocity": "/s", "torque": ""}
-_QUATERNION = OrientationLayout(form=OrientationForm.QUAT_XYZW, sense=OrientationSense.SENSOR_TO_WORLD)
 
 
 @dataclass(kw_only=True)
@@ -44,6 +34,10 @@ class Samples:
     piece_names: list[tuple[str, ...]] = field(default_factory=list)
     order: list[IntArray] = field(default_factory=list)
 
+    def joined(self, name: str) -> FloatArray:
+        """Put the pieces of some numbers one behind the other; shape (n, k)."""
+        return np.concatenate([piece[name] for piece in self.numbers])
+
 
 def read_topic(bag: Bag, topic: str, *, child: str | None = None, parent: str | None = None) -> Samples:
     """Read all messages of a topic.
@@ -51,8 +45,8 @@ def read_topic(bag: Bag, topic: str, *, child: str | None = None, parent: str | 
     Args:
         bag: The bag.
         topic: Topic, of a type in `MESSAGES`.
-        child: Of tf, the frame whose transforms are wanted.
-        parent: Of tf, the frame in which they are seen.
+        child: Of poses, the frame whose pose is wanted, where messages name it.
+        parent: Of poses, the frame in which they are seen, where messages name it.
 
     Returns:
         Its samples.
@@ -65,13 +59,15 @@ def read_topic(bag: Bag, topic: str, *, child: str | None = None, parent: str | 
     for received, messages in bag.messages(topic):
         for batch in decode(messages, MESSAGES[kind], cdr=bag.cdr, topic=f"{bag.path}: {topic}"):
             for fields in batch.fields:
-                pairs.add((fields.frame.strip("/"), *fields.names) if kind in TF_TYPES else ())
-                if child is None or (fields.frame.strip("/"), fields.names[0].strip("/")) == (parent, child):
+                pairs.add(fields.frames if kind in POSE_TYPES else ())
+                if child is None or all(
+                    named in ("", wanted) for named, wanted in zip(fields.frames, (parent, child), strict=False)
+                ):
                     _keep(samples, batch, fields, received, first)
         first += len(messages)
     if not samples.stamps:
         known = ", ".join(sorted(" -> ".join(pair) for pair in pairs if pair)) or "no message"
-        wanted = f"transforms of {child} in {parent}" if child else "messages"
+        wanted = f"poses of {child} in {parent}" if child else "messages"
         raise FormatError(f"{bag.path}: {topic}: expected {wanted}, got {known}")
     return samples
 
@@ -96,6 +92,7 @@ def topic_stream(
     frame: str | None,
     world: str | None,
     joint_units: Mapping[str, str],
+    orientation: OrientationLayout | None = None,
 ) -> tuple[Stream, tuple[Finding, ...]]:
     """Make the stream of a topic.
 
@@ -103,9 +100,10 @@ def topic_stream(
         bag: The bag.
         topic: Topic, of a type in `MESSAGES`.
         name: Name for the stream.
-        frame: Frame of its readings; that of its messages if None. Of tf the frame whose orientation is wanted.
-        world: Of tf, the frame in which that is seen.
+        frame: Frame of its readings; that of its messages if None. Of poses the frame whose pose is wanted.
+        world: Of poses, the frame in which that is seen.
         joint_units: Unit of joints, rad or m; rad where a joint is missing.
+        orientation: What the orientations of the messages mean, to read these and nothing that an IMU measures beside.
 
     Returns:
         The stream, and what is doubtful in it.
@@ -113,15 +111,20 @@ def topic_stream(
     Raises:
         FormatError: If messages have two frames and none is stated.
     """
-    is_tf = bag.types[topic] in TF_TYPES
-    samples = read_topic(bag, topic, child=frame if is_tf else None, parent=world if is_tf else None)
+    samples = read_topic(bag, topic, child=None if world is None else frame, parent=world)
     order = np.argsort(np.concatenate(samples.order), kind="stable")
     stamps, stamp_findings = _stamps(samples, name, order)
     if frame is None and len(samples.frames) > 1:
         frames = ", ".join(map(repr, sorted(samples.frames)))
         raise FormatError(f"{bag.path}: {topic}: expected messages of one frame, got {frames}; state it")
     own = next(iter(samples.frames)).strip("/") or name
-    signals, findings = _signals(samples, order, name=name, frame=frame or own, joint_units=joint_units)
+    signals: dict[str, Signal]
+    findings: tuple[Finding, ...] = ()
+    if orientation is None:
+        signals = _signals(samples, order, frame=frame or own, joint_units=joint_units)
+    else:
+        place = f"{bag.path}: {topic}"
+        signals, findings = _pose(samples, order, orientation, name=name, frame=frame or own, place=place)
     if not signals:
         raise FormatError(f"{bag.path}: {topic}: expected messages with numbers, got none that were measured")
     counters = np.concatenate(samples.counters)[order] if samples.counters else None
@@ -131,7 +134,7 @@ def topic_stream(
         stamp_ns=stamps,
         signals=signals,
         # drivers that leave the counter at zero do not count
-        sequence=counters if counters is not None and not is_tf and counters.any() else None,
+        sequence=counters if counters is not None and world is None and counters.any() else None,
     )
     return stream, (*stamp_findings, *findings)
 
@@ -145,26 +148,56 @@ def _stamps(samples: Samples, name: str, order: IntArray) -> tuple[IntArray, tup
     return np.concatenate(samples.received)[order], (finding,)
 
 
-def _signals(
-    samples: Samples, order: IntArray, *, name: str, frame: str, joint_units: Mapping[str, str]
-) -> tuple[dict[str, Signal], tuple[Finding, ...]]:
+def _signals(samples: Samples, order: IntArray, *, frame: str, joint_units: Mapping[str, str]) -> dict[str, Signal]:
     signals: dict[str, Signal] = {}
     for quantity in dict.fromkeys(key for piece in samples.numbers for key in piece if key in QUANTITIES):
         if quantity == "orientation":
-            rotations = np.concatenate([piece[quantity] for piece in samples.numbers])[order]
-            return orientation_signals(rotations, _QUATERNION, unit="1", frame=frame, stream=name)
+            continue  # nobody said what it turns into what
         if quantity in _RATES:
             units = tuple(_joint_unit(quantity, joint_units.get(joint, "rad")) for joint in samples.names)
             values = _by_joint(samples, quantity)[order]
             signals[quantity] = Signal(quantity=quantity, values=values, columns=tuple(samples.names), units=units)
             continue
-        values = np.concatenate([piece[quantity] for piece in samples.numbers])[order]
-        covariance = f"{quantity} covariance"
-        if covariance in samples.numbers[0] and all((piece[covariance] == -1.0).all() for piece in samples.numbers):
-            continue  # the driver's way to say that it does not measure this
-        has_frame = QUANTITIES[quantity].has_frame
-        signals[quantity] = Signal.of_fixed(quantity, values, frame=frame if has_frame else None)
-    return signals, ()
+        if not _missing(samples, quantity).all():
+            has_frame = QUANTITIES[quantity].has_frame
+            signals[quantity] = Signal.of_fixed(
+                quantity, samples.joined(quantity)[order], frame=frame if has_frame else None
+            )
+    return signals
+
+
+def _pose(
+    samples: Samples, order: IntArray, layout: OrientationLayout, *, name: str, frame: str, place: str
+) -> tuple[dict[str, Signal], tuple[Finding, ...]]:
+    missing = _missing(samples, "orientation")
+    if missing.all():
+        raise FormatError(
+            f"{place}: expected orientations, got messages whose covariance begins with -1: the device estimates none; "
+            "leave orientation out"
+        )
+    rotations = np.where(missing[:, None], np.nan, samples.joined("orientation"))[order]
+    numbers = np.concatenate(samples.order)[order]
+    signals, findings = orientation_signals(
+        rotations,
+        layout,
+        unit=layout.unit,
+        frame=frame,
+        stream=name,
+        place=lambda row: f"{place}: message {numbers[row] + 1}",
+    )
+    if "translation" in samples.numbers[0]:
+        translation = samples.joined("translation")[order]
+        signals["translation"] = Signal.of_fixed("translation", translation, frame=frame)
+    return signals, findings
+
+
+def _missing(samples: Samples, quantity: str) -> BoolArray:
+    """Messages whose driver says that it does not measure a quantity; shape (n,)."""
+    covariance = not_measured(quantity)
+    if covariance not in samples.numbers[0]:
+        return np.zeros(sum(map(len, samples.stamps)), dtype=bool)
+    first: BoolArray = samples.joined(covariance)[:, 0] == -1.0
+    return first
 
 
 def _joint_unit(quantity: str, unit: str) -> str:

@@ -4,6 +4,7 @@
 from forcetorque.exchange.yarp.analog import read_analog
 from forcetorque.exchange.yarp.discover import FoundPort, PortKind, discover_ports, read_port
 from forcetorque.exchange.yarp.inertial import read_inertial
+from forcetorque.exchange.yarp.joint_units import NO_JOINT
 from forcetorque.exchange.yarp.log_folder import read_log_folder
 from forcetorque.exchange.yarp.measures import MeasuresList, MeasuresSensor, read_measures
 from forcetorque.exchange.yarp.reading import PortReading
@@ -15,6 +16,7 @@ from forcetorque.exchange.yarp.writing import write_ports
 from forcetorque.exchange.yarp.written_port import DevicePort, StreamPort, WrittenPort
 
 __all__ = [
+    "NO_JOINT",
     "DevicePort",
     "FoundPort",
     "MeasuresList",

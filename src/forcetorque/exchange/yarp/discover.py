@@ -11,12 +11,15 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 from operator import itemgetter
 from pathlib import Path
 
+import numpy as np
+
 from forcetorque.errors import ForceTorqueError, FormatError, MissingFileError
+from forcetorque.exchange.signal_table import STATE_SENSE
 from forcetorque.exchange.yarp.analog import read_analog
 from forcetorque.exchange.yarp.bottle import Bottle
 from forcetorque.exchange.yarp.inertial import read_inertial
@@ -29,7 +32,7 @@ from forcetorque.exchange.yarp.skin import holds_skin, read_skin
 from forcetorque.exchange.yarp.skin_events import SkinPart, holds_skin_events, read_skin_events, skin_parts
 from forcetorque.exchange.yarp.state import read_state
 from forcetorque.exchange.yarp.state_ext import count_joints, read_state_ext
-from forcetorque.recording import QUANTITIES
+from forcetorque.recording import QUANTITIES, ROLL_PITCH_YAW, Finding
 
 
 class PortKind(StrEnum):
@@ -137,7 +140,7 @@ def read_port(found: FoundPort) -> tuple[PortReading, ...]:
         case PortKind.ANALOG:
             return (read_analog(found.folder, stream=found.path, frame=found.path),)
         case PortKind.INERTIAL:
-            return (read_inertial(found.folder, stream=found.path, frame=found.path),)
+            return (_with_angles_named(read_inertial(found.folder, stream=found.path, frame=found.path), found),)
         case PortKind.STATE:
             return (read_state(found.folder, stream=found.path, joints=joints),)
         case PortKind.STATE_EXT:
@@ -150,6 +153,17 @@ def read_port(found: FoundPort) -> tuple[PortReading, ...]:
             return read_skin_events(found.folder, parts=found.skin_parts)
         case PortKind.UNKNOWN:
             raise FormatError(f"{found.folder}: expected a port whose messages are known; {found.reason}")
+
+
+def _with_angles_named(reading: PortReading, found: FoundPort) -> PortReading:
+    """Name the roll, pitch and yaw of a device that estimates them: nobody says yet what they turn into what."""
+    turned = read_inertial(found.folder, stream=found.path, frame=found.path, orientation=ROLL_PITCH_YAW).stream
+    orientation = turned.signal("orientation").values
+    if (orientation == np.eye(3).ravel()).all():
+        return reading
+    text = f"roll, pitch and yaw of an inertial sensor: state, in a stream of its own, {STATE_SENSE}"
+    unread = Finding(stream=found.path, kind="not_read", message=text, count=0)
+    return replace(reading, findings=(*reading.findings, unread))
 
 
 def _port_folders(root: Path) -> Iterator[Path]:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Units of joints: YARP logs rotary ones in deg and prismatic ones in m."""
+"""Joints of a board, of which the robot may lack some: YARP logs rotary ones in deg and prismatic ones in m."""
 
 from __future__ import annotations
 
@@ -18,6 +18,31 @@ JOINT_UNITS = {
     "acceleration": {"rad": "rad/s2", "m": "m/s2"},
 }
 """Quantities of joints, in the order of YARP's lists, with their unit by the unit of the joint."""
+
+
+NO_JOINT = "-"
+"""Stands among the joints of a board for one that the robot lacks, such as a finger of a model without hands."""
+
+NAME_ALL = f'name all joints of this board in its order, "{NO_JOINT}" for one that the robot lacks'
+"""What to do where a board has another number of joints."""
+
+
+def places_of_joints(board: Sequence[str]) -> list[int]:
+    """Find the joints of the robot among those of a board.
+
+    Args:
+        board: Names of all joints of the board, in its order, `NO_JOINT` for those that the robot lacks.
+
+    Returns:
+        Their places, from 0.
+
+    Raises:
+        RecordingError: If the robot lacks all of them.
+    """
+    places = [place for place, joint in enumerate(board) if joint != NO_JOINT]
+    if board and not places:
+        raise RecordingError(f"joints: expected the name of at least one joint of the robot, got {list(board)}")
+    return places
 
 
 def units_of_joints(joints: Sequence[str], joint_units: Mapping[str, str] | None) -> tuple[str, ...]:

@@ -30,6 +30,7 @@ from forcetorque.exchange.yarp.skin_events import SkinPart, read_skin_events
 from forcetorque.exchange.yarp.state import read_state
 from forcetorque.exchange.yarp.state_ext import read_state_ext
 from forcetorque.exchange.yarp.stated_port import stated_port
+from forcetorque.recording import ROLL_PITCH_YAW
 
 
 class YarpFormat:
@@ -81,7 +82,8 @@ def _read_port(where: str, port: Port, log: Path, context: LogContext) -> tuple[
         if isinstance(port, SkinPort):
             return (read_skin(folder, stream=port.name, taxels=port.taxels),)
         if isinstance(port, InertialPort):
-            return (read_inertial(folder, stream=port.name, frame=port.frame),)
+            layout = None if port.orientation is None else port.orientation.applied_to(ROLL_PITCH_YAW)
+            return (read_inertial(folder, stream=port.name, frame=port.frame, orientation=layout),)
         if isinstance(port, AnalogPort):
             if port.name not in sensors:
                 raise ExperimentError(f"no [[sensor]] reads the stream {port.name!r}; add one or leave it out")
@@ -103,4 +105,5 @@ def _require_one_clock(readings: Sequence[PortReading]) -> None:
 
 def _measures_sensor(entry: MeasuresEntry, context: LogContext) -> MeasuresSensor:
     frame = entry.frame or context.sensors.get(entry.name)
-    return MeasuresSensor(list=entry.list, index=entry.index, stream=entry.name, frame=frame)
+    layout = ROLL_PITCH_YAW if entry.orientation is None else entry.orientation.applied_to(ROLL_PITCH_YAW)
+    return MeasuresSensor(list=entry.list, index=entry.index, stream=entry.name, frame=frame, orientation=layout)

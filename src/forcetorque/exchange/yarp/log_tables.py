@@ -6,9 +6,11 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Annotated, Literal
 
-from pydantic import Field
+from pydantic import Field, model_validator
+from pydantic_core import PydanticCustomError
 
 from forcetorque.exchange.log_format import LogTable
+from forcetorque.exchange.signal_table import SenseTable, WorldTable
 from forcetorque.exchange.yarp.measures import MeasuresList
 from forcetorque.toml_table import Table, Text
 
@@ -34,7 +36,7 @@ class StateExtPort(Table):
     port: Text
     """Folder of the port below the log's folder."""
     joints: Annotated[tuple[Text, ...], Field(min_length=1)]
-    """Joints of the board, in its order, named as in the URDF."""
+    """All joints of the board, in its order, named as in the URDF; `-` for one that the URDF lacks."""
 
 
 class InertialPort(Table):
@@ -48,6 +50,8 @@ class InertialPort(Table):
     """Folder of the port below the log's folder."""
     frame: Text
     """Link of the URDF in whose frame the device reads."""
+    orientation: SenseTable | None = None
+    """To read its roll, pitch and yaw, in place of acceleration and angular velocity."""
 
 
 class StatePort(Table):
@@ -60,7 +64,7 @@ class StatePort(Table):
     port: Text
     """Folder of the port below the log's folder."""
     joints: Annotated[tuple[Text, ...], Field(min_length=1)]
-    """Joints of the board, in its order, named as in the URDF."""
+    """All joints of the board, in its order, named as in the URDF; `-` for one that the URDF lacks."""
 
 
 class MeasuresEntry(Table):
@@ -74,6 +78,14 @@ class MeasuresEntry(Table):
     """Place in that list, from 0."""
     frame: Text | None = None
     """Link of the URDF in whose frame an IMU reads; left out for force-torque sensors and temperatures."""
+    orientation: WorldTable | None = None
+    """Of the list `orientation` the gravity of its world, where the z axis of that does not point up."""
+
+    @model_validator(mode="after")
+    def _world_of_an_orientation(self) -> MeasuresEntry:
+        if self.orientation is not None and self.list is not MeasuresList.ORIENTATION:
+            raise PydanticCustomError("orientation_rules", 'orientation is for sensors of the list "orientation"')
+        return self
 
 
 class MeasuresPort(Table):

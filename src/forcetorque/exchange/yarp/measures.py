@@ -7,6 +7,7 @@ the device and is not in the log.
 
 References:
     [1] YARP, src/libYARP_dev/src/idl/SensorStreamingData.thrift.
+    [2] YARP, src/libYARP_dev/src/yarp/dev/MultipleAnalogSensorsInterfaces.h, IOrientationSensors.
 """
 
 from __future__ import annotations
@@ -25,7 +26,16 @@ from forcetorque.exchange.yarp.bottle import Bottle, BottleValue
 from forcetorque.exchange.yarp.message_line import is_number
 from forcetorque.exchange.yarp.port_log import PortLog, read_port_log
 from forcetorque.exchange.yarp.reading import CLOCK, PortReading
-from forcetorque.recording import QUANTITIES, Signal, Stream
+from forcetorque.exchange.yarp.roll_pitch_yaw import ANGLES
+from forcetorque.recording import (
+    QUANTITIES,
+    ROLL_PITCH_YAW,
+    Finding,
+    OrientationLayout,
+    Signal,
+    Stream,
+    orientation_signals,
+)
 from forcetorque.spatial import si_factor
 
 
@@ -39,7 +49,7 @@ class MeasuresList(StrEnum):
     MAGNETOMETER = "magnetometer"
     """Magnetic field."""
     ORIENTATION = "orientation"
-    """Roll, pitch, yaw in deg."""
+    """Roll, pitch, yaw in deg: `v_world = Rz(yaw) Ry(pitch) Rx(roll) v_sensor` [2]."""
     TEMPERATURE = "temperature"
     """Temperature in degC."""
     SIX_AXIS_FORCE_TORQUE = "six_axis_force_torque"
@@ -65,10 +75,16 @@ class _Content:
     quantity: str
     logged_units: tuple[str, ...]
 
+    @property
+    def columns(self) -> tuple[str, ...]:
+        """Names of the numbers of a sensor."""
+        return ANGLES if self.quantity == "orientation" else QUANTITIES[self.quantity].columns
+
 
 READ_LISTS = {
     MeasuresList.GYROSCOPE: _Content(quantity="angular_velocity", logged_units=("deg/s",) * 3),
     MeasuresList.ACCELEROMETER: _Content(quantity="proper_acceleration", logged_units=("m/s2",) * 3),
+    MeasuresList.ORIENTATION: _Content(quantity="orientation", logged_units=("deg",) * 3),
     MeasuresList.TEMPERATURE: _Content(quantity="temperature", logged_units=("degC",)),
     MeasuresList.SIX_AXIS_FORCE_TORQUE: _Content(quantity="wrench", logged_units=("N",) * 3 + ("N m",) * 3),
 }
@@ -91,6 +107,8 @@ class MeasuresSensor:
     """Name for its stream."""
     frame: str | None = None
     """Frame of the sensor, along whose axes it reports; None if its quantity has none."""
+    orientation: OrientationLayout = ROLL_PITCH_YAW
+    """Of an orientation what its numbers mean: YARP fixes form and sense, not in which direction things fall."""
 
     def __post_init__(self) -> None:
         if self.list not in _ORDER:
@@ -113,11 +131,17 @@ class MeasuresSensor:
         """Name of the quantity that it measures."""
         return READ_LISTS[self.list].quantity
 
+    @property
+    def columns(self) -> tuple[str, ...]:
+        """Names of its numbers in a message, its stamp left out."""
+        return READ_LISTS[self.list].columns
+
 
 def read_measures(port_dir: str | Path, *, sensors: Sequence[MeasuresSensor]) -> tuple[PortReading, ...]:
     """Read the log of a device with several sensors.
 
-    Angular velocities are logged in deg/s and given in rad/s. The messages do not say whether the
+    Angular velocities are logged in deg/s and given in rad/s, orientations as roll, pitch and yaw in deg and given as
+    rotation matrix and gravity. The messages do not say whether the
     device calibrates its force-torque sensors: that they hold N and N m is assumed.
 
     Where messages carry the sender's and the dumper's stamp, the sender's is taken if it is
@@ -128,8 +152,8 @@ def read_measures(port_dir: str | Path, *, sensors: Sequence[MeasuresSensor]) ->
         sensors: The sensors that are wanted; at least one.
 
     Returns:
-        For each sensor a stream with its quantity and `device_stamp`, the stamp of the sensor's own
-        clock, and what was found in the log.
+        For each sensor a stream with its quantity, of an orientation `gravity` too, and `device_stamp`,
+        the stamp of the sensor's own clock, and what was found in the log.
 
     Raises:
         MissingFileError: If the folder or its log is not there.
@@ -138,7 +162,7 @@ def read_measures(port_dir: str | Path, *, sensors: Sequence[MeasuresSensor]) ->
     """
     _check_sensors(sensors)
     log = read_port_log(port_dir, stream=sensors[0].stream, choose=_DeviceMessages(sensors=tuple(sensors)))
-    widths = [len(QUANTITIES[sensor.quantity].columns) + 1 for sensor in sensors]
+    widths = [len(sensor.columns) + 1 for sensor in sensors]
     parts = np.split(log.values, np.cumsum(widths)[:-1], axis=1)
     return tuple(_reading(sensor, values, log) for sensor, values in zip(sensors, parts, strict=True))
 
@@ -207,7 +231,7 @@ class _DeviceMessages:
                     f"expected the sensor {sensor.stream!r} at {sensor.list}[{sensor.index}], got a list of "
                     f"{counts[place]} sensors; the indices count from 0"
                 )
-            columns = QUANTITIES[sensor.quantity].columns
+            columns = sensor.columns
             size = sizes[place][sensor.index]
             if size != len(columns) + 1:
                 raise FormatError(
@@ -236,30 +260,25 @@ def _size(sensor: BottleValue, place: int) -> int:
 
 
 def _reading(sensor: MeasuresSensor, values: FloatArray, log: PortLog) -> PortReading:
-    quantity, device_stamp = QUANTITIES[sensor.quantity], QUANTITIES["device_stamp"]
-    factors = [si_factor(unit)[1] for unit in READ_LISTS[sensor.list].logged_units]
-    signals = (
-        Signal(
-            quantity=quantity.name,
-            values=values[:, :-1] * factors,
-            columns=quantity.columns,
-            units=quantity.units,
-            frame=sensor.frame,
-        ),
-        Signal(
-            quantity=device_stamp.name,
-            values=values[:, -1:],
-            columns=device_stamp.columns,
-            units=device_stamp.units,
-        ),
-    )
+    ticks = Signal.of_fixed("device_stamp", values[:, -1:])
+    signals, doubts = _signals(sensor, values[:, :-1])
     return PortReading(
         stream=Stream(
             name=sensor.stream,
             clock=CLOCK,
             stamp_ns=log.stamp_ns,
-            signals={signal.quantity: signal for signal in signals},
+            signals={**signals, ticks.quantity: ticks},
             sequence=log.sequence,
         ),
-        findings=tuple(replace(finding, stream=sensor.stream) for finding in log.findings),
+        findings=(*(replace(finding, stream=sensor.stream) for finding in log.findings), *doubts),
     )
+
+
+def _signals(sensor: MeasuresSensor, values: FloatArray) -> tuple[dict[str, Signal], tuple[Finding, ...]]:
+    units = READ_LISTS[sensor.list].logged_units
+    if sensor.quantity == "orientation":
+        return orientation_signals(
+            values, sensor.orientation, unit=units[0], frame=str(sensor.frame), stream=sensor.stream
+        )
+    scaled = values * [si_factor(unit)[1] for unit in units]
+    return {sensor.quantity: Signal.of_fixed(sensor.quantity, scaled, frame=sensor.frame)}, ()

@@ -12,6 +12,7 @@ from forcetorque.errors import RecordingError
 from forcetorque.exchange.yarp.discover import PortKind
 from forcetorque.exchange.yarp.joint_units import JOINT_UNITS
 from forcetorque.exchange.yarp.measures import READ_LISTS, MeasuresList, MeasuresSensor
+from forcetorque.exchange.yarp.roll_pitch_yaw import angles_of
 from forcetorque.exchange.yarp.written_port import DevicePort, StreamPort
 from forcetorque.recording import Recording, Signal, Stream
 from forcetorque.spatial import si_factor
@@ -106,18 +107,23 @@ def _list(row: list[float], *, flag: str = "ok") -> str:
 
 
 def _sensor_texts(stream: Stream, sensor: MeasuresSensor) -> list[str]:
-    content = READ_LISTS[sensor.list]
-    signal = _reading(stream) if content.quantity == "wrench" else stream.signal(content.quantity)
-    factors = [1.0] * len(signal.columns)
-    if content.quantity != "wrench":
-        factors = [si_factor(unit)[1] for unit in content.logged_units]
     if "device_stamp" in stream.signals:
         ticks = _finite(stream, stream.signal("device_stamp").values)[:, 0].tolist()
         stamps = [_number(tick) for tick in ticks]
     else:
         stamps = [stamp_text(stamp) for stamp in stream.stamp_ns.tolist()]
-    values = _finite(stream, signal.values / factors).tolist()
+    values = _finite(stream, _sensor_values(stream, sensor)).tolist()
     return [f"(({_numbers(row)}) {stamp})" for row, stamp in zip(values, stamps, strict=True)]
+
+
+def _sensor_values(stream: Stream, sensor: MeasuresSensor) -> FloatArray:
+    if sensor.quantity == "wrench":
+        return _reading(stream).values
+    if sensor.quantity == "orientation":
+        return angles_of(stream.signal("orientation"))
+    factors = [si_factor(unit)[1] for unit in READ_LISTS[sensor.list].logged_units]
+    logged: FloatArray = stream.signal(sensor.quantity).values / factors
+    return logged
 
 
 def _in_place(port: DevicePort, name: MeasuresList) -> list[MeasuresSensor]:
@@ -136,8 +142,10 @@ def _reading(stream: Stream) -> Signal:
 def _inertial_values(stream: Stream) -> FloatArray:
     acceleration = stream.signal("proper_acceleration").values
     degrees = stream.signal("angular_velocity").values / si_factor("deg/s")[1]
-    unknown = np.zeros((len(stream), 3))  # orientation and magnetic field, which recordings do not hold
-    return np.hstack([unknown, acceleration, degrees, unknown])
+    unknown = np.zeros((len(stream), 3))  # as of devices that measure neither orientation nor magnetic field
+    orientation = stream.signals.get("orientation")
+    angles = unknown if orientation is None else angles_of(orientation)
+    return np.hstack([angles, acceleration, degrees, unknown])
 
 
 def _in_degrees(signal: Signal) -> FloatArray:

@@ -7,7 +7,8 @@ from collections.abc import Mapping, Sequence
 from functools import partial
 from pathlib import Path
 
-from forcetorque.exchange.yarp.joint_units import joint_signal, units_of_joints
+from forcetorque.exchange.yarp.bottle import Bottle
+from forcetorque.exchange.yarp.joint_units import NAME_ALL, joint_signal, places_of_joints, units_of_joints
 from forcetorque.exchange.yarp.plain_numbers import expect_numbers
 from forcetorque.exchange.yarp.port_log import read_port_log
 from forcetorque.exchange.yarp.reading import CLOCK, PortReading
@@ -27,7 +28,7 @@ def read_state(
     Args:
         port_dir: Folder with `data.log` or `data.log.gz`, and `info.log`.
         stream: Name for the stream.
-        joints: Names of all joints of the board, in its order.
+        joints: Names of all joints of the board, in its order, `-` for those that the robot lacks.
         joint_units: `m` for prismatic joints, by name; joints that it does not name are in `rad`.
 
     Returns:
@@ -38,10 +39,11 @@ def read_state(
         FormatError: If the log is anything but one message of so many numbers per line.
         RecordingError: If no joint is named or one twice, or `joint_units` names another joint or unit.
     """
-    units = units_of_joints(joints, joint_units)
-    choose = partial(expect_numbers, names=tuple(joints), advice="name the joints of this board")
-    log = read_port_log(port_dir, stream=stream, choose=choose)
-    position = joint_signal("position", log.values, joints=joints, units=units)
+    places = places_of_joints(joints)
+    names = [joints[place] for place in places]
+    units = units_of_joints(names, joint_units)
+    log = read_port_log(port_dir, stream=stream, choose=partial(_choose, tuple(joints), places))
+    position = joint_signal("position", log.values, joints=names, units=units)
     return PortReading(
         stream=Stream(
             name=stream,
@@ -52,3 +54,8 @@ def read_state(
         ),
         findings=log.findings,
     )
+
+
+def _choose(board: Sequence[str], places: Sequence[int], message: Bottle) -> list[int]:
+    numbers = expect_numbers(message, board, advice=NAME_ALL)
+    return [numbers[place] for place in places]

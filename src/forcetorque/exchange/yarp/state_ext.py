@@ -19,7 +19,13 @@ import numpy as np
 from forcetorque.arrays import FloatArray
 from forcetorque.errors import FormatError
 from forcetorque.exchange.yarp.bottle import Bottle
-from forcetorque.exchange.yarp.joint_units import JOINT_UNITS, joint_signal, units_of_joints
+from forcetorque.exchange.yarp.joint_units import (
+    JOINT_UNITS,
+    NAME_ALL,
+    joint_signal,
+    places_of_joints,
+    units_of_joints,
+)
 from forcetorque.exchange.yarp.message_line import FAIL, OK, is_number
 from forcetorque.exchange.yarp.port_log import PortLog, read_port_log
 from forcetorque.exchange.yarp.reading import CLOCK, PortReading
@@ -51,7 +57,7 @@ def read_state_ext(
     Args:
         port_dir: Folder with `data.log` or `data.log.gz`, and `info.log`.
         stream: Name for the stream.
-        joints: Names of all joints of the board, in its order.
+        joints: Names of all joints of the board, in its order, `-` for those that the robot lacks.
         joint_units: `m` for prismatic joints, by name; joints that it does not name are in `rad`.
 
     Returns:
@@ -63,7 +69,8 @@ def read_state_ext(
         FormatError: If the log is not one of a control board with so many joints.
         RecordingError: If a joint is named twice, or `joint_units` names another joint or unit.
     """
-    units = units_of_joints(joints, joint_units)
+    names = [joints[place] for place in places_of_joints(joints)]
+    units = units_of_joints(names, joint_units)
     log = read_port_log(port_dir, stream=stream, choose=_BoardMessages(joints=tuple(joints)))
     findings = list(log.findings)
     logged: dict[str, FloatArray] = {}
@@ -73,7 +80,7 @@ def read_state_ext(
             findings.append(_not_estimated(stream, name, log))
         else:
             logged[name] = values
-    signals = {name: joint_signal(name, values, joints=joints, units=units) for name, values in logged.items()}
+    signals = {name: joint_signal(name, values, joints=names, units=units) for name, values in logged.items()}
     return PortReading(
         stream=Stream(name=stream, clock=CLOCK, stamp_ns=log.stamp_ns, signals=signals, sequence=log.sequence),
         findings=tuple(findings),
@@ -104,7 +111,7 @@ class _BoardMessages:
     """Chooses the kept numbers of a message and holds all messages to the layout of the first."""
 
     joints: tuple[str, ...]
-    """Names of the joints."""
+    """Names of all joints of the board, and what stands for those that the robot lacks."""
     n_elements: int = 0
     """Elements of the first message."""
     lengths: list[int | None] = field(default_factory=list)
@@ -118,14 +125,10 @@ class _BoardMessages:
             if length not in (None, len(self.joints)):
                 raise FormatError(
                     f"expected {len(self.joints)} numbers of {name} because so many joints were named "
-                    f"({', '.join(self.joints)}), got {length}; name the joints of this board"
+                    f"({', '.join(self.joints)}), got {length}; {NAME_ALL}"
                 )
-        starts = np.cumsum([0, *map(len, lists)]).tolist()
-        return [
-            None if failed[i] else starts[i] + joint
-            for i in range(len(JOINT_UNITS))
-            for joint in range(len(self.joints))
-        ]
+        starts, places = np.cumsum([0, *map(len, lists)]).tolist(), places_of_joints(self.joints)
+        return [None if failed[i] else starts[i] + joint for i in range(len(JOINT_UNITS)) for joint in places]
 
     def _compare(self, n_elements: int, lengths: list[int | None]) -> None:
         if not self.lengths:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from forcetorque.analysis.workbench_rows import BenchPicture
+from forcetorque.analysis.workbench.rows import BenchPicture
 from forcetorque.report.figures.canvas import REFERENCE_COLOUR, ROW_INCHES, legend_below, look, new_figure, shown_name
 
 if TYPE_CHECKING:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from forcetorque.analysis import Coherence, PhaseForce
-from forcetorque.analysis.coherence_rows import policy_words
+from forcetorque.analysis.coherence.rows import policy_words
 from forcetorque.report.figures.canvas import (
     ROW_INCHES,
     SMALL_POINTS,

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from forcetorque.analysis.device_demand_rows import GradeRow
+from forcetorque.analysis.device.demand_rows import GradeRow
 from forcetorque.arrays import FloatArray
 from forcetorque.exsitu.device import FORCE_LIMIT_N, MOMENT_LIMIT_NM
 from forcetorque.report.figures.canvas import (

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from forcetorque.analysis.device_span_rows import DirectionRow
+from forcetorque.analysis.device.span_rows import DirectionRow
 from forcetorque.errors import ShapeError
 from forcetorque.report.figures.canvas import (
     ROW_INCHES,

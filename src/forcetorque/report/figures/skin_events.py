@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from forcetorque.analysis.skin_event_rows import SkinEventPicture
+from forcetorque.analysis.skin.event_rows import SkinEventPicture
 from forcetorque.errors import ShapeError
 from forcetorque.report.figures.canvas import ROW_INCHES, TITLE_POINTS, legend_below, look, new_figure, shown_name
 from forcetorque.report.figures.inputs import drawable, instants

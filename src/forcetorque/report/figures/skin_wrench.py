@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from forcetorque.analysis.skin_contact_rows import SkinWrenchPicture
+from forcetorque.analysis.skin.contact_rows import SkinWrenchPicture
 from forcetorque.arrays import FloatArray
 from forcetorque.report.figures.canvas import (
     REFERENCE_COLOUR,

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from forcetorque.analysis.skin_picture import TaxelPicture
+from forcetorque.analysis.skin.picture import TaxelPicture
 from forcetorque.report.figures.canvas import (
     COLOURS,
     REFERENCE_COLOUR,

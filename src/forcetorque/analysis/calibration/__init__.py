@@ -1,0 +1,2 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Calibrate a sensor, and say what makes the calibration doubtful."""

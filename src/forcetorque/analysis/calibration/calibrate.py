@@ -1,0 +1,116 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Calibrate a sensor: by the generative model, or by a type of the thesis where one is asked for."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Literal
+
+from forcetorque.analysis.calibration.generative import generative_calibration
+from forcetorque.analysis.calibration.recording_moments import recording_moments
+from forcetorque.analysis.calibration.thesis import thesis_calibration
+from forcetorque.analysis.runs.campaign import Campaign, Runs
+from forcetorque.analysis.runs.possible_touch import possible_touch
+from forcetorque.calibration import Calibration, EstimationType, RecordingMoments
+from forcetorque.errors import ExperimentError, FitError
+from forcetorque.experiment import Experiment
+
+
+def calibrate_sensor(
+    runs: Runs | None,
+    *,
+    code_version: str,
+    created: str,
+    moments: Sequence[RecordingMoments] = (),
+    regularisation: float | Literal["held-out"] | None = None,
+    kind: EstimationType | Literal["generative"] | None = None,
+    nonlinear: bool | None = None,
+) -> Calibration:
+    """Fit a sensor on the calibration intervals of any number of recordings.
+
+    Args:
+        runs: The sensor, in one experiment or several; None where moments are all there is.
+        code_version: Version of this library, for the record.
+        created: Date and time, ISO 8601, for the record.
+        moments: What was kept of other recordings, for the generative model.
+        regularisation: Lambda of a type of the thesis; counts2; `held-out` to choose it on held-out data; None for what
+            the experiment says.
+        kind: `generative`, or an estimation type of the thesis; None for what the experiment says, which is the
+            generative model unless it names a type or a lambda, or one is given here.
+        nonlinear: Whether quadratic terms may correct readings; None for what the experiment says.
+
+    Returns:
+        The calibration, with everything that tells how far to trust it.
+
+    Raises:
+        ExperimentError: If files ask for different estimators.
+        FitError: If the data cannot be those of the sensor under the modelled load, or do not determine the fit; or
+            moments are to be fitted by a type of the thesis, which needs samples; or quadratic terms are asked for of
+            such a type, or of a single recording.
+    """
+    if runs is None:
+        return generative_calibration(moments, code_version=code_version, created=created, nonlinear=nonlinear)
+    campaign = Campaign.of(runs)
+    if kind is None and regularisation is None:
+        _require_one_estimator(campaign)
+    try:
+        return _fitted(
+            campaign,
+            code_version=code_version,
+            created=created,
+            moments=moments,
+            regularisation=regularisation,
+            kind=kind,
+            nonlinear=nonlinear,
+        )
+    except FitError as error:
+        sentences = dict.fromkeys(sentence for run in campaign.runs if (sentence := possible_touch(run)) is not None)
+        if not sentences:
+            raise
+        raise FitError("; ".join([str(error), *sentences])) from error
+
+
+def _fitted(
+    campaign: Campaign,
+    *,
+    code_version: str,
+    created: str,
+    moments: Sequence[RecordingMoments],
+    regularisation: float | Literal["held-out"] | None,
+    kind: EstimationType | Literal["generative"] | None,
+    nonlinear: bool | None,
+) -> Calibration:
+    experiment = campaign.runs[0].experiment
+    options = experiment.fit_options
+    if kind == "generative" or (kind is None and regularisation is None and options.generative):
+        recordings = [*moments, *recording_moments(campaign)]
+        return generative_calibration(recordings, code_version=code_version, created=created, nonlinear=nonlinear)
+    if nonlinear:
+        raise FitError("nonlinear: the types of the thesis are linear; leave out the estimation type and lambda")
+    if moments:
+        raise FitError("stored moments are fitted by the generative model; leave out the estimation type and lambda")
+    given = experiment.regularisation if regularisation is None else regularisation
+    return thesis_calibration(
+        campaign,
+        options.kind(has_variables=bool(campaign.sensor.variables)) if kind is None else kind,
+        regularisation=None if given == "held-out" else given,
+        code_version=code_version,
+        created=created,
+    )
+
+
+def _require_one_estimator(campaign: Campaign) -> None:
+    """Refuse files that ask for different estimators: one of them would be overruled in silence."""
+    first, *others = (run.experiment for run in campaign.runs)
+    for other in others:
+        if _estimator(other) != _estimator(first):
+            raise ExperimentError(
+                f"{other.file}: expected the estimator that [calibration] of {first.file} asks for, got another; state "
+                "the same type, offset, variables and lambda in both, or give an estimation type for all"
+            )
+
+
+def _estimator(experiment: Experiment) -> tuple[object, ...]:
+    options = experiment.fit_options
+    of_thesis = (options.offset, options.from_reference, experiment.regularisation)
+    return options.generative, options.with_variables, None if options.generative else of_thesis

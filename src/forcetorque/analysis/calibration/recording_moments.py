@@ -1,0 +1,129 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Reduce recordings of a sensor to what a calibration needs of them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from urllib.parse import quote
+
+from forcetorque.analysis.calibration.load_error import load_error_of
+from forcetorque.analysis.runs.campaign import Campaign, Runs
+from forcetorque.analysis.runs.campaign_recording import CampaignRecording
+from forcetorque.analysis.runs.sensor_run import SensorRun
+from forcetorque.arrays import FloatArray
+from forcetorque.calibration import IntervalMoments, LinearVariable, RecordingMoments, VariableDescription, gate
+from forcetorque.calibration.load_error import LoadError
+from forcetorque.experiment.full_scale import full_scale_of
+from forcetorque.recording import Use
+
+
+def recording_moments(runs: Runs, *, with_variables: bool | None = None) -> list[RecordingMoments]:
+    """Reduce the calibration intervals of a sensor.
+
+    Args:
+        runs: The sensor, in one experiment or several.
+        with_variables: Whether its linear variables are wanted; None for what the experiment says, else where it has
+            any.
+
+    Returns:
+        Moments and means of every recording.
+
+    Raises:
+        ExperimentError: If there is no calibration interval, or the full scale of the sensor is not known.
+    """
+    campaign = Campaign.of(runs)
+    stated = campaign.runs[0].experiment.fit_options.with_variables if with_variables is None else with_variables
+    sensor = campaign.sensor
+    variables = [v.linear for v in sensor.variables] if stated is not False else []
+    intervals = campaign.samples(Use.CALIBRATION, variables=[variable.name for variable in variables])
+    doubts = gate.examine([interval.data_set for interval in intervals], sensor.prior)
+    results = []
+    for run, recording in zip(campaign.runs, campaign.recordings, strict=True):
+        own = [interval for interval in intervals if interval.recording == recording]
+        if not own:
+            continue
+        kept = [IntervalMoments.of(i.data_set, i.fitted, dropped=i.part.samples.dropped) for i in own]
+        stated_by = CampaignRecording.of(run)
+        moments = moments_of(stated_by, kept, variables=variables, doubts=[doubt.message for doubt in doubts])
+        results.append(moments.model_copy(update={"load_error": _load_error(run)}))
+    return results
+
+
+def _load_error(run: SensorRun) -> LoadError | None:
+    """What is not known of loads on links that the sensor itself weighed, with the matrix of the same fit."""
+    loads = run.experiment.link_loads
+    if loads is None or loads.are_stated or loads.weigher.name != run.sensor.name:
+        return None
+    return load_error_of(loads.solution(run.experiment))
+
+
+def moments_of(
+    recording: CampaignRecording,
+    intervals: Sequence[IntervalMoments],
+    *,
+    variables: Sequence[LinearVariable],
+    doubts: Sequence[str],
+) -> RecordingMoments:
+    """Put what is kept of intervals beside what the recording says about the sensor.
+
+    Args:
+        recording: The recording.
+        intervals: What is kept of its intervals.
+        variables: Linear variables that are fitted.
+        doubts: What makes any fit of them doubtful.
+
+    Returns:
+        The moments of the recording.
+
+    Raises:
+        ExperimentError: If the full scale of the sensor is not known.
+    """
+    sensor, options = recording.sensor, recording.options
+    return RecordingMoments(
+        sensor=recording.identity,
+        experiment=recording.experiment,
+        prior=sensor.prior,
+        prior_source=sensor.prior_source,
+        full_scale=channel_full_scale(recording),
+        accuracy=options.accuracy,
+        repeatability=options.repeatability,
+        drift=options.drift,
+        nonlinear=options.nonlinear,
+        variables=tuple(map(VariableDescription.of, variables)),
+        intervals=tuple(intervals),
+        doubts=tuple(doubts),
+        inputs_sha256=dict(recording.inputs_sha256),
+    )
+
+
+def channel_full_scale(recording: CampaignRecording) -> FloatArray:
+    """Give the full scale of every channel of a sensor's raw reading.
+
+    Args:
+        recording: What the recording says about the sensor.
+
+    Returns:
+        Full scales; shape (c,); counts, or N and N m where the logged wrench takes the place of counts.
+    """
+    return full_scale_of(recording.sensor, recording.options.accuracy, channels=recording.channels)
+
+
+def store_moments(runs: Runs, folder: Path | str) -> list[Path]:
+    """Keep what a calibration needs of every recording of a sensor.
+
+    Args:
+        runs: The sensor, in one experiment or several.
+        folder: Where the files go; made where it is missing.
+
+    Returns:
+        The files, one per recording.
+    """
+    place = Path(folder)
+    place.mkdir(parents=True, exist_ok=True)
+    files = []
+    for recording in recording_moments(runs):
+        name = f"{recording.sensor.name}_{recording.sensor.serial}_{recording.intervals[0].recording}"
+        files.append(place / f"{quote(name, safe=' ')}.json")
+        recording.save(files[-1])
+    return files

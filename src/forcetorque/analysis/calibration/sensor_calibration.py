@@ -1,0 +1,183 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Calibrate a sensor for a file, and say what makes the calibration doubtful."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from forcetorque.analysis.calibration.calibrate import calibrate_sensor
+from forcetorque.analysis.calibration.doubts import fit_doubts
+from forcetorque.analysis.calibration.joint_outcome import JointOutcome
+from forcetorque.analysis.calibration.learnt import LearntDirection, learnt_directions, learnt_words
+from forcetorque.analysis.calibration.tables import calibration_blocks, component_records
+from forcetorque.analysis.inspect.findings import ADDED, doubtful_spans
+from forcetorque.analysis.payload.load_doubts import load_doubts
+from forcetorque.analysis.runs.campaign import Campaign, Runs
+from forcetorque.analysis.runs.possible_touch import possible_touch
+from forcetorque.analysis.runs.sensor_run import SensorRun
+from forcetorque.array_field import ArrayField
+from forcetorque.arrays import FloatArray
+from forcetorque.calibration import Calibration, EstimationType, RecordingMoments, write_calibration
+from forcetorque.calibration.joint import JointPosterior
+from forcetorque.recording import Use
+from forcetorque.result import Result, Row, Table, table_of
+
+
+class SensorCalibration(Row):
+    """One calibration and the file that holds it."""
+
+    file: str
+    """Path of the file."""
+    calibration: Calibration = Field(repr=False)
+    """Its content."""
+    secondary_matrix: Annotated[FloatArray, ArrayField((6, 6))] | None
+    """`C C_prior^-1`, for a stream that is calibrated with the prior."""
+    learnt: tuple[LearntDirection, ...] | None
+    """What the recordings taught of every load direction; None for a type of the thesis, or without a prior."""
+
+
+class SensorCalibrations(Result):
+    """Calibrations of the sensors of an experiment."""
+
+    schema_name: Literal["forcetorque/calibrate/1"] = Field(default="forcetorque/calibrate/1", alias="schema")
+    """Form of the result."""
+    experiment: str
+    """Name of the experiment."""
+    calibrations: tuple[SensorCalibration, ...]
+    """One per sensor that could be fitted."""
+    joint: JointOutcome | None = None
+    """What a joint calibration says beside that; None where every sensor was calibrated alone."""
+    figure: str | None = None
+    """File of the figure of what the recordings taught; none where none was drawn."""
+
+    def save(self) -> None:
+        """Write every calibration to its file, in folders that are made where they are missing."""
+        for entry in self.calibrations:
+            file = Path(entry.file)
+            file.parent.mkdir(parents=True, exist_ok=True)
+            write_calibration(file, entry.calibration)
+        if self.joint is not None and self.joint.file is not None:
+            sensors = [entry.calibration.sensor for entry in self.calibrations]
+            JointPosterior.of(self.joint.fit, {one.name: one.serial for one in sensors}).save(self.joint.file)
+
+    def blocks(self) -> Iterator[Table | str]:
+        """Give matrix, variables and excitation of every sensor.
+
+        Yields:
+            Tables and sentences.
+        """
+        for entry in self.calibrations:
+            yield from calibration_blocks(entry.calibration)
+            if entry.learnt:
+                yield table_of(entry.learnt, "what the recordings taught: error that a unit load makes, one s.d.")
+                yield learnt_words(entry.learnt)
+            yield f"written to {entry.file}"
+        if self.joint is not None:
+            yield from self.joint.blocks()
+        if self.figure is not None:
+            yield f"drawn to {self.figure}"
+
+    def records(self) -> list[dict[str, object]]:
+        """Give matrices, offsets and coefficients as flat lines.
+
+        Returns:
+            One line per sensor and component.
+        """
+        return [line for entry in self.calibrations for line in component_records(entry.calibration)]
+
+
+def calibrate_for_file(
+    runs: Runs | None,
+    file: Path | str,
+    *,
+    code_version: str,
+    created: str,
+    moments: Sequence[RecordingMoments] = (),
+    regularisation: float | Literal["held-out"] | None = None,
+    kind: EstimationType | Literal["generative"] | None = None,
+    nonlinear: bool | None = None,
+) -> SensorCalibrations:
+    """Fit a sensor, and say what makes the calibration doubtful.
+
+    Args:
+        runs: The sensor, in one experiment or several.
+        file: File that `save` of the result writes.
+        code_version: As of `calibrate_sensor`.
+        created: As of `calibrate_sensor`.
+        moments: As of `calibrate_sensor`.
+        regularisation: As of `calibrate_sensor`.
+        kind: As of `calibrate_sensor`.
+        nonlinear: As of `calibrate_sensor`.
+
+    Returns:
+        The calibration, which no file holds yet.
+    """
+    calibration = calibrate_sensor(
+        runs,
+        code_version=code_version,
+        created=created,
+        moments=moments,
+        regularisation=regularisation,
+        kind=kind,
+        nonlinear=nonlinear,
+    )
+    entry = SensorCalibration(
+        file=str(file),
+        calibration=calibration,
+        secondary_matrix=calibration.secondary_matrix(),
+        learnt=learnt_directions(calibration),
+    )
+    campaign = None if runs is None else Campaign.of(runs)
+    doubts = [sentence for run in (campaign.runs if campaign else ()) for sentence in data_doubts(run)]
+    return SensorCalibrations(
+        experiment=calibration.provenance.experiment,
+        calibrations=(entry,),
+        warnings=(*doubts, *fit_doubts(calibration)),
+    )
+
+
+def data_doubts(run: SensorRun, *, by_model: bool = True) -> Iterator[str]:
+    """Say what makes any fit on the calibration intervals doubtful.
+
+    Args:
+        run: The sensor.
+        by_model: Whether it is compared with the model, as if nothing but the support touched the robot.
+
+    Yields:
+        A sentence where the load was weighed with the sensor itself, one per interval in which the file says that
+        something touches the robot beyond it, and one per finding in a fitted interval.
+    """
+    experiment = run.experiment
+    if experiment.wrist is not None and not experiment.wrist.are_stated:
+        yield (
+            "the load was estimated with this sensor's own reading, so a wrong gain cannot be seen; "
+            "give mass_kg and centre_of_mass_m to judge it"
+        )
+    yield from load_doubts(run)
+    if by_model:
+        yield from _touched(run)
+        if (sentence := possible_touch(run)) is not None:
+            yield sentence
+    yield from (f"{one.stream}: {one.message}" for one in experiment.recording.findings if one.kind in ADDED)
+    start_ns, alone = experiment.recording.start_ns, replace(experiment, sensors=(run.sensor,))
+    for interval, finding in doubtful_spans(alone, Use.CALIBRATION, by_model=by_model):
+        start, end = (((stamp_ns or 0) - start_ns) * 1e-9 for stamp_ns in (finding.start_ns, finding.end_ns))
+        yield (
+            f"interval {interval.label!r}: {finding.stream} {finding.kind} at {start:.2f}-{end:.2f} s: "
+            f"{finding.message}"
+        )
+
+
+def _touched(run: SensorRun) -> Iterator[str]:
+    for interval in run.experiment.intervals(Use.CALIBRATION):
+        if names := run.touched_beyond(interval):
+            yield (
+                f"interval {interval.label!r} is left out: {', '.join(names)} touches the robot beyond the sensor, by "
+                "[[contact]] or touched, so that nobody knows what it must read; calibrate all sensors at once, "
+                "--jointly"
+            )

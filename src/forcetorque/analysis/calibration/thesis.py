@@ -1,0 +1,214 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""From samples to the artefact, by an estimation type of the thesis."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from forcetorque.analysis.runs.campaign import Campaign
+from forcetorque.analysis.runs.campaign_interval import CampaignInterval
+from forcetorque.arrays import FloatArray
+from forcetorque.calibration import (
+    RULE,
+    CalibratedVariable,
+    Calibration,
+    CalibrationFit,
+    EstimationType,
+    Excitation,
+    FittedLoads,
+    Prior,
+    Provenance,
+    Selection,
+    SensorIdentity,
+    SessionOffset,
+    Validity,
+    calibrate,
+    gate,
+)
+from forcetorque.experiment.content import ExperimentSensor
+from forcetorque.recording import Use
+
+
+def thesis_calibration(
+    campaign: Campaign,
+    kind: EstimationType,
+    *,
+    regularisation: float | None,
+    code_version: str,
+    created: str,
+) -> Calibration:
+    """Fit a sensor by a type of the thesis: one matrix and one offset for all intervals.
+
+    Args:
+        campaign: The sensor.
+        kind: Estimation type.
+        regularisation: Lambda; counts2; None to choose it on held-out blocks, or recordings where there are several.
+        code_version: Version of this library, for the record.
+        created: Date and time, ISO 8601, for the record.
+
+    Returns:
+        The calibration.
+
+    Raises:
+        FitError: If the data cannot be those of the sensor under the modelled load, or do not determine the fit.
+    """
+    sensor, variables = campaign.sensor, campaign.sensor.variables if kind.with_variables else ()
+    intervals = campaign.samples(Use.CALIBRATION, variables=[variable.linear.name for variable in variables])
+    data_sets = [interval.data_set for interval in intervals]
+    # where the prior is kept there is no matrix to spoil, and a limb at rest tells the offset
+    doubts = () if regularisation == math.inf else gate.examine(data_sets, sensor.prior)
+    result = calibrate(
+        data_sets,
+        sensor.prior,
+        regularisation=regularisation,
+        kind=kind,
+        variables=[variable.linear for variable in variables],
+        sphere=campaign.sphere_intervals,
+    )
+    return artefact(
+        result,
+        intervals,
+        sensor=sensor,
+        identity=campaign.identity,
+        code_version=code_version,
+        created=created,
+        experiment="; ".join(dict.fromkeys(campaign.experiments)),
+        inputs_sha256=campaign.inputs_sha256,
+        doubts=[doubt.message for doubt in doubts],
+    )
+
+
+def artefact(
+    result: CalibrationFit,
+    intervals: Sequence[CampaignInterval],
+    *,
+    sensor: ExperimentSensor,
+    identity: SensorIdentity,
+    code_version: str,
+    created: str,
+    experiment: str,
+    inputs_sha256: Mapping[str, str],
+    doubts: Sequence[str] = (),
+) -> Calibration:
+    """Make the calibration that a fit leaves on disk.
+
+    Args:
+        result: The fit.
+        intervals: The fitted intervals.
+        sensor: The sensor.
+        identity: Which sensor it is.
+        code_version: Version of this library, for the record.
+        created: Date and time, ISO 8601, for the record.
+        experiment: Name of the experiment.
+        inputs_sha256: SHA-256 of every input file, by its path.
+        doubts: What made the fit doubtful before it was made.
+
+    Returns:
+        The calibration.
+    """
+    parts = [interval.part for interval in intervals]
+    errors, kept = result.standard_errors, math.isinf(result.fit.regularisation)
+    return Calibration(
+        sensor=identity,
+        matrix=result.fit.matrix,
+        offset=result.fit.offset,
+        sessions=tuple(
+            SessionOffset(
+                name=name,
+                offset=result.fit.offset,
+                standard_error=None if errors is None else errors.offset,
+                prior_offset=result.prior_offset,
+            )
+            for name in dict.fromkeys(interval.session for interval in intervals)
+        ),
+        variables=_variables(intervals, result),
+        estimation_type=result.estimation.kind.name,
+        raw_offset_counts=result.estimation.raw_offset,
+        matrix_standard_error=None if errors is None or kept else errors.matrix,
+        offset_standard_error=None if errors is None else errors.offset,
+        residual_rms=result.fit.residual,
+        lambda_counts2=result.fit.regularisation,
+        prior=None
+        if sensor.prior is None or result.prior_offset is None or sensor.prior_source is None
+        else Prior(matrix=sensor.prior, offset=result.prior_offset, source=sensor.prior_source),
+        validity=validity_of(
+            np.min([part.raw.min(axis=0) for part in parts], axis=0),
+            np.max([part.raw.max(axis=0) for part in parts], axis=0),
+            result.fit.excitation,
+            [result.fit.model.linear.wrench(part.raw, part.samples.variables) for part in parts],
+        ),
+        selection=_selection(result),
+        provenance=Provenance(
+            code_version=code_version,
+            created=created,
+            experiment=experiment,
+            intervals=tuple(interval.fitted for interval in intervals),
+            samples=sum(len(p.samples) for p in parts),
+            dropped=sum(p.samples.dropped for p in parts),
+            inputs_sha256=dict(inputs_sha256),
+        ),
+        doubts=tuple(doubts),
+    )
+
+
+def _variables(intervals: Sequence[CampaignInterval], result: CalibrationFit) -> tuple[CalibratedVariable, ...]:
+    values, model = np.concatenate([i.part.samples.variables for i in intervals]), result.fit.model
+    return tuple(
+        CalibratedVariable(
+            name=variable.name,
+            unit=variable.unit,
+            reference_value=float(model.reference_values[k]),
+            coefficients=model.coefficients[:, k],
+            standard_error=None if result.standard_errors is None else result.standard_errors.coefficients[:, k],
+            prior=variable.prior,
+            minimum=float(values[:, k].min()),
+            maximum=float(values[:, k].max()),
+        )
+        for k, variable in enumerate(result.estimation.variables)
+    )
+
+
+def validity_of(
+    minimum: FloatArray,
+    maximum: FloatArray,
+    excitation: Excitation,
+    loads: Sequence[FloatArray],
+) -> Validity:
+    """Tell where data support a fit.
+
+    Args:
+        minimum: Smallest fitted reading per channel; shape (c,); counts.
+        maximum: Largest fitted reading per channel; shape (c,); counts.
+        excitation: How the loads moved the readings.
+        loads: Fitted loads by the linear part of the fit, with the offset of their session, per interval; shape (n, 6)
+            each; N, N m.
+
+    Returns:
+        The same for the artefact.
+    """
+    return Validity(
+        raw_minimum_counts=minimum,
+        raw_maximum_counts=maximum,
+        reference_deviation=excitation.reference_deviation,
+        rank=excitation.rank,
+        condition=excitation.condition if math.isfinite(excitation.condition) else None,
+        directions=excitation.directions,
+        variance_counts2=excitation.variance,
+        explained=excitation.explained,
+        excited=excitation.excited,
+        loads=FittedLoads.of(loads, excitation.reference_deviation),
+    )
+
+
+def _selection(result: CalibrationFit) -> Selection:
+    if result.curve is None:
+        return Selection(rule="given")
+    return Selection(
+        rule=f"{RULE}; blocks are {result.held_out}",
+        lambda_counts2=tuple(float(v) for v in result.curve.regularisations),
+        held_out_rmse=tuple(float(v) for v in result.curve.held_out_error),
+        worst_ratio_to_prior=tuple(float(v) for v in result.curve.worst_ratio),
+    )

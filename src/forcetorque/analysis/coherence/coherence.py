@@ -1,0 +1,370 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Whether the forces of all contacts together bear the weight, whichever of them touch (thesis 5.6, Tables 5.9, 5.10).
+
+A robot that stands still on level ground is borne by (0, 0, m g), on both feet or on either. Forces of one foot
+against the other cancel in the sum. What the sum is off is the error of the sensors: that of their offsets stays as the
+contacts switch, that of their matrices changes with the load.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from forcetorque.analysis.coherence.net_contact import NetContact
+from forcetorque.analysis.coherence.rows import (
+    Coherence,
+    CoherenceSummary,
+    OffsetOfSensor,
+    PhaseForce,
+    policy_words,
+)
+from forcetorque.analysis.runs.applicability import one_per_sensor, overlapping
+from forcetorque.analysis.runs.candidate import PRIOR
+from forcetorque.analysis.runs.offsets import SensorOffset, offset_policies, with_policy
+from forcetorque.analysis.runs.reading import Correction
+from forcetorque.analysis.runs.sensor_run import SensorRun
+from forcetorque.arrays import FloatArray
+from forcetorque.calibration import Calibration
+from forcetorque.errors import ExperimentError
+from forcetorque.evaluation import Offset, OffsetPolicy
+from forcetorque.experiment import Experiment
+from forcetorque.experiment.contacts import contacts_in
+from forcetorque.noise import mean_error
+from forcetorque.recording import Interval, MovingSupport, Use
+from forcetorque.robot import Wrenches
+
+FREE_SHARE, DOUBT_SHARE, BEARING_SHARE = 0.06, 0.15, 1.0 / 3.0
+"""Share of the weight below which a link that is said to touch is in the air; and of force that nothing explains, from
+which a link that is not said to touch may bear the robot, or a matrix err as much, and from which it does bear it."""
+
+
+LEAN_DEG = 0.5
+"""Angle from which it is said that the joints have a link lean that stands on level ground; of half the weight of a
+robot of 30 kg it makes 1.3 N."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class _Reader:
+    """All sensors as one candidate reads them with one offset."""
+
+    candidate: str
+    calibrations: Mapping[str, Calibration]
+    policy: OffsetPolicy
+    corrections: Mapping[str, Correction]
+    offsets: Mapping[str, SensorOffset]
+    by_prior: tuple[str, ...]
+    """Sensors that no calibration of the candidate reads."""
+    fitted_on: tuple[Interval, ...]
+    """Calibration intervals of the experiment."""
+
+    def evidence(self, experiment: Experiment, interval: Interval) -> bool:
+        """Whether neither offset nor matrix come from a phase."""
+        gave = [offset.interval for offset in self.offsets.values()]
+        gave += self.fitted_on if self.by_prior and self.policy.offset is Offset.FITTED else ()
+        return not any(one.start_ns < interval.end_ns and interval.start_ns < one.end_ns for one in gave) and not any(
+            list(overlapping(experiment, [interval], calibration, calibration.provenance.intervals))
+            for calibration in self.calibrations.values()
+        )
+
+
+def coherence(
+    experiment: Experiment,
+    candidates: Mapping[str, Mapping[str, Calibration]] | None = None,
+    *,
+    offsets: Sequence[OffsetPolicy | str] = (),
+) -> Coherence:
+    """Hold the net contact force of every phase against the weight.
+
+    Args:
+        experiment: The experiment; every interval that is not to be ignored is a phase, in which its support, or the
+            links that it names as touched, and its contacts touch the world.
+        candidates: By name of the candidate its calibrations by name of their file, at most one for each sensor; what
+            has none is read by the prior of the experiment. The prior is always judged.
+        offsets: Where the offsets come from, in turn; from the first phase in which one link alone is touched if none
+            is named.
+
+    Returns:
+        Net forces, errors and intervals per offset, phase and candidate.
+
+    Raises:
+        ExperimentError: If there is no phase, a link that is said to touch bears nothing, one that is not bears the
+            robot, or an offset cannot be told.
+        FitError: If an offset has too few samples.
+    """
+    phases = [NetContact.of(experiment, interval) for interval in _phases(experiment)]
+    weight = experiment.processing.gravity * _mass(experiment)
+    policies = offset_policies(offsets) or (_default_policy(experiment),)
+    for policy in policies:
+        if policy.offset in (Offset.FIRST_SECOND, Offset.JUDGED_MEAN):
+            raise ExperimentError(
+                f"offset {policy}: it comes from every judged phase itself, also from one on two feet, in which nobody "
+                "knows what a sensor must read; take one from an interval, such as one-link-imu:LABEL"
+            )
+    readers = [reader for policy in policies for reader in _readers(experiment, candidates or {}, policy)]
+    rows = [row for reader in readers for row in _rows(experiment, reader, phases, weight)]
+    doubts = _contact_doubts(phases, [reader for reader in readers if reader.policy.offset is not Offset.NONE], weight)
+    summary = tuple(_summary(rows))
+    return Coherence(
+        experiment=experiment.name,
+        mass_kg=_mass(experiment),
+        weight_N=weight,
+        rows=tuple(sorted(rows, key=lambda row: _order(row, policies, phases))),
+        offsets=tuple(row for reader in readers for row in _offset_rows(reader)),
+        summary=summary,
+        warnings=(*doubts, *_leans(phases), *_doubts(readers, summary)),
+    )
+
+
+def force_error(force: FloatArray, weight: float) -> FloatArray:
+    """Give the error of net contact forces of a robot at rest, upright.
+
+    Args:
+        force: Net forces of all contacts, z up; shape (..., 3); N.
+        weight: Weight of the robot; N.
+
+    Returns:
+        The forces less (0, 0, weight); shape (..., 3); N.
+    """
+    error: FloatArray = np.asarray(force, dtype=np.float64) - np.array([0.0, 0.0, weight])
+    return error
+
+
+def _mass(experiment: Experiment) -> float:
+    return sum(inertia.mass for inertia in experiment.model.links.values())
+
+
+def _phases(experiment: Experiment) -> list[Interval]:
+    phases = [interval for interval in experiment.recording.intervals if interval.use is not Use.IGNORE]
+    if not phases:
+        raise ExperimentError(
+            f"experiment {experiment.name!r}: no phase found; expected an [[interval]] that is not to be ignored, with "
+            "a support or with the links that are touched"
+        )
+    return phases
+
+
+def _default_policy(experiment: Experiment) -> OffsetPolicy:
+    for interval in _phases(experiment):
+        if not contacts_in(interval, experiment.contacts):
+            imu = isinstance(interval.support, MovingSupport)
+            return OffsetPolicy(Offset.ONE_LINK_IMU if imu else Offset.ONE_LINK_FIXED_FRAME, interval.label)
+    raise ExperimentError(
+        f"experiment {experiment.name!r}: expected a phase in which one link alone is touched, which gives the offset; "
+        "name another way by --offset, such as none"
+    )
+
+
+def _readers(
+    experiment: Experiment, candidates: Mapping[str, Mapping[str, Calibration]], policy: OffsetPolicy
+) -> Iterator[_Reader]:
+    fitted_on = tuple(one for one in experiment.recording.intervals if one.use is Use.CALIBRATION)
+    every = {name: one for group in candidates.values() for name, one in group.items()}
+    for candidate, calibrations in {PRIOR: {}, **candidates}.items():
+        chosen = one_per_sensor(experiment, calibrations)
+        corrections: dict[str, Correction] = {}
+        offsets: dict[str, SensorOffset] = {}
+        by_prior: list[str] = []
+        for sensor in experiment.sensors:
+            run = SensorRun(experiment, sensor)
+            if sensor.name in chosen:
+                name, calibration = chosen[sensor.name]
+                run.require_fit(name, calibration)
+                correction = Correction.of(name, calibration)
+            else:
+                correction = _of_prior(run, every, policy)
+                by_prior.append(sensor.name)
+            corrections[sensor.name], gave = with_policy(run, correction, policy)
+            offsets.update((offset.sensor, offset) for offset in gave)
+        yield _Reader(
+            candidate=candidate,
+            calibrations=calibrations,
+            policy=policy,
+            corrections=corrections,
+            offsets=offsets,
+            by_prior=tuple(by_prior),
+            fitted_on=fitted_on,
+        )
+
+
+def _of_prior(run: SensorRun, calibrations: Mapping[str, Calibration], policy: OffsetPolicy) -> Correction:
+    """Read a sensor by the prior of the experiment, else by that of one of its calibrations."""
+    if run.sensor.quantity == "raw" and run.sensor.prior is None:
+        for name, calibration in calibrations.items():
+            if calibration.prior is not None and calibration.sensor.serial == run.sensor.serial:
+                return Correction.of_prior(name, calibration.prior, calibration.sessions)
+    return run.uncalibrated() if policy.offset is Offset.FITTED else Correction.without_offset(run.sensor)
+
+
+def _rows(experiment: Experiment, reader: _Reader, phases: Sequence[NetContact], weight: float) -> Iterator[PhaseForce]:
+    moments_known = not any(offset.not_logged for offset in reader.offsets.values())
+    for phase in phases:
+        wrench = phase.wrench(phase.asked.measured(reader.corrections))
+        error = np.concatenate([force_error(wrench[:, :3], weight), _moment_error(phase, wrench)], axis=1)
+        # where moments are not known their columns are no gaps
+        columns = 6 if moments_known and phase.demanded is not None else 3
+        whole = np.isfinite(error[:, :columns]).all(axis=1)
+        label = phase.asked.interval.label
+        if not whole.any():
+            raise ExperimentError(f"interval {label!r}: expected a sample in which all sensors read, got none")
+        error = error[whole, :columns]
+        noise = mean_error(error, phase.time_s[whole]).half_width
+        by_offset = _offset_half_width(experiment, reader, phase, int(np.flatnonzero(whole)[whole.sum() // 2]))
+        half_width = np.hypot(noise, by_offset[:columns])
+        mean = error.mean(axis=0)
+        yield PhaseForce(
+            phase=label,
+            touching=phase.touching,
+            candidate=reader.candidate,
+            offset=reader.policy.offset,
+            offset_interval=reader.policy.interval,
+            samples=int(whole.sum()),
+            force_N=wrench[whole, :3].mean(axis=0),
+            force_error_N=mean[:3],
+            force_half_width_95_N=_finite(half_width[:3]),
+            moment_error_Nm=mean[3:] if columns == 6 else None,
+            moment_half_width_95_Nm=_finite(half_width[3:]) if columns == 6 else None,
+            evidence=reader.evidence(experiment, phase.asked.interval),
+        )
+
+
+def _moment_error(phase: NetContact, wrench: FloatArray) -> FloatArray:
+    """Error of the net moment about the point of the support's level through which the demanded wrench goes; (n, 3)."""
+    if phase.demanded is None:
+        return np.full((len(wrench), 3), np.nan)
+    error, (force, moment) = wrench - phase.demanded, np.split(phase.demanded, 2, axis=1)
+    point = np.stack([-moment[:, 1], moment[:, 0], np.zeros(len(force))], axis=1) / force[:, 2:]
+    about: FloatArray = error[:, 3:] - np.cross(point, error[:, :3])
+    return about
+
+
+def _offset_half_width(experiment: Experiment, reader: _Reader, phase: NetContact, row: int) -> FloatArray:
+    """What the intervals of the offsets make of the net wrench at one instant; shape (6,)."""
+    if not reader.offsets:
+        return np.zeros(6)
+    answers = phase.answers(row)
+    if phase.demanded is not None:
+        force, moment = phase.demanded[row, :3], phase.demanded[row, 3:]
+        point = np.array([-moment[1], moment[0], 0.0]) / force[2]
+        answers[3:] -= np.cross(point, answers[:3].reshape(3, -1), axisb=0).T.reshape(answers[:3].shape)
+    squares = np.zeros(6)
+    for k, sensor in enumerate(experiment.sensors):
+        if sensor.name in reader.offsets:
+            half = reader.offsets[sensor.name].estimate.half_width
+            gain = answers[:, k]
+            squares += (np.where(np.abs(gain) > 1e-12, gain * half, 0.0) ** 2).sum(axis=1)
+    root: FloatArray = np.sqrt(squares)
+    return root
+
+
+def _finite(values: FloatArray) -> FloatArray | None:
+    return values if np.isfinite(values).all() else None
+
+
+def _offset_rows(reader: _Reader) -> Iterator[OffsetOfSensor]:
+    for sensor, offset in reader.offsets.items():
+        support = offset.interval.support
+        yield OffsetOfSensor(
+            candidate=reader.candidate,
+            sensor=sensor,
+            offset=offset.policy.offset,
+            offset_interval=offset.interval.label,
+            link="" if support is None else support.frame,
+            samples=offset.estimate.count,
+            value=offset.wrench,
+            half_width_95=_finite(offset.estimate.half_width),
+            moments_known=not offset.not_logged,
+        )
+
+
+def _summary(rows: Sequence[PhaseForce]) -> Iterator[CoherenceSummary]:
+    groups: dict[tuple[str, Offset, str | None], list[float]] = {}
+    for row in rows:
+        norms = groups.setdefault((row.candidate, row.offset, row.offset_interval), [])
+        if row.evidence:
+            norms.append(float(np.linalg.norm(row.force_error_N)))
+    for (candidate, offset, interval), norms in groups.items():
+        yield CoherenceSummary(
+            candidate=candidate,
+            offset=offset,
+            offset_interval=interval,
+            phases=len(norms),
+            force_error_mean_N=float(np.mean(norms)) if norms else None,
+            force_error_largest_N=max(norms, default=None),
+        )
+
+
+def _contact_doubts(phases: Sequence[NetContact], readers: Sequence[_Reader], weight: float) -> list[str]:
+    """Refuse links that are said to touch and do not, or the other way round, whatever reads them; name doubts."""
+    doubts = []
+    for phase in phases:
+        measured: list[Wrenches] = [phase.asked.measured(reader.corrections) for reader in readers]
+        label = phase.asked.interval.label
+        borne = [phase.forces(one) for one in measured]
+        for name in borne[0] if borne else ():
+            most = max(abs(forces[name]) for forces in borne)
+            if most < FREE_SHARE * weight:
+                raise ExperimentError(
+                    f"interval {label!r}: {name!r} is in the air: expected a link that touches to bear at least "
+                    f"{FREE_SHARE:.0%} of {weight:.1f} N, got {most:.2f} N; leave it out of touched, [[contact]] or "
+                    "support, or state the intervals of the contact"
+                )
+        left = [phase.unexplained(one) for one in measured]
+        for name in left[0] if left else ():
+            least = min(forces[name] for forces in left)
+            words = (
+                f"interval {label!r}: only {', '.join(phase.touching)} may touch, but {least:.1f} of {weight:.1f} N "
+                f"act on the robot beyond {name!r}"
+            )
+            if least > BEARING_SHARE * weight:
+                raise ExperimentError(f"{words}; name both feet in touched, or the other in [[contact]]")
+            if least > DOUBT_SHARE * weight:
+                doubts.append(f"{words}: a sensor errs by as much, or another link touches")
+    return doubts
+
+
+def _leans(phases: Sequence[NetContact]) -> Iterator[str]:
+    for phase in phases:
+        for name, angle in phase.leans_deg().items():
+            if angle > LEAN_DEG:
+                yield (
+                    f"interval {phase.asked.interval.label!r}: by the joints {name} leans by {angle:.1f} deg against "
+                    "the level ground that [[support]] states; its force is taken upright by what is stated"
+                )
+
+
+def _doubts(readers: Sequence[_Reader], summary: Sequence[CoherenceSummary]) -> Iterator[str]:
+    uncalibrated = {reader.candidate: reader.by_prior for reader in readers if reader.candidate != PRIOR}
+    for candidate, sensors in uncalibrated.items():
+        if sensors:
+            yield f"{candidate}: has no calibration of {', '.join(sensors)}, which the prior reads here too"
+    for reader in readers:
+        if reader.policy.offset is Offset.NONE and reader.candidate == PRIOR:
+            yield "offset none: no offset removed, so that the errors hold whatever offsets the sensors have"
+        if reader.policy.offset is Offset.FITTED:
+            for sensor, correction in reader.corrections.items():
+                if not correction.removes_offset:
+                    yield f"{reader.candidate}, {sensor}: no offset removed, as no calibration interval gives one"
+        for sensor, offset in reader.offsets.items():
+            if offset.not_logged and reader.candidate == PRIOR:
+                yield (
+                    f"offset {reader.policy}, {sensor}: {', '.join(offset.not_logged)} are in no stream and are taken "
+                    "to be at rest: the offset of forces is known, that of moments is not"
+                )
+    priors = {(one.offset, one.offset_interval): one.force_error_mean_N for one in summary if one.candidate == PRIOR}
+    for one in summary:
+        prior = priors.get((one.offset, one.offset_interval))
+        mean = one.force_error_mean_N
+        if one.candidate != PRIOR and prior is not None and mean is not None and mean > prior:
+            yield (
+                f"{one.candidate}, offset {policy_words(one.offset, one.offset_interval)}: error {mean:.2f} N, more "
+                f"than the {prior:.2f} N of the prior"
+            )
+
+
+def _order(row: PhaseForce, policies: Sequence[OffsetPolicy], phases: Sequence[NetContact]) -> tuple[int, int]:
+    """By offset, then by phase; candidates stay as they come."""
+    labels = [phase.asked.interval.label for phase in phases]
+    return policies.index(OffsetPolicy(row.offset, row.offset_interval)), labels.index(row.phase)

@@ -1,0 +1,2 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Spheres of many sensors, mounting conditions and trials."""

@@ -1,0 +1,2 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""All sensors of a robot at once."""

@@ -1,0 +1,200 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What an interval says of all sensors at once: which parts nothing touches, and what their sensors read.
+
+What touches is what the files say: the support of an interval, and every `[[contact]]` that is there meanwhile.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Self
+
+import numpy as np
+
+from forcetorque.analysis.runs.reading import readings_at
+from forcetorque.arrays import FloatArray
+from forcetorque.calibration.joint import Stretch, UntouchedStretch, window_means
+from forcetorque.errors import ExperimentError
+from forcetorque.estimation.part_equations import joints_of_cuts, joints_of_part, sensors_of, untouched_parts
+from forcetorque.estimation.picked import padded_samples
+from forcetorque.estimation.root_motion import imu_frame
+from forcetorque.estimation.samples import robot_motion_at
+from forcetorque.experiment import Experiment, ExperimentSensor
+from forcetorque.experiment.contacts import contacts_in
+from forcetorque.recording import Interval, MovingSupport
+from forcetorque.recording.alignment import require_overlap, seconds_since
+from forcetorque.robot import BodyTree, build_tree
+from forcetorque.robot.sub_model import SubModel
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class RawWindows:
+    """Raw readings of one sensor over the windows of an interval."""
+
+    time_s: FloatArray
+    """Mean instants; shape (w,); s."""
+    means: FloatArray
+    """Mean readings; shape (w, c); counts; NaN where a window has a gap."""
+    minimum: FloatArray
+    """Smallest reading per channel; shape (c,); counts."""
+    maximum: FloatArray
+    """Largest reading per channel; shape (c,); counts."""
+    samples: int
+    """Samples with a reading."""
+    missing: int
+    """Samples without."""
+
+    @classmethod
+    def of(cls, stretch: Stretch, raw: FloatArray) -> Self:
+        """Average raw readings.
+
+        Args:
+            stretch: The stretch that they are of.
+            raw: Readings at its instants; shape (n, c); counts; NaN in gaps.
+
+        Returns:
+            The same over its windows.
+        """
+        whole = np.isfinite(raw).all(axis=1)
+        nothing = np.full(raw.shape[1], np.nan)
+        times, means = window_means(stretch, raw)
+        return cls(
+            time_s=times,
+            means=means,
+            minimum=raw[whole].min(axis=0) if whole.any() else nothing,
+            maximum=raw[whole].max(axis=0) if whole.any() else nothing,
+            samples=int(np.count_nonzero(whole)),
+            missing=int(np.count_nonzero(~whole)),
+        )
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class JointInterval:
+    """One interval of one recording."""
+
+    interval: Interval
+    """The interval."""
+    untouched: UntouchedStretch
+    """Its equations, and what is needed for them."""
+    raw: Mapping[str, RawWindows]
+    """Raw readings by the names of the sensors."""
+
+
+def joint_interval(
+    experiment: Experiment,
+    interval: Interval,
+    sensors: Sequence[str],
+    *,
+    label: str | None = None,
+    recording: str | None = None,
+    session: str | None = None,
+) -> JointInterval:
+    """Take what an interval says of several sensors at once.
+
+    Args:
+        experiment: The experiment.
+        interval: One of its intervals.
+        sensors: Names of its sensors.
+        label: Name of the interval among those of other recordings; its label if None.
+        recording: Name of the recording among others; that of the experiment if None.
+        session: Session that the interval is of, among those of other recordings; by its file if None.
+
+    Returns:
+        Readings by the prior matrices, at the instants of the first sensor, and the motion of the robot. Parts whose
+        joints are not in the log are left out, and named.
+
+    Raises:
+        ExperimentError: If the interval has no support, or of no untouched part all joints are in the log.
+    """
+    support = interval.support
+    if support is None:
+        raise ExperimentError(f"interval {interval.label!r}: expected a support frame or an IMU, got none")
+    model = experiment.model_on(support)
+    present = contacts_in(interval, experiment.contacts)
+    touched = tuple(dict.fromkeys((support.frame, *(entry.contact.link for entry in present))))
+    if isinstance(support, MovingSupport):
+        # the motion is known where the IMU is: nothing needs to be carried to another link
+        support = replace(support, frame=imu_frame(experiment.model, experiment.recording, support))
+    tree = build_tree(model, support.frame)
+    parts, weighed, left_out = _logged(experiment, untouched_parts(tree, sensors, touched), tree)
+    if not parts and not weighed:
+        raise ExperimentError(
+            f"interval {interval.label!r}: of no untouched part are all joints in the log: {'; '.join(left_out)}"
+        )
+    used = [experiment.sensor(name) for name in sensors if any(name in sensors_of(part) for part in (*parts, *weighed))]
+    source = experiment.recording.stream(used[0].stream)
+    for sensor in used[1:]:
+        require_overlap(source, experiment.recording.stream(sensor.stream))
+    samples = padded_samples(experiment.recording, source, interval, None)
+    joints, root = robot_motion_at(
+        experiment.recording,
+        experiment.model,
+        support,
+        tuple(
+            dict.fromkeys(
+                (
+                    *(joint for part in parts for joint in joints_of_part(tree, part)),
+                    *(joint for part in weighed for joint in joints_of_cuts(tree, part)),
+                )
+            )
+        ),
+        source,
+        samples.stamp_ns,
+        processing=experiment.processing,
+    )
+    priors = {sensor.name: required_prior(sensor) for sensor in used}
+    raw = {sensor.name: readings_at(experiment, sensor, (), samples.stamp_ns).raw for sensor in used}
+    stretch = Stretch(
+        label=interval.label if label is None else label,
+        recording=experiment.session_names(None)[0] if recording is None else recording,
+        session=experiment.session_names(interval.label)[0] if session is None else session,
+        time_s=seconds_since(samples.stamp_ns, experiment.recording.start_ns),
+        tree=tree,
+        joints=joints,
+        root=root,
+        readings={name: raw[name] @ prior.T for name, prior in priors.items()},
+        touched=touched,
+    )
+    return JointInterval(
+        interval=interval,
+        untouched=UntouchedStretch(stretch=stretch, parts=parts, weighed=weighed, left_out=left_out),
+        raw={name: RawWindows.of(stretch, values) for name, values in raw.items()},
+    )
+
+
+def required_prior(sensor: ExperimentSensor) -> FloatArray:
+    """Give the prior matrix of a sensor, which a joint calibration changes.
+
+    Args:
+        sensor: The sensor.
+
+    Returns:
+        The matrix; shape (6, c); N/count, N m/count.
+
+    Raises:
+        ExperimentError: If it has none.
+    """
+    if sensor.prior is None:
+        raise ExperimentError(
+            f"sensor {sensor.name!r}: expected a prior matrix, which a joint calibration changes; state the matrix of "
+            'its data sheet as `prior`, or "identity" for a log of wrenches'
+        )
+    return sensor.prior
+
+
+def _logged(
+    experiment: Experiment, parts: Sequence[SubModel], tree: BodyTree
+) -> tuple[tuple[SubModel, ...], tuple[SubModel, ...], tuple[str, ...]]:
+    """Parts whose joints were logged, those that can be weighed at least, and of the others what they lack."""
+    available = set(experiment.recording.joint_signals("position"))
+    logged, weighed, lacking = [], [], []
+    for part in parts:
+        missing = [joint for joint in joints_of_part(tree, part) if joint not in available]
+        if not missing:
+            logged.append(part)
+        elif available.issuperset(joints_of_cuts(tree, part)):
+            weighed.append(replace(part, name=f"weight on {', '.join(sensors_of(part))}"))
+        else:
+            lacking.append(f"part {part.name!r} needs the joint(s) {', '.join(missing)}, which the log lacks")
+    return tuple(logged), tuple(weighed), tuple(lacking)

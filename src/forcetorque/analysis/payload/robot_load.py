@@ -1,0 +1,98 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What a robot has to know of the load of a wrist sensor, taken from its experiment."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+
+from forcetorque.analysis.payload.rows import LoadRow
+from forcetorque.analysis.runs.sensor_run import SensorRun
+from forcetorque.arrays import FloatArray
+from forcetorque.errors import ExperimentError
+from forcetorque.exchange.load import RobotLoad, write_load_file
+from forcetorque.exchange.load_format import LoadFormat
+from forcetorque.experiment.loads.wrist_load import LOAD_LINK
+from forcetorque.spatial import WRENCH_COMPONENTS
+
+
+def robot_load(
+    run: SensorRun, bias: Sequence[float | None] | FloatArray, *, weighed: LoadRow | None = None
+) -> RobotLoad:
+    """Give the load of a wrist sensor, estimated or stated, with a bias of the sensor.
+
+    Args:
+        run: The wrist sensor.
+        bias: Reading without load, such as that of `weigh_load`, or minus the offset of `tare`; shape (6,); N, N m;
+            None where the data leave it open.
+        weighed: The load by several recordings together, as `weigh_load` gives it; by that of the run alone if None.
+
+    Returns:
+        The load, to write it for a robot (`export_load`).
+
+    Raises:
+        ExperimentError: If the experiment is of a robot with links, has several loads, or leaves load or bias open.
+    """
+    experiment, known = run.experiment, np.array(bias, dtype=np.float64)
+    if experiment.wrist is None:
+        raise ExperimentError("expected [load], of which a robot is told, got the links of [robot]")
+    supports = experiment.wrist.supports
+    if len(supports) != 1:
+        names = ", ".join(map(repr, supports))
+        raise ExperimentError(
+            f"expected one [[load]], of which a robot is told, got {names}: leave the others, and their intervals, out "
+            "of the experiment file"
+        )
+    if not np.isfinite(known).all():
+        names = ", ".join(np.array(WRENCH_COMPONENTS)[~np.isfinite(known)])
+        raise ExperimentError(
+            f"expected a bias along every axis, of which a robot is told, the data leave {names} open: "
+            "`forcetorque payload` says what to record"
+        )
+    if weighed is None:
+        (support,) = supports.values()
+        inertia = experiment.model_on(support).links[LOAD_LINK]
+        mass, centre = inertia.mass, inertia.first_moment / inertia.mass if inertia.mass else np.zeros(3)
+    elif weighed.mass_kg is None or None in weighed.centre_of_mass_m:
+        raise ExperimentError(
+            f"expected a load that the recordings determine, of which a robot is told, they leave {weighed.load!r} "
+            "open: `forcetorque payload` says what to record"
+        )
+    else:
+        mass, centre = weighed.mass_kg, np.array(weighed.centre_of_mass_m, dtype=np.float64)
+    matrix = run.sensor.prior if run.sensor.quantity == "raw" else None
+    return RobotLoad(
+        sensor=run.sensor.name,
+        frame=next(iter(experiment.model.links)),
+        direction=experiment.wrist.direction,
+        mass=mass,
+        centre_of_mass=centre,
+        bias=known,
+        matrix=np.eye(6) if matrix is None else matrix,
+    )
+
+
+def export_load(
+    load: RobotLoad,
+    output: Path | str,
+    form: LoadFormat,
+    *,
+    world_frame: str | None = None,
+    body_H_sensor: FloatArray | None = None,
+) -> str:
+    """Write the file in which a robot is told what hangs on its sensor.
+
+    Args:
+        load: The load.
+        output: File to write or to replace.
+        form: Form of the file.
+        world_frame: For `gravity-filter`, the frame of tf whose z axis points up.
+        body_H_sensor: For `mc-rtc`, pose of the sensor in its parent body; shape (4, 4); m.
+
+    Returns:
+        What the program does with it, in words.
+    """
+    write_load_file(output, load, form, world_frame=world_frame, body_H_sensor=body_H_sensor)
+    return form.convention

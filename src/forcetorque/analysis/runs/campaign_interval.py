@@ -1,0 +1,181 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Samples of one interval of a campaign, under names that tell them from those of other recordings."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from forcetorque.analysis.runs.campaign_recording import CampaignRecording, refuse_a_file_twice, require_one_sensor
+from forcetorque.analysis.runs.samples import IntervalSamples
+from forcetorque.calibration import DataSet, FittedInterval
+from forcetorque.experiment.recording_names import distinct_files, recording_name
+from forcetorque.recording import Interval
+from forcetorque.study import ValidationSet
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class CampaignInterval:
+    """Samples of one interval and what it is to the campaign."""
+
+    label: str
+    """Label, unique in the campaign: with the name of its file where several files use it."""
+    kind: str
+    """Kind of motion."""
+    session: str
+    """Stretch of time in which nothing was switched off: as the file states it, else the recording."""
+    recording: str
+    """Recording, by a name that is unique in the campaign."""
+    experiment: str
+    """Name of the experiment as its file has it."""
+    start_s: float
+    """First sample since the start of its recording; s."""
+    part: IntervalSamples
+    """The samples."""
+
+    @property
+    def data_set(self) -> DataSet:
+        """The samples as data to fit."""
+        return replace(self.part.data_set, label=self.label, session=self.session, recording=self.recording)
+
+    @property
+    def fitted(self) -> FittedInterval:
+        """The interval in the record of a fit."""
+        return FittedInterval(
+            label=self.label,
+            start_ns=self.part.interval.start_ns,
+            end_ns=self.part.interval.end_ns,
+            session=self.session,
+            experiment=self.experiment,
+        )
+
+    @property
+    def validation_set(self) -> ValidationSet:
+        """The samples as data to judge on."""
+        stamps = self.part.samples.stamp_ns
+        return ValidationSet(
+            label=self.label,
+            session=self.session,
+            time_s=self.start_s + (stamps - stamps[0]) * 1e-9,
+            raw=self.part.raw,
+            reference=self.part.samples.reference,
+            variables=self.part.samples.variables,
+        )
+
+
+class CampaignNames:
+    """Names of recordings, sessions and intervals that tell several recordings of one sensor apart."""
+
+    def __init__(self, recordings: Sequence[CampaignRecording]) -> None:
+        """Name what several recordings hold.
+
+        Args:
+            recordings: The recordings.
+
+        Raises:
+            ExperimentError: If they are not of one sensor, mounted, described and read in one way, or a file comes
+                twice.
+        """
+        refuse_a_file_twice([recording.file for recording in recordings])
+        require_one_sensor(recordings)
+        self._files = distinct_files([recording.file for recording in recordings])
+        self._labels = Counter(label for recording in recordings for label in recording.roles)
+        self._recordings = dict(self._named(recordings))
+
+    def label(self, recording: CampaignRecording, label: str) -> str:
+        """Name an interval.
+
+        Args:
+            recording: Its recording.
+            label: Its label.
+
+        Returns:
+            The label, with the file in front where several recordings use it.
+        """
+        return label if self._labels[label] <= 1 else f"{self._files[recording.file]}/{label}"
+
+    def recording(self, recording: CampaignRecording) -> str:
+        """Name a recording.
+
+        Args:
+            recording: The recording.
+
+        Returns:
+            The name of its experiment, with the file where that is the name of another recording or session too.
+        """
+        return self._recordings[recording.file]
+
+    def session(self, recording: CampaignRecording, label: str) -> str:
+        """Name the session of an interval.
+
+        Args:
+            recording: Its recording.
+            label: Label of the interval.
+
+        Returns:
+            The session that its file states, else the recording.
+        """
+        return recording.roles[label].session or self.recording(recording)
+
+    def intervals(self, recording: CampaignRecording, parts: Sequence[IntervalSamples]) -> list[CampaignInterval]:
+        """Name the samples of one recording.
+
+        Args:
+            recording: The recording.
+            parts: Samples of its intervals.
+
+        Returns:
+            The same with names.
+        """
+        return [self._interval(recording, part.interval, part) for part in parts]
+
+    def _interval(self, recording: CampaignRecording, interval: Interval, part: IntervalSamples) -> CampaignInterval:
+        return CampaignInterval(
+            label=self.label(recording, interval.label),
+            kind=recording.roles[interval.label].kind,
+            session=self.session(recording, interval.label),
+            recording=self.recording(recording),
+            experiment=recording.experiment,
+            start_s=(int(part.samples.stamp_ns[0]) - recording.start_ns) * 1e-9,
+            part=part,
+        )
+
+    def _named(self, recordings: Sequence[CampaignRecording]) -> Iterator[tuple[Path, str]]:
+        names = Counter(recording.experiment for recording in recordings)
+        for recording in recordings:
+            elsewhere = {session for other in recordings if other is not recording for session in other.stated_sessions}
+            clash = names[recording.experiment] > 1 or recording.experiment in elsewhere
+            name = recording_name(recording.experiment, self._files[recording.file]) if clash else recording.experiment
+            yield recording.file, name
+
+
+def joined_inputs(recordings: Sequence[CampaignRecording]) -> dict[str, str]:
+    """Put the input files of several recordings together.
+
+    Args:
+        recordings: The recordings.
+
+    Returns:
+        SHA-256 of every input file, by its path as the experiment names it, with the experiment's folder in front.
+    """
+    return {
+        (recording.file.parent / name).as_posix(): digest
+        for recording in recordings
+        for name, digest in recording.inputs_sha256.items()
+    }
+
+
+def joined_sphere(recordings: Sequence[CampaignRecording], names: CampaignNames) -> tuple[str, ...] | None:
+    """Put together what the files say about the sphere of the sphere types.
+
+    Args:
+        recordings: The recordings.
+        names: Their names.
+
+    Returns:
+        Labels of the intervals that draw it; None if no file names any.
+    """
+    labels = [names.label(recording, label) for recording in recordings for label in recording.sphere or ()]
+    return tuple(labels) or None

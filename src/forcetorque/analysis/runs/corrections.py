@@ -1,0 +1,55 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""How every sensor of an experiment is read, where one is not judged but used."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from forcetorque.analysis.runs.applicability import one_per_sensor
+from forcetorque.analysis.runs.offsets import offset_policies, with_policy
+from forcetorque.analysis.runs.reading import Correction
+from forcetorque.analysis.runs.sensor_run import SensorRun
+from forcetorque.calibration import Calibration
+from forcetorque.evaluation import Offset, OffsetPolicy
+from forcetorque.experiment import Experiment
+
+FITTED = OffsetPolicy(Offset.FITTED)
+
+
+def corrections_of(
+    experiment: Experiment,
+    calibrations: Mapping[str, Calibration],
+    *,
+    offset: OffsetPolicy | str = FITTED,
+) -> dict[str, Correction]:
+    """Decide how every sensor of an experiment is read.
+
+    A calibration is used where one is given. Else the prior is, or the logged wrench, with the
+    offset that makes its mean that of the model over the calibration intervals. Another offset can be asked for.
+
+    Args:
+        experiment: The experiment.
+        calibrations: Calibrations by name of their file.
+        offset: Where the offsets come from, such as `one-link-imu:hanging`; from the data that were fitted if left out.
+
+    Returns:
+        Corrections by sensor.
+
+    Raises:
+        ExperimentError: If a calibration may not be applied, or raw counts have neither calibration nor prior, or
+            an offset cannot be told.
+        FitError: If an offset has too few samples.
+    """
+    chosen = one_per_sensor(experiment, calibrations)
+    (policy,) = offset_policies([offset])
+    corrections = {}
+    for sensor in experiment.sensors:
+        run = SensorRun(experiment, sensor)
+        if sensor.name in chosen:
+            name, calibration = chosen[sensor.name]
+            run.require_fit(name, calibration)
+            correction = Correction.of(name, calibration)
+        else:
+            correction = run.uncalibrated() if policy == FITTED else Correction.without_offset(sensor)
+        corrections[sensor.name], _ = with_policy(run, correction, policy)
+    return corrections

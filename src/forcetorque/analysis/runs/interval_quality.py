@@ -1,0 +1,101 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the intervals of a log lack of a sensor's readings: saturated, missing and lost samples."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+import numpy as np
+
+from forcetorque.analysis.runs.reading import Readings
+from forcetorque.analysis.runs.sensor_run import SensorRun
+from forcetorque.arrays import BoolArray, IntArray
+from forcetorque.estimation.picked import pick_samples
+from forcetorque.experiment.content import ExperimentSensor
+from forcetorque.recording import Interval, Stream
+from forcetorque.recording.quality import SATURATION_SHARE, stream_findings
+from forcetorque.result import Row
+
+
+class IntervalQuality(Row):
+    """What an interval lacks of a sensor's readings."""
+
+    label: str
+    """Label of the interval."""
+    samples: int
+    """Number of its samples."""
+    saturated_share: float
+    """Share of samples that the board held or, where it does not say so, with a channel at its limit or in a long
+    stretch of one reading."""
+    missing_share: float
+    """Share of samples without a reading, or whose stamp does not step forward."""
+    lost_share: float | None
+    """Share of messages lost by their sequence numbers, among those that were sent; None without these."""
+
+
+def interval_qualities(run: SensorRun, intervals: Iterable[Interval]) -> tuple[IntervalQuality, ...]:
+    """Count what intervals lack of a sensor's readings.
+
+    Args:
+        run: The sensor.
+        intervals: Intervals of its recording.
+
+    Returns:
+        One row per interval.
+    """
+    stream, sensor = run.stream, run.sensor
+    saturated, lost = _saturated(stream, sensor), _lost(stream)
+    gaps: BoolArray = np.logical_not(np.isfinite(stream.signal(sensor.quantity).values).all(axis=1))
+    rows = []
+    for interval in intervals:
+        picked, samples = pick_samples(run.experiment.recording, stream, interval)
+        missing = samples - len(picked) + int(np.count_nonzero(gaps[picked]))
+        messages = None if lost is None else int(lost[picked].sum())
+        rows.append(
+            IntervalQuality(
+                label=interval.label,
+                samples=samples,
+                saturated_share=int(np.count_nonzero(saturated[picked])) / samples,
+                missing_share=missing / samples,
+                lost_share=None if messages is None else messages / (messages + samples),
+            )
+        )
+    return tuple(rows)
+
+
+def has_counts(sensor: ExperimentSensor) -> bool:
+    """Tell whether the raw readings of a sensor are counts.
+
+    Args:
+        sensor: The sensor.
+
+    Returns:
+        False where the logged wrench takes their place.
+    """
+    return sensor.quantity == "raw" or sensor.prior_source != "identity"
+
+
+def _saturated(stream: Stream, sensor: ExperimentSensor) -> BoolArray:
+    """Whether each sample of the whole log is held, or at the limit."""
+    if "saturated" in stream.signals:
+        return stream.held
+    values = stream.signal(sensor.quantity).values
+    saturated = np.zeros(len(stream), dtype=bool)
+    if has_counts(sensor):
+        counts = Readings.of(sensor, values, {}).raw
+        saturated |= (np.abs(counts) >= (1.0 - SATURATION_SHARE) * sensor.limit_counts).any(axis=1)
+    for finding in stream_findings(stream):
+        if finding.kind == "frozen" and finding.start_ns is not None and finding.end_ns is not None:
+            saturated |= (stream.stamp_ns >= finding.start_ns) & (stream.stamp_ns <= finding.end_ns)
+    return saturated
+
+
+def _lost(stream: Stream) -> IntArray | None:
+    """Messages that were lost before each sample."""
+    if stream.sequence is None or (stream.sequence < 0).any():
+        return None
+    lost = np.zeros(len(stream), dtype=np.int64)
+    for finding in stream_findings(stream):
+        if finding.kind == "lost_messages" and finding.end_ns is not None:
+            lost[int(np.argmax(np.equal(stream.stamp_ns, finding.end_ns)))] += finding.count
+    return lost

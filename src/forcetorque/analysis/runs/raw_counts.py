@@ -1,0 +1,95 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the channels of a sensor read over the intervals of an experiment that are not ignored."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from forcetorque.analysis.runs.sensor_run import SensorRun
+from forcetorque.arrays import FloatArray, IntArray, read_only
+from forcetorque.calibration import recover_raw
+from forcetorque.errors import ExperimentError
+from forcetorque.estimation.picked import pick_samples
+from forcetorque.experiment.content import ExperimentSensor
+from forcetorque.recording import Stream, Use
+from forcetorque.recording.quality import stream_findings
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class RawCounts:
+    """Raw readings of a sensor."""
+
+    stream: Stream
+    """The samples that have a reading."""
+    channels: tuple[str, ...]
+    """Names of the c channels."""
+    values: FloatArray
+    """Readings; shape (n, c); counts."""
+    recovered: bool
+    """Whether they came through the inverse of the prior; an offset of the electronics is not in them."""
+    missing: int
+    """Samples without a reading."""
+    frozen: int
+    """Samples that a saturated board held, by its status; without one, samples in long stretches of one reading."""
+
+    def __post_init__(self) -> None:
+        shape = (len(self.stream), len(self.channels))
+        object.__setattr__(self, "values", read_only(self.values, name="values", shape=shape))
+
+
+def raw_counts(run: SensorRun) -> RawCounts:
+    """Collect the raw readings of a sensor over all intervals that are not ignored.
+
+    Args:
+        run: The sensor.
+
+    Returns:
+        Its readings.
+
+    Raises:
+        ExperimentError: If all intervals are ignored, the counts are not known, or no sample has a reading.
+    """
+    experiment, sensor, stream = run.experiment, run.sensor, run.stream
+    used = [interval for interval in experiment.recording.intervals if interval.use is not Use.IGNORE]
+    if not used:
+        raise ExperimentError(f"experiment {experiment.name!r}: expected an interval that is not ignored, it has none")
+    rows = np.unique(np.concatenate([pick_samples(experiment.recording, stream, interval)[0] for interval in used]))
+    signal = stream.signal(sensor.quantity)
+    kept = rows[np.isfinite(signal.values[rows]).all(axis=1)]
+    if not len(kept):
+        raise ExperimentError(f"sensor {sensor.name!r}: none of {len(rows)} samples of {stream.name!r} has a reading")
+    picked = replace(
+        stream,
+        stamp_ns=stream.stamp_ns[kept],
+        sequence=None,
+        signals={signal.quantity: replace(signal, values=signal.values[kept])},
+    )
+    recovered = sensor.quantity == "wrench"
+    values = _counts(sensor, signal.values[kept])
+    return RawCounts(
+        stream=picked,
+        channels=tuple(f"ch{k}" for k in range(values.shape[1])) if recovered else signal.columns,
+        values=values,
+        recovered=recovered,
+        missing=len(rows) - len(kept),
+        frozen=_frozen(stream, rows, picked),
+    )
+
+
+def _frozen(stream: Stream, rows: IntArray, picked: Stream) -> int:
+    if "saturated" in stream.signals:
+        return int(np.count_nonzero(stream.held[rows]))
+    return sum(finding.count for finding in stream_findings(picked) if finding.kind == "frozen")
+
+
+def _counts(sensor: ExperimentSensor, values: FloatArray) -> FloatArray:
+    if sensor.quantity == "raw":
+        return values
+    if sensor.prior is None or sensor.prior_source == "identity":
+        raise ExperimentError(
+            f"sensor {sensor.name!r}: expected raw counts, or the matrix file with which its wrench was made; without "
+            "them nobody knows how far its channels are from their limits"
+        )
+    return recover_raw(values, sensor.prior)

@@ -1,0 +1,128 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Samples of a sensor over the intervals of an experiment, with raw readings where only wrenches were logged."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from forcetorque.analysis.runs.reading import Readings
+from forcetorque.arrays import FloatArray
+from forcetorque.calibration import DataSet
+from forcetorque.errors import ExperimentError
+from forcetorque.estimation import SensorSamples, evaluator_of_samples, sensor_samples
+from forcetorque.estimation.picked import padded_samples
+from forcetorque.experiment.contacts import touched_otherwise
+from forcetorque.experiment.content import Experiment, ExperimentSensor
+from forcetorque.recording import Interval, Recording
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class IntervalSamples:
+    """Samples of one sensor in one interval."""
+
+    interval: Interval
+    """The interval."""
+    samples: SensorSamples
+    """Reading and reference at the same instants."""
+    readings: Readings
+    """The same readings in every form that a correction may want."""
+
+    @property
+    def raw(self) -> FloatArray:
+        """Raw readings, logged or recovered through the prior; shape (n, c); counts."""
+        return self.readings.raw
+
+    @property
+    def data_set(self) -> DataSet:
+        """The same as data to fit."""
+        return DataSet(
+            label=self.interval.label,
+            raw=self.raw,
+            reference=self.samples.reference,
+            variables=self.samples.variables,
+            time_s=self.samples.stamp_ns * 1e-9,
+            flattening=self.samples.flattening,
+        )
+
+
+def samples_over(
+    experiment: Experiment,
+    sensor: ExperimentSensor,
+    interval: Interval,
+    *,
+    variables: Sequence[str] = (),
+    smoothed: bool = True,
+) -> IntervalSamples:
+    """Pair the readings of a sensor with what the model expects over one interval.
+
+    Args:
+        experiment: The experiment.
+        sensor: One of its sensors.
+        interval: An interval of its recording.
+        variables: Names of linear variables of the sensor that are wanted; samples that lack one are left out.
+        smoothed: Whether the filter of the experiment is applied.
+
+    Returns:
+        Reading and reference at the same instants.
+    """
+    processing, recording = experiment.processing, experiment.recording
+    # one interval is asked for after the other: together they may be worth the compiled evaluator
+    evaluator = evaluator_of_samples(_samples_with_support(recording, sensor.stream))
+    samples = sensor_samples(
+        recording,
+        experiment.model if interval.support is None else experiment.model_on(interval.support),
+        sensor=sensor.name,
+        stream=sensor.stream,
+        quantity=sensor.quantity,
+        interval=interval,
+        processing=processing if smoothed else replace(processing, smoothing=None),
+        variables=[sensor.variable(name).source for name in variables],
+        apart=touched_otherwise(interval, recording, experiment.contacts),
+        evaluator=evaluator,
+        applied=None if experiment.wrist is None else experiment.wrist.table.applied,
+    )
+    readings = Readings.of(sensor, samples.reading.values, dict(zip(variables, samples.variables.T, strict=True)))
+    return IntervalSamples(interval=interval, samples=samples, readings=readings)
+
+
+def _samples_with_support(recording: Recording, stream: str) -> int:
+    stamps = recording.stream(stream).stamp_ns
+    spans = [(one.start_ns, one.end_ns + 1) for one in recording.intervals if one.support is not None]
+    return int(np.diff(np.searchsorted(stamps, np.array(spans, dtype=np.int64).reshape(-1, 2))).sum())
+
+
+def readings_over(
+    experiment: Experiment, sensor: ExperimentSensor, interval: Interval, *, variables: Sequence[str] = ()
+) -> Readings:
+    """Take the readings of a sensor over one interval, for which no reference is wanted.
+
+    Args:
+        experiment: The experiment.
+        sensor: One of its sensors.
+        interval: An interval of its recording.
+        variables: Names of linear variables of the sensor that are wanted; samples that lack one are left out.
+
+    Returns:
+        Readings and variables, smoothed as the experiment has it.
+
+    Raises:
+        ExperimentError: If no sample is left.
+    """
+    recording = experiment.recording
+    stream = recording.stream(sensor.stream)
+    apart = touched_otherwise(interval, recording, experiment.contacts)
+    padded = padded_samples(recording, stream, interval, experiment.processing.smoothing, apart=apart)
+    rows, at_ns = padded.rows, padded.stamp_ns
+    logged = np.where(stream.held[rows, None], np.nan, stream.signal(sensor.quantity).values[rows])
+    columns = [sensor.variable(name).source.at(recording, at_ns)[:, None] for name in variables]
+    values = padded.smoothed(np.hstack([logged, *columns]))
+    complete = values[np.isfinite(values).all(axis=1)]
+    if not len(complete):
+        raise ExperimentError(
+            f"interval {interval.label!r}: none of {len(values)} samples of {sensor.stream!r} is complete"
+        )
+    channels = logged.shape[1]
+    return Readings.of(sensor, complete[:, :channels], dict(zip(variables, complete[:, channels:].T, strict=True)))

@@ -1,0 +1,140 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Learn from a warm-up without contact what heat does to the taxels of a patch."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import numpy as np
+
+from forcetorque.analysis.skin.messages import patch_messages
+from forcetorque.errors import ExperimentError
+from forcetorque.exchange.skin import describe_patch
+from forcetorque.experiment import ExperimentPatch, PatchExperiment, load_patches
+from forcetorque.experiment.inputs import stated_in
+from forcetorque.recording import Use
+from forcetorque.result import Row, Shown
+from forcetorque.skin import rebuilt_normals
+from forcetorque.skin.temperature import HeatGains, WarmUp, fit_warm_up
+
+
+class WarmUpRow(Row):
+    """A warm-up, and what was learned of it."""
+
+    experiment: Annotated[str, Shown("warm-up")]
+    """Name of the experiment."""
+    minutes: Annotated[float, Shown("length", "min", digits=1)]
+    """Its length."""
+    pads: Annotated[int, Shown("pads")]
+    """Thermal pads that taxels follow."""
+    dead_pads: Annotated[int, Shown("dead")]
+    """Thermal pads that tell nothing."""
+    pad_change_counts: Annotated[float, Shown("pads change", "counts", digits=1)]
+    """Median change of the living ones."""
+    taxels: Annotated[int, Shown("taxels")]
+    """Taxels with gains."""
+    gain: Annotated[float, Shown("gain", digits=2)]
+    """Median of their gains; 1 is the rule of the firmware."""
+    gain_spread: Annotated[float, Shown("spread", digits=2)]
+    """Standard deviation of them from taxel to taxel."""
+    misfit_counts: Annotated[float, Shown("misfit", "counts", digits=2)]
+    """Median of what the pads leave of a taxel's change."""
+    rate_counts_per_min: Annotated[float, Shown("rate", "counts/min", digits=1)]
+    """Median of their steepest changes, from which limits of drift are told."""
+
+
+def learn_warm_up(
+    experiment: Path | str | PatchExperiment, patch: ExperimentPatch
+) -> tuple[WarmUp, tuple[str, ...], dict[str, str]]:
+    """Read a warm-up and learn the gains of a patch.
+
+    Args:
+        experiment: Experiment file with the patch and its layout, or what was read of it; its one interval for
+            calibration is the warm-up.
+        patch: The patch that is calibrated.
+
+    Returns:
+        What was learned, what makes it doubtful, and the SHA-256 of its input files.
+
+    Raises:
+        ExperimentError: If it is another patch, its layout is not stated, or its interval is not.
+    """
+    content = load_patches(experiment) if isinstance(experiment, (Path, str)) else experiment
+    own = content.patch(patch.name)
+    with stated_in(f"{content.file}: patch {own.name!r}: warm-up"):
+        same = (own.serial, own.columns) == (patch.serial, patch.columns)
+        if not same or not np.array_equal(own.taxels, patch.taxels):
+            raise ExperimentError(
+                f"expected the patch that is calibrated, with serial {patch.serial!r} and {len(patch.taxels)} taxels "
+                f"in {patch.columns} columns, got {own.serial!r} with {len(own.taxels)} in {own.columns}"
+            )
+        if own.layout is None:
+            raise ExperimentError("layout: expected the file that says which columns are thermal pads, got none")
+        seconds, counts = patch_messages(content, own)
+        chosen = _warming(content, seconds)
+        described = describe_patch(own.layout)
+        layout = described.layout(rebuilt_normals(described.positions, described.modules))
+        learned = fit_warm_up(content.name, seconds[chosen], counts[chosen], layout)
+    return learned, _doubts(learned, own), {f"{content.name}: {k}": v for k, v in content.inputs_sha256.items()}
+
+
+def _warming(content: PatchExperiment, seconds: np.ndarray) -> np.ndarray:
+    """Messages of the one interval for calibration."""
+    used = [interval for interval in content.intervals if interval.use is Use.CALIBRATION]
+    if len(used) != 1:
+        raise ExperimentError(f'expected one interval with use = "calibration", the warm-up, got {len(used)}')
+    (interval,) = used
+    stamps = content.recording.start_ns + np.rint(1e9 * seconds).astype(np.int64)
+    chosen = interval.holds(stamps)
+    if np.count_nonzero(chosen) < 2:
+        raise ExperimentError(f"interval {interval.label!r}: expected messages, got none")
+    return chosen
+
+
+def _doubts(learned: WarmUp, patch: ExperimentPatch) -> tuple[str, ...]:
+    """What is missing of the gains."""
+    without = [int(column) for column, heat in zip(patch.taxels, learned.taxels, strict=True) if not heat.gains]
+    sentences = []
+    if learned.dead_pads:
+        sentences.append(
+            f"{len(learned.dead_pads)} thermal pads are dead ({_listed(learned.dead_pads)}): their taxels follow the "
+            "other pad of the module, or those of the nearest module with one"
+        )
+    if without:
+        sentences.append(
+            f"{len(without)} taxels were not sound in the warm-up ({_listed(without)}): they have no gain, and are "
+            "left out where heat is taken out by gains"
+        )
+    return tuple(sentences)
+
+
+def _listed(columns: tuple[int, ...] | list[int], most: int = 8) -> str:
+    more = ", ..." if len(columns) > most else ""
+    return ", ".join(map(str, columns[:most])) + more
+
+
+def warm_up_row(learned: WarmUp) -> WarmUpRow:
+    """Sum a warm-up up.
+
+    Args:
+        learned: What was learned.
+
+    Returns:
+        Its row.
+    """
+    taxels = [heat for heat in learned.taxels if heat.gains]
+    gains = np.array([np.mean([gain.gain for gain in heat.gains]) for heat in taxels])
+    rates = [heat.rate_counts_per_s for heat in taxels if heat.rate_counts_per_s is not None]
+    return WarmUpRow(
+        experiment=learned.experiment,
+        minutes=learned.seconds / 60.0,
+        pads=len(HeatGains.learned(learned.taxels).pads),
+        dead_pads=len(learned.dead_pads),
+        pad_change_counts=learned.pad_change_counts,
+        taxels=len(taxels),
+        gain=float(np.median(gains)),
+        gain_spread=float(gains.std()),
+        misfit_counts=float(np.median([heat.misfit_counts for heat in taxels])),
+        rate_counts_per_min=60.0 * float(np.median(rates)),
+    )

@@ -1,0 +1,259 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Rows of a workbench: sensors, blocks, series, positions, and loads that draw a sphere."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Annotated
+
+import numpy as np
+
+from forcetorque.analysis.workbench.bench_faults import Examined
+from forcetorque.analysis.workbench.bench_recording import BenchRecording
+from forcetorque.arrays import FloatArray
+from forcetorque.exsitu import block_findings
+from forcetorque.result import FloatOrNull, Row, Shown, ShownWrench, WrenchValues
+
+
+class BenchSensorRow(Row):
+    """One sensor."""
+
+    file: Annotated[str, Shown("file", file=True)]
+    """Workbench file."""
+    sensor: str
+    """Sensor."""
+    serial: Annotated[str, Shown("serial")]
+    """Its serial number."""
+    positions: Annotated[int, Shown("positions")]
+    """Positions that were fitted."""
+    without_load: tuple[str, ...]
+    """Positions whose load, or reading, is not known: they are not used."""
+    rank: Annotated[int, Shown("rank")]
+    """Directions of load that the positions move."""
+    unmoved: Annotated[tuple[str, ...], Shown("loads that nothing moves")]
+    """The others: there the matrix is that of the prior, or nobody's."""
+    unseen: str
+    """Directions of the raw readings that no load moves; empty for none."""
+    fitted: Annotated[bool, Shown("fitted")]
+    """Whether there is a matrix."""
+    reason: str
+    """Why there is none; empty where there is one."""
+    held_out: Annotated[WrenchValues | None, ShownWrench(digits=3)]
+    """Root mean square error of positions that are left out one by one; N, N m."""
+    folds_mean: WrenchValues | None
+    """The same of a fifth at a time, mean over twenty deals; N, N m."""
+    folds_least: WrenchValues | None
+    """Smallest of the deals."""
+    folds_largest: WrenchValues | None
+    """Largest of the deals."""
+    prior: WrenchValues | None
+    """Root mean square error with the prior; None without one."""
+    scatter: str
+    """Where the scatter is from that positions are held against."""
+
+
+class BlockRow(Row):
+    """One block of samples at a position."""
+
+    serial: Annotated[str, Shown("serial")]
+    """Serial number of the sensor."""
+    position: Annotated[str, Shown("position")]
+    """Position."""
+    source: Annotated[str, Shown("source")]
+    """File and place in it."""
+    samples: Annotated[int, Shown("samples")]
+    """Number of samples."""
+    standard_error_counts: Annotated[float, Shown("mean ±", "counts", digits=2)]
+    """Largest standard error of the mean over the channels."""
+    movement_counts: Annotated[float, Shown("moves by", "counts", digits=1)]
+    """Largest less smallest mean of a tenth of it, of the channel that moves most."""
+    sound: Annotated[bool, Shown("sound")]
+    """Whether nothing is wrong with it."""
+    findings: tuple[str, ...]
+    """What is."""
+
+
+class SeriesRow(Row):
+    """A series that was left out as a whole."""
+
+    serial: Annotated[str, Shown("serial")]
+    """Serial number of the sensor."""
+    series: Annotated[str, Shown("series left out")]
+    """The series."""
+    error: Annotated[WrenchValues | None, ShownWrench(digits=3)]
+    """Root mean square error with a fit to the others; N, N m; None where they do not tell it."""
+    largest_force_N: Annotated[float | None, Shown("largest", "N", digits=2)]
+    """Largest norm of the force error."""
+    ratio: FloatOrNull
+    """Largest ratio to the error of positions that are left out one by one."""
+    reason: str
+    """Why the others do not tell it; empty where they do."""
+
+
+class PositionRow(Row):
+    """One position over all sensors."""
+
+    position: Annotated[str, Shown("position")]
+    """Position."""
+    load_kg: Annotated[float | None, Shown("load", "kg", digits=1)]
+    """Mass of weight and structure; None where wrenches were stated."""
+    error_median: Annotated[WrenchValues, ShownWrench(digits=3)]
+    """Median over the sensors of the read less the known wrench; N, N m."""
+    error_spread: WrenchValues
+    """1.4826 times the median absolute deviation from it; N, N m."""
+    suspected: Annotated[int, Shown("sensors in which it is suspected")]
+    """Number of sensors whose faults are about it."""
+
+
+class SphereRow(Row):
+    """Positions of one load, whose forces lie on a sphere."""
+
+    load_kg: Annotated[float, Shown("load", "kg", digits=1)]
+    """Mass of weight and structure."""
+    positions: Annotated[int, Shown("positions")]
+    """Positions with this load."""
+    radius_N: Annotated[float, Shown("weight", "N", digits=3)]
+    """Weight that is hung."""
+    read_N: Annotated[float, Shown("read", "N", digits=3, error="spread_N")]
+    """Median over sensors and positions of the force that is read."""
+    spread_N: float
+    """1.4826 times the median absolute deviation from it."""
+    farthest: Annotated[str, Shown("farthest")]
+    """Position whose force is farthest from the sphere, in the median over sensors."""
+
+
+class UnusualRow(Row):
+    """A sensor among the others."""
+
+    serial: Annotated[str, Shown("serial")]
+    """Serial number."""
+    feature: Annotated[str, Shown("most unusual feature of its matrix")]
+    """As of `forcetorque accept`."""
+    robust_z: Annotated[FloatOrNull, Shown("robust z", digits=1)]
+    """Its distance from the median of the others."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class BenchPicture:
+    """Forces of all sensors by load, for the figure."""
+
+    loads: tuple[str, ...]
+    """Name of every group."""
+    on_sphere: tuple[FloatArray, ...]
+    """Forces over the weight; shape (k, 3) each."""
+    errors: tuple[FloatArray, ...]
+    """Read less known wrenches; shape (k, 6) each; N, N m."""
+
+
+def block_rows(recording: BenchRecording) -> tuple[BlockRow, ...]:
+    """Check the blocks of a sensor.
+
+    Args:
+        recording: Its blocks.
+
+    Returns:
+        A row per block.
+    """
+    blocks, biases = ([getattr(one, name) for one in recording.recorded] for name in ("block", "bias"))
+    nominal = None if recording.bench is None else recording.bench.prior
+    return tuple(
+        BlockRow(
+            serial=recording.sensor.serial,
+            position=block.position,
+            source=block.source,
+            samples=block.samples,
+            standard_error_counts=float(block.standard_error.max()),
+            movement_counts=float(block.movement.max()),
+            sound=not findings,
+            findings=findings,
+        )
+        for block, findings in zip(blocks, block_findings(blocks, biases, recording.loads, nominal), strict=True)
+    )
+
+
+def position_rows(examined: Sequence[Examined]) -> tuple[PositionRow, ...]:
+    """Sum up positions over sensors at the same loads.
+
+    Args:
+        examined: The sensors.
+
+    Returns:
+        A row per position.
+    """
+    loads = examined[0].bench.loads
+    errors = np.array([one.error for one in examined])
+    median = np.median(errors, axis=0)
+    spread = 1.4826 * np.median(np.abs(errors - median), axis=0)
+    kilograms = None if loads.weights is None else loads.weights.total_kg
+    return tuple(
+        PositionRow(
+            position=name,
+            load_kg=None if kilograms is None else float(kilograms[k]),
+            error_median=median[k],
+            error_spread=spread[k],
+            suspected=sum(any(k in suspect.positions for suspect in one.suspects) for one in examined),
+        )
+        for k, name in enumerate(loads.names)
+    )
+
+
+def sphere_rows(examined: Sequence[Examined]) -> tuple[SphereRow, ...]:
+    """Project positions to the spheres of their loads.
+
+    Args:
+        examined: Sensors at the same loads.
+
+    Returns:
+        A row per mass; none where wrenches were stated.
+    """
+    loads = examined[0].bench.loads
+    if loads.weights is None:
+        return ()
+    lengths = np.array([np.linalg.norm(one.read[:, :3], axis=1) for one in examined])
+    rows = []
+    for mass in np.unique(loads.weights.total_kg):
+        places = np.flatnonzero(loads.weights.total_kg == mass)
+        radius = float(mass * loads.weights.gravity)
+        median = float(np.median(lengths[:, places]))
+        beside = np.abs(np.median(lengths[:, places], axis=0) - radius)
+        rows.append(
+            SphereRow(
+                load_kg=float(mass),
+                positions=len(places),
+                radius_N=radius,
+                read_N=median,
+                spread_N=1.4826 * float(np.median(np.abs(lengths[:, places] - median))),
+                farthest=loads.names[places[int(np.argmax(beside))]],
+            )
+        )
+    return tuple(rows)
+
+
+def picture_of(examined: Sequence[Examined]) -> BenchPicture:
+    """Collect forces and errors by load.
+
+    Args:
+        examined: Sensors.
+
+    Returns:
+        What the figure shows.
+    """
+    names: dict[str, list[tuple[FloatArray, FloatArray]]] = {}
+    for one in examined:
+        loads = one.bench.loads
+        force = np.linalg.norm(loads.wrench[:, :3], axis=1)
+        labels = (
+            np.full(len(loads), "all loads")
+            if loads.weights is None
+            else np.array([f"{mass:g} kg" for mass in loads.weights.total_kg])
+        )
+        for label in dict.fromkeys(labels.tolist()):
+            places = (labels == label) & (force > 1e-3 * force.max())
+            scaled = one.read[places, :3] / force[places, None]
+            names.setdefault(label, []).append((scaled, one.error[labels == label]))
+    return BenchPicture(
+        loads=tuple(names),
+        on_sphere=tuple(np.concatenate([scaled for scaled, _ in parts]) for parts in names.values()),
+        errors=tuple(np.concatenate([errors for _, errors in parts]) for parts in names.values()),
+    )

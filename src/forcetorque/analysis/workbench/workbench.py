@@ -1,0 +1,190 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Calibrate sensors on a workbench: one with its errors and faults, or many that tell the bench from the sensor."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+
+from forcetorque.analysis.acceptance.criterion import Criterion
+from forcetorque.analysis.acceptance.file import AcceptanceFile
+from forcetorque.analysis.workbench.bench_acceptance import bench_criteria, bench_subject
+from forcetorque.analysis.workbench.bench_calibration import bench_calibration
+from forcetorque.analysis.workbench.bench_faults import Examined, FaultRow, examine
+from forcetorque.analysis.workbench.bench_fit import FittedBench, fit_recording
+from forcetorque.analysis.workbench.bench_next import next_words
+from forcetorque.analysis.workbench.bench_recording import BenchRecording
+from forcetorque.analysis.workbench.result import Workbench
+from forcetorque.analysis.workbench.rows import (
+    BlockRow,
+    UnusualRow,
+    block_rows,
+    picture_of,
+    position_rows,
+    sphere_rows,
+)
+from forcetorque.arrays import FloatArray
+from forcetorque.calibration import Calibration
+from forcetorque.errors import ExperimentError, FitError, SensorError
+from forcetorque.evaluation import position_in_population
+from forcetorque.evaluation.population import LEAST_POPULATION
+
+_FORETOLD = 3.0
+"""Error of a series that was left out, over that of single positions, from which others do not foretell it."""
+
+
+def workbench(
+    recordings: Sequence[BenchRecording],
+    *,
+    code_version: str,
+    created: str,
+    full_matrix: bool = False,
+    only_next: bool = False,
+    spec: AcceptanceFile | None = None,
+    seed: int = 0,
+) -> Workbench:
+    """Calibrate sensors on a workbench.
+
+    Args:
+        recordings: What each read; several of one bench tell its positions apart from the sensors.
+        code_version: Version of this library, for the record.
+        created: Date and time, ISO 8601, for the record.
+        full_matrix: Whether loads that do not move all six directions are refused, whatever a prior says.
+        only_next: Whether only blocks are checked, and nothing is fitted.
+        spec: Limits to judge the calibrations by; None for none.
+        seed: Of the deals into folds.
+
+    Returns:
+        The answer, with the calibrations.
+    """
+    _require_apart(recordings)
+    checked = [block_rows(recording) for recording in recordings]
+    blocks = tuple(row for rows in checked for row in rows)
+    read = [] if only_next else [recording for recording in recordings if recording.bench is not None]
+    fits = [fit_recording(recording, np.random.default_rng(seed), with_series=len(read) == 1) for recording in read]
+    if full_matrix:
+        _require_full(fits)
+    with_matrix = [fit for fit in fits if fit.fitted is not None]
+    read_at_all = [fit for fit in fits if fit.fitted is not None or not fit.row.unmoved]
+    examined = examine([fit.bench for fit in read_at_all], [fit.matrix for fit in read_at_all])
+    faults = tuple(row for one in examined for row in one.rows())
+    calibrations = tuple(
+        bench_calibration(
+            fit.recording,
+            fit.fitted,
+            code_version=code_version,
+            created=created,
+            doubts=(*_unsound(blocks, fit.row.serial), *(r.sentence for r in faults if r.serial == fit.row.serial)),
+        )
+        for fit in with_matrix
+        if fit.fitted is not None
+    )
+    scatter = {one.bench.serial: one.scatter for one in examined}
+    many = len(examined) > 1 and len({one.bench.loads.names for one in examined}) == 1
+    return Workbench(
+        sensors=tuple(fit.row.model_copy(update={"scatter": scatter.get(fit.row.serial, "")}) for fit in fits),
+        faults=faults,
+        series=tuple(row for fit in fits for row in fit.series),
+        blocks_checked=blocks,
+        next=next_words(recordings[0], checked[0]) if len(recordings) == 1 else None,
+        positions=position_rows(examined) if many else (),
+        spheres=sphere_rows(examined) if many else (),
+        unusual=_unusual(calibrations),
+        criteria=() if spec is None else tuple(_criteria(with_matrix, calibrations, faults, blocks, spec)),
+        calibrations=calibrations,
+        picture=picture_of(examined) if examined else None,
+        warnings=tuple(_warnings(fits, examined)),
+    )
+
+
+def _require_apart(recordings: Sequence[BenchRecording]) -> None:
+    if not recordings:
+        raise ExperimentError("workbench: expected at least one workbench file, got none")
+    files: dict[str, str] = {}
+    for recording in recordings:
+        serial = recording.sensor.serial
+        if serial in files:
+            raise ExperimentError(
+                f"{recording.file}: expected one file per sensor, {files[serial]} is of {serial!r} too"
+            )
+        files[serial] = recording.file
+
+
+def _require_full(fits: Sequence[FittedBench]) -> None:
+    for fit in fits:
+        if fit.row.unmoved or not fit.row.fitted:
+            raise FitError(
+                f"{fit.row.file}: expected loads that move all six directions, got {fit.row.rank}, not "
+                f"{'; '.join(fit.row.unmoved) or fit.row.reason}; hang a load there"
+            )
+
+
+def _criteria(
+    fits: Sequence[FittedBench],
+    calibrations: Sequence[Calibration],
+    faults: Sequence[FaultRow],
+    blocks: Sequence[BlockRow],
+    spec: AcceptanceFile,
+) -> Iterator[Criterion]:
+    for fit, calibration in zip(fits, calibrations, strict=True):
+        serial = fit.row.serial
+        subject = bench_subject(
+            calibration,
+            fit.row,
+            _others(calibrations, serial),
+            limit_counts=float(fit.bench.full_scale.min()),
+            faults=sum(row.serial == serial for row in faults),
+            unsound=sum(row.serial == serial and not row.sound for row in blocks),
+        )
+        yield from bench_criteria(subject, spec)
+
+
+def _unsound(blocks: Sequence[BlockRow], serial: str) -> Iterator[str]:
+    for row in blocks:
+        if row.serial == serial and not row.sound:
+            yield f"{serial}: position {row.position}: {row.findings[0]}"
+
+
+def _others(calibrations: Sequence[Calibration], serial: str) -> dict[str, FloatArray]:
+    return {one.sensor.serial: one.matrix for one in calibrations if one.sensor.serial != serial}
+
+
+def _warnings(fits: Sequence[FittedBench], examined: Sequence[Examined]) -> Iterator[str]:
+    for fit in fits:
+        row = fit.row
+        if row.without_load:
+            yield (
+                f"{row.serial}: {len(row.without_load)} positions are not used, their load or reading is not fully "
+                f"known: {', '.join(row.without_load)}"
+            )
+        if row.unmoved:
+            kept = "the prior is kept" if row.fitted else "there is no matrix"
+            yield f"{row.serial}: the loads move {row.rank} of 6 directions, not {'; '.join(row.unmoved)}: {kept} there"
+        if row.unseen:
+            yield f"{row.serial}: raw directions that no load moves: {row.unseen}"
+        if not row.fitted and not row.unmoved:
+            yield f"{row.serial}: {row.reason}"
+        for series in fit.series:
+            if series.reason or series.ratio > _FORETOLD:
+                told = series.reason or (
+                    f"errors up to {series.largest_force_N:.2f} N, {series.ratio:.1f} times those of single positions"
+                )
+                yield f"{row.serial}: series {series.series!r} is not foretold by the others: {told}"
+    for one in examined:
+        if one.suspects:
+            yield f"{one.bench.serial}: {len(one.suspects)} fault(s) of the bench are seen; mend them and record anew"
+
+
+def _unusual(calibrations: Sequence[Calibration]) -> tuple[UnusualRow, ...]:
+    if len(calibrations) <= LEAST_POPULATION or len({one.matrix.shape for one in calibrations}) > 1:
+        return ()
+    rows = []
+    for one in calibrations:
+        serial = one.sensor.serial
+        try:
+            feature = position_in_population(one.matrix, _others(calibrations, serial)).most_unusual
+        except SensorError:
+            continue  # equal matrices have no scatter to be unusual in
+        rows.append(UnusualRow(serial=serial, feature=feature.feature, robust_z=feature.robust_z))
+    return tuple(sorted(rows, key=lambda row: -abs(row.robust_z)))

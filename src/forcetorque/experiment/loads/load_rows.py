@@ -1,0 +1,166 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The rows of a wrist sensor's recording under its loads: means of readings and motion, interval by interval."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from forcetorque.arrays import FloatArray, IntArray
+from forcetorque.errors import ExperimentError
+from forcetorque.estimation import support_motion_at
+from forcetorque.experiment.content import Experiment, ExperimentSensor
+from forcetorque.experiment.loads.wrist_load import WristLoads
+from forcetorque.loads import LoadProblem, LoadRows
+from forcetorque.noise import means_over, window_for
+from forcetorque.recording import Interval, Recording, Use
+from forcetorque.recording.alignment import interpolate, seconds_since
+from forcetorque.robot import JointMotion
+
+_MOST_ROWS = 3600
+"""Rows of an interval, at most: an hour has means of 1 s, a day of half a minute."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class _Span:
+    """Rows of one interval."""
+
+    interval: Interval
+    time_s: FloatArray
+    means: FloatArray  # wrench, acceleration, angular velocity and acceleration, orientation, variables
+    counts: IntArray
+    names: tuple[str, ...]
+
+
+def load_problem(experiment: Experiment, wrist: WristLoads, *, use: Use = Use.CALIBRATION) -> LoadProblem:
+    """Ask what intervals tell of the loads on a wrist sensor, and of its bias in every session.
+
+    Args:
+        experiment: The experiment, of which the recording and its intervals are used.
+        wrist: Loads and sensor.
+        use: Use of the intervals.
+
+    Returns:
+        The problem; samples that lack something, or lie in an ignored interval, are left out.
+
+    Raises:
+        ExperimentError: If there is no such interval, the sensor has raw readings and no prior, or nothing is left.
+    """
+    intervals = sorted(experiment.intervals(use), key=lambda interval: interval.start_ns)
+    spans = [_span(experiment, wrist.sensor, interval) for interval in intervals]
+    if not sum(len(span.time_s) for span in spans):
+        raise ExperimentError(
+            f'sensor {wrist.sensor.name!r}: expected samples in an interval with use = "{use}", with a reading and a '
+            "motion; the streams have gaps or missing values all over it"
+        )
+    names = [experiment.session_names(interval.label)[-1] for interval in intervals]
+    sessions = tuple(dict.fromkeys(names))
+    lengths = [len(span.time_s) for span in spans]
+    means = np.concatenate([span.means for span in spans])
+    variables = tuple(f"{one.linear.name} ({one.linear.unit})" for one in wrist.sensor.variables)
+    turning, turned = means[:, 9:15], means[:, 15:24]
+    usual = np.median(np.concatenate([span.counts for span in spans]))
+    rows = LoadRows(
+        wrench=means[:, :6],
+        proper_acceleration=means[:, 6:9],
+        angular_velocity=turning[:, :3] if turning.any() else None,
+        angular_acceleration=turning[:, 3:] if turning.any() else None,
+        time_s=np.concatenate([span.time_s for span in spans]),
+        session=np.repeat([sessions.index(name) for name in names], lengths),
+        block=np.repeat(np.arange(len(spans)), lengths),
+        load=np.repeat([wrist.number_of(interval.support) for interval in intervals], lengths),
+        share=np.concatenate([span.counts for span in spans]) / usual,
+        variables=means[:, 24:] if variables else None,
+        orientation=turned.reshape(-1, 3, 3) if np.isfinite(turned).all() else None,
+        names=tuple(name for span in spans for name in span.names),
+    )
+    return LoadProblem(
+        rows=rows,
+        loads=wrist.loads,
+        sessions=sessions,
+        blocks=tuple(interval.label for interval in intervals),
+        direction=wrist.direction,
+        drift=wrist.table.drift,
+        mount=wrist.table.mount is not None,
+        tilt=wrist.table.tilt is not None,
+        variables=variables,
+    )
+
+
+def samples_left_out(experiment: Experiment, wrist: WristLoads, *, use: Use = Use.CALIBRATION) -> int:
+    """Count samples of intervals that lack a finite reading or motion.
+
+    Args:
+        experiment: The experiment.
+        wrist: Loads and sensor.
+        use: Use of the intervals.
+
+    Returns:
+        Their number.
+    """
+    return sum(
+        int((~np.isfinite(_columns(experiment, wrist.sensor, interval)[1][:, :15]).all(axis=1)).sum())
+        for interval in experiment.intervals(use)
+    )
+
+
+def _span(experiment: Experiment, sensor: ExperimentSensor, interval: Interval) -> _Span:
+    stamps, columns = _columns(experiment, sensor, interval)
+    numbers = np.searchsorted(experiment.recording.stream(sensor.stream).stamp_ns, stamps)
+    needed = np.r_[0:15, 24 : columns.shape[1]]
+    complete = np.isfinite(columns[:, needed]).all(axis=1)
+    time = seconds_since(stamps[complete], experiment.recording.start_ns)
+    length = float(time[-1] - time[0]) if len(time) else 0.0
+    window = max(window_for(time), length / _MOST_ROWS)
+    middle, means, counts = means_over(time, np.nan_to_num(columns[complete]), window)
+    if not np.isfinite(columns[complete]).all():
+        means[:, 15:24] = np.nan
+    single = counts.max(initial=1) == 1
+    names = (
+        tuple(f"{sensor.stream} {number + 1}" for number in numbers[complete])
+        if single
+        else tuple(f"{interval.label} at {instant:.2f} s" for instant in middle)
+    )
+    return _Span(interval=interval, time_s=middle, means=means, counts=counts, names=names)
+
+
+def _columns(experiment: Experiment, sensor: ExperimentSensor, interval: Interval) -> tuple[IntArray, FloatArray]:
+    """Instants of the samples of an interval, and all that is needed at them; shape (n,), (n, 24 + variables)."""
+    recording = experiment.recording
+    stream = recording.stream(sensor.stream)
+    inside = interval.holds(stream.stamp_ns) & ~stream.held
+    for other in recording.intervals:
+        if other.use is Use.IGNORE:
+            inside &= ~other.holds(stream.stamp_ns)
+    at_ns = stream.stamp_ns[inside]
+    reading = stream.signal(sensor.quantity).values[inside]
+    if sensor.quantity == "raw":
+        if sensor.prior is None:
+            raise ExperimentError(f"sensor {sensor.name!r}: estimating its load from raw counts needs a prior matrix")
+        reading = reading @ sensor.prior.T
+    if interval.support is None:
+        raise ExperimentError(f"interval {interval.label!r}: expected a load")
+    motion = support_motion_at(
+        experiment.model,
+        recording,
+        interval.support,
+        JointMotion.at_rest((), np.empty((len(at_ns), 0))),
+        at_ns,
+        window=experiment.processing.derivative_window,
+        gravity=0.0,
+    )
+    rates = [np.broadcast_to(one, (len(at_ns), 3)) for one in (motion.angular_velocity, motion.angular_acceleration)]
+    variables = [one.source.at(recording, at_ns)[:, None] for one in sensor.variables]
+    orientation = _orientation(recording, interval, at_ns)
+    return at_ns, np.hstack([reading, motion.proper_acceleration, *rates, orientation, *variables])
+
+
+def _orientation(recording: Recording, interval: Interval, at_ns: IntArray) -> FloatArray:
+    """`world_R_sensor` row by row, where a motion stream has it; shape (n, 9); NaN where none has."""
+    names: Sequence[str] = getattr(interval.support, "motion_streams", ())
+    for stream in (recording.stream(name) for name in names):
+        if "orientation" in stream.signals:
+            return interpolate(stream, stream.signals["orientation"].values, at_ns)
+    return np.full((len(at_ns), 9), np.nan)
