@@ -16,6 +16,7 @@ import pytest
 from forcetorque.calibration import read_calibration
 from forcetorque.exchange.icub import read_matrix_file
 from forcetorque.experiment import load_experiment, parse_experiment
+from tests.device_designs import hardly_optimise
 from tests.page_scripts import marked, printed
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -125,6 +126,7 @@ def test_the_script_of_the_page_on_uses_runs(demo: tuple[Path, str], monkeypatch
 def test_marked_scripts_of_pages_run(page: Path, demo: tuple[Path, str], monkeypatch: pytest.MonkeyPatch) -> None:
     """As they stand: what they name is there after the demonstration."""
     folder, _ = demo
+    hardly_optimise(monkeypatch)
     monkeypatch.chdir(folder.parents[1])
     for code in marked(page.read_text(encoding="utf-8")):
         printed(code, page.name)
