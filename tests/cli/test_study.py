@@ -155,10 +155,10 @@ def test_figures_are_drawn(days: Path, run: Run, monkeypatch: pytest.MonkeyPatch
         assert (FOLDER / name).read_bytes().startswith(b"\x89PNG\r\n\x1a\n")
 
 
+@pytest.mark.usefixtures("blank_pictures")
 def test_figures_over_lambda_need_lambdas_and_a_prior(days: Path, run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
     """With lambda 0 alone, or without a matrix to differ from, the others are made; pixels are looked at above."""
     monkeypatch.setattr("forcetorque.report.study_folder.write_figures", study_figures.write_figures)
-    monkeypatch.setattr(study_figures, "png_bytes", lambda figure: b"")
     for file in FILES:
         edit(days / file, f'prior = "matrix_{SERIAL}.txt"\n', "")
     sensor = _sensor(run, "--type", "OwTrTO")
