@@ -84,7 +84,8 @@ def data_dir(request: pytest.FixtureRequest) -> Path:
 
 @pytest.fixture
 def blank_pictures(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Make the pictures of a document, but leave them blank: drawing takes most of a report, and words need none."""
+    """Make pictures of a document or study, but leave them blank: drawing takes most of either, and words need none."""
     blank = io.BytesIO()
     Image.new("RGB", (1, 1)).save(blank, format="png")
-    monkeypatch.setattr("forcetorque.report.document.picture.png_bytes", lambda figure: blank.getvalue())
+    for module in ("document.picture", "study_figures"):
+        monkeypatch.setattr(f"forcetorque.report.{module}.png_bytes", lambda figure: blank.getvalue())

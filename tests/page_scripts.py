@@ -3,7 +3,9 @@
 
 from __future__ import annotations
 
+import io
 import re
+from contextlib import redirect_stdout
 
 
 def marked(page: str) -> list[str]:
@@ -15,3 +17,16 @@ def unmarked(page: str) -> list[str]:
     """All other blocks."""
     codes = re.findall(r"^```python\n(.*?)^```$", page, re.DOTALL | re.MULTILINE)
     return [code for code in codes if code not in marked(page)]
+
+
+def printed(code: str, name: str) -> str:
+    """Run a program in this process and give what it writes to standard output.
+
+    Args:
+        code: Its text.
+        name: What tracebacks call it.
+    """
+    written = io.StringIO()
+    with redirect_stdout(written):
+        exec(compile(code, name, "exec"), {"__name__": "__main__"})
+    return written.getvalue()

@@ -18,8 +18,10 @@ def _run(code: str) -> str:
 def test_a_question_is_imported_without_the_others() -> None:
     """Weighing a load imports neither devices nor skin; asking for all of them does: the negative control."""
     listed = "import sys; print(*(name for name in sys.modules if name.startswith('forcetorque.analysis')))"
-    one = set(_run(f"from forcetorque.analysis import weigh_load; {listed}").split())
-    every = set(_run(f"from forcetorque.analysis import *; {listed}").split())
+    imported = _run(
+        f"from forcetorque.analysis import weigh_load; {listed}; from forcetorque.analysis import *; {listed}"
+    )
+    one, every = (set(line.split()) for line in imported.splitlines())
     assert "forcetorque.analysis.payload.payload" in one
     assert not {"forcetorque.analysis.device.device", "forcetorque.analysis.skin.wrench"} & one
     assert {"forcetorque.analysis.device.device", "forcetorque.analysis.skin.wrench"} < every

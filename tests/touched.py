@@ -5,13 +5,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import cache
 from pathlib import Path
 
 import numpy as np
 
 from forcetorque.analysis import calibrate_skin
 from forcetorque.exchange.skin import write_layout_table
-from forcetorque.recording import write_recording
+from forcetorque.recording import Recording, write_recording
 from forcetorque.simulation.skin import (
     REFERENCE_PA,
     ContactTruth,
@@ -64,14 +65,9 @@ def write_touched(
     folder: Path, *, seed: int = 6, broken: int | None = None, loading: Loading | None = None, along: int = 6
 ) -> Sequence[ContactTruth]:
     """Write `shank.csv`, `bag.toml` and `touched.toml` with their recordings; one taxel may be at its rail."""
-    layout = shank_layout(along)
-    rng = np.random.default_rng(seed)
-    taxels = TaxelResponses.drawn(len(layout), rng)
-    truths = list(contacts(SkinBody.of(layout), rng, OBJECTS))
-    write_layout_table(folder / "shank.csv", layout)
-    write_recording(folder / "bag", chamber_recording(taxels, highest_pa=REFERENCE_PA, ramp_s=8.0, rng=rng))
-    later = replace(taxels, rest=taxels.rest - 1.3)
-    touched = contact_recording(layout, later, truths, rng, loading=loading)
+    truths, bag, touched = _recorded(seed, loading, along)
+    write_layout_table(folder / "shank.csv", shank_layout(along))
+    write_recording(folder / "bag", bag)
     if broken is not None:
         stream = touched.stream("counts")
         counts = stream.signal("taxel_counts").values.copy()
@@ -82,3 +78,14 @@ def write_touched(
     for name, pressure in (("bag", 'pressure = "chamber"\n'), ("touched", "")):
         (folder / f"{name}.toml").write_text(EXPERIMENT.format(name=name, pressure=pressure), encoding="utf-8")
     return truths
+
+
+@cache
+def _recorded(seed: int, loading: Loading | None, along: int) -> tuple[tuple[ContactTruth, ...], Recording, Recording]:
+    """True contacts, chamber log and recording of a patch: tests of many modules write the same."""
+    layout, rng = shank_layout(along), np.random.default_rng(seed)
+    taxels = TaxelResponses.drawn(len(layout), rng)
+    truths = tuple(contacts(SkinBody.of(layout), rng, OBJECTS))
+    bag = chamber_recording(taxels, highest_pa=REFERENCE_PA, ramp_s=8.0, rng=rng)
+    later = replace(taxels, rest=taxels.rest - 1.3)
+    return truths, bag, contact_recording(layout, later, truths, rng, loading=loading)

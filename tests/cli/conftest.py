@@ -3,9 +3,7 @@
 
 from __future__ import annotations
 
-import logging
 import shutil
-import sys
 from datetime import UTC, datetime
 from pathlib import Path
 
@@ -13,9 +11,8 @@ import pytest
 
 from forcetorque.analysis import SensorRun, calibrate_sensor
 from forcetorque.calibration import write_calibration
-from forcetorque.cli.main import main
 from forcetorque.experiment import load_experiment
-from tests.cli.outcome import Outcome, Run
+from tests.cli.outcome import Run, typed
 from tests.experiments import PARQUET, write_experiments
 from tests.studies import write_days
 from tests.warm_experiments import TEMPERATURE, warm_up, with_variables
@@ -80,21 +77,7 @@ def days(recorded: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Pat
     return folder
 
 
-@pytest.fixture
-def run(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> Run:
+@pytest.fixture(scope="session")
+def run() -> Run:
     """Run `forcetorque` with words as typed in a shell."""
-    logger = logging.getLogger("forcetorque")
-    monkeypatch.setenv("COLUMNS", "120")
-
-    def call(*words: object) -> Outcome:
-        # the handler of an earlier run writes to what standard error was then
-        monkeypatch.setattr(logger, "handlers", [])
-        monkeypatch.setattr(sys, "argv", ["forcetorque", *map(str, words)])
-        capsys.readouterr()
-        with pytest.raises(SystemExit) as stop:
-            main()
-        captured = capsys.readouterr()
-        code = stop.value.code
-        return Outcome(code=code if isinstance(code, int) else 0, out=captured.out, err=captured.err)
-
-    return call
+    return typed

@@ -1,14 +1,21 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What a command left behind: exit code, result and messages."""
+"""A command that runs in this process, and what it left behind: exit code, result and messages."""
 
 from __future__ import annotations
 
 import csv
 import io
 import json
+import logging
+import sys
 from collections.abc import Callable
+from contextlib import redirect_stderr, redirect_stdout
 from dataclasses import dataclass
 from typing import Any
+
+import pytest
+
+from forcetorque.cli.main import main
 
 
 @dataclass(frozen=True)
@@ -49,3 +56,29 @@ class Outcome:
 
 Run = Callable[..., Outcome]
 """Runs the command line in this process with the given words."""
+
+
+def typed(*words: object) -> Outcome:
+    """Run `forcetorque` with words as typed in a shell, in a terminal of 120 characters.
+
+    Args:
+        words: What follows the name of the program.
+
+    Returns:
+        What it left.
+    """
+    out, err = (io.TextIOWrapper(io.BytesIO(), encoding="utf-8", newline="") for _ in range(2))
+    with pytest.MonkeyPatch.context() as patch, redirect_stdout(out), redirect_stderr(err):
+        # the handler of an earlier run writes to what standard error was then
+        patch.setattr(logging.getLogger("forcetorque"), "handlers", [])
+        patch.setattr(sys, "argv", ["forcetorque", *map(str, words)])
+        patch.setenv("COLUMNS", "120")
+        with pytest.raises(SystemExit) as stop:
+            main()
+    code = stop.value.code
+    return Outcome(code=code if isinstance(code, int) else 0, out=_written(out), err=_written(err))
+
+
+def _written(stream: io.TextIOWrapper) -> str:
+    stream.seek(0)
+    return stream.read()

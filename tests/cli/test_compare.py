@@ -8,6 +8,8 @@ import io
 import json
 import shutil
 import sys
+from contextlib import chdir
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -28,6 +30,12 @@ INTERVAL = '[[interval]]\nlabel = "judge"'
 
 @pytest.fixture
 def trials(arm: Path) -> Path:
+    """Folder with the trials, to damage; it is the working folder."""
+    _write_trials(arm)
+    return arm
+
+
+def _write_trials(arm: Path) -> None:
     """Two trials of the arm's sensor with tight screws, from two spans of a recording, and one with loose ones."""
     text = (arm / PARQUET).read_text(encoding="utf-8")
     head, _, judge = text.split("[[interval]]\n")
@@ -37,7 +45,20 @@ def trials(arm: Path) -> Path:
         (LOOSE, "0.5 N m", judge.replace("23.5", "23.2")),
     ):
         (arm / name).write_text(f'{head}[[interval]]\n{interval}\n[trial]\ncondition = "{condition}"\n')
-    return arm
+
+
+@pytest.fixture(scope="module")
+def compared(intact: Path, run: Run, tmp_path_factory: pytest.TempPathFactory) -> Run:
+    """`compare` of the three trials as they are, with further words; the same words are run but once."""
+    folder = Path(shutil.copytree(intact, tmp_path_factory.mktemp("compared") / "arm"))
+    _write_trials(folder)
+
+    @cache
+    def compare(*words: str) -> Outcome:
+        with chdir(folder):
+            return run("compare", FIRST, SECOND, LOOSE, *words)
+
+    return compare
 
 
 def _ended_with_failures(ended: Outcome) -> Any:
@@ -52,10 +73,9 @@ def _group(result: Any, condition: str | None, candidate: str = "prior") -> Any:
     return group
 
 
-def test_every_trial_is_what_sphere_finds(trials: Path, run: Run) -> None:
+def test_every_trial_is_what_sphere_finds(trials: Path, compared: Run, run: Run) -> None:
     """Row by row the numbers of `sphere`, means of them, and the result fits its own schema."""
-    words = (FIRST, SECOND, LOOSE, "-c", "fitted.json", "--format", "json")
-    result = run("compare", *words).result()
+    result = compared("-c", "fitted.json", "--format", "json").result()
     assert faults(result, run("schema", "compare").result()) == []
     assert (result["schema"], result["rule"], result["tolerance"]) == ("forcetorque/compare/1", RULE, TOLERANCE)
     assert result["failures"] == []
@@ -85,10 +105,9 @@ def test_every_trial_is_what_sphere_finds(trials: Path, run: Run) -> None:
     assert (loose["trials"], loose["with_reference"]["pooled"], loose["with_reference"]["drift"]) == (1, None, None)
 
 
-def test_ranks_are_of_intervals(trials: Path, run: Run) -> None:
+def test_ranks_are_of_intervals(compared: Run) -> None:
     """The calibrated sensor comes before its prior; what overlaps is in no order, and what is not known has no rank."""
-    ended = run("compare", FIRST, SECOND, LOOSE, "-c", "fitted.json", "--format", "json")
-    result = ended.result()
+    result = compared("-c", "fitted.json", "--format", "json").result()
     ends = []
     for group in result["groups"]:
         by = group["with_reference"]
@@ -102,7 +121,7 @@ def test_ranks_are_of_intervals(trials: Path, run: Run) -> None:
         overlapping = [other for other in ends if other[0] <= high and low <= other[1]]
         assert {other[3] for other in overlapping} == {candidate}
     assert sorted(rank for _, _, rank, _ in ends) == [1, 1, 3, 3]
-    out = run("compare", FIRST, SECOND, LOOSE, "-c", "fitted.json").out
+    out = compared("-c", "fitted.json").out
     assert "what overlaps is in no order" in out
     for group in result["groups"]:
         free = group["without_reference"]
@@ -113,12 +132,12 @@ def test_ranks_are_of_intervals(trials: Path, run: Run) -> None:
     assert unknown["drift"] is None or unknown["drift"]["exceeds"] is None
 
 
-def test_the_table_has_the_forms_of_the_thesis(trials: Path, run: Run) -> None:
+def test_the_table_has_the_forms_of_the_thesis(compared: Run) -> None:
     """Errors and two indices for each trial; trials down, conditions across, and the mean apart from the pooled fit."""
-    ended = run("compare", FIRST, SECOND, LOOSE)
+    ended = compared()
     assert ended.code == 0
     lines = [line.split() for line in ended.out.splitlines()]
-    result = run("compare", FIRST, SECOND, LOOSE, "--format", "json").result()
+    result = compared("--format", "json").result()
     first = result["trials"][0]
     errors = [f"{error:.4f}" for error in first["with_reference"]["error_N"]]
     index, free = first["with_reference"]["index_kg"], first["without_reference"]["index_kg"]
@@ -211,10 +230,10 @@ def test_all_bad_files_still_give_a_result(arm: Path, run: Run) -> None:
     assert run("compare", PARQUET, "--format", "csv").code == 1
 
 
-def test_lines_of_numbers(trials: Path, run: Run) -> None:
+def test_lines_of_numbers(compared: Run) -> None:
     """Trials, then mean, pooled fit and drift of each group, by both fits; the same numbers as JSON."""
-    rows = run("compare", FIRST, SECOND, LOOSE, "--format", "csv").rows()
-    result = run("compare", FIRST, SECOND, LOOSE, "--format", "json").result()
+    rows = compared("--format", "csv").rows()
+    result = compared("--format", "json").result()
     mapped = [row for row in rows if row["fit"] == "with_reference"]
     assert [row["row"] for row in mapped] == ["trial", "trial", "trial", "mean", "pooled", "drift", "mean"]
     assert float(mapped[0]["error_x_N"]) == result["trials"][0]["with_reference"]["error_N"][0]

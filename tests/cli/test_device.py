@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 import json
-from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -12,12 +11,12 @@ import pytest
 
 from forcetorque import analysis
 from forcetorque.analysis import DeviceDesign, write_device
-from forcetorque.analysis.device.span import device_span
 from forcetorque.calibration import read_calibration
 from forcetorque.exsitu.device import DEFAULT_DEVICE, read_device
 from forcetorque.interactive import design_device
 from forcetorque.robot import read_urdf
 from tests.cli.outcome import Run
+from tests.device_designs import hardly_optimise
 
 MATRIX = 0.02
 """Largest error of a coefficient over the largest of its row: white noise of 3 counts on two recordings of 2 minutes
@@ -38,7 +37,7 @@ NOISE_N = 0.5
 def design() -> DeviceDesign:
     """The answer to the device that comes with the library, with a motion that is hardly optimised."""
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("forcetorque.analysis.device.device.device_span", partial(device_span, swaps=5))
+        hardly_optimise(patch)
         return analysis.design_device(read_device())
 
 

@@ -6,8 +6,6 @@ from __future__ import annotations
 import json
 import re
 import shutil
-import subprocess
-import sys
 from contextlib import chdir
 from html.parser import HTMLParser
 from pathlib import Path
@@ -67,23 +65,17 @@ def _sensor(result: Any) -> Any:
 
 
 @pytest.fixture(scope="module")
-def reported(intact: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+def reported(intact: Path, run: Run, tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Folder in which a report was written of a calibrated sensor, limits and the result of another command."""
     folder = Path(shutil.copytree(intact, tmp_path_factory.mktemp("reported") / "arm"))
     (folder / "limits.toml").write_text(LIMITS, encoding="utf-8")
     with chdir(folder):
-        gains = _typed("gains", PARQUET, "--format", "json")
-        Path("gains.json").write_text(json.dumps(json.loads(gains) | {"experiment": "<b>bold</b>"}), encoding="utf-8")
+        gains = run("gains", PARQUET, "--format", "json").result()
+        Path("gains.json").write_text(json.dumps(gains | {"experiment": "<b>bold</b>"}), encoding="utf-8")
         files = (PARQUET, "gains.json", "fitted.json", "limits.toml")
-        printed = _typed("report", *files, "-o", "report.html", "-o", "report.pdf", "--format", "json")
-    (folder / "printed.json").write_text(printed, encoding="utf-8")
+        printed = run("report", *files, "-o", "report.html", "-o", "report.pdf", "--format", "json")
+    (folder / "printed.json").write_text(printed.out, encoding="utf-8")
     return folder
-
-
-def _typed(*words: str) -> str:
-    """Standard output of a command."""
-    done = subprocess.run([sys.executable, "-m", "forcetorque", *words], capture_output=True, text=True, check=True)
-    return done.stdout
 
 
 @pytest.fixture

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from forcetorque.calibration import write_calibration
+from forcetorque.calibration import Calibration, write_calibration
 from tests.campaigns import by_day
 from tests.cli.json_schema import faults
 from tests.cli.outcome import Run
@@ -24,10 +24,16 @@ COMMANDS = {
 }
 
 
+@pytest.fixture(scope="module")
+def calibrated(recorded: Path) -> Calibration:
+    """A calibration that has an offset for each day."""
+    return by_day(recorded)
+
+
 @pytest.fixture
-def judged(days: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+def judged(days: Path, calibrated: Calibration, monkeypatch: pytest.MonkeyPatch) -> Path:
     """Folder of the days, with a calibration that has an offset for each; it is the working folder."""
-    write_calibration(days / "arm.json", by_day(days))
+    write_calibration(days / "arm.json", calibrated)
     (days / "limits.toml").write_text(LIMITS.format(limit=100.0), encoding="utf-8")
     monkeypatch.chdir(days)
     return days

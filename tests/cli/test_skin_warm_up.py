@@ -3,13 +3,14 @@
 
 from __future__ import annotations
 
+from contextlib import chdir
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from forcetorque.skin import read_patch_calibration
-from tests.cli.outcome import Run
+from tests.cli.outcome import Outcome, Run
 from tests.warmed import MASS_KG, WARM_UP, WarmShank, counts_of, with_counts, write_log, write_warmed
 
 CALIBRATE = ("skin", "calibrate", "bag.toml", "-o", "shank.json", "--warm-up")
@@ -26,19 +27,24 @@ def warmed_folder(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, WarmS
     return folder, write_warmed(folder)
 
 
+@pytest.fixture(scope="module")
+def calibrated(folder: tuple[Path, WarmShank], run: Run) -> Outcome:
+    """Calibrate the patch; its calibration is beside its recordings."""
+    with chdir(folder[0]):
+        return run(*CALIBRATE, "warm.toml", "--format", "json")
+
+
 @pytest.fixture(name="shank")
-def calibrated(folder: tuple[Path, WarmShank], run: Run, monkeypatch: pytest.MonkeyPatch) -> WarmShank:
-    """The patch; its calibration is beside its recordings, in the working folder."""
+def calibrated_patch(folder: tuple[Path, WarmShank], calibrated: Outcome, monkeypatch: pytest.MonkeyPatch) -> WarmShank:
+    """The patch; the folder with its calibration and its recordings is the working folder."""
+    assert calibrated.code == 0
     monkeypatch.chdir(folder[0])
-    if not Path("shank.json").exists():
-        assert run(*CALIBRATE, "warm.toml").code == 0
     return folder[1]
 
 
-def test_the_calibration_carries_gains(run: Run, shank: WarmShank) -> None:
+def test_the_calibration_carries_gains(calibrated: Outcome, shank: WarmShank) -> None:
     """Two pads for each taxel, the row of the warm-up, and its files among the inputs."""
-    result = run(*CALIBRATE, "warm.toml", "--format", "json").result()
-    row = result["warm_up"]
+    row = calibrated.result()["warm_up"]
     assert (row["pads"], row["dead_pads"], row["taxels"]) == (len(shank.layout.thermal_pads), 0, len(shank.layout))
     assert row["gain"] == pytest.approx(1.0, abs=0.1)
     kept = read_patch_calibration("shank.json")

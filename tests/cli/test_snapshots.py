@@ -24,6 +24,7 @@ from tests.benches import write_bench
 from tests.chambers import write_chambers
 from tests.cli.commands import question_of, typed_commands
 from tests.cli.outcome import Run
+from tests.device_designs import hardly_optimise
 from tests.excited_sensors import write_taps
 from tests.experiments import PARQUET, TWO
 from tests.foot_forces import write_foot_forces
@@ -159,7 +160,12 @@ def test_every_command_is_here() -> None:
     assert set(typed_commands(app)) == COMMANDS.keys() | WITHOUT_TABLE
 
 
-@pytest.mark.usefixtures("shown_widths", "blank_pictures")
+@pytest.fixture
+def _hardly_optimised(monkeypatch: pytest.MonkeyPatch) -> None:
+    hardly_optimise(monkeypatch)
+
+
+@pytest.mark.usefixtures("shown_widths", "blank_pictures", "_hardly_optimised")
 @pytest.mark.parametrize("name", COMMANDS)
 def test_the_layout_is_that_which_was_looked_at(arm: Path, run: Run, name: str, request: pytest.FixtureRequest) -> None:
     """Line by line; no line of a table is wider than the terminal."""

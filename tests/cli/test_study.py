@@ -5,6 +5,8 @@ from __future__ import annotations
 
 import csv
 import json
+import shutil
+from contextlib import chdir
 from pathlib import Path
 from typing import Any
 
@@ -17,7 +19,7 @@ from forcetorque.errors import MissingExtraError
 from forcetorque.report import study_figures
 from forcetorque.spatial import WRENCH_COMPONENTS
 from tests.cli.json_schema import faults
-from tests.cli.outcome import Run
+from tests.cli.outcome import Outcome, Run
 from tests.experiments import TWO, edit, snapshot
 from tests.studies import CALIBRATION, FILES, SCENARIO, SERIAL, VALIDATION
 
@@ -58,7 +60,47 @@ PRINTED = 1e-12
 @pytest.fixture(autouse=True)
 def no_figures(monkeypatch: pytest.MonkeyPatch) -> None:
     """Drawing takes longer than all the rest; one test draws."""
-    monkeypatch.setattr("forcetorque.report.study_folder.write_figures", lambda made, folder: [])
+    monkeypatch.setattr("forcetorque.report.study_folder.write_figures", _undrawn)
+
+
+@pytest.fixture(scope="module")
+def studied_days(recorded: Path, run: Run, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Folder of the recordings with a study of them in `out`, and what it printed; nobody changes it."""
+    folder = Path(shutil.copytree(recorded, tmp_path_factory.mktemp("studied") / "days"))
+    with pytest.MonkeyPatch.context() as patch, chdir(folder):
+        patch.setattr("forcetorque.report.study_folder.write_figures", _undrawn)
+        printed = run("study", *FILES, *SPHERE, "-o", "out", "--format", "json")
+    (folder / "printed.json").write_text(printed.out, encoding="utf-8")
+    return folder
+
+
+@pytest.fixture
+def studied(studied_days: Path, monkeypatch: pytest.MonkeyPatch) -> Any:
+    """What a study of the days printed of their sensor; its folder is the working folder."""
+    monkeypatch.chdir(studied_days)
+    (sensor,) = json.loads(Path("printed.json").read_text(encoding="utf-8"))["sensors"]
+    return sensor
+
+
+@pytest.fixture(scope="module")
+def quick_days(recorded: Path, run: Run, tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, Outcome]:
+    """Folder of the recordings with a study of few candidates in `new/er/out`, and what it said; nobody changes it."""
+    folder = Path(shutil.copytree(recorded, tmp_path_factory.mktemp("quick") / "days"))
+    with pytest.MonkeyPatch.context() as patch, chdir(folder):
+        patch.setattr("forcetorque.report.study_folder.write_figures", _undrawn)
+        return folder, run("study", *FILES, *QUICK, "-o", "new/er/out", "--format", "csv")
+
+
+@pytest.fixture
+def quick(quick_days: tuple[Path, Outcome], monkeypatch: pytest.MonkeyPatch) -> Outcome:
+    """What a study of few candidates said; `new/er` is the working folder."""
+    folder, outcome = quick_days
+    monkeypatch.chdir(folder / "new/er")
+    return outcome
+
+
+def _undrawn(made: SensorStudy, folder: Path) -> list[str]:
+    return []
 
 
 def _rows(file: Path) -> list[dict[str, str]]:
@@ -94,15 +136,14 @@ def test_from_a_scenario_to_a_calibration_that_is_better(
     assert errors[str(best), "judged-mean"] < 0.05 * errors["prior", "judged-mean"]
 
 
-def test_the_files_are_those_that_are_listed(days: Path, run: Run) -> None:
+def test_the_files_are_those_that_are_listed(recorded: Path, studied_days: Path, studied: Any) -> None:
     """Seven tables and four calibrations, nothing else, all in one folder; the data are as they were."""
-    before = snapshot(days)
-    sensor = _sensor(run, *SPHERE)
-    assert sensor["files"] == [*TABLES, *CALIBRATIONS]
-    assert sorted(path.name for path in FOLDER.iterdir()) == sorted(sensor["files"])
+    assert studied["files"] == [*TABLES, *CALIBRATIONS]
+    assert sorted(path.name for path in FOLDER.iterdir()) == sorted(studied["files"])
     assert [path.name for path in Path("out").iterdir()] == [FOLDER.name]
-    after = snapshot(days)
-    assert {path: digest for path, digest in after.items() if not path.startswith("out")} == before
+    after = {path: digest for path, digest in snapshot(studied_days).items() if not path.startswith("out")}
+    del after["printed.json"]
+    assert after == snapshot(recorded)
 
 
 def test_figures_are_drawn(days: Path, run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -114,8 +155,9 @@ def test_figures_are_drawn(days: Path, run: Run, monkeypatch: pytest.MonkeyPatch
         assert (FOLDER / name).read_bytes().startswith(b"\x89PNG\r\n\x1a\n")
 
 
+@pytest.mark.usefixtures("blank_pictures")
 def test_figures_over_lambda_need_lambdas_and_a_prior(days: Path, run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
-    """With lambda 0 alone, or without a matrix to differ from, the others are drawn."""
+    """With lambda 0 alone, or without a matrix to differ from, the others are made; pixels are looked at above."""
     monkeypatch.setattr("forcetorque.report.study_folder.write_figures", study_figures.write_figures)
     for file in FILES:
         edit(days / file, f'prior = "matrix_{SERIAL}.txt"\n', "")
@@ -140,9 +182,8 @@ def test_without_the_drawing_library_the_rest_is_made(days: Path, run: Run, monk
 
 
 @pytest.mark.parametrize("mode", ["first_second", "fitted"])
-def test_tables_5_5_and_5_6_are_in_the_form_of_the_thesis(days: Path, run: Run, mode: str) -> None:
+def test_tables_5_5_and_5_6_are_in_the_form_of_the_thesis(studied: Any, mode: str) -> None:
     """Rows of data set and type, a column for each of the thirteen lambdas as printed, and the workbench below."""
-    sensor = _sensor(run, *SPHERE)
     number = {"first_second": "5_5", "fitted": "5_6"}[mode]
     *types, grid, move, both, workbench = _rows(FOLDER / f"table_{number}_mean_forces_offset_{mode}.csv")
     rows, generative = types, [grid, move, both]
@@ -157,20 +198,19 @@ def test_tables_5_5_and_5_6_are_in_the_form_of_the_thesis(days: Path, run: Run, 
         (name, "generative", "") for name in ("grid", "random", "grid + random")
     ]
     assert (workbench["data_set"], workbench["type"], workbench[LAMBDAS[0]]) == ("workbench", "", "")
-    assert float(workbench["mean"]) == pytest.approx(sensor["workbench"]["force_mean_N"], rel=PRINTED)
-    (found,) = [each["best"] for each in sensor["modes"] if each["offset"].replace("-", "_") == mode]
+    assert float(workbench["mean"]) == pytest.approx(studied["workbench"]["force_mean_N"], rel=PRINTED)
+    (found,) = [each["best"] for each in studied["modes"] if each["offset"].replace("-", "_") == mode]
     data_set, _, name = found["name"].partition(" lambda ")[0].rpartition(" ")
     (row,) = [row for row in (*rows, *generative) if (row["data_set"], row["type"]) == (data_set, name)]
     heading = "mean"
     if name != "generative":
         heading = f"lambda {found['lambda_counts2']:.0f} (table {found['table_lambda_counts2']:.0f})"
     assert float(row[heading]) == pytest.approx(found["force_mean_N"], rel=PRINTED)
-    assert sensor["candidates"] == len(rows) * 13 == 312
+    assert studied["candidates"] == len(rows) * 13 == 312
 
 
-def test_the_other_tables_can_be_read(days: Path, run: Run) -> None:
+def test_the_other_tables_can_be_read(studied: Any) -> None:
     """5.2 and 5.4 by axis, 5.3 with the workbench first, 5.7 a row per axis, and every candidate."""
-    sensor = _sensor(run, *SPHERE)
     keys = [(row["data_set"], row["type"]) for row in _rows(FOLDER / TABLES[0])]
     assert len(keys) == 9 + 6 + 9 + 3
     assert [key for key in keys if key[1] == "generative"] == keys[-3:]
@@ -187,14 +227,14 @@ def test_the_other_tables_can_be_read(days: Path, run: Run) -> None:
     assert {row["SnTdTO"] for row in differences if row["data_set"] == "random"} == {""}
     by_axis = _rows(FOLDER / TABLES[5])
     assert [row["axis"] for row in by_axis] == list(WRENCH_COMPONENTS)
-    for mode in sensor["modes"]:
+    for mode in studied["modes"]:
         for found, row in zip(mode["by_axis"], by_axis, strict=True):
             assert row[f"best, offset {mode['offset']}"] == found["name"]
             assert float(row[f"value, offset {mode['offset']}"]) == found["mean_absolute"]
             assert float(row["workbench"]) == found["workbench"]
     *candidates, workbench = _rows(FOLDER / TABLES[6])
-    assert len(candidates) == sensor["candidates"] + sensor["generative"]
-    generative, candidates = candidates[sensor["candidates"] :], candidates[: sensor["candidates"]]
+    assert len(candidates) == studied["candidates"] + studied["generative"]
+    generative, candidates = candidates[studied["candidates"] :], candidates[: studied["candidates"]]
     assert {(row["type"], row["lambda_counts2"], row["relative_lambda"]) for row in generative} == {
         ("generative", "", "")
     }
@@ -205,11 +245,10 @@ def test_the_other_tables_can_be_read(days: Path, run: Run) -> None:
         assert float(row["lambda_counts2"]) == 6.0 * float(row["table_lambda_counts2"])
 
 
-def test_the_result_agrees_with_the_candidates(days: Path, run: Run) -> None:
+def test_the_result_agrees_with_the_candidates(studied: Any) -> None:
     """What is chosen has the smallest error of the table, and what other sessions promise is there for each."""
-    sensor = _sensor(run, *SPHERE)
     *candidates, _ = _rows(FOLDER / "candidates.csv")
-    for mode in sensor["modes"]:
+    for mode in studied["modes"]:
         suffix, best = mode["offset"].replace("-", "_"), mode["best"]
         smallest = min(float(row[f"force_mean_{suffix}"]) for row in candidates)
         assert best["force_mean_N"] == pytest.approx(smallest, rel=1e-6)
@@ -220,19 +259,19 @@ def test_the_result_agrees_with_the_candidates(days: Path, run: Run) -> None:
             least = min(float(candidate[f"{row['axis']}_{suffix}"]) for candidate in candidates)
             assert row["mean_absolute"] == pytest.approx(least, rel=1e-6)
         assert [row["session"] for row in mode["across_sessions"]] == ["power-up 1", "power-up 2"]
-        assert sum(row["samples"] for row in mode["across_sessions"]) == sensor["validation_samples"]
+        assert sum(row["samples"] for row in mode["across_sessions"]) == studied["validation_samples"]
         assert all(len(row["by_axis"]) == len(row["mean_absolute"]) == 6 for row in mode["across_sessions"])
-    assert [(c["name"], c["intervals"]) for c in sensor["combinations"]] == [
+    assert [(c["name"], c["intervals"]) for c in studied["combinations"]] == [
         ("grid", ["grid_cold", "grid_warm"]),
         ("random", ["move_cold", "move_warm"]),
         ("grid + random", ["grid_cold", "grid_warm", "move_cold", "move_warm"]),
     ]
-    assert {c["channels"] for c in sensor["combinations"]} == {6}
+    assert {c["channels"] for c in studied["combinations"]} == {6}
 
 
-def test_the_calibrations_can_be_evaluated(days: Path, run: Run) -> None:
+def test_the_calibrations_can_be_evaluated(days: Path, studied_days: Path, run: Run) -> None:
     """All four at once, on a judged day, with a warning; not on a day that they were fitted to."""
-    assert run("study", *FILES, *SPHERE, "-o", "out").code == 0
+    shutil.copytree(studied_days / "out", days / "out")
     options = [word for name in CALIBRATIONS for word in ("-c", FOLDER / name)]
     done = run("evaluate", VALIDATION[0], *options, "--format", "json")
     judged = {row["candidate"] for row in done.result()["verdicts"]}
@@ -304,9 +343,9 @@ def test_every_sensor_has_a_folder_of_its_own(arm: Path, run: Run) -> None:
     assert [row["sensor"] for row in rows] == [name for name in ("arm_ft", "tool_ft") for _ in range(5)]
 
 
-def test_csv_has_every_candidate(days: Path, run: Run) -> None:
+def test_csv_has_every_candidate(quick: Outcome) -> None:
     """The same rows as the file, with the name of the sensor, and the workbench last."""
-    rows = run("study", *FILES, *QUICK, "-o", "out", "--format", "csv").rows()
+    rows = quick.rows()
     assert rows == [{"sensor": "arm_ft", **row} for row in _rows(FOLDER / "candidates.csv")]
     assert [row["data_set"] for row in rows] == [
         *(n for n in ("grid", "random", "grid + random") for _ in range(4)),
@@ -348,9 +387,9 @@ def test_the_table_says_which_data_leave_directions_still(days: Path, run: Run) 
     assert "all: loads move" not in shown
 
 
-def test_the_log_tells_every_step(days: Path, run: Run) -> None:
+def test_the_log_tells_every_step(quick: Outcome) -> None:
     """Files, fits and judging, on standard error."""
-    log = run("study", *FILES, *QUICK, "-o", "out").log
+    log = quick.log
     assert log[: len(FILES)] == [f"INFO: reading {file}" for file in FILES]
     assert log[len(FILES) : len(FILES) + 2] == [
         "INFO: studying arm_ft (SIM001)",
@@ -360,26 +399,24 @@ def test_the_log_tells_every_step(days: Path, run: Run) -> None:
     assert [line for line in log if line.startswith("INFO")][-1] == "INFO: drawing figures"
 
 
-def test_folders_above_the_new_one_are_made(days: Path, run: Run) -> None:
+def test_folders_above_the_new_one_are_made(quick: Outcome) -> None:
     """And stay when all went well."""
-    assert run("study", *FILES, *QUICK, "-o", "new/er/out").code == 0
-    assert (Path("new/er/out") / FOLDER.name / TABLES[0]).is_file()
-    assert [path.name for path in Path("new/er").iterdir()] == ["out"]
+    assert quick.code == 0
+    assert (FOLDER / TABLES[0]).is_file()
+    assert [path.name for path in Path().iterdir()] == ["out"]
 
 
-def test_the_same_files_give_the_same_tables(days: Path, run: Run) -> None:
+def test_the_same_files_give_the_same_tables(days: Path, quick_days: tuple[Path, Outcome], run: Run) -> None:
     """Nothing is random: two runs write the same bytes, but for the time of the calibrations."""
-    for output in ("one", "two"):
-        assert run("study", *FILES, *QUICK, "-o", output).code == 0
-    one, two = (snapshot(Path(output)) for output in ("one", "two"))
+    assert run("study", *FILES, *QUICK, "-o", "out").code == 0
+    outputs = (quick_days[0] / "new/er/out", days / "out")
+    one, two = map(snapshot, outputs)
     assert {path for path in one if path.endswith(".csv")} == {f"{FOLDER.name}/{name}" for name in TABLES}
     assert {path: digest for path, digest in one.items() if path.endswith(".csv")} == {
         path: digest for path, digest in two.items() if path.endswith(".csv")
     }
     for name in CALIBRATIONS:
-        texts = [
-            json.loads((Path(output) / FOLDER.name / name).read_text(encoding="utf-8")) for output in ("one", "two")
-        ]
+        texts = [json.loads((output / FOLDER.name / name).read_text(encoding="utf-8")) for output in outputs]
         for text in texts:
             del text["provenance"]["created"]
         assert texts[0] == texts[1]

@@ -101,5 +101,6 @@ def test_an_error_at_the_very_end_leaves_nothing_behind(days: Path, run: Run, mo
     Path("mine").mkdir()
     before = snapshot(days)
     for output in ("out", "new/er/out", "mine/out"):
-        assert run("study", *FILES, *QUICK, "-o", output).error() == "error: the figures cannot be drawn"
+        few = ("move_cold.toml", *VALIDATION, *QUICK)
+        assert run("study", *few, "-o", output).error() == "error: the figures cannot be drawn"
         assert snapshot(days) == before

@@ -86,7 +86,7 @@ def test_it_is_typed(
         asked.append(content)
         return loop
 
-    monkeypatch.setattr("forcetorque.analysis.torque_loop.torque_loop", answer)
+    monkeypatch.setattr("forcetorque.analysis.torque_loop", answer)
     typed = run("torque-loop", file, "--figure", tmp_path / "loop.png", "--format", "json")
     assert asked == [read_torque_loop(file)]
     assert len(typed.result()["rows"]) == len(loop.rows)

@@ -16,7 +16,8 @@ import pytest
 from forcetorque.calibration import read_calibration
 from forcetorque.exchange.icub import read_matrix_file
 from forcetorque.experiment import load_experiment, parse_experiment
-from tests.page_scripts import marked
+from tests.device_designs import hardly_optimise
+from tests.page_scripts import marked, printed
 
 ROOT = Path(__file__).resolve().parents[2]
 README = (ROOT / "README.md").read_text(encoding="utf-8")
@@ -78,20 +79,21 @@ def test_the_readme_shows_what_the_demo_prints(demo: tuple[Path, str]) -> None:
     assert printed[-len(shown) :] == shown
 
 
-def test_the_readmes_script_runs(demo: tuple[Path, str]) -> None:
+@pytest.mark.usefixtures("blank_pictures")
+def test_the_readmes_script_runs(demo: tuple[Path, str], monkeypatch: pytest.MonkeyPatch) -> None:
     """The Python block of the README runs after the demo: short, and with the verdict of the command line."""
     folder, output = demo
     assert len(_block("example").splitlines()) <= 25
-    done = subprocess.run(
-        [sys.executable, "-c", _block("example")], cwd=folder.parents[1], capture_output=True, text=True, check=True
-    )
-    assert "arm with known truth: arm_ft (SIM001), 5800 samples that were not fitted" in done.stdout
-    *_, sentence = done.stdout.splitlines()
+    monkeypatch.chdir(folder.parents[1])
+    shown = printed(_block("example"), "README.md")
+    assert "arm with known truth: arm_ft (SIM001), 5800 samples that were not fitted" in shown
+    *_, sentence = shown.splitlines()
     assert sentence in " ".join(output.split())
     assert read_calibration(folder / "mine.json").sensor.serial == "SIM001"
     assert (folder / "report.html").stat().st_size > 10_000
 
 
+@pytest.mark.usefixtures("blank_pictures")
 def test_the_notebook_runs(demo: tuple[Path, str], monkeypatch: pytest.MonkeyPatch) -> None:
     """Cell by cell, after the demonstration: a saved, judged and drawn calibration from arrays."""
     folder, _ = demo
@@ -109,25 +111,25 @@ def test_the_notebook_runs(demo: tuple[Path, str], monkeypatch: pytest.MonkeyPat
     assert figure._repr_png_().startswith(b"\x89PNG")
 
 
-def test_the_script_of_the_page_on_uses_runs(demo: tuple[Path, str]) -> None:
+def test_the_script_of_the_page_on_uses_runs(demo: tuple[Path, str], monkeypatch: pytest.MonkeyPatch) -> None:
     """The verdict of Python is that of the command line."""
     folder, output = demo
     script = _block("example", (ROOT / "docs" / "use.md").read_text(encoding="utf-8"))
-    done = subprocess.run(
-        [sys.executable, "-c", script], cwd=folder.parents[1], capture_output=True, text=True, check=True
-    )
-    sentence, numbers = done.stdout.splitlines()
+    monkeypatch.chdir(folder.parents[1])
+    sentence, numbers = printed(script, "use.md").splitlines()
     assert sentence in " ".join(output.split())
     assert numbers.startswith("use 0.9") or numbers.startswith("use 1.0")
 
 
+@pytest.mark.usefixtures("blank_pictures")
 @pytest.mark.parametrize("page", [page for page in PAGES if marked(page.read_text())], ids=lambda page: page.name)
 def test_marked_scripts_of_pages_run(page: Path, demo: tuple[Path, str], monkeypatch: pytest.MonkeyPatch) -> None:
     """As they stand: what they name is there after the demonstration."""
     folder, _ = demo
+    hardly_optimise(monkeypatch)
     monkeypatch.chdir(folder.parents[1])
     for code in marked(page.read_text(encoding="utf-8")):
-        exec(compile(code, page.name, "exec"), {"__name__": page.stem})
+        printed(code, page.name)
 
 
 def test_the_readme_is_short() -> None:

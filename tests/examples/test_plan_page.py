@@ -4,13 +4,12 @@
 from __future__ import annotations
 
 import json
-import os
 import re
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
+
+from tests.cli.outcome import typed
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGE = (ROOT / "docs" / "plan.md").read_text(encoding="utf-8")
@@ -18,25 +17,19 @@ LAST_DIGIT = 0.51
 """Units of the last digit that a printed figure may be off, and its rounding."""
 
 
-def _typed(folder: Path, *words: str) -> None:
-    environment = {**os.environ, "PYTHONPATH": str(ROOT / "src")}
-    subprocess.run(
-        [sys.executable, "-m", "forcetorque", *words], cwd=folder, env=environment, capture_output=True, check=True
-    )
-
-
 def _printed(number: int) -> list[str]:
     (line,) = [line for line in PAGE.splitlines() if line.startswith(f"| {number} | ")]
     return [cell.strip() for cell in line.strip("|").split("|")][1:]
 
 
-def test_the_example_comes_to_the_figures_of_the_page(tmp_path: Path) -> None:
+def test_the_example_comes_to_the_figures_of_the_page(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Tools and errors of three recordings; without the tools, the direction that stays with the prior."""
-    _typed(tmp_path, "simulate", "wrist", "-o", "simulated")
     folder = tmp_path / "simulated"
+    assert typed("simulate", "wrist", "-o", folder).code == 0
+    monkeypatch.chdir(folder)
     (block,) = re.findall(r"```toml\n(.*?)```", PAGE, re.DOTALL)
     (folder / "new.toml").write_text(block, encoding="utf-8")
-    _typed(folder, "plan", "new.toml", "-o", "next")
+    assert typed("plan", "new.toml", "-o", "next").code == 0
     planned = json.loads((folder / "next" / "plan.json").read_text(encoding="utf-8"))
     for row in planned["recordings"]:
         tool, *figures = _printed(row["recording"])
@@ -50,7 +43,7 @@ def test_the_example_comes_to_the_figures_of_the_page(tmp_path: Path) -> None:
             digits = len(figure.partition(".")[2])
             assert float(figure) == pytest.approx(value, abs=LAST_DIGIT * 10.0**-digits)
     (folder / "stiff.toml").write_text(block.partition("[[plan.tool]]")[0], encoding="utf-8")
-    _typed(folder, "plan", "stiff.toml", "-o", "stiff")
+    assert typed("plan", "stiff.toml", "-o", "stiff").code == 0
     advice = json.loads((folder / "stiff" / "plan.json").read_text(encoding="utf-8"))["advice"]
     (quoted,) = re.findall(r"`(tz stays with [^`]*)`", PAGE)
     assert advice.endswith("; " + " ".join(quoted.split()))

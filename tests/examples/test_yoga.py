@@ -3,16 +3,18 @@
 
 from __future__ import annotations
 
-import subprocess
 import sys
 from dataclasses import replace
+from functools import cache
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import numpy as np
 import pytest
 
 from forcetorque.analysis import (
     CandidateErrors,
+    Evaluation,
     PriorComparison,
     SensorRun,
     calibrate_sensor,
@@ -26,6 +28,7 @@ from forcetorque.estimation import SensorSamples
 from forcetorque.experiment import Experiment, load_experiment
 from forcetorque.recording import Use
 from forcetorque.recording.smoothing import smooth
+from tests.page_scripts import printed
 
 ROOT = Path(__file__).resolve().parents[2]
 YOGA = sorted((ROOT / "examples").glob("0[2-5]_icub_yoga_*.toml"))
@@ -33,24 +36,31 @@ YOGA = sorted((ROOT / "examples").glob("0[2-5]_icub_yoga_*.toml"))
 pytestmark = pytest.mark.real_data
 
 
-def _load(path: Path, data_dir: Path, tmp_path: Path) -> Experiment:
-    """Load an example with the data where they are."""
-    copy = tmp_path / path.name
-    copy.write_text(path.read_text(encoding="utf-8").replace("../../shared/data", data_dir.as_posix()))
-    return load_experiment(copy)
+@cache
+def _load(path: Path, data_dir: Path) -> Experiment:
+    """Load an example with the data where they are, once for all tests."""
+    with TemporaryDirectory() as folder:
+        copy = Path(folder) / path.name
+        copy.write_text(path.read_text(encoding="utf-8").replace("../../shared/data", data_dir.as_posix()))
+        return load_experiment(copy)
 
 
-def _verdicts(experiment: Experiment) -> dict[tuple[str, str], CandidateErrors]:
-    sensor = experiment.sensors[0]
-    calibration = calibrate_sensor(SensorRun(experiment, sensor), code_version="test", created="test")
-    verdicts = evaluate(SensorRun(experiment, sensor), {"new": calibration}).verdicts
-    return {(v.candidate, v.offset): v for v in verdicts}
+@cache
+def _evaluation(path: Path, data_dir: Path) -> Evaluation:
+    """The calibration of an example's own sensor, judged."""
+    experiment = _load(path, data_dir)
+    run = SensorRun(experiment, experiment.sensors[0])
+    return evaluate(run, {"new": calibrate_sensor(run, code_version="test", created="test")})
+
+
+def _verdicts(path: Path, data_dir: Path) -> dict[tuple[str, str], CandidateErrors]:
+    return {(v.candidate, v.offset): v for v in _evaluation(path, data_dir).verdicts}
 
 
 @pytest.mark.parametrize("path", YOGA, ids=lambda path: path.name)
-def test_no_worse_than_the_prior(path: Path, data_dir: Path, tmp_path: Path) -> None:
+def test_no_worse_than_the_prior(path: Path, data_dir: Path) -> None:
     """On judged data neither force nor moment error is above that of the prior, with either offset."""
-    verdicts = _verdicts(_load(path, data_dir, tmp_path))
+    verdicts = _verdicts(path, data_dir)
     for offset in ("fitted", "judged-mean"):
         prior, new = verdicts["prior", offset], verdicts["new", offset]
         assert new.samples > 1000
@@ -59,25 +69,25 @@ def test_no_worse_than_the_prior(path: Path, data_dir: Path, tmp_path: Path) -> 
 
 
 @pytest.mark.parametrize("path", YOGA, ids=lambda path: path.name)
-def test_the_legs_log_raises_no_doubt(path: Path, data_dir: Path, tmp_path: Path) -> None:
+def test_the_legs_log_raises_no_doubt(path: Path, data_dir: Path) -> None:
     """Fitted while it moves or is nearly static: the leg's sensor is one, and the masses beyond it are right."""
-    experiment = _load(path, data_dir, tmp_path)
+    experiment = _load(path, data_dir)
     parts = SensorRun(experiment, "r_leg_ft_sensor").samples(Use.CALIBRATION)
     assert examine([part.data_set for part in parts], experiment.sensors[0].prior) == ()
 
 
-def test_the_free_foots_log_is_in_doubt(data_dir: Path, tmp_path: Path) -> None:
+def test_the_free_foots_log_is_in_doubt(data_dir: Path) -> None:
     """It reads a fifth less than the model: what is fitted to that makes its reading of the robot's weight worse."""
-    experiment = _load(ROOT / "examples" / "10_icub_yoga_study.toml", data_dir, tmp_path)
+    experiment = _load(ROOT / "examples" / "10_icub_yoga_study.toml", data_dir)
     parts = SensorRun(experiment, "r_foot_ft_sensor").samples(Use.CALIBRATION)
     (doubt,) = examine([part.data_set for part in parts], experiment.sensor("r_foot_ft_sensor").prior)
     assert doubt.kind == "scale"
     assert "the gain changed by -2" in doubt.message
 
 
-def test_a_quiet_half_still_teaches(data_dir: Path, tmp_path: Path) -> None:
+def test_a_quiet_half_still_teaches(data_dir: Path) -> None:
     """Nearly static data: .86 to .71 N with the fitted offset, .76 to .47 N with the mean of what is judged."""
-    verdicts = _verdicts(_load(YOGA[2], data_dir, tmp_path))
+    verdicts = _verdicts(YOGA[2], data_dir)
     prior, new = verdicts["prior", "fitted"], verdicts["new", "fitted"]
     assert (prior.force_error_mean_N, new.force_error_mean_N) == pytest.approx((0.861, 0.711), abs=0.005)
     assert new.moment_error_mean_Nm < 0.7 * prior.moment_error_mean_Nm
@@ -85,9 +95,9 @@ def test_a_quiet_half_still_teaches(data_dir: Path, tmp_path: Path) -> None:
     assert new.force_error_mean_N < 0.65 * prior.force_error_mean_N
 
 
-def test_the_edges_of_a_judged_interval_are_smoothed_as_its_middle_is(data_dir: Path, tmp_path: Path) -> None:
+def test_the_edges_of_a_judged_interval_are_smoothed_as_its_middle_is(data_dir: Path) -> None:
     """Over 43 to 58 s, whole or in pieces, as a longer interval has it; cut there, the reading was off by 1 N."""
-    experiment = _load(ROOT / "examples" / "10_icub_yoga_study.toml", data_dir, tmp_path)
+    experiment = _load(ROOT / "examples" / "10_icub_yoga_study.toml", data_dir)
     window = experiment.processing.smoothing
     assert window is not None
     span, longer = _over(experiment, 43.0, 58.0), _over(experiment, 40.0, 59.5)
@@ -114,16 +124,13 @@ def _columns(samples: SensorSamples) -> FloatArray:
     return np.hstack([samples.reference, samples.reading.values])
 
 
-def _judgements(path: Path, data_dir: Path, tmp_path: Path) -> dict[tuple[str, str], PriorComparison]:
-    experiment = _load(path, data_dir, tmp_path)
-    run = SensorRun(experiment, experiment.sensors[0])
-    calibration = calibrate_sensor(run, code_version="test", created="test")
-    return {(row.offset, row.quantity): row for row in evaluate(run, {"new": calibration}).comparisons}
+def _judgements(path: Path, data_dir: Path) -> dict[tuple[str, str], PriorComparison]:
+    return {(row.offset, row.quantity): row for row in _evaluation(path, data_dir).comparisons}
 
 
-def test_the_reverse_is_better_where_the_offset_is_that_of_the_judged_half(data_dir: Path, tmp_path: Path) -> None:
+def test_the_reverse_is_better_where_the_offset_is_that_of_the_judged_half(data_dir: Path) -> None:
     """Force 3.8 to 1.0 N, better in every stretch: .27 of it. With the fitted offset one stretch is all there is."""
-    rows = _judgements(YOGA[1], data_dir, tmp_path)
+    rows = _judgements(YOGA[1], data_dir)
     for quantity in ("force", "moment"):
         row = rows["judged-mean", quantity]
         assert row.judgement == "better"
@@ -134,9 +141,9 @@ def test_the_reverse_is_better_where_the_offset_is_that_of_the_judged_half(data_
     assert rows["judged-mean", "force"].ratio == pytest.approx(0.27, abs=0.02)
 
 
-def test_forward_with_the_offset_of_the_judged_half_is_not_better(data_dir: Path, tmp_path: Path) -> None:
+def test_forward_with_the_offset_of_the_judged_half_is_not_better(data_dir: Path) -> None:
     """Negative control: .67 to .55 N, in some stretches more and in some less."""
-    row = _judgements(YOGA[0], data_dir, tmp_path)["judged-mean", "force"]
+    row = _judgements(YOGA[0], data_dir)["judged-mean", "force"]
     assert row.mean < row.prior_mean
     assert row.judgement == "not told apart"
     assert row.ratio_low is not None
@@ -144,9 +151,9 @@ def test_forward_with_the_offset_of_the_judged_half_is_not_better(data_dir: Path
     assert row.ratio_low < 1.0 < row.ratio_high
 
 
-def test_half_the_error_where_the_fitted_part_moves(data_dir: Path, tmp_path: Path) -> None:
+def test_half_the_error_where_the_fitted_part_moves(data_dir: Path) -> None:
     """Fitted on the moving half, the force error on the other is less than half of the prior's."""
-    verdicts = _verdicts(_load(YOGA[0], data_dir, tmp_path))
+    verdicts = _verdicts(YOGA[0], data_dir)
     assert verdicts["new", "fitted"].force_error_mean_N < 0.5 * verdicts["prior", "fitted"].force_error_mean_N
 
 
@@ -154,31 +161,32 @@ def test_the_prior_reproduces_the_known_error(data_dir: Path, tmp_path: Path) ->
     """The prior's error on unsmoothed data is what an independent static fit saw, 2.9 N forwards and 4.2 N back."""
     for path, seen in ((YOGA[0], 2.9), (YOGA[1], 4.2)):
         text = path.read_text(encoding="utf-8")
-        plain = tmp_path / "plain.toml"
+        plain = tmp_path / path.name
         plain.write_text(text.replace("smoothing = ", "# smoothing = "))
-        verdicts = _verdicts(_load(plain, data_dir, tmp_path))
+        verdicts = _verdicts(plain, data_dir)
         assert verdicts["prior", "fitted"].force_error_mean_N == pytest.approx(seen, abs=0.15)
 
 
-def test_joints_that_the_sensor_does_not_need_may_be_absent(data_dir: Path, tmp_path: Path) -> None:
+def test_joints_that_the_sensor_does_not_need_may_be_absent(data_dir: Path) -> None:
     """The log holds neither arms nor, in the example, torso and head: the leg's sensor needs two legs."""
-    experiment = _load(YOGA[0], data_dir, tmp_path)
+    experiment = _load(YOGA[0], data_dir)
     assert set(experiment.recording.streams) == {"right_leg_ft", "left_leg", "right_leg"}
 
 
-def test_the_curve_script_shows_every_lambda(data_dir: Path, tmp_path: Path) -> None:
+def test_the_curve_script_shows_every_lambda(data_dir: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """The example script prints a row per candidate and marks one."""
     copy = tmp_path / YOGA[0].name
     copy.write_text(YOGA[0].read_text(encoding="utf-8").replace("../../shared/data", data_dir.as_posix()))
     script = ROOT / "examples" / "06_lambda_curve.py"
-    done = subprocess.run([sys.executable, str(script), str(copy)], capture_output=True, text=True, check=True)
-    assert done.stdout.count("<- chosen") == 1
-    assert len(done.stdout.splitlines()) > 40
+    monkeypatch.setattr(sys, "argv", [script.name, str(copy)])
+    shown = printed(script.read_text(encoding="utf-8"), script.name)
+    assert shown.count("<- chosen") == 1
+    assert len(shown.splitlines()) > 40
 
 
-def test_nothing_touches_the_free_leg(data_dir: Path, tmp_path: Path) -> None:
+def test_nothing_touches_the_free_leg(data_dir: Path) -> None:
     """The contact of the free leg is small, and ten times larger while the floor is touched."""
-    experiment = _load(ROOT / "examples" / "08_icub_yoga_contacts.toml", data_dir, tmp_path)
+    experiment = _load(ROOT / "examples" / "08_icub_yoga_contacts.toml", data_dir)
     spans = {
         span.interval.label: span.estimates for span in estimate_experiment(experiment, corrections_of(experiment, {}))
     }

@@ -32,6 +32,7 @@ def study(tmp_path_factory: pytest.TempPathFactory) -> SensorStudy:
     )
 
 
+@pytest.mark.usefixtures("blank_pictures")
 def test_what_is_written_is_what_is_listed(study: SensorStudy, tmp_path: Path) -> None:
     """Tables, calibrations and figures; a folder per sensor."""
     lines: list[str] = []

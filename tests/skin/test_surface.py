@@ -8,6 +8,7 @@ import pytest
 
 from forcetorque.errors import SkinError
 from forcetorque.skin.surface import HALF_PITCH_M, LONGEST_EDGE_M, edge_taxels, rim_strip, skin_surface, unrolled
+from forcetorque.skin.surface.triangulation import surface_triangles
 from forcetorque.spatial import rotation_from_rpy
 from tests.skin.skins import PITCH_M, cylinder, plane_lattice
 
@@ -68,6 +69,19 @@ def test_turning_the_link_turns_the_surface() -> None:
         tuple(sorted(facet)) for facet in turned.triangles.tolist()
     }
     np.testing.assert_allclose(turned.vertex_normals, surface.vertex_normals @ turn.T, atol=ROUNDING)
+
+
+def test_triangles_that_are_kept_are_those_of_the_same_taxels() -> None:
+    """Asked again, they are there; a taxel that moved, or another longest edge, has others."""
+    positions = plane_lattice()
+    kept = surface_triangles(positions, LONGEST_EDGE_M)
+    assert surface_triangles(positions.copy(), LONGEST_EDGE_M) is kept
+    with pytest.raises(ValueError, match="read-only"):
+        kept[0] = 0
+    moved = positions.copy()
+    moved[0] += 1.0
+    assert len(surface_triangles(moved, LONGEST_EDGE_M)) < len(kept)
+    assert len(surface_triangles(positions, 0.5 * PITCH_M)) == 0
 
 
 def test_a_ring_is_the_neighbours() -> None:

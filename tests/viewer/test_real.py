@@ -27,13 +27,18 @@ def _built(name: str, data_dir: Path, folder: Path) -> BuiltScene:
     return build_scene(load_experiment(file), {}, urdf=None if robot is None else file.parent / robot.urdf)
 
 
-def test_a_balancing_icub_stands_on_its_left_foot(data_dir: Path, tmp_path: Path) -> None:
+@pytest.fixture(scope="module", name="yoga")
+def icub_on_one_leg(data_dir: Path, tmp_path_factory: pytest.TempPathFactory) -> BuiltScene:
+    """Scene of the yoga log."""
+    return _built("08_icub_yoga_contacts.toml", data_dir, tmp_path_factory.mktemp("yoga"))
+
+
+def test_a_balancing_icub_stands_on_its_left_foot(yoga: BuiltScene) -> None:
     """All 75 s are there; the left sole stands still, level and at the origin while the right foot is lifted."""
-    built = _built("08_icub_yoga_contacts.toml", data_dir, tmp_path)
-    seconds = read_array(built.block, built.scene.time_s)
-    assert len(seconds) == built.scene.samples > 7000
+    seconds = read_array(yoga.block, yoga.scene.time_s)
+    assert len(seconds) == yoga.scene.samples > 7000
     assert (np.diff(seconds) > 0.0).all()
-    shown = [link_poses(built, sample) for sample in range(0, len(seconds), 100)]
+    shown = [link_poses(yoga, sample) for sample in range(0, len(seconds), 100)]
     for poses in shown:
         np.testing.assert_allclose(poses["l_sole"], np.eye(4), rtol=0, atol=1e-6)
     height = np.array([poses["r_sole"][2, 3] for poses in shown])
@@ -43,13 +48,12 @@ def test_a_balancing_icub_stands_on_its_left_foot(data_dir: Path, tmp_path: Path
     assert all(0.4 < poses["root_link"][2, 3] < 0.8 for poses in shown)  # it stands upright
 
 
-def test_wrenches_of_the_icub_agree_where_its_foot_is_free(data_dir: Path, tmp_path: Path) -> None:
+def test_wrenches_of_the_icub_agree_where_its_foot_is_free(yoga: BuiltScene) -> None:
     """Measured and expected forces are some newtons apart in the free intervals and far apart on both feet."""
-    built = _built("08_icub_yoga_contacts.toml", data_dir, tmp_path)
-    leg, foot = built.scene.sensors
+    leg, foot = yoga.scene.sensors
     assert (leg.name, foot.name) == ("r_leg_ft_sensor", "r_foot_ft_sensor")
-    expected, logged = (read_array(built.block, series.values)[:, :3] for series in leg.wrenches)
-    seconds = read_array(built.block, built.scene.time_s)
+    expected, logged = (read_array(yoga.block, series.values)[:, :3] for series in leg.wrenches)
+    seconds = read_array(yoga.block, yoga.scene.time_s)
     error = np.linalg.norm(logged - expected, axis=1)
     assert np.nanmean(error[(seconds > 40.0) & (seconds < 58.0)]) < 5.0
     assert np.nanmean(error[seconds < 10.0]) > 100.0
@@ -57,9 +61,9 @@ def test_wrenches_of_the_icub_agree_where_its_foot_is_free(data_dir: Path, tmp_p
     (weight,) = (series.reference_force for series in leg.wrenches if series.role == "expected")
     assert weight is not None
     assert weight.radius == pytest.approx(46.4, abs=0.1)
-    assert {contact.name for contact in built.scene.contacts} >= {"r_leg_ft_sensor", "r_foot_ft_sensor"}
-    assert built.scene.findings
-    notes = "\n".join(built.scene.notes)
+    assert {contact.name for contact in yoga.scene.contacts} >= {"r_leg_ft_sensor", "r_foot_ft_sensor"}
+    assert yoga.scene.findings
+    notes = "\n".join(yoga.scene.notes)
     assert "mesh(es) not found (model://iCubGenova02/meshes/dae/root.dae" in notes
     assert "no stream holds the position of 14 joint(s)" in notes
 

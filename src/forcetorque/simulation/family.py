@@ -11,10 +11,11 @@ matrices of real sensors of that design do; tests compare both.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cache
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray
+from forcetorque.arrays import FloatArray, read_only
 from forcetorque.sensor.elastic import (
     Beam,
     Bending,
@@ -90,7 +91,7 @@ class SensorFamily:
         Returns:
             Counts of every channel per component of a wrench; shape (6, 6); counts/N, counts/(N m).
         """
-        strain = self._in_frame(np.array(Y_ELEMENT.strain_matrix()), np.array([*self.axis_m, self.height_m]))
+        strain = self._in_frame(_strain_matrix(), np.array([*self.axis_m, self.height_m]))
         return self._gains(1.0) * self.electronics.counts_per_strain * strain
 
     def draw(self, rng: np.random.Generator) -> FloatArray:
@@ -103,7 +104,7 @@ class SensorFamily:
             Counts of every channel per component of a wrench; shape (6, 6); counts/N, counts/(N m).
         """
         spread = self.spread
-        turned = np.array(Y_ELEMENT.strain_matrix())
+        turned = _strain_matrix().copy()
         for row, angle in zip(turned, spread.turn_rad * rng.standard_normal(6), strict=True):
             turn = rotation_about_z(angle)
             row[:3], row[3:] = turn @ row[:3], turn @ row[3:]
@@ -125,6 +126,12 @@ class SensorFamily:
         gains = np.ones(6)
         gains[~IN_PLANE] = thickness * np.array(self.out_of_plane)
         return gains[:, None]
+
+
+@cache
+def _strain_matrix() -> FloatArray:
+    """That of the common design, which thousands of specimens are drawn from."""
+    return read_only(Y_ELEMENT.strain_matrix(), name="strain_matrix", shape=(6, 6))
 
 
 def _arms_X_frame(place: FloatArray) -> FloatArray:

@@ -3,9 +3,8 @@
 
 from __future__ import annotations
 
-import subprocess
-import sys
 from collections.abc import Generator
+from contextlib import chdir
 from datetime import UTC, datetime
 from pathlib import Path
 
@@ -18,6 +17,7 @@ from forcetorque.analysis import (
 from forcetorque.calibration import write_calibration
 from forcetorque.experiment import load_experiment
 from tests.browser import _closed_at_the_end, chromium, close_after_folder, visit
+from tests.cli.outcome import typed
 from tests.experiments import PARQUET, write_experiments
 
 __all__ = ["_closed_at_the_end", "chromium", "visit"]
@@ -41,6 +41,6 @@ def report(tmp_path_factory: pytest.TempPathFactory) -> Path:
     created = datetime(2020, 1, 1, tzinfo=UTC).isoformat()
     fitted = calibrate_sensor(SensorRun(experiment, experiment.sensors[0]), code_version="1", created=created)
     write_calibration(folder / "fitted.json", fitted)
-    words = ["report", PARQUET, "fitted.json", "--viewer", "-o", "report.html"]
-    subprocess.run([sys.executable, "-m", "forcetorque", *words], cwd=folder, check=True, capture_output=True)
+    with chdir(folder):
+        assert typed("report", PARQUET, "fitted.json", "--viewer", "-o", "report.html").code == 0
     return folder / "report.html"

@@ -11,6 +11,7 @@ import pytest
 
 from tests.browser import Visit, _closed_at_the_end, chromium, close_after_folder, visit
 from tests.viewer.browser.arm_scene import Arm, arm_scene
+from tests.viewer.browser.opened import as_opened
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser, Page
@@ -25,15 +26,6 @@ def pytest_runtest_teardown(nextitem: pytest.Item | None) -> Generator[None]:
         yield
     finally:
         close_after_folder(nextitem, Path(__file__).parent)
-
-
-FIRST = """() => {
-    document.activeElement.blur();
-    for (const part of document.querySelectorAll("details")) part.open = part.closest(".notes") !== null;
-    window.ft.reset();
-    window.ft.show(0);
-}"""
-"""Brings a page back to what it showed first, and to the first sample."""
 
 
 @pytest.fixture(scope="session")
@@ -53,13 +45,7 @@ def shared(chromium: Browser, arm: Arm, tmp_path_factory: pytest.TempPathFactory
 @pytest.fixture
 def page(shared: tuple[Visit, Page]) -> Iterator[Page]:
     """That scene as it was when it was opened, at its first sample."""
-    visit, page = shared
-    page.evaluate(FIRST)
-    yield page
-    errors, visit.errors = visit.errors, []  # the next test starts without them
-    strangers, visit.requests = visit.strangers(), []
-    assert errors == []
-    assert strangers == []
+    yield from as_opened(*shared)
 
 
 @pytest.fixture

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -17,9 +18,10 @@ from forcetorque.viewer.skin_contacts import contact_frames
 from tests.browser import Visit
 from tests.skin_alone import TOUCHED, write_events
 from tests.viewer.browser.arm_scene import Arm, arm_scene
+from tests.viewer.browser.opened import as_opened
 
 if TYPE_CHECKING:
-    from playwright.sync_api import Page
+    from playwright.sync_api import Browser, Page
 
 pytestmark = pytest.mark.browser
 
@@ -75,10 +77,20 @@ def skinned_scene(tmp_path_factory: pytest.TempPathFactory) -> tuple[Arm, BuiltS
     return arm, BuiltScene(scene=scene, block=block.bytes())
 
 
+@pytest.fixture(scope="module")
+def shared_skin(
+    chromium: Browser, skinned: tuple[Arm, BuiltScene], tmp_path_factory: pytest.TempPathFactory
+) -> Iterator[tuple[Visit, Page]]:
+    """That scene, opened once."""
+    visit = Visit(chromium, tmp_path_factory.mktemp("shared"))
+    yield visit, visit.open(skinned[1])
+    visit.close()
+
+
 @pytest.fixture(name="skin_page")
-def opened(visit: Visit, skinned: tuple[Arm, BuiltScene]) -> Page:
-    """The page of it."""
-    return visit.open(skinned[1])
+def opened(shared_skin: tuple[Visit, Page]) -> Iterator[Page]:
+    """The page of it as it was when it was opened, at its first sample."""
+    yield from as_opened(*shared_skin)
 
 
 def _shown(page: Page, time_s: Any, seconds: float) -> tuple[int, dict[str, Any]]:

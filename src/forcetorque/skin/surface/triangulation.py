@@ -27,7 +27,8 @@ which diagonal is taken, and a layout that is turned would get another surface."
 _SAME_LENGTH_M: Final = 1e-9
 """Difference between lengths that is rounding."""
 _PATCHES: Final = 16
-"""Patches whose triangles are remembered: a flat one asks for them with every hint at its outer side."""
+"""Patches whose triangles are remembered: normals and pressures ask for them, with every hint at an outer side, and
+every recording again."""
 
 
 def surface_triangles(positions: FloatArray, longest_edge_m: float) -> IntArray:
@@ -38,14 +39,15 @@ def surface_triangles(positions: FloatArray, longest_edge_m: float) -> IntArray:
         longest_edge_m: Longest edge; m.
 
     Returns:
-        Triangles, in no particular orientation; shape (m, 3).
+        Triangles, in no particular orientation; shape (m, 3); read-only.
     """
-    return _triangles(positions.astype(np.float64).tobytes(), longest_edge_m)
+    return _triangles_between(positions.astype(np.float64).tobytes(), longest_edge_m)
 
 
 @lru_cache(maxsize=_PATCHES)
-def _triangles(packed: bytes, longest_edge_m: float) -> IntArray:
-    positions = np.frombuffer(packed).reshape(-1, 3)
+def _triangles_between(points: bytes, longest_edge_m: float) -> IntArray:
+    """Those triangles, of points as their bytes."""
+    positions = np.frombuffer(points).reshape(-1, 3)
     candidates, votes = _voted_triangles(positions, longest_edge_m)
     sides = np.linalg.norm(positions[candidates] - positions[np.roll(candidates, 1, axis=1)], axis=2)
     longest = sides.max(axis=1)

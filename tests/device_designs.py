@@ -1,0 +1,19 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A device whose motion is hardly optimised."""
+
+from __future__ import annotations
+
+from functools import partial
+
+import pytest
+
+from forcetorque.analysis.device.span import device_span
+
+
+def hardly_optimise(patch: pytest.MonkeyPatch) -> None:
+    """Try few changes of the better motion of a device: a thousand take seconds, and change its numbers alone.
+
+    Args:
+        patch: What takes it back.
+    """
+    patch.setattr("forcetorque.analysis.device.device.device_span", partial(device_span, swaps=5))
