@@ -11,6 +11,7 @@ import pytest
 from forcetorque.analysis import (
     SensorRun,
     calibrate_sensor,
+    data_doubts,
     evaluate,
     weigh_load,
 )
@@ -385,6 +386,16 @@ def test_what_the_readings_contradict_is_told_to_who_needs_the_load(
     with pytest.raises(ForceTorqueError, match=match) as caught:
         SensorRun(experiment, experiment.sensors[0]).samples(Use.CALIBRATION)
     assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize(("columns", "contradicted"), [('["x", "y", "z"]', False), ('["y", "z", "x"]', True)])
+def test_a_calibration_says_which_statement_the_readings_contradict(
+    tmp_path: Path, columns: str, contradicted: bool
+) -> None:
+    """A load takes up part of a frame that is turned: its mass is positive, and the fit would look like any other."""
+    experiment = load_experiment(_write(tmp_path, text=TEXT.replace('["x", "y", "z"]', columns)))
+    doubts = data_doubts(SensorRun(experiment, experiment.sensors[0]), by_model=False)
+    assert any("the sensor is turned against the axes of the motion" in words for words in doubts) == contradicted
 
 
 @pytest.mark.real_data
