@@ -24,6 +24,30 @@ def contradicted_statements(run: SensorRun) -> Iterator[str]:
     solution = _estimated(run)
     for hypothesis in () if solution is None else solution.hypotheses:
         yield f"the load was estimated, and the readings contradict the file: {hypothesis.words}"
+    yield from overweight_loads(run)
+
+
+def overweight_loads(run: SensorRun) -> Iterator[str]:
+    """Name loads that were estimated and weigh more than their sensor reads: a wrong unit makes a load of any size.
+
+    Args:
+        run: The sensor.
+
+    Yields:
+        A sentence for each.
+    """
+    solution, full_scale = _estimated(run), run.sensor.full_scale
+    if solution is None or full_scale is None:
+        return
+    most = float(full_scale[:3].max())
+    for load in solution.loads:
+        weight = run.experiment.processing.gravity * abs(load.mass)
+        if weight > most:
+            yield (
+                f"load {load.name!r}: {load.mass:.3g} kg weigh {weight:.3g} N, and the sensor reads {most:g} N "
+                "at most; check units of the wrench (N m or N mm) and of the joints (deg or rad), and full_scale of "
+                "[[sensor]]"
+            )
 
 
 def _estimated(run: SensorRun) -> LoadSolution | None:
