@@ -16,6 +16,7 @@ import pytest
 from forcetorque.analysis import (
     SensorRun,
     WeighedLoad,
+    calibrate_for_file,
     calibrate_sensor,
     data_doubts,
     draft_experiment,
@@ -23,6 +24,7 @@ from forcetorque.analysis import (
     loads_of_use,
     weigh_load,
 )
+from forcetorque.analysis.payload.load_doubts import circular_loads
 from forcetorque.errors import ForceTorqueError
 from forcetorque.experiment import load_experiment
 from tests.robots import example_robot
@@ -136,6 +138,58 @@ def test_a_weighed_tool_is_named_by_its_result(
     (file.parent / "tool.json").write_text(json.dumps(elsewhere), encoding="utf-8")
     with pytest.raises(ForceTorqueError, match="on the link 'ee_link', got 'gripper' on 'wrist_3_link'"):
         load_experiment(file)
+
+
+def test_a_tool_that_the_sensor_itself_weighed_is_named(
+    arm: tuple[Path, np.ndarray], weighed: WeighedLoad, tmp_path: Path
+) -> None:
+    """Not where a stated tool told the scale, nor of another sensor: the negative controls."""
+    file = _edited(arm, tmp_path, "gripper", ('link = "ee_link"\n', 'link = "ee_link"\nfrom = "tool.json"\n'))
+    beside = json.loads(weighed.model_dump_json(by_alias=True))
+    alone = {**beside, "loads": beside["loads"][:1]}
+    for content, named in ((beside, False), (alone, True), ({**alone, "serial": "FT-99"}, False)):
+        (file.parent / "tool.json").write_text(json.dumps(content), encoding="utf-8")
+        sentences = list(circular_loads(_run(file)))
+        assert [words[: words.index(" (")] for words in sentences] == [
+            "load 'gripper': weighed before by this sensor itself"
+        ] * named
+
+
+@pytest.mark.long
+def test_a_tool_weighed_by_a_wrong_sensor_hides_that_it_is_wrong(example: SimpleNamespace, tmp_path: Path) -> None:
+    """A sensor 3 % off weighs the tool by as much wrong, and calibrated by that stays so; by the true mass not.
+
+    What two sensors that differ by 6 % in everything read of the tool's weight is compared.
+    """
+    mass, centre = TRUTH["weight"]
+    weight = np.concatenate([[0.0, 0.0, mass], np.cross(centre, [0.0, 0.0, mass])])
+    stated = f"mass_kg = {mass}\ncentre_of_mass_m = {centre}\n"
+    sizes = []
+    for gain in (0.97, 1.03):
+        folder = tmp_path / str(gain)
+        example.simulate(
+            folder, example_robot(UR5), seed=3, tools={"weight": (mass, centre)}, relative=0.0, duration_s=12.0
+        )
+        log = folder / "weight.csv"
+        table = np.loadtxt(log, delimiter=",", skiprows=1)
+        table[:, -6:] *= gain
+        head = log.read_text(encoding="utf-8").splitlines()[0]
+        np.savetxt(log, table, fmt="%.6f", delimiter=",", header=head, comments="")
+        file = folder / "weight.toml"
+        text = file.read_text(encoding="utf-8")
+        (folder / "tool.json").write_text(weigh_load(_run(file)).model_dump_json(by_alias=True), encoding="utf-8")
+        for words in ('from = "tool.json"\n', stated):
+            file.write_text(text.replace('link = "ee_link"\n', f'link = "ee_link"\n{words}'), encoding="utf-8")
+            run = _run(file)
+            result = calibrate_for_file(run, folder / "new.json", code_version="", created="2026-01-01T00:00:00")
+            calibration = result.calibrations[0].calibration
+            warned = [words for words in result.warnings if "weighed before by this sensor itself" in words]
+            assert len(warned) == ("from" in words)
+            assert warned == [one for one in evaluate(run, {"new": calibration}).warnings if one in warned]
+            sizes.append(float(np.linalg.norm(gain * calibration.matrix @ weight) / np.linalg.norm(weight)))
+    circular, right = np.reshape(sizes, (2, 2)).T
+    np.testing.assert_allclose(right, 1.0, atol=0.01)
+    assert circular[1] / circular[0] == pytest.approx(1.03 / 0.97, abs=0.01)
 
 
 def test_an_arm_on_the_ceiling_is_weighed(example: SimpleNamespace, tmp_path: Path) -> None:

@@ -135,6 +135,18 @@ def test_before_any_recording_the_plan_is_that_from_the_prior(arm: Path) -> None
         load_experiment(arm / "new.toml")
 
 
+def test_a_clock_belongs_to_what_was_recorded(arm: Path) -> None:
+    """It changes no plan and is said; where nothing was recorded it is refused by its name."""
+    clock = '\n[[clock]]\nstream = "arm_ft"\nto = "joints"\ndelay_s = 0.0\n'
+    first, plain = (plan(_run(arm, PLAN + words), recordings=1, seconds=30.0) for words in (clock, ""))
+    assert first.recordings == plain.recordings
+    assert set(first.warnings) - set(plain.warnings) == {
+        "arm_ft: stamped 0 ms later than 'joints', as stated: its stamps are brought to that clock"
+    }
+    with pytest.raises(ExperimentError, match=r"expected \[recording\], to whose streams \[\[clock\]\] is done"):
+        _unrecorded(arm, PLAN + clock)
+
+
 def test_a_full_scale_alone_is_enough_to_begin_with(arm: Path) -> None:
     """Without a matrix the sensor is taken to read N and N m; without full scale there is nothing to go by."""
     run = _unrecorded(arm)

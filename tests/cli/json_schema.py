@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import Any
 
 _TYPES: dict[str, type | tuple[type, ...]] = {
@@ -62,6 +63,8 @@ def _fits(value: Any, word: str, wanted: Any) -> bool:
         return not isinstance(value, list) or (len(value) >= wanted if word == "minItems" else len(value) <= wanted)
     if word == "minLength":
         return not isinstance(value, str) or len(value) >= wanted
+    if word == "pattern":
+        return not isinstance(value, str) or re.search(wanted, value) is not None
     if word == "minProperties":
         return not isinstance(value, dict) or len(value) >= wanted
     if word == "maximum":

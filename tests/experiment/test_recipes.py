@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -11,7 +12,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from forcetorque.analysis import SensorRun, inspect_experiment
+from forcetorque.analysis import SensorRun, inspect_experiment, inspect_log
 from forcetorque.analysis.calibration.sensor_calibration import data_doubts
 from forcetorque.arrays import BoolArray
 from forcetorque.errors import ExperimentError, ForceTorqueError, FormatError, RecordingError, RobotError
@@ -348,6 +349,11 @@ def test_a_planted_delay_of_a_sensor_is_taken_back(arm: Path) -> None:
         one.kind == "clock" and "estimated by raw of 'arm_ft'" in one.message for one in inspect_experiment(experiment)
     )
     assert any("ms later than 'joints'" in doubt for doubt in data_doubts(SensorRun(experiment, experiment.sensors[0])))
+    inspection = inspect_log(arm / PARQUET)
+    (row,) = inspection.clocks
+    assert (row.stream, row.to, row.estimated, row.untold) == ("arm_ft", "joints", True, None)
+    assert (row.delay_s, row.delay_half_width_95_s) == (shift.delay_s, shift.delay_half_width_s)
+    assert json.loads(inspection.json_text())["clocks"][0]["explained"] == shift.explained
 
 
 def test_a_stated_delay_and_drift_are_taken_back(arm: Path) -> None:
@@ -366,6 +372,17 @@ def test_streams_that_show_nothing_in_common_are_refused(poses: Path) -> None:
     clock = '\n[[clock]]\nstream = "again"\nto = "wrench"\ndelay_s = "estimate"\n'
     with pytest.raises(RecordingError, match=r"clock\[0\]: .*show nothing in common"):
         _recording(poses, HEAD + POSE + WRENCH + other + clock + REST)
+    inspection = inspect_log(poses / "tool.toml")
+    (row,) = inspection.clocks
+    assert (row.stream, row.to, row.estimated, row.delay_s, row.drift) == ("again", "wrench", True, None, None)
+    assert "show nothing in common" in (row.untold or "")
+    assert "untold_clock" in [finding.kind for finding in inspection.findings]
+    assert set(inspection.streams) == {"pose", "wrench", "again"}
+
+
+def test_a_file_without_clocks_has_no_rows_of_them(arm: Path) -> None:
+    """Its JSON is what it was before there were any."""
+    assert "clocks" not in json.loads(inspect_log(arm / PARQUET).json_text())
 
 
 def _without_wrist(arm: Path) -> None:

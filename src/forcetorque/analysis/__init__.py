@@ -2,10 +2,12 @@
 """Questions to the sensors of experiments, each a function and its result: one file per question, or a folder.
 
 Each is imported when it is first used: who asks one question does not wait for what all the others compute with.
+Whatever recordings an answer is about, what their experiment files add to the logs is a warning of it.
 """
 
 from typing import TYPE_CHECKING
 
+from forcetorque.analysis.runs.added import saying_what_was_added
 from forcetorque.door import open_door
 
 if TYPE_CHECKING:
@@ -333,4 +335,4 @@ __all__ = [
     "write_plan",
 ]
 
-open_door(__name__)
+open_door(__name__, handed_out=saying_what_was_added)

@@ -11,11 +11,13 @@ from typing import Annotated, Literal
 
 from pydantic import Field, ValidationError
 
+from forcetorque.analysis.draft.clocks import clock_lines
 from forcetorque.analysis.draft.hanging import Hanging, hanging
 from forcetorque.analysis.draft.log import draft_log, recording_lines
 from forcetorque.analysis.draft.paths import relative
-from forcetorque.analysis.draft.sensors import DraftedSensor, draft_sensors, sensor_lines
+from forcetorque.analysis.draft.sensors import DraftedSensor, draft_sensors, sensor_joints, sensor_lines
 from forcetorque.analysis.draft.spans import DraftedInterval, draft_intervals, interval_lines, whole_log
+from forcetorque.analysis.draft.standing import standing_lines
 from forcetorque.analysis.draft.streams import DraftedLog
 from forcetorque.analysis.draft.supports import base_of_arm, has_no_tool, interval_support, load_lines, support_lines
 from forcetorque.analysis.draft.text import likeliest_text, line, listed, question, toml_value
@@ -154,7 +156,7 @@ def _written(
     recorded = recording_lines(log, folder, model, frames)
     recording, reason = _read("\n".join(recorded), folder, sensors, model)
     first_look = recording
-    if recording is None and model is not None:
+    if recording is None:
         first_look, _ = _read(likeliest_text(recorded), folder, sensors, model)
     base = None if model is None else base_of_arm(model)
     sensors = tuple(_with_evidence(sensor, first_look, model, base) for sensor in sensors)
@@ -168,7 +170,9 @@ def _written(
     lines += [line("schema", "forcetorque/experiment/1"), line("name", log.paths[0].stem)]
     if robot is not None:
         lines += ["", "[robot]", line("urdf", robot)]
-    lines += ["", *recorded]
+    if model is not None:
+        lines += standing_lines(log, sensors, model, base)
+    lines += ["", *recorded, *clock_lines(log, first_look)]
     for sensor in sensors:
         lines += sensor_lines(sensor, on_robot=model is not None)
     extra: list[str] = []
@@ -219,9 +223,7 @@ def _with_evidence(
     """Hold the reading against the orientation of each link that it may be along."""
     if recording is None or model is None or base is None or sensor.is_raw or sensor.tags:
         return sensor
-    joints = (sensor.joint,) if sensor.joint else sensor.joints[:_MOST_JOINTS]
-    if sensor.name in model.sensors:
-        joints = (model.sensors[sensor.name].joint,)
+    joints = sensor_joints(sensor, model)[:_MOST_JOINTS]
     stream = recording.stream(sensor.stream)
     hangings = {joint: hanging(model, joint, base, recording, stream) for joint in joints}
     evidence = {joint: one for joint, one in hangings.items() if one is not None and one.says_something}

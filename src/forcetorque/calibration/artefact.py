@@ -153,6 +153,15 @@ class SessionOffset(Part):
     """Offset that the same data give with the prior matrix; shape (6,); N, N m."""
 
 
+class Content(Part):
+    """By what the samples of an interval are known again in another log (`recording.fingerprint`)."""
+
+    quantity: str
+    """Quantity of the reading as it was logged: `raw` or `wrench`."""
+    windows: str = Field(pattern=r"^([0-9a-f]{16})+$", repr=False)
+    """Hashes of windows of its samples, hexadecimal numbers of 16 letters one behind the other."""
+
+
 class FittedInterval(Part):
     """A stretch of time that was fitted."""
 
@@ -166,6 +175,8 @@ class FittedInterval(Part):
     """Session that it belongs to; None in files of earlier versions."""
     experiment: str | None = None
     """Experiment that it is of; None in files of earlier versions, where there was one."""
+    content: Content | None = None
+    """By what its samples are known again; None in files of earlier versions, and where they hardly change."""
 
 
 class Selection(Part):
@@ -200,6 +211,8 @@ class Provenance(Part):
     """Samples of the intervals that were left out."""
     inputs_sha256: dict[str, str]
     """SHA-256 of every input file, by its path as the experiment file names it."""
+    added: tuple[str, ...] = ()
+    """What experiment files add to their logs: clocks, frames, joints, rates; in sentences."""
 
 
 class Calibration(Part):

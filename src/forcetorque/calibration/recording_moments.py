@@ -236,6 +236,8 @@ class RecordingMoments(Part):
     """The intervals."""
     doubts: tuple[str, ...] = ()
     """What makes any fit of them doubtful."""
+    added: tuple[str, ...] = ()
+    """What the experiment file adds to its log, in sentences."""
     load_error: LoadError | None = None
     """What is not known of loads that the sensor weighed itself; None where all were stated."""
     inputs_sha256: dict[str, str]

@@ -9,6 +9,7 @@ from contextlib import nullcontext
 from pathlib import Path
 
 from forcetorque.analysis import Campaign, SensorRun
+from forcetorque.analysis.runs.added import ADDED
 from forcetorque.analysis.runs.campaign_recording import refuse_a_file_twice
 from forcetorque.calibration import Calibration, RecordingMoments, read_calibration, read_moments
 from forcetorque.errors import ExperimentError, ForceTorqueError
@@ -20,6 +21,8 @@ from forcetorque.paths import real_path
 
 def read_experiment(path: Path, log: logging.Logger) -> Experiment:
     """Read an experiment and warn of what is known to be wrong with its recording.
+
+    What the file adds to its log is said by the results.
 
     Args:
         path: Experiment file.
@@ -61,7 +64,8 @@ def _with_findings(load: Callable[[Path], Experiment], path: Path, log: logging.
     log.info("reading %s", path)
     experiment = load(path)
     for finding in experiment.recording.findings:
-        log.warning("%s: %s", finding.stream, finding.message)
+        if finding.kind not in ADDED:
+            log.warning("%s: %s", finding.stream, finding.message)
     return experiment
 
 

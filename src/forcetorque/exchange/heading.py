@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 _BRACKETED = re.compile(r"^(?P<name>.*?)\s*[\[(](?P<unit>[^\[\]()]*)[\])]\s*$")
@@ -93,6 +94,22 @@ def read_heading(text: str) -> Heading:
     if name and (stated or (small in _TIMES and name.lower() in _TIME_NAMES)):
         return Heading(text, name, _SPELLINGS[small])
     return Heading(text, plain, None)
+
+
+def headings_of(names: Sequence[str], units: Sequence[str]) -> tuple[str, ...] | None:
+    """Make headings with units of a line of names and one of units.
+
+    Args:
+        names: Cells of the one line.
+        units: Cells of the other.
+
+    Returns:
+        The headings; None where the lines are not that: names that come twice, or less than two units that are known.
+    """
+    known = [_SPELLINGS.get(unit.strip(" []()").lower()) for unit in units]
+    if len(names) != len(units) or len(set(names)) < len(names) or "" in names or len(known) - known.count(None) < 2:
+        return None
+    return tuple(name if unit is None else f"{name} [{unit}]" for name, unit in zip(names, known, strict=True))
 
 
 def is_time_name(name: str) -> bool:

@@ -44,6 +44,10 @@ class LogSketch:
     """Whether its columns are those of one table, not arrays of a file."""
     delimiter: str | None = None
     """Of a text table the character between columns; a space for any run of blanks."""
+    skipped: tuple[str, ...] = ()
+    """Of a text table the lines in front of it, headings not counted."""
+    names_apart: bool = False
+    """Whether the last two of those lines have names and units, of which the names of the columns are made."""
     has_headings: bool = True
     """Whether the file itself names them; without, they are called by their number, from 1."""
     quaternion: tuple[int, ...] = ()

@@ -11,6 +11,7 @@ from pydantic_core import PydanticCustomError
 
 from forcetorque.arrays import IntArray
 from forcetorque.errors import FormatError
+from forcetorque.recording import Finding
 from forcetorque.toml_table import Finite, Positive, Table
 
 _LATEST_S = 9.2e9
@@ -40,6 +41,22 @@ class StatedRate(Table):
         if self.start_s is None:
             return ()
         return self.start_s if isinstance(self.start_s, tuple) else (self.start_s,)
+
+    def rate_findings(self, stream: str, count: int) -> tuple[Finding, ...]:
+        """Say that times of rows were not logged.
+
+        Args:
+            stream: Name of the stream.
+            count: Number of its rows.
+
+        Returns:
+            One finding; none where times were logged.
+        """
+        if self.rate_hz is None:
+            return ()
+        starts = ", ".join(f"{start:g} s" for start in self.starts_s)
+        text = f"no time is logged: rows are taken at {self.rate_hz:g} Hz from {starts} on, as stated"
+        return (Finding(stream=stream, kind="stated_rate", message=text, count=count, size=self.rate_hz, unit="Hz"),)
 
 
 def even_stamps(count: int, *, rate_hz: float, start_s: float) -> IntArray:

@@ -74,8 +74,14 @@ def load_planned(path: Path | str) -> Experiment:
         ExperimentError: If the file contradicts itself or the robot.
     """
     file = Path(path)
-    if _is_recorded(file):
+    tables = _tables(file)
+    if tables is None or {"recording", "interval", "load"} & tables:
         return load_experiment(file)
+    for recipe in sorted({"clock", "transform"} & tables):
+        raise ExperimentError(
+            f"{file}: expected [recording], to whose streams [[{recipe}]] is done, got none; leave it out to plan what "
+            "was not recorded yet"
+        )
     parsed = read_toml(file, PlannedFile, what="an experiment file")
     inputs = Inputs(file.parent)
     inputs.file(Path(file.name))
@@ -109,13 +115,12 @@ def load_planned(path: Path | str) -> Experiment:
     )
 
 
-def _is_recorded(file: Path) -> bool:
-    """Whether the file states a recording; one that cannot be read is left to the reader that says why."""
+def _tables(file: Path) -> set[str] | None:
+    """What the file states; None of one that cannot be read, which is left to the reader that says why."""
     try:
-        content = tomllib.loads(file.read_text(encoding="utf-8"))
+        return set(tomllib.loads(file.read_text(encoding="utf-8")))
     except (OSError, ValueError, RecursionError):
-        return True
-    return bool({"recording", "interval", "load"} & set(content))
+        return None
 
 
 def _sensor(where: str, entry: PlannedSensor, model: RobotModel, inputs: Inputs) -> ExperimentSensor:

@@ -16,7 +16,14 @@ from forcetorque.recording import Recording, Stream
 from forcetorque.robot import RobotModel
 
 
-def read_streams(parsed: schema.ExperimentFile, file: Path, model: RobotModel | None, inputs: Inputs) -> Recording:
+def read_streams(
+    parsed: schema.ExperimentFile,
+    file: Path,
+    model: RobotModel | None,
+    inputs: Inputs,
+    *,
+    clocks_must_tell: bool = True,
+) -> Recording:
     """Read the streams that the experiment file names.
 
     Args:
@@ -24,6 +31,7 @@ def read_streams(parsed: schema.ExperimentFile, file: Path, model: RobotModel | 
         file: The experiment file, for messages.
         model: The robot, whose joints tell rad from m; None for a wrist sensor.
         inputs: Resolves and remembers the files.
+        clocks_must_tell: Whether a delay that the recording does not tell is refused.
 
     Returns:
         The recording, with what the file adds to its log, without intervals.
@@ -42,7 +50,7 @@ def read_streams(parsed: schema.ExperimentFile, file: Path, model: RobotModel | 
         findings=reading.findings,
         origin=stated if reading.origin is None else reading.origin,
     )
-    return follow_recipes(parsed, file, logged, model)
+    return follow_recipes(parsed, file, logged, model, clocks_must_tell=clocks_must_tell)
 
 
 def _by_name(file: Path, streams: Iterable[Stream]) -> dict[str, Stream]:

@@ -107,7 +107,7 @@ def require_overlap(first: Stream, second: Stream) -> None:
     if first.clock != second.clock:
         raise RecordingError(
             f"streams {first.name!r} and {second.name!r} were stamped by the clocks {first.clock!r} and "
-            f"{second.clock!r}; bring them to one clock before they are combined"
+            f"{second.clock!r}; bring them to one clock before they are combined: [[clock]] of the experiment file"
         )
     for stream in (first, second):
         if not len(stream):
@@ -116,5 +116,5 @@ def require_overlap(first: Stream, second: Stream) -> None:
     if apart > 0:
         raise RecordingError(
             f"streams {first.name!r} and {second.name!r} do not overlap in time: {apart * 1e-9:.3f} s lie between "
-            "them; expected recordings of the same session on the same clock"
+            "them; expected recordings of the same session on the same clock, to which [[clock]] may bring them"
         )

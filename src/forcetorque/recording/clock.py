@@ -33,11 +33,15 @@ class ClockShift:
     """Share of its movement that the one explains of the other; None where it was stated."""
     unasked_drift: float | None = None
     """Drift of an estimated delay that nobody asked for; None where it was asked for, or the interval holds none."""
+    untold: str | None = None
+    """Why the recording does not tell the delay that was to be estimated; None where it does, or it was stated."""
 
     @property
     def words(self) -> str:
         """What was done, and how surely."""
-        later = f"{1e3 * abs(self.delay_s):.4g} ms {'later' if self.delay_s >= 0.0 else 'earlier'} than {self.to!r}"
+        # epochs are apart by years, and what is within them counts all the same
+        size = f"{1e3 * abs(self.delay_s):.4g} ms" if abs(self.delay_s) < 1.0 else f"{abs(self.delay_s):.4f} s"
+        later = f"{size} {'later' if self.delay_s >= 0.0 else 'earlier'} than {self.to!r}"
         brought = "its stamps are brought to that clock"
         growing = f", growing by {1e6 * self.drift:.4g} us a second" if self.drift else ""
         if self.shown_by is None or self.delay_half_width_s is None or self.explained is None:

@@ -56,9 +56,11 @@ def _holders(recording: Recording, joints: Sequence[str], source: str) -> list[t
     signals = recording.joint_signals(source)
     for joint in joints:
         if joint not in signals:
-            hint = "; take derivatives from the positions instead" if source != "position" else ""
+            hint, still = "; take derivatives from the positions instead", ""
+            if source == "position":
+                hint, still = "", "; if it stood still all along, state where in fixed of [robot]"
             raise RecordingError(
-                f"no stream holds the {source} of joint {joint!r}{hint}; {known_names(joint, signals)}"
+                f"no stream holds the {source} of joint {joint!r}{hint}; {known_names(joint, signals)}{still}"
             )
     places: dict[str, list[int]] = {}
     for k, joint in enumerate(joints):

@@ -10,6 +10,7 @@ from typing import Annotated, Any, Literal
 from pydantic import Field
 
 from forcetorque.analysis import Demands, ExperimentAssessment, SensorRun, UseVerdict, assess_experiment
+from forcetorque.analysis.runs.added import added_to
 from forcetorque.analysis.use.verdict import Tone
 from forcetorque.atomic import refuse_unwritable, write_bytes_atomically
 from forcetorque.calibration import Calibration
@@ -256,6 +257,9 @@ def report(
         experiments=tuple(assessments),
         results=dict(results or {}),
         viewers=tuple(viewers),
+        warnings=tuple(
+            dict.fromkeys(words for _, experiment in experiments for words in added_to(experiment.recording))
+        ),
     )
 
 

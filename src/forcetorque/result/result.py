@@ -24,7 +24,7 @@ class Result(Row):
     """What a question gave. A class of its own for every question adds a field `schema`, rows and tables."""
 
     of_several: ClassVar[tuple[str, ...]] = ()
-    """Fields about each of several recordings, which are not in the JSON of one."""
+    """Fields that are not in the JSON where they are empty, such as those about each of several recordings."""
 
     warnings: tuple[str, ...] = Field(default=(), exclude=True)
     """What makes the answer doubtful, in sentences; messages, not part of the JSON."""

@@ -9,6 +9,7 @@ from importlib.metadata import version
 from pathlib import Path
 
 from forcetorque.analysis import inspect_experiment
+from forcetorque.analysis.runs.added import added_to
 from forcetorque.analysis.runs.applicability import by_sensor
 from forcetorque.calibration import Calibration
 from forcetorque.experiment import Experiment
@@ -76,6 +77,7 @@ def build_scene(
     recording, model = experiment.recording, experiment.model
     clock = shown_stream(experiment, shown)
     usable, notes = _without_empty(experiment, clock)
+    notes += added_to(experiment.recording)
     notes += [f"calibrations of {name!r} are not shown: --sensor leaves it out" for name in groups if name not in names]
     block, sources = Block(), [*_inputs(experiment), *provenance, f"forcetorque {version('forcetorque')}"]
     posture = posture_at(recording, model, clock)

@@ -100,6 +100,7 @@ def generative_calibration(
             samples=sum(interval.samples for interval in intervals),
             dropped=sum(interval.dropped for interval in intervals),
             inputs_sha256=_inputs(recordings),
+            added=tuple(dict.fromkeys(sentence for recording in recordings for sentence in recording.added)),
         ),
     )
 

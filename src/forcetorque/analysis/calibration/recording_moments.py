@@ -93,6 +93,7 @@ def moments_of(
         variables=tuple(map(VariableDescription.of, variables)),
         intervals=tuple(intervals),
         doubts=tuple(doubts),
+        added=recording.added,
         inputs_sha256=dict(recording.inputs_sha256),
     )
 

@@ -15,9 +15,10 @@ from forcetorque.analysis.calibration.doubts import fit_doubts
 from forcetorque.analysis.calibration.joint_outcome import JointOutcome
 from forcetorque.analysis.calibration.learnt import LearntDirection, learnt_directions, learnt_words
 from forcetorque.analysis.calibration.tables import calibration_blocks, component_records
-from forcetorque.analysis.inspect.findings import ADDED, doubtful_spans
+from forcetorque.analysis.inspect.findings import doubtful_spans
 from forcetorque.analysis.payload.contradictions import contradicted_statements
 from forcetorque.analysis.payload.load_doubts import load_doubts
+from forcetorque.analysis.runs.added import added_to
 from forcetorque.analysis.runs.campaign import Campaign, Runs
 from forcetorque.analysis.runs.possible_touch import possible_touch
 from forcetorque.analysis.runs.sensor_run import SensorRun
@@ -135,6 +136,7 @@ def calibrate_for_file(
     )
     campaign = None if runs is None else Campaign.of(runs)
     doubts = [sentence for run in (campaign.runs if campaign else ()) for sentence in data_doubts(run)]
+    doubts += [sentence for sentence in calibration.provenance.added if sentence not in doubts]  # of stored moments
     return SensorCalibrations(
         experiment=calibration.provenance.experiment,
         calibrations=(entry,),
@@ -166,7 +168,7 @@ def data_doubts(run: SensorRun, *, by_model: bool = True) -> Iterator[str]:
         yield from _touched(run)
         if (sentence := possible_touch(run)) is not None:
             yield sentence
-    yield from (f"{one.stream}: {one.message}" for one in experiment.recording.findings if one.kind in ADDED)
+    yield from added_to(experiment.recording)
     start_ns, alone = experiment.recording.start_ns, replace(experiment, sensors=(run.sensor,))
     for interval, finding in doubtful_spans(alone, Use.CALIBRATION, by_model=by_model):
         start, end = (((stamp_ns or 0) - start_ns) * 1e-9 for stamp_ns in (finding.start_ns, finding.end_ns))

@@ -78,6 +78,7 @@ def thesis_calibration(
         experiment="; ".join(dict.fromkeys(campaign.experiments)),
         inputs_sha256=campaign.inputs_sha256,
         doubts=[doubt.message for doubt in doubts],
+        added=campaign.added,
     )
 
 
@@ -92,6 +93,7 @@ def artefact(
     experiment: str,
     inputs_sha256: Mapping[str, str],
     doubts: Sequence[str] = (),
+    added: Sequence[str] = (),
 ) -> Calibration:
     """Make the calibration that a fit leaves on disk.
 
@@ -105,6 +107,7 @@ def artefact(
         experiment: Name of the experiment.
         inputs_sha256: SHA-256 of every input file, by its path.
         doubts: What made the fit doubtful before it was made.
+        added: What experiment files add to their logs, in sentences.
 
     Returns:
         The calibration.
@@ -149,6 +152,7 @@ def artefact(
             samples=sum(len(p.samples) for p in parts),
             dropped=sum(p.samples.dropped for p in parts),
             inputs_sha256=dict(inputs_sha256),
+            added=tuple(added),
         ),
         doubts=tuple(doubts),
     )

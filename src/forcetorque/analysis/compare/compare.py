@@ -127,7 +127,12 @@ def compare(
         groups=group_rows(groups),
         failures=tuple(failures),
         analyses=tuple(groups),
-        warnings=(*(f"failed: {failure.message}" for failure in failures), *warnings, *flattered),
+        warnings=(
+            *(f"failed: {failure.message}" for failure in failures),
+            *warnings,
+            *flattered,
+            *dict.fromkeys(f"{trial.file}: {sentence}" for trial in trials for sentence in trial.added),
+        ),
     )
 
 

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
+from forcetorque.analysis.runs.added import added_to
 from forcetorque.analysis.runs.applicability import calibrations_of
 from forcetorque.analysis.runs.sensor_run import SensorRun
 from forcetorque.analysis.sphere.rows import FailureRow
@@ -38,6 +39,8 @@ class TrialSphere:
     """Matrix that the prior's forces are read with; shape (6, c); N/count, N m/count."""
     sphere: SensorSphere
     """The analysis."""
+    added: tuple[str, ...] = ()
+    """What the file adds to its log, in sentences."""
 
     @property
     def gravity(self) -> float:
@@ -149,6 +152,7 @@ def _read_sensors(reading: _Reading, path: Path, experiment: Experiment, spans: 
                     number=None if reading.by_interval and len(spans) > 1 else experiment.trial,
                     prior=sensor.prior,
                     sphere=sphere,
+                    added=added_to(experiment.recording),
                 )
                 for sphere in spheres
             ]

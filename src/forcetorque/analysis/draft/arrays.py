@@ -11,7 +11,7 @@ from forcetorque.analysis.draft.likeness import Likeness
 from forcetorque.analysis.draft.paths import relative
 from forcetorque.analysis.draft.streams import DraftedLog, DraftedStream
 from forcetorque.analysis.draft.text import line, listed, question, remark, toml_value
-from forcetorque.analysis.draft.units import USUAL_UNITS, axes_line, time_words
+from forcetorque.analysis.draft.units import RATE_LINES, USUAL_UNITS, axes_line, time_words
 from forcetorque.exchange.log_sketch import LogSketch, SketchedColumns
 from forcetorque.recording import QUANTITIES, Labels
 from forcetorque.robot import RobotModel
@@ -96,7 +96,7 @@ def array_lines(log: DraftedLog, folder: Path, model: RobotModel | None, frames:
         names = [column.name for column in sketch.columns]
         lines += ["", "[[recording.stream]]", line("name", stream.name)]
         lines.append(line("variable", names[stream.groups[0].columns[0]]))
-        lines.append(_time_line(sketch))
+        lines += _time_lines(sketch)
         for group in stream.groups:
             lines += _array_signal(group, sketch.columns[group.columns[0]], model, stream.name, frames)
         used = {names[k] for group in stream.groups for k in group.columns}
@@ -107,7 +107,8 @@ def array_lines(log: DraftedLog, folder: Path, model: RobotModel | None, frames:
         arrays = listed([f"{one.name} ({one.rows} x {one.columns})" for one in log.arrays])
         lines += ["", "[[recording.stream]]", line("name", "log")]
         lines.append(question("variable", f"array with what is read: {arrays}"))
-        lines.append(question("time", 'array or column of the time: { variable = "...", unit = "s" }'))
+        words = 'array or column of the time: { variable = "...", unit = "s" }; or the two lines below in its place'
+        lines += [question("time", words), *RATE_LINES]
         lines += ["", "[[recording.stream.signal]]", question("quantity", f"one of {listed(QUANTITIES, 99)}")]
         lines += [question("columns", "first and last column, from 1"), question("unit", "its unit")]
     return lines
@@ -129,12 +130,13 @@ def array_time(columns: Sequence[SketchedColumns]) -> SketchedColumns | None:
     return next(iter([*named, *rising]), None)
 
 
-def _time_line(sketch: LogSketch) -> str:
+def _time_lines(sketch: LogSketch) -> list[str]:
     chosen = array_time(sketch.columns)
     if chosen is None:
         words = 'no array rises as a time does: { variable = "...", unit = "s" }'
-        return question("time", f'{words}, or {{ column = 1, unit = "s" }} of the array')
-    return f"time = {toml_value({'variable': chosen.name, 'unit': OPEN})}  {remark(time_words(chosen))}"
+        choice = f'{words}, or {{ column = 1, unit = "s" }} of the array; or the two lines below in its place'
+        return [question("time", choice), *RATE_LINES]
+    return [f"time = {toml_value({'variable': chosen.name, 'unit': OPEN})}  {remark(time_words(chosen))}"]
 
 
 def _array_signal(

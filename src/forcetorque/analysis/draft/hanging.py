@@ -137,6 +137,20 @@ def hanging(model: RobotModel, joint: str, support: str, recording: Recording, s
     return _fitted(at_ns[whole], wrench[whole], link_R_support, -read(moving, np.zeros(3)))
 
 
+def felt_joints(model: RobotModel, joint: str, support: str) -> tuple[str, ...]:
+    """Name the joints that move what a sensor in a joint reads.
+
+    Args:
+        model: The robot.
+        joint: Fixed joint, with a sensor or without.
+        support: Link that is taken to stand still.
+
+    Returns:
+        Joints between the two, and those that move what hangs beyond.
+    """
+    return required_joints(build_tree(_probe(model, joint), support), _PROBE)
+
+
 def _probe(model: RobotModel, joint: str) -> RobotModel:
     """The robot with one sensor, at the joint, read as child_to_parent, and something that hangs on it."""
     tags = [sensor for sensor in model.sensors.values() if sensor.joint == joint]

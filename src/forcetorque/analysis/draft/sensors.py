@@ -70,6 +70,21 @@ def draft_sensors(streams: Sequence[DraftedStream], model: RobotModel | None) ->
     return tuple(_matched(stream, reading, model) for stream in reading)
 
 
+def sensor_joints(sensor: DraftedSensor, model: RobotModel) -> tuple[str, ...]:
+    """Name the fixed joints that a sensor may sit in.
+
+    Args:
+        sensor: The sensor.
+        model: The robot.
+
+    Returns:
+        One where its name or a tag of the robot's file tells it; else the likeliest first.
+    """
+    if sensor.name in model.sensors:
+        return (model.sensors[sensor.name].joint,)
+    return (sensor.joint,) if sensor.joint else sensor.joints
+
+
 def sensor_lines(sensor: DraftedSensor, *, on_robot: bool) -> list[str]:
     """Write a `[[sensor]]` table.
 

@@ -7,7 +7,7 @@ import re
 from collections.abc import Mapping, Sequence
 
 from forcetorque.analysis.draft.hanging import LIGHT_KG, Hanging, mass_beyond
-from forcetorque.analysis.draft.sensors import DraftedSensor, weight_words
+from forcetorque.analysis.draft.sensors import DraftedSensor, sensor_joints, weight_words
 from forcetorque.analysis.draft.text import line, listed, question
 from forcetorque.robot import Joint, RobotModel
 
@@ -69,9 +69,7 @@ def has_no_tool(sensor: DraftedSensor, model: RobotModel) -> bool:
     Returns:
         Whether all joints that it may sit in have no mass beyond them.
     """
-    joints = [sensor.joint] if sensor.joint else list(sensor.joints)
-    if sensor.name in model.sensors:
-        joints = [model.sensors[sensor.name].joint]
+    joints = sensor_joints(sensor, model)
     return bool(joints) and all(mass_beyond(model, joint) < LIGHT_KG for joint in joints)
 
 

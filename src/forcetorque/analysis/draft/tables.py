@@ -13,6 +13,7 @@ from forcetorque.analysis.draft.paths import relative
 from forcetorque.analysis.draft.streams import DraftedLog, DraftedStream
 from forcetorque.analysis.draft.text import Asked, line, listed, question, remark, toml_value
 from forcetorque.analysis.draft.units import (
+    RATE_LINES,
     TIME_UNITS,
     USUAL_UNITS,
     axes_line,
@@ -26,6 +27,8 @@ from forcetorque.recording import QUANTITIES, Labels
 from forcetorque.robot import RobotModel
 from forcetorque.toml_table import OPEN
 
+_SHOWN = 60
+"""Characters that are shown of a line in front of a table."""
 _FEW = 9
 """Units that are written out in a question."""
 
@@ -96,14 +99,20 @@ def table_lines(log: DraftedLog, folder: Path, model: RobotModel | None, frames:
         if sketch is not None:
             lines += ["", "[[recording.stream]]", line("name", stream.name)]
             lines.append(line("file", sketch.path.resolve().relative_to(root).as_posix()))
-            lines += _form_lines(sketch)
-            lines.append(_stamp_line(sketch))
+            lines += [*_form_lines(sketch), *_stamp_lines(sketch)]
             lines += _signal_lines(stream, sketch, model, frames)
     return lines
 
 
 def _form_lines(sketch: LogSketch) -> list[str]:
     lines = [] if sketch.delimiter in (None, ",") else [line("delimiter", sketch.delimiter)]
+    if sketch.skipped:
+        top = next((text for text in sketch.skipped if text.strip()), "")
+        lines.append(line("skip_rows", len(sketch.skipped), f"lines that are not of the table: {top[:_SHOWN]}"))
+    if sketch.names_apart:
+        lines.append(
+            line("column_names", [column.name for column in sketch.columns], "of a line of names and one of units")
+        )
     if not sketch.has_headings:
         words = f"the file has no line of headings: a name for each of its {len(sketch.columns)} columns"
         for first in sketch.quaternion:
@@ -112,21 +121,23 @@ def _form_lines(sketch: LogSketch) -> list[str]:
     return lines
 
 
-def _stamp_line(sketch: LogSketch) -> str:
+def _stamp_lines(sketch: LogSketch) -> list[str]:
     place = time_column(_headings(sketch), [column.step for column in sketch.columns])
     if place is None:
         words = 'no column rises as a time does: "row" for poses that are still, whose rows are then a second apart'
-        return question("stamp", f'{words}; or {{ column = "...", unit = "..." }}')
+        choice = f'{words}; or {{ column = "...", unit = "..." }}; or the two lines below in its place'
+        return [question("stamp", choice), *RATE_LINES]
     column = sketch.columns[place]
     name = column.name
     unit = read_heading(name).unit
     if unit in TIME_UNITS:
-        return line("stamp", {"column": name, "unit": unit})
+        return [line("stamp", {"column": name, "unit": unit})]
     likeliest = likeliest_time(column)
-    return Asked(
+    asked = Asked(
         f"stamp = {toml_value({'column': name, 'unit': OPEN})}  {remark(time_words(column))}",
         None if likeliest is None else line("stamp", {"column": name, "unit": likeliest}),
     )
+    return [asked]
 
 
 def _signal_lines(

@@ -25,6 +25,12 @@ USUAL_UNITS = {
 }
 """Units that quantities usually have, for questions; nothing is taken for granted."""
 
+RATE_LINES = (
+    "# rate_hz = 100.0  # rows at even steps of time: how many a second",
+    "# start_s = 0.0    # time of the first row, s",
+)
+"""What may stand in place of a time, as comments."""
+
 _PLAUSIBLE_HZ = (1.0, 10_000.0)
 _MOST_TURNS = 13.0
 """Joints seldom turn by more than two turns in rad; in deg they always do."""

@@ -11,6 +11,7 @@ import numpy as np
 from pydantic import Field
 
 from forcetorque.analysis.evaluate.tables import ERROR_WORDS, error_tables, smoothing_words
+from forcetorque.analysis.payload.load_doubts import circular_loads
 from forcetorque.analysis.runs.campaign import Campaign, Runs
 from forcetorque.analysis.runs.candidate import JudgedCandidate, JudgedRow
 from forcetorque.analysis.runs.judged import JudgedWrenches
@@ -217,6 +218,7 @@ def judge_errors(runs: Runs, calibrations: Mapping[str, Calibration]) -> Evaluat
                 require_unseen(name, calibration, run)
             wrenches[campaign.recording(run)] = run.judged(calibrations)
         said = [words for name, one in calibrations.items() for words in doubts_about_choice(run, name, one)]
+        said += circular_loads(run)
         warnings += [f"{campaign.recording(run)}: {sentence}" for sentence in said] if len(campaign.runs) > 1 else said
     validity = readings_outside(campaign, calibrations)
     judged = {recording: list(_judged(wrenches[recording])) for recording in wrenches}

@@ -20,9 +20,6 @@ from forcetorque.recording.quality import saturation_findings, stream_findings
 _DOUBTFUL = {"contact", "light_contact", "off_level", "step", "saturation", "frozen", "stuck", "gap", "backward_stamp"}
 """Kinds of findings that make the samples of their span doubtful."""
 
-ADDED = {"clock", "transformed", "fixed_joint"}
-"""Kinds of findings that say what the experiment file adds to its log, on which every result rests."""
-
 
 def inspect_recording(recording: Recording) -> tuple[Finding, ...]:
     """Look for what is wrong with a recording, without a robot.

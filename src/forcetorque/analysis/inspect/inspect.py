@@ -7,12 +7,13 @@ from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import Literal
+from typing import ClassVar, Literal
 
 from pydantic import Field
 
 from forcetorque.analysis.draft.looks import looks
 from forcetorque.analysis.inspect.findings import inspect_experiment, inspect_recording
+from forcetorque.analysis.inspect.inspected_clocks import ClockRow, clock_rows
 from forcetorque.analysis.inspect.inspected_file import (
     ColumnRow,
     SeenCalibration,
@@ -22,11 +23,12 @@ from forcetorque.analysis.inspect.inspected_file import (
 )
 from forcetorque.analysis.inspect.inspected_streams import StreamRow, stream_rows, stream_table
 from forcetorque.analysis.inspect.skin_findings import inspect_patches, taxel_findings
-from forcetorque.errors import FormatError, MissingFileError
+from forcetorque.errors import FormatError, MissingFileError, RecordingError
 from forcetorque.exchange.formats import format_named, not_recognised, recognised_format
 from forcetorque.exchange.log_sketch import SketchingFormat
 from forcetorque.exchange.prior import PriorFile, StatedUnits, holds_prior, read_prior_file
 from forcetorque.experiment import ExperimentFile, load_experiment, load_patches, load_shown, parse_experiment
+from forcetorque.experiment.recipes.tried_clocks import load_tried_clocks
 from forcetorque.recording import Finding, Recording
 from forcetorque.result import Result, Row, Table, table_of
 
@@ -65,6 +67,8 @@ class FindingRow(Row):
 class Inspection(Result):
     """What a log holds, and what is wrong with it."""
 
+    of_several: ClassVar[tuple[str, ...]] = ("clocks",)
+
     schema_name: Literal["forcetorque/inspect/2"] = Field(default="forcetorque/inspect/2", alias="schema")
     """Form of the result."""
     source: str
@@ -75,6 +79,8 @@ class Inspection(Result):
     """Time from the earliest to the latest stamp."""
     findings: tuple[FindingRow, ...]
     """Findings in the order of time."""
+    clocks: tuple[ClockRow, ...] = ()
+    """Clocks that the experiment file brings to one, in its order, of which findings say the same in words."""
     unread: tuple[ColumnRow, ...] = ()
     """Columns or arrays of a log that does not say what it holds, in place of streams."""
     calibration: SeenCalibration | None = None
@@ -141,6 +147,7 @@ def inspect_log(path: Path | str, *, log_format: str | None = None) -> Inspectio
         streams=stream_rows(recording.streams),
         duration_s=(end - start) * 1e-9,
         findings=finding_rows(start, findings),
+        clocks=clock_rows(recording.clocks),
     )
 
 
@@ -186,7 +193,13 @@ def _recorded(source: Path, name: str | None) -> tuple[Recording, tuple[Finding,
     if patches is None and not stated.sensor:
         recording = load_shown(source).recording
         return recording, inspect_recording(recording)
-    experiment = load_experiment(source)
+    try:
+        experiment = load_experiment(source)
+    except RecordingError:
+        recording = load_tried_clocks(source)
+        if all(clock.untold is None for clock in recording.clocks):
+            raise
+        return recording, inspect_recording(recording)
     findings = inspect_experiment(experiment)
     return experiment.recording, findings if patches is None else (*findings, *taxel_findings(patches))
 

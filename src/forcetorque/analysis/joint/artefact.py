@@ -11,6 +11,7 @@ import numpy as np
 from forcetorque.analysis.calibration.thesis import validity_of
 from forcetorque.analysis.joint.interval import JointInterval, required_prior
 from forcetorque.analysis.runs.campaign import Campaign
+from forcetorque.analysis.runs.logged_content import logged_content
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration import (
     JOINT,
@@ -127,6 +128,7 @@ def sensor_artefact(
             samples=sum(one.samples for one in raw),
             dropped=sum(one.missing for one in raw),
             inputs_sha256=campaign.inputs_sha256,
+            added=campaign.added,
         ),
     )
 
@@ -140,15 +142,15 @@ def _windows(
     if not used.any():
         return None
     wrench = raw.means[used] @ matrix.T + result.fit.offset(sensor, stretch.session)
+    experiment = next(run.experiment for run in campaign.runs if campaign.recording(run) == stretch.recording)
     return SensorWindows(
         interval=FittedInterval(
             label=stretch.label,
             start_ns=interval.interval.start_ns,
             end_ns=interval.interval.end_ns,
             session=stretch.session,
-            experiment=next(
-                run.experiment.name for run in campaign.runs if campaign.recording(run) == stretch.recording
-            ),
+            experiment=experiment.name,
+            content=logged_content(experiment, campaign.sensor, interval.interval),
         ),
         session=stretch.session,
         raw=raw.means[used],

@@ -121,7 +121,10 @@ def motion(signals: Sequence[MotionSignal], *, steps_s: Sequence[float] = (), ba
         tracking=tuple(answer.tracking for answer in answers if answer.tracking is not None),
         band_percent=100.0 * band_share,
         curves=tuple(curve for answer in answers for curve in answer.curves),
-        warnings=tuple(dict.fromkeys(doubt for answer in answers for doubt in answer.doubts)),
+        warnings=(
+            *dict.fromkeys(doubt for answer in answers for doubt in answer.doubts),
+            *dict.fromkeys(sentence for signal in signals for sentence in signal.added),
+        ),
     )
 
 

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import zip_longest
 from pathlib import Path
 from typing import Any
@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 
 from forcetorque.analysis.balance.balance import Balance, balance
+from forcetorque.analysis.runs.added import added_to
 from forcetorque.analysis.runs.corrections import corrections_of
 from forcetorque.arrays import FloatArray, read_only
 from forcetorque.calibration import Calibration
@@ -45,6 +46,8 @@ class MotionSignal:
     """Name of the column of what was wanted; None if nothing was."""
     desired_values: FloatArray | None = None
     """What was wanted at those instants; shape (n,)."""
+    added: tuple[str, ...] = ()
+    """What the experiment file adds to the log, in sentences."""
 
     def __post_init__(self) -> None:
         time = read_only(self.time_s, name=f"{self.column}: time_s", shape=(None,))
@@ -152,7 +155,7 @@ def motion_signals(
             signals += _computed(computed, log, spans, column, wanted)
             continue
         signals += [_logged(log, span, column, wanted) for span in spans]
-    return signals
+    return [replace(signal, added=added_to(log.recording)) for signal in signals]
 
 
 def _chosen(log: RecordedLog, labels: Collection[str]) -> list[RecordedSpan]:

@@ -25,8 +25,8 @@ def load_doubts(run: SensorRun) -> Iterator[str]:
         run: The sensor.
 
     Yields:
-        A sentence where loads were weighed with the sensor's own reading, and one for every stated load without which
-        the readings fit better.
+        A sentence where loads are weighed with the sensor's own reading, one for every load that it weighed before, and
+        one for every stated load without which the readings fit better.
     """
     loads = run.experiment.link_loads
     if loads is None:
@@ -47,8 +47,27 @@ def load_doubts(run: SensorRun) -> Iterator[str]:
             f"load {names}: one tool moves three of the six directions of a wrench, and may leave moments worse than "
             "the maker's matrix; record a second one, with its centre of mass elsewhere"
         )
+    yield from circular_loads(run)
     if loads.sensor is not None and run.has(Use.CALIBRATION):
         yield from _doubled(run, loads)
+
+
+def circular_loads(run: SensorRun) -> Iterator[str]:
+    """Name loads that the sensor itself weighed before, as if its matrix were right.
+
+    Args:
+        run: The sensor.
+
+    Yields:
+        A sentence for every load beside which nothing was stated then that would have told the scale of the matrix.
+    """
+    for weighed in () if run.experiment.link_loads is None else run.experiment.link_loads.weighed:
+        if weighed.serial == run.sensor.serial and not weighed.beside:
+            yield (
+                f"load {weighed.load.name!r}: weighed before by this sensor itself ({weighed.serial}), beside nothing "
+                "that was stated, so its mass has the error that the sensor has, which no calibration or verdict on it "
+                "can see; weigh it on a scale, or by another sensor"
+            )
 
 
 def _beside(loads: LinkLoads) -> list[LinkLoads]:

@@ -7,11 +7,15 @@ from collections.abc import Iterable, Iterator, Mapping
 
 import numpy as np
 
+from forcetorque.analysis.runs.logged_content import LoggedReadings
 from forcetorque.calibration import Calibration, FittedInterval
 from forcetorque.errors import ExperimentError
 from forcetorque.experiment.content import Experiment, ExperimentSensor
 from forcetorque.experiment.inputs import stated_in
 from forcetorque.recording import Interval
+
+_DAY_NS = 86_400_000_000_000
+"""Stamps below count from the start of a recording: nobody records on the first of January 1970 (heuristic)."""
 
 
 def require_fit(name: str, calibration: Calibration, experiment: Experiment, sensor: ExperimentSensor) -> None:
@@ -110,8 +114,9 @@ def overlapping(
 ) -> Iterator[tuple[str, str]]:
     """Find what a calibration was made on among intervals.
 
-    Stamps of two recordings may count from their starts, so those of another experiment count only where the files of
-    this recording went into the calibration too.
+    Readings that were seen are known again, whatever their stamps. Else stamps say it: where the files of this
+    recording went into the calibration, or in an experiment of the same name; and only where both are so of stamps that
+    count from the start of a recording, as those of many do, if the readings are others.
 
     Args:
         experiment: The experiment.
@@ -125,10 +130,17 @@ def overlapping(
     log_went_in = bool(experiment.log_sha256) and experiment.log_sha256 <= set(
         calibration.provenance.inputs_sha256.values()
     )
-    for interval in intervals:
-        for earlier in used:
-            same = log_went_in or earlier.experiment in (None, experiment.name)
-            if same and interval.start_ns < earlier.end_ns and earlier.start_ns < interval.end_ns:
+    sensor = experiment.sensor(calibration.sensor.name)
+    earlier_ones = tuple(used)
+    for interval in intervals if earlier_ones else ():
+        readings = LoggedReadings(experiment, sensor, interval)
+        for earlier in earlier_ones:
+            seen = readings.were_in(earlier.content)
+            own = earlier.experiment in (None, experiment.name)
+            others = seen is False and earlier.start_ns < _DAY_NS
+            one_log = log_went_in and own if others else log_went_in or own
+            at_once = interval.start_ns < earlier.end_ns and earlier.start_ns < interval.end_ns
+            if seen or (at_once and one_log):
                 yield interval.label, earlier.label
 
 

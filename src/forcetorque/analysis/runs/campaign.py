@@ -84,6 +84,11 @@ class Campaign:
             return dict(self._recordings[0].inputs_sha256)
         return joined_inputs(self._recordings)
 
+    @property
+    def added(self) -> tuple[str, ...]:
+        """What the files add to their logs, in sentences, each once."""
+        return tuple(dict.fromkeys(sentence for recording in self._recordings for sentence in recording.added))
+
     def recording(self, run: SensorRun) -> str:
         """Name the recording of one of the runs.
 

@@ -49,6 +49,7 @@ class CampaignInterval:
             end_ns=self.part.interval.end_ns,
             session=self.session,
             experiment=self.experiment,
+            content=self.part.content,
         )
 
     @property

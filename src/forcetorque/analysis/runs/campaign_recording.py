@@ -10,6 +10,7 @@ from typing import Self
 
 import numpy as np
 
+from forcetorque.analysis.runs.added import added_to
 from forcetorque.analysis.runs.sensor_run import SensorRun
 from forcetorque.calibration import SensorIdentity
 from forcetorque.errors import ExperimentError
@@ -42,6 +43,8 @@ class CampaignRecording:
     """Labels of the intervals that draw the sphere of the sphere types."""
     inputs_sha256: Mapping[str, str]
     """SHA-256 of every input file, by its path as the experiment names it."""
+    added: tuple[str, ...]
+    """What the experiment file adds to its log, in sentences."""
 
     @classmethod
     def of(cls, run: SensorRun) -> Self:
@@ -66,6 +69,7 @@ class CampaignRecording:
             start_ns=experiment.recording.start_ns,
             sphere=experiment.sphere_intervals,
             inputs_sha256=experiment.inputs_sha256,
+            added=added_to(experiment.recording),
         )
 
     @property

@@ -8,15 +8,16 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from forcetorque.analysis.runs.logged_content import logged_content
 from forcetorque.analysis.runs.reading import Readings
 from forcetorque.arrays import FloatArray
-from forcetorque.calibration import DataSet
+from forcetorque.calibration import Content, DataSet
 from forcetorque.errors import ExperimentError
 from forcetorque.estimation import SensorSamples, evaluator_of_samples, sensor_samples
 from forcetorque.estimation.picked import padded_samples
 from forcetorque.experiment.contacts import touched_otherwise
 from forcetorque.experiment.content import Experiment, ExperimentSensor
-from forcetorque.recording import Interval, Recording
+from forcetorque.recording import Interval, Recording, Use
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -29,6 +30,8 @@ class IntervalSamples:
     """Reading and reference at the same instants."""
     readings: Readings
     """The same readings in every form that a correction may want."""
+    content: Content | None = None
+    """By what samples that are fitted are known again in another log."""
 
     @property
     def raw(self) -> FloatArray:
@@ -85,7 +88,8 @@ def samples_over(
         applied=None if experiment.wrist is None else experiment.wrist.table.applied,
     )
     readings = Readings.of(sensor, samples.reading.values, dict(zip(variables, samples.variables.T, strict=True)))
-    return IntervalSamples(interval=interval, samples=samples, readings=readings)
+    content = logged_content(experiment, sensor, interval) if interval.use is Use.CALIBRATION else None
+    return IntervalSamples(interval=interval, samples=samples, readings=readings, content=content)
 
 
 def _samples_with_support(recording: Recording, stream: str) -> int:

@@ -9,6 +9,7 @@ from typing import Literal
 
 from pydantic import Field
 
+from forcetorque.analysis.runs.added import added_to
 from forcetorque.analysis.runs.campaign_recording import refuse_a_file_twice
 from forcetorque.analysis.skin.comparison import compare_curves
 from forcetorque.analysis.skin.fit import FittedSamples, fitted_samples
@@ -140,7 +141,8 @@ def calibrate_skin(
     curves = {kind: samples.fit(kind) for kind in CurveKind}
     kept = CurveKind(curve)
     artefact = _artefact(contents, patches[0], logs, samples, curves[kept], kept, code_version, created)
-    answer = _answer(artefact, logs, samples, curves)
+    added = dict.fromkeys(sentence for content in contents for sentence in added_to(content.recording))
+    answer = _answer(artefact, logs, samples, curves, doubts=tuple(added))
     return answer if warm_up is None else _with_warm_up(answer, warm_up, patches[0])
 
 
@@ -232,6 +234,8 @@ def _answer(
     logs: Sequence[PatchRecording],
     samples: FittedSamples,
     curves: dict[CurveKind, list[TaxelCurve | None]],
+    *,
+    doubts: tuple[str, ...],
 ) -> SkinCalibration:
     held_out, fitted = of_use(logs, Use.VALIDATION), of_use(logs, Use.CALIBRATION)[0]
     comparison = compare_curves(curves, held_out, samples.highest)
@@ -252,5 +256,8 @@ def _answer(
         recordings=tuple(recording_row(log) for log in logs),
         calibration=artefact,
         picture=taxel_picture(fitted, recording_name(fitted), columns, curves, samples.highest),
-        warnings=() if held_out else ("no interval for validation: nothing says how good the curves are elsewhere",),
+        warnings=(
+            *(() if held_out else ("no interval for validation: nothing says how good the curves are elsewhere",)),
+            *doubts,
+        ),
     )

@@ -11,6 +11,7 @@ from typing import Final, Literal
 import numpy as np
 from pydantic import Field
 
+from forcetorque.analysis.runs.added import added_to
 from forcetorque.analysis.skin.contact_rows import SkinContactRow, SkinWrenchPicture, contact_rows
 from forcetorque.analysis.skin.frames import SkinFrames, skin_frames
 from forcetorque.analysis.skin.heat_rows import OFFERED, ReleaseRow, heat_warnings, release_row
@@ -209,6 +210,7 @@ def _answer(content: PatchExperiment, frames: PatchFrames, chosen: WrenchChoice)
         warnings=(
             *_warnings(rows, looked.reader.live),
             *heat_warnings(looked, rows, has_pads=len(skin.layout.thermal_pads) > 0),
+            *added_to(content.recording),
         ),
     )
 

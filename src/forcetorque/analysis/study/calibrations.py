@@ -101,6 +101,7 @@ class CalibrationMaker:
             created=self.created,
             experiment="; ".join(self.data.experiments),
             inputs_sha256=self.data.inputs_sha256,
+            added=self.data.added,
         )
 
 

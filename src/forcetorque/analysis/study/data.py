@@ -46,6 +46,11 @@ class StudyData:
     truth: FloatArray | None
     """True matrix of a simulated sensor; shape (6, c); N/count, N m/count; None if it is not known."""
 
+    @property
+    def added(self) -> tuple[str, ...]:
+        """What experiment files add to their logs, in sentences, each once."""
+        return tuple(dict.fromkeys(words for recording in self.recordings.values() for words in recording.added))
+
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class _Share:

@@ -197,8 +197,8 @@ def study_warnings(study: SensorStudy) -> tuple[str, ...]:
         study: The study.
 
     Returns:
-        A sentence per session that is fitted and judged, one per type that a combination cannot give, and one per
-        choice that makes the sensor worse, or may, at loads that were not fitted.
+        A sentence per session that is fitted and judged, one per type that a combination cannot give, one per choice
+        that makes the sensor worse, or may, at loads that were not fitted, and what experiment files add to their logs.
     """
     fitted = {interval.session for interval in study.data.calibration}
     both = sorted({interval.session for interval in study.data.validation} & fitted)
@@ -206,6 +206,7 @@ def study_warnings(study: SensorStudy) -> tuple[str, ...]:
         *(f"session {name!r} is fitted and judged: its score is not what another session gives" for name in both),
         *(f"left out: {sentence}" for sentence in study.left_out),
         *unfitted_warnings(study),
+        *study.data.added,
     )
 
 

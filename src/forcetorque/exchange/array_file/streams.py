@@ -62,7 +62,8 @@ def array_stream(
     if entry.rate_hz is not None:
         (start,) = entry.starts_s
         stamps = even_stamps(len(values), rate_hz=entry.rate_hz, start_s=start)
-        return Stream(name=entry.name, clock=entry.clock, stamp_ns=stamps, signals=signals, sequence=counter), doubts
+        stream = Stream(name=entry.name, clock=entry.clock, stamp_ns=stamps, signals=signals, sequence=counter)
+        return stream, (*entry.rate_findings(entry.name, len(stream)), *doubts)
     if entry.time is not None:
         times = entry.time.variable or entry.variable
         stamps = _stamps(f"{path}: {times}", arrays[times], entry.time.column, entry.time.unit)

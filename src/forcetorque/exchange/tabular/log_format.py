@@ -19,7 +19,7 @@ from forcetorque.exchange.stated_rate import StatedRate
 from forcetorque.exchange.tabular.layout import EvenRows, StampColumn, TableLayout, TableSignal
 from forcetorque.exchange.tabular.sketch import is_table, sketch_table
 from forcetorque.exchange.tabular.table import ROW_NS, read_table, table_columns
-from forcetorque.recording import Stream
+from forcetorque.recording import Finding, Stream
 from forcetorque.recording.joined import joined_stream
 from forcetorque.toml_table import Table, Text
 
@@ -153,9 +153,14 @@ def _read_stream(k: int, stated: TabularLog, context: LogContext) -> LogReading:
         ]
         pieces = [stream for reading in readings for stream in reading.streams]
         joined = joined_stream(_numbered_on(pieces) if entry.stamp == "row" else pieces, [*map(str, paths)])
-    return LogReading(
-        streams=(joined,), findings=tuple(finding for reading in readings for finding in reading.findings)
-    )
+    skipped = () if entry.skip_rows == 0 else (_skipped(entry),)
+    doubts = (finding for reading in readings for finding in reading.findings)
+    return LogReading(streams=(joined,), findings=(*skipped, *entry.rate_findings(entry.name, len(joined)), *doubts))
+
+
+def _skipped(entry: TabularStream) -> Finding:
+    text = f"{entry.skip_rows} line(s) in front of the table are not read, as stated"
+    return Finding(stream=entry.name, kind="skipped_rows", message=text, count=entry.skip_rows)
 
 
 def _layout(entry: TabularStream, number: int) -> TableLayout:

@@ -15,7 +15,7 @@ from forcetorque.errors import ExperimentError, known_names
 from forcetorque.experiment.content import ExperimentSensor
 from forcetorque.experiment.full_scale import full_scale_of
 from forcetorque.experiment.inputs import Inputs, stated_in
-from forcetorque.experiment.loads.weighed_load import read_weighed
+from forcetorque.experiment.loads.weighed_load import WeighedLoad, read_weighed
 from forcetorque.experiment.tables.link_load import LinkLoad
 from forcetorque.loads import Load, LoadEstimate, LoadProblem, LoadSolution, MatrixSpread, settled, solve
 from forcetorque.loads.load import INERTIAL
@@ -44,8 +44,8 @@ class LinkLoads:
     """Support of the intervals of each load, with its number."""
     sensor: ExperimentSensor | None
     """Sensor that weighs: the nearest one that all are beyond; None where there is none."""
-    weighed_by: Mapping[str, str] = field(default_factory=dict)
-    """Serial number of the sensor that weighed a load before, by the name of the load."""
+    weighed: tuple[WeighedLoad, ...] = ()
+    """Those among them that were weighed before."""
     beside: Mapping[str, Experiment] = field(default_factory=dict)
     """Recordings that weigh these loads together, this one among them, by name; none to ask this one alone."""
     _known: dict[str, LoadSolution] = field(default_factory=dict, repr=False)
@@ -216,7 +216,7 @@ def read_link_loads(
     if not tables:
         return None
     loads: list[Load] = []
-    weighed_by: dict[str, str] = {}
+    weighed: list[WeighedLoad] = []
     for index, table in enumerate(tables):
         where = f"{file}: load[{index}] {table.name!r}"
         if table.link not in model.links:
@@ -227,8 +227,8 @@ def read_link_loads(
             if table.weighed is None:
                 loads.append(_stated(table))
             else:
-                load, weighed_by[table.name] = read_weighed(inputs.file(table.weighed), table.name, table.link)
-                loads.append(load)
+                weighed.append(read_weighed(inputs.file(table.weighed), table.name, table.link))
+                loads.append(weighed[-1].load)
     frames = {(support.frame, tables[number].link, number) for support, number in supports}
     felt: list[set[str]] = []
     for frame, link, number in sorted(frames):
@@ -248,7 +248,7 @@ def read_link_loads(
         links=tuple(table.link for table in tables),
         supports=tuple(supports),
         sensor=next((sensor for sensor in sensors if sensor.name in shared), None),
-        weighed_by=weighed_by,
+        weighed=tuple(weighed),
     )
 
 

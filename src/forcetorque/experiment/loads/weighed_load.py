@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated
 
@@ -18,14 +19,29 @@ from forcetorque.part import read_json
 
 SCHEMA = "forcetorque/payload/2"
 """Form of the results that are read."""
-_ROUNDING = np.repeat([1e-6, 1e-7, 1e-8], [1, 3, 6])
-"""kg, kg m, kg m2: nothing was weighed better, so that what was stated there has a precision."""
+_ROUNDING = np.repeat([1e-4, 1e-5, 1e-6], [1, 3, 6])
+"""kg, kg m, kg m2: nothing was weighed better. What was stated there, or follows from what was estimated as the inertia
+of a point mass does, has a precision by this; one that is much larger hides from the numbers what is told at all."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class WeighedLoad:
+    """A load that was weighed before."""
+
+    load: Load
+    """What is known of it."""
+    serial: str
+    """Serial number of the sensor that weighed it."""
+    beside: tuple[str, ...]
+    """Loads that were stated when it was weighed, which tell the scale of the sensor; itself if it was stated."""
 
 
 class _Row(BaseModel):
     model_config = ConfigDict(frozen=True, arbitrary_types_allowed=True)
 
     load: str
+    estimated: bool
+    mass_kg: float | None
     link: str | None = None
     inertial: Annotated[FloatArray, ArrayField((INERTIAL,))] | None = None
     covariance: Annotated[FloatArray, ArrayField((INERTIAL, INERTIAL))] | None = None
@@ -38,7 +54,7 @@ class _Weighed(BaseModel):
     loads: tuple[_Row, ...]
 
 
-def read_weighed(file: Path, name: str, link: str) -> tuple[Load, str]:
+def read_weighed(file: Path, name: str, link: str) -> WeighedLoad:
     """Read a load from a result of `forcetorque payload`.
 
     Args:
@@ -47,7 +63,7 @@ def read_weighed(file: Path, name: str, link: str) -> tuple[Load, str]:
         link: Link that it hangs on, in whose frame it was weighed.
 
     Returns:
-        The load under this name, and the serial number of the sensor that weighed it.
+        The load under this name, and what weighed it.
 
     Raises:
         FormatError: If it is no such result.
@@ -84,4 +100,5 @@ def read_weighed(file: Path, name: str, link: str) -> tuple[Load, str]:
         expected=row.inertial,
         precision=np.asarray(np.linalg.inv(covariance), dtype=np.float64),
     )
-    return load, weighed.serial
+    stated = tuple(one.load for one in weighed.loads if not one.estimated and one.mass_kg)
+    return WeighedLoad(load=load, serial=weighed.serial, beside=stated)

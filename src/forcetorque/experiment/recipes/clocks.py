@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from forcetorque.arrays import BoolArray, IntArray
-from forcetorque.errors import ExperimentError
+from forcetorque.errors import ExperimentError, RecordingError
 from forcetorque.estimation import Processing
 from forcetorque.experiment import schema
 from forcetorque.experiment.inputs import stated_in
@@ -34,7 +34,12 @@ class _Stated:
 
 
 def aligned_clocks(
-    parsed: schema.ExperimentFile, file: Path, recording: Recording, model: RobotModel | None
+    parsed: schema.ExperimentFile,
+    file: Path,
+    recording: Recording,
+    model: RobotModel | None,
+    *,
+    must_tell: bool = True,
 ) -> Recording:
     """Bring the streams that `[[clock]]` names to the clocks of others.
 
@@ -43,6 +48,8 @@ def aligned_clocks(
         file: The experiment file, for messages.
         recording: The streams.
         model: The robot; None for a wrist sensor.
+        must_tell: Whether a delay that the recording does not tell is refused; else the one around which it is looked
+            for is taken, and the reason stands in the recording's clocks.
 
     Returns:
         The recording, with a finding for every clock.
@@ -59,8 +66,14 @@ def aligned_clocks(
             for name in (*entry.streams, entry.to):
                 recording.stream(name)
             _require_one_clock(entry, recording)
-            near = _shifted(recording, entry, _stated_shift(entry))
-            shift = _estimated(entry, near, stated) if entry.delay_s == "estimate" else _stated_shift(entry)
+            near, shift = _shifted(recording, entry, _stated_shift(entry)), _stated_shift(entry)
+            if entry.delay_s == "estimate":
+                try:
+                    shift = _estimated(entry, near, stated)
+                except RecordingError as error:
+                    if must_tell:
+                        raise
+                    shift = replace(shift, untold=str(error))
             recording = _shifted(recording, entry, shift)
         shifts.append(shift)
     return replace(recording, findings=(*recording.findings, *map(_finding, shifts)), clocks=tuple(shifts))
@@ -120,7 +133,7 @@ def _estimated(entry: ClockTable, near: Recording, stated: _Stated) -> ClockShif
         stream=name,
         to=entry.to,
         delay_s=entry.near_s + later * delay.delay_s,
-        drift=later * delay.drift,
+        drift=later * delay.drift if asked else 0.0,
         delay_half_width_s=delay.delay_half_width_s,
         drift_half_width=delay.drift_half_width if asked else None,
         shown_by=shared.words,
@@ -170,4 +183,6 @@ def _middle_s(recording: Recording, name: str) -> float:
 
 
 def _finding(shift: ClockShift) -> Finding:
+    if shift.untold is not None:
+        return Finding(stream=shift.stream, kind="untold_clock", message=shift.untold, count=0)
     return Finding(stream=shift.stream, kind="clock", message=shift.words, count=0, size=shift.delay_s, unit="s")

@@ -37,7 +37,14 @@ def read_robot(table: schema.Robot, file: Path, inputs: Inputs) -> RobotModel:
         return fix_joints(model, table.fixed)
 
 
-def follow_recipes(parsed: schema.ExperimentFile, file: Path, logged: Recording, model: RobotModel | None) -> Recording:
+def follow_recipes(
+    parsed: schema.ExperimentFile,
+    file: Path,
+    logged: Recording,
+    model: RobotModel | None,
+    *,
+    clocks_must_tell: bool = True,
+) -> Recording:
     """Make of what was logged what it is taken for.
 
     Args:
@@ -45,6 +52,7 @@ def follow_recipes(parsed: schema.ExperimentFile, file: Path, logged: Recording,
         file: The experiment file, for messages.
         logged: The streams as they were logged.
         model: The robot, with its joints that stand still; None for a wrist sensor.
+        clocks_must_tell: Whether a delay that the recording does not tell is refused.
 
     Returns:
         The recording, with a finding for everything that was added.
@@ -54,7 +62,7 @@ def follow_recipes(parsed: schema.ExperimentFile, file: Path, logged: Recording,
     """
     fixed = {} if parsed.robot is None else parsed.robot.fixed
     _require_not_logged(fixed, file, logged)
-    recording = aligned_clocks(parsed, file, logged, model)
+    recording = aligned_clocks(parsed, file, logged, model, must_tell=clocks_must_tell)
     for index, entry in enumerate(parsed.transform):
         with stated_in(f"{file}: transform[{index}]"):
             recording = _transformed(recording, entry)

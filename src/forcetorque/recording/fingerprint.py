@@ -1,0 +1,103 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""By what samples are known again: hashes of windows of them, whatever their stamps and wherever the log was cut.
+
+Every window of `WINDOW` samples has a hash of its values, rounded to so many digits as every way of writing a log
+keeps. Of these the smallest are kept: they are spread over all of the samples, and the same of every log that holds
+them. Of samples whose share p another log holds, none of `KEPT` is found again with the probability (1 - p)^KEPT.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from forcetorque.arrays import FloatArray
+
+WINDOW = 16
+"""Samples of a window: of resting sensors one sample, and the next few, may come again by chance."""
+KEPT = 64
+"""Hashes that are kept."""
+
+_DIGITS = 4
+"""Decimal digits that count."""
+_LEAST_DISTINCT = 12
+"""Samples of a window that must differ from the one before: a sensor that is stuck reads alike in all logs."""
+
+Hashes = NDArray[np.uint64]
+"""Hashes of windows."""
+
+
+def window_hashes(values: FloatArray) -> Hashes:
+    """Give a hash for every window of samples.
+
+    Args:
+        values: Samples; shape (n, k).
+
+    Returns:
+        Hashes, each once, the smallest first; none of windows with a missing value, or that hardly change.
+    """
+    if len(values) < WINDOW:
+        return np.empty(0, dtype=np.uint64)
+    rounded = _rounded(values)
+    row = np.zeros(len(values), dtype=np.uint64)
+    with np.errstate(over="ignore"):
+        for column in rounded.T:
+            row = _mixed(row ^ np.ascontiguousarray(column).view(np.uint64))
+        windows = len(values) - WINDOW + 1
+        total = np.zeros(windows, dtype=np.uint64)
+        for place in range(WINDOW):
+            total = _mixed(total ^ row[place : place + windows])
+    whole = _summed(np.asarray(np.isfinite(values).all(axis=1))) == WINDOW
+    changes = np.concatenate([[False], row[1:] != row[:-1]])
+    return np.unique(total[whole & (_summed(changes) >= _LEAST_DISTINCT)])
+
+
+def fingerprint(values: FloatArray) -> str:
+    """Give the hashes by which samples are known again.
+
+    Args:
+        values: Samples; shape (n, k).
+
+    Returns:
+        At most `KEPT` hashes, hexadecimal numbers of 16 letters one behind the other; empty of samples that are too
+        few, or hardly change.
+    """
+    return "".join(f"{int(value):016x}" for value in window_hashes(values)[:KEPT])
+
+
+def kept_hashes(text: str) -> Hashes:
+    """Read the hashes of a fingerprint.
+
+    Args:
+        text: What `fingerprint` gave.
+
+    Returns:
+        The hashes.
+    """
+    return np.array([int(text[k : k + 16], 16) for k in range(0, len(text), 16)], dtype=np.uint64)
+
+
+def _rounded(values: FloatArray) -> FloatArray:
+    """Values to few digits; a zero of either sign is one zero."""
+    size = np.abs(np.where(np.isfinite(values), values, 0.0))
+    power = 10.0 ** (np.floor(np.log10(np.where(size > 0.0, size, 1.0))) - (_DIGITS - 1))
+    rounded: FloatArray = np.rint(np.where(np.isfinite(values), values, 0.0) / power) * power + 0.0
+    return rounded
+
+
+def _mixed(value: Hashes) -> Hashes:
+    """The finaliser of splitmix64 (Steele et al. 2014): every bit moves every other."""
+    mixed: Any = value + np.uint64(0x9E3779B97F4A7C15)
+    mixed = (mixed ^ (mixed >> np.uint64(30))) * np.uint64(0xBF58476D1CE4E5B9)
+    mixed = (mixed ^ (mixed >> np.uint64(27))) * np.uint64(0x94D049BB133111EB)
+    result: Hashes = mixed ^ (mixed >> np.uint64(31))
+    return result
+
+
+def _summed(flags: NDArray[np.bool_]) -> NDArray[np.int64]:
+    """How many of every window's samples are so."""
+    total = np.concatenate([[0], np.cumsum(flags)])
+    summed: NDArray[np.int64] = total[WINDOW:] - total[:-WINDOW]
+    return summed
