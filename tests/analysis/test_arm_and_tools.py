@@ -21,6 +21,7 @@ from forcetorque.analysis import (
     data_doubts,
     draft_experiment,
     evaluate,
+    loads_of_use,
     weigh_load,
 )
 from forcetorque.analysis.payload.load_doubts import circular_loads
@@ -67,6 +68,14 @@ def _edited(arm: tuple[Path, np.ndarray], folder: Path, tool: str, *changes: tup
 def weighed(arm: tuple[Path, np.ndarray]) -> WeighedLoad:
     """Both recordings, weighed together."""
     return weigh_load([_run(arm[0] / f"{tool}.toml") for tool in TRUTH])
+
+
+def test_a_tool_on_an_arm_without_mass_beyond_its_sensor_says_what_the_sensor_is_for(
+    arm: tuple[Path, np.ndarray],
+) -> None:
+    """Pushes as strong as the tool is heavy: the URDF has nothing there, and without a use there is no verdict."""
+    (case,) = loads_of_use([_run(arm[0] / "weight.toml")])
+    assert case.words.startswith("pushes of 21.6 N, as much as hangs on the sensor")
 
 
 def test_a_weighed_tool_weighs_the_other(weighed: WeighedLoad) -> None:

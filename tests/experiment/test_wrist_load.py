@@ -11,10 +11,12 @@ import pytest
 from forcetorque.analysis import (
     SensorRun,
     calibrate_sensor,
+    data_doubts,
     evaluate,
     weigh_load,
 )
 from forcetorque.analysis.inspect.findings import inspect_experiment
+from forcetorque.analysis.payload.contradictions import overweight_loads
 from forcetorque.errors import ExperimentError, ForceTorqueError
 from forcetorque.experiment import load_experiment
 from forcetorque.experiment.loads import wrist_load
@@ -385,6 +387,24 @@ def test_what_the_readings_contradict_is_told_to_who_needs_the_load(
     with pytest.raises(ForceTorqueError, match=match) as caught:
         SensorRun(experiment, experiment.sensors[0]).samples(Use.CALIBRATION)
     assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize(("columns", "contradicted"), [('["x", "y", "z"]', False), ('["y", "z", "x"]', True)])
+def test_a_calibration_says_which_statement_the_readings_contradict(
+    tmp_path: Path, columns: str, contradicted: bool
+) -> None:
+    """A load takes up part of a frame that is turned: its mass is positive, and the fit would look like any other."""
+    experiment = load_experiment(_write(tmp_path, text=TEXT.replace('["x", "y", "z"]', columns)))
+    doubts = data_doubts(SensorRun(experiment, experiment.sensors[0]), by_model=False)
+    assert any("the sensor is turned against the axes of the motion" in words for words in doubts) == contradicted
+
+
+@pytest.mark.parametrize(("full_scale", "heavy"), [("100.0, 100.0, 200.0", False), ("8.0, 8.0, 8.0", True)])
+def test_a_load_that_weighs_more_than_its_sensor_reads_is_named(tmp_path: Path, full_scale: str, heavy: bool) -> None:
+    """A weight of 10.8 N."""
+    experiment = load_experiment(_write(tmp_path, text=TEXT.replace("100.0, 100.0, 200.0", full_scale)))
+    doubts = [*overweight_loads(SensorRun(experiment, experiment.sensors[0]))]
+    assert [("kg weigh 10.8 N, and the sensor reads 8 N at most" in words) for words in doubts] == [True] * heavy
 
 
 @pytest.mark.real_data

@@ -107,6 +107,19 @@ def test_a_reference_beyond_the_full_scale_is_refused() -> None:
         examine([_data(weight=2e4)], None, full_scale)
 
 
+@pytest.mark.parametrize("unit", [1e-3, 0.098, 0.113], ids=["N mm", "kgf cm", "lbf in"])
+def test_moments_in_another_unit_than_stated_are_refused(unit: float) -> None:
+    """N m that are stated as a smaller unit: the gain of the whole wrench is that of its forces, which are right."""
+    good = _data()
+    stated = np.diag([1.0, 1.0, 1.0, unit, unit, unit]) @ PRIOR
+    with pytest.raises(FitError, match=r"the moment of the prior's reading .* units of \[\[recording.stream\]\]"):
+        examine([good], stated)
+    still = good.reference * np.array([1.0, 1.0, 1.0, 1e-3, 1e-3, 1e-3])
+    near_axis = replace(good, reference=still, raw=still @ np.linalg.inv(PRIOR).T)
+    # beside a lever of a tenth of a millimetre a unit cannot be seen
+    assert {doubt.kind for doubt in examine([near_axis], stated)} <= {"scale"}
+
+
 def test_eight_channels_are_judged_as_six_are() -> None:
     """Good, half the mass and reversed."""
     wide = 0.02 * np.hstack([np.eye(6), np.random.default_rng(9).normal(size=(6, 2))])

@@ -16,6 +16,7 @@ from forcetorque.analysis.calibration.joint_outcome import JointOutcome
 from forcetorque.analysis.calibration.learnt import LearntDirection, learnt_directions, learnt_words
 from forcetorque.analysis.calibration.tables import calibration_blocks, component_records
 from forcetorque.analysis.inspect.findings import doubtful_spans
+from forcetorque.analysis.payload.contradictions import contradicted_statements
 from forcetorque.analysis.payload.load_doubts import load_doubts
 from forcetorque.analysis.runs.added import added_to
 from forcetorque.analysis.runs.campaign import Campaign, Runs
@@ -151,8 +152,9 @@ def data_doubts(run: SensorRun, *, by_model: bool = True) -> Iterator[str]:
         by_model: Whether it is compared with the model, as if nothing but the support touched the robot.
 
     Yields:
-        A sentence where the load was weighed with the sensor itself, one per interval in which the file says that
-        something touches the robot beyond it, and one per finding in a fitted interval.
+        A sentence where the load was weighed with the sensor itself, one for whatever the readings then contradict of
+        the file, one per interval in which the file says that something touches the robot beyond it, and one per
+        finding in a fitted interval.
     """
     experiment = run.experiment
     if experiment.wrist is not None and not experiment.wrist.are_stated:
@@ -160,6 +162,7 @@ def data_doubts(run: SensorRun, *, by_model: bool = True) -> Iterator[str]:
             "the load was estimated with this sensor's own reading, so a wrong gain cannot be seen; "
             "give mass_kg and centre_of_mass_m to judge it"
         )
+    yield from contradicted_statements(run)
     yield from load_doubts(run)
     if by_model:
         yield from _touched(run)

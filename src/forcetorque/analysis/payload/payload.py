@@ -9,6 +9,7 @@ from typing import ClassVar, Literal
 import numpy as np
 from pydantic import Field
 
+from forcetorque.analysis.payload.contradictions import overweight_loads
 from forcetorque.analysis.payload.load_doubts import load_doubts
 from forcetorque.analysis.payload.rows import (
     BiasRow,
@@ -157,7 +158,8 @@ def weigh_load(runs: Runs) -> WeighedLoad:
         recordings=tuple(alone),
         disagreements=tuple(disagreements(alone)),
     )
-    doubts = (*payload_doubts(result), *(words for run in campaign.runs for words in load_doubts(run)))
+    of_runs = (words for run in campaign.runs for words in (*overweight_loads(run), *load_doubts(run)))
+    doubts = (*payload_doubts(result), *of_runs)
     return result.model_copy(update={"warnings": doubts})
 
 

@@ -13,6 +13,7 @@ from forcetorque.arrays import FloatArray
 from forcetorque.errors import ExperimentError, ForceTorqueError, RobotError
 from forcetorque.evaluation.use import LoadCase, pushes_at, pushes_within, shares_of, weights
 from forcetorque.experiment.tables.load_case import LoadCaseTable
+from forcetorque.recording import Use
 from forcetorque.robot import BodyTree, JointMotion, RobotModel, build_tree
 from forcetorque.robot.kinematics import body_pose, joints_between, link_pose
 from forcetorque.robot.sub_model import outboard_bodies
@@ -104,8 +105,13 @@ class _Place:
 
     @property
     def outboard_weight(self) -> float:
-        """Weight of all outboard links; N."""
-        return self.gravity * sum(inertia.mass for link, inertia in self.model.links.items() if self.passes(link))
+        """Weight of all outboard links, with the heaviest load that hangs on them in an interval; N."""
+        used = [one for one in self.run.experiment.recording.intervals if one.use is not Use.IGNORE]
+        models = [self.run.experiment.model_on(one.support) for one in used if one.support is not None]
+        return self.gravity * max(
+            sum(inertia.mass for link, inertia in model.links.items() if self.passes(link))
+            for model in (self.model, *models)
+        )
 
     def passes(self, link: str) -> bool:
         """Whether what acts on a link passes the sensor."""

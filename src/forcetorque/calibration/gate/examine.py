@@ -12,6 +12,7 @@ from forcetorque.calibration.data_set import DataSet
 from forcetorque.calibration.gate.delay import delay_doubts
 from forcetorque.calibration.gate.doubt import Doubt
 from forcetorque.calibration.gate.full_scale import require_within_full_scale
+from forcetorque.calibration.gate.moment_unit import require_moment_unit
 from forcetorque.calibration.gate.movement import Movement
 from forcetorque.calibration.gate.reference_motion import require_moving_load
 from forcetorque.calibration.gate.scale import scale_doubts
@@ -43,7 +44,7 @@ def examine(
     Raises:
         FitError: If nothing may be fitted: the prior is singular, the model has no mass, its load stands still or is
             beyond the sensor, or the reading does not follow it, or follows it the wrong way round or by a factor that
-            no sensor has.
+            no sensor has, in all or in its moments.
         ShapeError: If data sets, or data and prior, have different numbers of channels or variables.
     """
     if prior is not None and np.shape(prior) == (6, 6) and not is_invertible(prior):
@@ -62,5 +63,6 @@ def examine(
     doubts = [*span_doubts(movement, has_prior=prior is not None)]
     if prior is not None:
         require_same_sign(movement, prior)
+        require_moment_unit(movement)
         doubts += scale_doubts(movement, prior)
     return (*doubts, *delay_doubts(usable, prior))
