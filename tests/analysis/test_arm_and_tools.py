@@ -25,6 +25,7 @@ from forcetorque.analysis import (
     weigh_load,
 )
 from forcetorque.analysis.payload.load_doubts import circular_loads
+from forcetorque.analysis.payload.sense import reversed_sense
 from forcetorque.errors import FitError, ForceTorqueError
 from forcetorque.experiment import load_experiment
 from tests.robots import example_robot
@@ -228,6 +229,19 @@ def test_an_unknown_tool_is_no_point_mass(example: SimpleNamespace, tmp_path: Pa
     (taken,) = weigh_load(_run(file)).loads
     right, wrong = (np.linalg.norm(np.subtract(one.centre_of_mass_m, TRUTH["gripper"][1])) for one in (load, taken))
     assert right < 0.001 < 0.5 * wrong, (right, wrong)
+
+
+@pytest.mark.parametrize("tool", TRUTH)
+def test_accelerations_tell_a_reversed_sense_from_weight(
+    arm: tuple[Path, np.ndarray], tmp_path: Path, tool: str
+) -> None:
+    """With gravity reversed as well weights agree, of a stated tool too; the file as it is has no such doubt."""
+    changes = (('"child_to_parent"', '"parent_to_child"'), ("[0.0, 0.0, -1.0]", "[0.0, 0.0, 1.0]"))
+    (words,) = reversed_sense(_run(_edited(arm, tmp_path, tool, *changes)))
+    assert (
+        "measure_direction = 'child_to_parent', with which things fall along [0.0, 0.0, -1.0] of 'base_link'" in words
+    )
+    assert not list(reversed_sense(_run(arm[0] / f"{tool}.toml")))
 
 
 def test_a_tool_that_the_urdf_has_too_is_named(arm: tuple[Path, np.ndarray], tmp_path: Path) -> None:

@@ -309,6 +309,11 @@ WRONG: dict[str, tuple[str, str, str]] = {
         "sensor[0].frame: Input should be 'child', 'parent' or 'sensor', got 'world'",
     ),
     "allowed gains alone": ("[[sensor]]", "[[sensor]]\nallowed_gains = [8]", "sensor[0]: allowed_gains needs amplifi"),
+    "full scale of three axes": (
+        "[[sensor]]",
+        "[[sensor]]\nfull_scale = [150, 150, 150]",
+        "sensor[0].full_scale: expected six numbers, of fx, fy, fz in N and of tx, ty, tz in N m, got [150, 150, 150]",
+    ),
     "no gain": (
         "[[sensor]]",
         "[[sensor]]\namplifier_gain = []",

@@ -97,6 +97,16 @@ def test_one_bias_for_all_power_ups_is_noticed() -> None:
     assert alike.p_value > 0.01
 
 
+def test_biases_that_are_open_are_not_compared() -> None:
+    """Of a sensor that never turns nobody tells weight and bias apart: there is no p, and nothing is computed of it."""
+    gravity = np.tile(poses(1, np.random.default_rng(3)), (4, 1))
+    reading = weight(gravity) + SIZES * np.random.default_rng(4).normal(size=(4, 6))
+    fitted = fit(problem_of(reading, gravity, block=np.array([0, 0, 1, 1])), drift=False)
+    (intervals,) = bias_tests(fitted, drift=False)
+    assert intervals.of == "intervals"
+    assert np.isnan(intervals.p_value)
+
+
 @pytest.mark.parametrize("drifts", [True, False])
 def test_rows_that_were_held_out_choose_the_drift(drifts: bool) -> None:
     """A drift of eight standard deviations over the session is taken; where there is none it is not."""

@@ -88,6 +88,11 @@ CASES: dict[str, tuple[Callable[[], LoadProblem], str, str]] = {
         "mixed units",
         "moments may be in N mm",
     ),
+    "N m": (
+        lambda: problem_of(_reading() / np.repeat([1, 1000], 3), GRAVITY),
+        "mixed units",
+        "is 0.064 mm from the sensor's origin: moments may be in N m where N mm is stated",
+    ),
     "kg": (
         lambda: problem_of(_reading() / 9.80665, GRAVITY, loads=KNOWN),
         "mixed units",
@@ -121,8 +126,9 @@ def test_bad_input_is_named(name: str) -> None:
         lambda: problem_of(_reading(), GRAVITY, loads=KNOWN),
         lambda: _lagging(0.0),
         lambda: PowerUps(seed=1, length=40).problem,
+        lambda: problem_of(_reading() - weight(GRAVITY) + weight(GRAVITY, centre=np.zeros(3)), GRAVITY),
     ],
-    ids=["poses", "stated", "motion", "four power-ups"],
+    ids=["poses", "stated", "motion", "four power-ups", "about the origin"],
 )
 def test_sound_input_has_no_name(problem: Callable[[], LoadProblem]) -> None:
     """Negative control: slow noise, drift and several power-ups are none of these."""

@@ -24,11 +24,12 @@ from forcetorque.constants import STANDARD_GRAVITY
 from forcetorque.errors import known_names
 from forcetorque.estimation import ContactType
 from forcetorque.exchange.formats import AnyLog
-from forcetorque.experiment.tables.fusion import FusionTable, MotorTable, SixPositive
+from forcetorque.experiment.tables.fusion import FusionTable, MotorTable
 from forcetorque.experiment.tables.link_load import AnyLoad, LinkLoad, require_link_loads
 from forcetorque.experiment.tables.load_case import LoadCaseTable
 from forcetorque.experiment.tables.plan import PlanTable
 from forcetorque.experiment.tables.recipes import ClockTable, TransformTable
+from forcetorque.experiment.tables.six_axes import SixPositive
 from forcetorque.experiment.tables.soles import SoleTable
 from forcetorque.experiment.tables.wrist import Load, OneOrSeveral, require_loads_of, require_one_sensor
 from forcetorque.recording import Use
@@ -107,7 +108,7 @@ class Sensor(Table):
     calibrated reading then takes the place of counts."""
     limit_counts: Positive = 32767.0
     """Largest magnitude of a raw reading; counts."""
-    full_scale: Annotated[tuple[Positive, ...], Field(min_length=6, max_length=6)] | None = None
+    full_scale: SixPositive | None = None
     """Full scale of fx, fy, fz, tx, ty, tz; N, N m; needed with the prior `identity`, which says nothing of sizes."""
     reading_noise: SixPositive | None = None
     """Standard deviation by which a reading differs from sample to sample; N, N m; for `estimate --fuse`."""

@@ -74,11 +74,12 @@ def _compared(fitted: Fit, of: str, group: np.ndarray, plain: tuple[float, ...])
     matrix = np.array(contrasts)
     difference = matrix @ values
     touched = (matrix != 0.0).any(axis=0)
-    spread = matrix[:, touched] @ covariance[np.ix_(touched, touched)] @ matrix[:, touched].T
+    of_biases = covariance[np.ix_(touched, touched)]
     degrees = float(fitted.estimate.degrees_of_freedom[touched].sum())  # all tell the one noise
-    if not np.isfinite(spread).all() or degrees <= 0.0:
+    if not np.isfinite(of_biases).all() or degrees <= 0.0:
         p_value = np.nan
     else:
+        spread = matrix[:, touched] @ of_biases @ matrix[:, touched].T
         size = np.sqrt(np.diag(spread))
         square = float(difference / size @ np.linalg.solve(spread / np.outer(size, size), difference / size))
         p_value = float(fdtrc(len(difference), degrees, square / len(difference)))

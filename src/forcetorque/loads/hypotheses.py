@@ -29,6 +29,8 @@ _CLEARLY = 0.2
 """One that is tried in twenty-three ways, or with a lag to choose, must leave less."""
 _FAR_M = 2.0
 """Nobody hangs a load farther from a sensor; m."""
+_NEAR_M = 1e-3
+"""Nobody builds a load whose centre of mass is nearer to the sensor's origin; m (heuristic)."""
 _POSES = 0.5
 """Gravity turns by less than this part of itself from row to row where a motion was recorded, not single poses."""
 _LESS_FOR_JUMP = 0.7
@@ -56,7 +58,7 @@ def hypotheses(fitted: Fit, *, drift: bool) -> tuple[Hypothesis, ...]:
     problem = fitted.problem
     guess, residual = plain_fit(problem, drift=drift)
     stated = unexplained(problem.rows, residual)
-    named = [*_of_sizes(problem, guess), *_of_nothing(fitted), *_reversed(fitted)]
+    named = [*_of_sizes(problem, guess), *_of_short_levers(fitted), *_of_nothing(fitted), *_reversed(fitted)]
     if stated > _EXPLAINED:
         for name, words, limit, other in _others(problem):
             share = unexplained(other.rows, plain_fit(other, drift=drift)[1]) / stated
@@ -168,6 +170,25 @@ def _of_sizes(problem: LoadProblem, guess: Guess) -> Iterator[Hypothesis]:
     if len(rows) > 1 and still:
         words = f"all {len(rows)} rows have the same reading: the log is frozen, or nothing was read"
         yield Hypothesis(name="frozen log", words=words, residual_share=1.0)
+
+
+def _of_short_levers(fitted: Fit) -> Iterator[Hypothesis]:
+    """Centres of mass that are told from the sensor's origin, and nearer to it than any load can be."""
+    problem, guess, half = fitted.problem, fitted.guess, fitted.half_width
+    if problem.rows.columns is not None:
+        return  # the frame of a load on a link has its origin anywhere, at the centre of mass too
+    for number, (load, mass) in enumerate(zip(problem.loads, masses(problem, guess), strict=True)):
+        first = guess.of(Kind.FIRST_MOMENT, number)
+        if not len(first):
+            continue
+        size = float(np.linalg.norm(first))
+        error = float(np.linalg.norm(half[guess.index[Kind.FIRST_MOMENT, number]]))
+        if error < size and size + error < _NEAR_M * abs(mass):
+            words = (
+                f"the centre of mass of {load.name!r} is {1e3 * size / abs(mass):.2g} mm from the sensor's origin: "
+                "moments may be in N m where N mm is stated; state the units of the columns"
+            )
+            yield Hypothesis(name="mixed units", words=words, residual_share=1.0)
 
 
 _UNITS = {

@@ -12,12 +12,11 @@ from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
 from forcetorque.evaluation import Offset
-from forcetorque.toml_table import Finite, NotNegative, Positive, Table, Text
+from forcetorque.experiment.tables.six_axes import SixPositive
+from forcetorque.toml_table import Finite, NotNegative, Table, Text
 
 PHASES = 120
 """Phases of a motion, if the file says nothing."""
-
-_SixPositive = Annotated[tuple[Positive, ...], Field(min_length=6, max_length=6)]
 
 
 class Method(StrEnum):
@@ -77,7 +76,7 @@ class ContestantTable(Table):
     """Name in the catalogue of sensors, for its full scale."""
     range: Annotated[int, Field(ge=1, strict=True)] | None = None
     """Which of its ranges there, from 1; needed where it has several."""
-    full_scale: _SixPositive | None = None
+    full_scale: SixPositive | None = None
     """Full scale of fx, fy, fz, tx, ty, tz in place of the catalogue's; N, N m."""
 
     @model_validator(mode="after")

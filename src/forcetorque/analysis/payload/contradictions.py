@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from forcetorque.analysis.payload.sense import reversed_sense
 from forcetorque.analysis.runs.sensor_run import SensorRun
 from forcetorque.loads import LoadSolution
 from forcetorque.recording import Use
@@ -25,6 +26,7 @@ def contradicted_statements(run: SensorRun) -> Iterator[str]:
     for hypothesis in () if solution is None else solution.hypotheses:
         yield f"the load was estimated, and the readings contradict the file: {hypothesis.words}"
     yield from overweight_loads(run)
+    yield from reversed_sense(run)
 
 
 def overweight_loads(run: SensorRun) -> Iterator[str]:

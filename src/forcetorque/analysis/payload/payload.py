@@ -23,6 +23,7 @@ from forcetorque.analysis.payload.rows import (
     VariableRow,
     six,
 )
+from forcetorque.analysis.payload.sense import reversed_sense
 from forcetorque.analysis.payload.weighing import hanging_on, links_of, problem_among, weighed, weighed_alone
 from forcetorque.analysis.payload.words import bias_words, disagreements, drift_words, load_words, payload_doubts
 from forcetorque.analysis.runs.campaign import Campaign, Runs
@@ -158,7 +159,9 @@ def weigh_load(runs: Runs) -> WeighedLoad:
         recordings=tuple(alone),
         disagreements=tuple(disagreements(alone)),
     )
-    of_runs = (words for run in campaign.runs for words in (*overweight_loads(run), *load_doubts(run)))
+    of_runs = (
+        words for run in campaign.runs for words in (*overweight_loads(run), *reversed_sense(run), *load_doubts(run))
+    )
     doubts = (*payload_doubts(result), *of_runs)
     return result.model_copy(update={"warnings": doubts})
 

@@ -10,9 +10,6 @@ from pydantic_core import PydanticCustomError
 
 from forcetorque.toml_table import Finite, NotNegative, Positive, Table, Text
 
-SixPositive = Annotated[tuple[Positive, ...], Field(min_length=6, max_length=6)]
-"""Six standard deviations: of forces in N, then of moments in N m."""
-
 
 class MotorTable(Table):
     """The motor of a joint, whose current or PWM duty tells the torque of the joint."""
