@@ -165,7 +165,7 @@ def _by_joints(recording: Recording, motion: Motion, reading: Stream, reference:
         name = model.sensor(motion.sensors[reading.name]).name
         question = Question(tree=tree, expected=(name,), equations=())
         demanded = estimate(question, *moved(required_joints_of(question))).expected_of(name)
-        link = _loaded_link(tree, name, motion.loaded, beyond_is_massless=not demanded.any())
+        link = _loaded_link(tree, name, motion.loaded, beyond_is_massless=not np.nan_to_num(demanded).any())
         if link is None:
             return demanded
         return np.hstack([demanded, _of_any_load(motion_of_link(tree, *moved(joints_between(tree, link)), link))])
