@@ -10,10 +10,11 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from forcetorque.analysis import SensorRun
+from forcetorque.analysis import SensorRun, calibrate_sensor
 from forcetorque.analysis.calibration.generative import generative_calibration
 from forcetorque.analysis.calibration.recording_moments import recording_moments
 from forcetorque.calibration import RecordingMoments, read_moments
+from forcetorque.errors import FitError
 from forcetorque.experiment import load_experiment
 from tests.robots import example_robot
 
@@ -56,6 +57,20 @@ def test_a_calibration_does_not_take_an_estimated_tool_for_known(arm: tuple[Path
     kept = read_moments(tmp_path / "moments.json").load_error
     assert kept is not None
     np.testing.assert_array_equal(kept.factor, estimated.load_error.factor)
+
+
+@pytest.mark.long
+def test_a_tool_weighed_with_joints_in_a_wrong_unit_is_refused(tmp_path: Path) -> None:
+    """Radians that are stated as degrees hardly move the arm: the tool becomes so heavy that it still fits."""
+    example = SimpleNamespace(**runpy.run_path(str(EXAMPLE)))
+    tool = {"gripper": (1.3, [0.01, 0.02, 0.06])}
+    example.simulate(tmp_path, example_robot(UR5), seed=7, tools=tool, duration_s=10.0)
+    file = tmp_path / "gripper.toml"
+    calibrate_sensor(SensorRun(load_experiment(file), "wrist_ft"), code_version="1", created="now")
+    file.write_text(file.read_text(encoding="utf-8").replace('"rad"', '"deg"'), encoding="utf-8")
+    run = SensorRun(load_experiment(file), "wrist_ft")
+    with pytest.raises(FitError, match=r"full scale is .* the load estimated with joints in another unit"):
+        calibrate_sensor(run, code_version="1", created="now")
 
 
 TOOLS = ("gripper", "weight")

@@ -26,6 +26,8 @@ VOLTS_PER_COUNT = 20.0 / 65536.0
 """A converter of 16 bits over both signs of 10 V."""
 OFFSET_V = np.array([0.4, -0.3, 0.1, 0.2, -0.5, 0.3])
 """What the gauges have without load."""
+LIGHT = 0.1
+"""Part of the arm's weight that the smallest of the sensors can carry: its full scale is 1 N m."""
 
 FILE = """schema = "forcetorque/experiment/1"
 name = "gauges"
@@ -71,17 +73,17 @@ support = "base"
 """
 
 
-def _written(folder: Path, matrix: np.ndarray, prior: str, serial: str) -> Path:
-    """The tutorial's arm, whose sensor gives counts; `matrix` is what makes wrenches of them."""
+def _written(folder: Path, matrix: np.ndarray, prior: str, serial: str, *, weight: float = 1.0) -> Path:
+    """The tutorial's arm, or one of a part of its weight, whose sensor gives counts that `matrix` makes wrenches of."""
     time, joints = motion()
     names = [f"q{k}" for k in range(len(joints.names))]
     channels = [f"g{k}" for k in range(6)]
     noise = np.random.default_rng(2).normal(0.0, 1.0, (len(time), 6))
-    counts = np.rint(truth() @ np.linalg.inv(matrix).T + OFFSET_V / VOLTS_PER_COUNT + noise)
+    counts = np.rint(weight * truth() @ np.linalg.inv(matrix).T + OFFSET_V / VOLTS_PER_COUNT + noise)
     rows = np.column_stack([time, joints.position, counts])
     heading = ",".join(["t", *names, *channels])
     np.savetxt(folder / "log.csv", rows, delimiter=",", header=heading, comments="", fmt="%.6g")
-    (folder / "robot.urdf").write_text(robot_text(), encoding="utf-8")
+    (folder / "robot.urdf").write_text(_of_weight(robot_text(), weight), encoding="utf-8")
     text = FILE.format(
         joints=[*names],
         units=["rad"] * len(names),
@@ -93,6 +95,10 @@ def _written(folder: Path, matrix: np.ndarray, prior: str, serial: str) -> Path:
     text = text.replace(f"columns = {names}", f"columns = {names}, names = {list(joints.names)}").replace("'", '"')
     (folder / "experiment.toml").write_text(text, encoding="utf-8")
     return folder / "experiment.toml"
+
+
+def _of_weight(urdf: str, part: float) -> str:
+    return re.sub(r'\b(value|i[xyz]{2})="([^"]*)"', lambda number: f'{number[1]}="{part * float(number[2])!r}"', urdf)
 
 
 def _judged(file: Path) -> tuple[float, float]:
@@ -111,7 +117,7 @@ def test_an_ati_file_is_the_prior_of_gauges(data_dir: Path, tmp_path: Path, name
     (tmp_path / name).write_bytes((data_dir / "ati_cal" / name).read_bytes())
     made = read_prior_file(tmp_path / name)
     prior = f'{{ path = "{name}", volts_per_count = {VOLTS_PER_COUNT!r} }}'
-    file = _written(tmp_path, distortion() @ made.matrix * VOLTS_PER_COUNT, prior, serial)
+    file = _written(tmp_path, distortion() @ made.matrix * VOLTS_PER_COUNT, prior, serial, weight=LIGHT)
     sensor = load_experiment(file).sensors[0]
     assert sensor.prior is not None
     assert sensor.full_scale is not None

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Literal
 
 import numpy as np
 import pytest
@@ -17,7 +18,8 @@ from forcetorque.analysis import (
 )
 from forcetorque.analysis.inspect.findings import inspect_experiment
 from forcetorque.analysis.payload.contradictions import overweight_loads
-from forcetorque.errors import ExperimentError, ForceTorqueError
+from forcetorque.calibration import ESTIMATION_TYPES, EstimationType
+from forcetorque.errors import ExperimentError, FitError, ForceTorqueError
 from forcetorque.experiment import load_experiment
 from forcetorque.experiment.loads import wrist_load
 from forcetorque.loads import LoadSolution, solve
@@ -265,6 +267,17 @@ def test_a_wrench_in_place_of_counts_needs_its_full_scale(tmp_path: Path) -> Non
     made = calibrate_sensor(SensorRun(experiment, experiment.sensors[0]), code_version="1", created="now")
     assert made.posterior is not None
     assert made.posterior.accuracy.tolist() == [0.1, 0.1, 0.1, 0.01, 0.01, 0.01]
+
+
+@pytest.mark.parametrize("kind", ["generative", ESTIMATION_TYPES["OnTdTO"]], ids=["generative", "thesis"])
+def test_a_load_far_beyond_the_full_scale_is_refused(
+    tmp_path: Path, kind: EstimationType | Literal["generative"]
+) -> None:
+    """A full scale of 1 N under a load of 11 N, whatever fits the matrix."""
+    text = TEXT.replace("[100.0, 100.0, 200.0, 10.0, 10.0, 10.0]", "[1.0, 1.0, 1.0, 1.0, 1.0, 1.0]")
+    run = SensorRun(load_experiment(_write(tmp_path, text=text)), "wrist")
+    with pytest.raises(FitError, match=r"reaches 1\d\.\d* N in f[xyz], .* is 1 N; .* or is full_scale of"):
+        calibrate_sensor(run, kind=kind, code_version="1", created="now")
 
 
 PER_VOLT = np.array([0.8, -0.5, 1.5, 0.02, 0.03, -0.01])

@@ -37,7 +37,7 @@ def recording_moments(runs: Runs, *, with_variables: bool | None = None) -> list
     sensor = campaign.sensor
     variables = [v.linear for v in sensor.variables] if stated is not False else []
     intervals = campaign.samples(Use.CALIBRATION, variables=[variable.name for variable in variables])
-    doubts = gate.examine([interval.data_set for interval in intervals], sensor.prior)
+    doubts = gate.examine([interval.data_set for interval in intervals], sensor.prior, sensor.full_scale)
     results = []
     for run, recording in zip(campaign.runs, campaign.recordings, strict=True):
         own = [interval for interval in intervals if interval.recording == recording]

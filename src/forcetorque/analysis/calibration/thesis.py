@@ -59,7 +59,7 @@ def thesis_calibration(
     intervals = campaign.samples(Use.CALIBRATION, variables=[variable.linear.name for variable in variables])
     data_sets = [interval.data_set for interval in intervals]
     # where the prior is kept there is no matrix to spoil, and a limb at rest tells the offset
-    doubts = () if regularisation == math.inf else gate.examine(data_sets, sensor.prior)
+    doubts = () if regularisation == math.inf else gate.examine(data_sets, sensor.prior, sensor.full_scale)
     result = calibrate(
         data_sets,
         sensor.prior,

@@ -67,12 +67,13 @@ def generative_fits(
 def _recordings(
     data: StudyData, intervals: Sequence[CampaignInterval], kept: Mapping[str, IntervalMoments]
 ) -> list[RecordingMoments]:
-    doubts = gate.examine([interval.data_set for interval in intervals], data.sensor.prior)
+    sensor = data.sensor
+    doubts = gate.examine([interval.data_set for interval in intervals], sensor.prior, sensor.full_scale)
     return [
         moments_of(
             data.recordings[name],
             [kept[interval.label] for interval in intervals if interval.recording == name],
-            variables=[variable.linear for variable in data.sensor.variables],
+            variables=[variable.linear for variable in sensor.variables],
             doubts=[doubt.message for doubt in doubts],
         )
         for name in dict.fromkeys(interval.recording for interval in intervals)

@@ -33,5 +33,6 @@ def require_within_full_scale(data_sets: Sequence[DataSet], full_scale: FloatArr
         raise FitError(
             f"the reference reaches {largest[worst]:.4g} {unit} in {WRENCH_COMPONENTS[worst]}, the sensor's full scale "
             f"is {full_scale[worst]:.4g} {unit}; are the masses in the file that urdf of [robot] names, or mass_kg of "
-            "[load], in grams instead of kg?"
+            "[load], in grams instead of kg, is the load estimated with joints in another unit than stated, or is "
+            "full_scale of [[sensor]] not that of its data sheet, in N and N m?"
         )

@@ -15,10 +15,20 @@ from forcetorque.estimation.samples import robot_motion_at
 from forcetorque.recording import Recording, SavitzkyGolay, Stream, Support
 from forcetorque.recording.alignment import seconds_since, usable_samples
 from forcetorque.recording.smoothing import smooth_columns
-from forcetorque.robot import JointMotion, RobotModel, RootMotion, build_tree, joints_between, motion_of_link
+from forcetorque.robot import (
+    BodyTree,
+    JointMotion,
+    RobotModel,
+    RootMotion,
+    build_tree,
+    joints_between,
+    motion_of_link,
+)
 
 _TURN_WINDOW = SavitzkyGolay(window_s=0.3, order=3)
 """Filter that differentiates an orientation, as that of joints."""
+_PRODUCTS = ((0, 0), (1, 1), (2, 2), (0, 1), (0, 2), (1, 2))
+"""Axes of angular velocity that centrifugal and gyroscopic terms multiply."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -31,6 +41,8 @@ class Motion:
     """Link that stands still while it is compared; None where none does."""
     sensors: Mapping[str, str]
     """Name of the sensor that reads a stream, by the stream."""
+    loaded: frozenset[str]
+    """Links that a load hangs on, of which the model knows nothing."""
     processing: Processing
     """Filters and gravity."""
 
@@ -152,10 +164,29 @@ def _by_joints(recording: Recording, motion: Motion, reading: Stream, reference:
     if reading.name in motion.sensors:
         name = model.sensor(motion.sensors[reading.name]).name
         question = Question(tree=tree, expected=(name,), equations=())
-        return estimate(question, *moved(required_joints_of(question))).expected_of(name)
+        demanded = estimate(question, *moved(required_joints_of(question))).expected_of(name)
+        link = _loaded_link(tree, name, motion.loaded, beyond_is_massless=not np.nan_to_num(demanded).any())
+        if link is None:
+            return demanded
+        return np.hstack([demanded, _of_any_load(motion_of_link(tree, *moved(joints_between(tree, link)), link))])
     (frame,) = {str(signal.frame) for signal in reading.signals.values() if signal.frame is not None}
-    link = motion_of_link(tree, *moved(joints_between(tree, frame)), frame)
-    return link.angular_velocity if "angular_velocity" in reading.signals else link.proper_acceleration
+    imu = motion_of_link(tree, *moved(joints_between(tree, frame)), frame)
+    return imu.angular_velocity if "angular_velocity" in reading.signals else imu.proper_acceleration
+
+
+def _loaded_link(tree: BodyTree, sensor: str, loaded: frozenset[str], *, beyond_is_massless: bool) -> str | None:
+    """Link that moves with the outboard side of a sensor and carries what the model does not know, if there is one."""
+    if sensor not in tree.cuts:
+        return None
+    links = [link for link, (body, _) in tree.frames.items() if body == tree.cuts[sensor].body]
+    return next((link for link in links if link in loaded or beyond_is_massless), None)
+
+
+def _of_any_load(motion: RootMotion) -> FloatArray:
+    """What the wrench of any rigid load on a link is linear in, by Newton and Euler; shape (n, 12)."""
+    speed = motion.angular_velocity
+    products = [speed[:, i] * speed[:, j] for i, j in _PRODUCTS]
+    return np.column_stack([motion.proper_acceleration, motion.angular_acceleration, *products])
 
 
 _PAIRS: Sequence[tuple[tuple[str, ...], tuple[str, ...]]] = (
