@@ -21,6 +21,7 @@ from forcetorque.exchange.log_format import LogContext, LogFormat, LogReading, L
 from forcetorque.exchange.parquet import ParquetFormat
 from forcetorque.exchange.robometry import RobometryFormat
 from forcetorque.exchange.ros import RosFormat
+from forcetorque.exchange.tabular.hindrance import hindrance
 from forcetorque.exchange.tabular.log_format import TabularFormat
 from forcetorque.exchange.yarp.log_format import YarpFormat
 from forcetorque.recording.joined import joined_stream
@@ -160,6 +161,8 @@ def not_recognised(path: Path) -> FormatError:
         return FormatError(
             f"{path}: expected a log, got a folder of several: {shown}; name one, or those of one recording"
         )
+    if path.is_file() and (words := hindrance(path)) is not None:
+        return FormatError(words)
     signs = [known.sign for known in LOG_FORMATS if known.sign is not None]
     return FormatError(
         f"{path}: expected {', or '.join(signs)}; found none of them; name the folder that holds them, or an "

@@ -106,6 +106,8 @@ def table_lines(log: DraftedLog, folder: Path, model: RobotModel | None, frames:
 
 def _form_lines(sketch: LogSketch) -> list[str]:
     lines = [] if sketch.delimiter in (None, ",") else [line("delimiter", sketch.delimiter)]
+    if sketch.decimal != ".":
+        lines.append(line("decimal", sketch.decimal, "its numbers have a decimal comma"))
     if sketch.skipped:
         top = next((text for text in sketch.skipped if text.strip()), "")
         lines.append(line("skip_rows", len(sketch.skipped), f"lines that are not of the table: {top[:_SHOWN]}"))
