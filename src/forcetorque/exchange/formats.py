@@ -18,6 +18,7 @@ from pydantic_core import CoreSchema
 from forcetorque.errors import FormatError, known_names
 from forcetorque.exchange.array_file import Hdf5Format, MatlabFormat, NpzFormat
 from forcetorque.exchange.log_format import LogContext, LogFormat, LogReading, LogTable
+from forcetorque.exchange.other_file import other_file
 from forcetorque.exchange.parquet import ParquetFormat
 from forcetorque.exchange.robometry import RobometryFormat
 from forcetorque.exchange.ros import RosFormat
@@ -161,8 +162,9 @@ def not_recognised(path: Path) -> FormatError:
         return FormatError(
             f"{path}: expected a log, got a folder of several: {shown}; name one, or those of one recording"
         )
-    if path.is_file() and (words := hindrance(path)) is not None:
-        return FormatError(words)
+    reason = other_file(path) or (hindrance(path) if path.is_file() else None)
+    if reason is not None:
+        return FormatError(reason)
     signs = [known.sign for known in LOG_FORMATS if known.sign is not None]
     return FormatError(
         f"{path}: expected {', or '.join(signs)}; found none of them; name the folder that holds them, or an "
