@@ -71,29 +71,28 @@ def _of_encoding(path: Path) -> str | None:
 
 def _of_rows(rows: Sequence[Sequence[str]], numbers: Sequence[int], delimiter: str) -> str | None:
     """What keeps lines from being a table with a delimiter, from the number of the line on."""
-    headings, first = rows[0], rows[1:]
-    if len({len(row) for row in first}) != 1:
+    headings, below = rows[0], rows[1:]
+    if len({len(row) for row in below}) != 1:
         return None
-    plain = [["0" if _DATE.match(cell) or has_decimal_comma(cell) else cell for cell in row] for row in first]
+    plain = [["0" if _DATE.match(cell) or has_decimal_comma(cell) else cell for cell in row] for row in below]
     if all(map(is_number_or_empty, headings)) or not are_rows(plain):
         return None
-    if len(headings) != len(first[0]):
-        got = f"{len(headings)} headings and {len(first[0])} columns in line {numbers[1]}"
-        if not any(row[-1] for row in first):
+    if len(headings) != len(below[0]):
+        got = f"{len(headings)} headings and {len(below[0])} columns in line {numbers[1]}"
+        if not any(row[-1] for row in below):
             got += f": a {delimiter!r} ends each row"
         return (
             f"{numbers[0]}: expected a heading for every column, got {got}; make the first line as long as the others"
         )
-    date = next((cell for cell in first[0] if _DATE.match(cell)), None)
-    if date is not None:
-        return (
-            f"{numbers[1]}: expected the time as a number, got the date {date[:_SHOWN]!r} in column "
-            f"{headings[first[0].index(date)]!r}; replace it by seconds, as from the first row, or delete the column"
-        )
-    comma = next((cell for cell in first[0] if has_decimal_comma(cell)), None)
-    if comma is not None:
-        return (
-            f"{numbers[1]}: expected decimals behind points, or behind commas throughout, got {comma[:_SHOWN]!r} in "
-            f"column {headings[first[0].index(comma)]!r}, which may have thousands; write its numbers with points"
-        )
+    for k, cell in enumerate(below[0], start=1):
+        if _DATE.match(cell):
+            return (
+                f"{numbers[1]}: expected the time as a number, got the date {cell[:_SHOWN]!r} in column {k}; replace "
+                "it by seconds, as from the first row, or delete the column"
+            )
+        if has_decimal_comma(cell):
+            return (
+                f"{numbers[1]}: expected decimals behind points, or behind commas throughout, got {cell[:_SHOWN]!r} in "
+                f"column {k}, whose comma may stand behind thousands; write its numbers with points"
+            )
     return None
