@@ -17,6 +17,7 @@ from forcetorque.analysis.draft.boards import joint_rows
 from forcetorque.analysis.draft.likeness import likenesses
 from forcetorque.errors import ExperimentError, ForceTorqueError, FormatError, MissingFileError
 from forcetorque.exchange.heading import read_heading
+from forcetorque.exchange.signal_table import OrientationTable
 from forcetorque.experiment import load_experiment, parse_experiment
 from forcetorque.recording import Recording, Signal, Stream, write_recording
 from forcetorque.robot import read_urdf
@@ -173,6 +174,56 @@ def test_columns_look_like_what_they_are_called() -> None:
     assert likenesses([read_heading(name) for name in ("fx", "fy", "fz", "note")], []) == ()
 
 
+def test_joints_by_number_are_joints_however_many() -> None:
+    """As many as the robot has by any letter, fewer where the heading says joint; the word behind is the quantity."""
+    robot = ["shoulder", "elbow", "wrist"]
+
+    def seen(*names: str) -> dict[str, tuple[int, ...]]:
+        return {one.quantity: one.columns for one in likenesses([read_heading(name) for name in names], robot)}
+
+    assert seen("j1_rad", "j2_rad", "j3_rad") == {"position": (0, 1, 2)}
+    assert seen("joint1", "joint2") == {"position": (0, 1)}
+    assert seen("joint1_vel", "joint2_vel", "joint1_pos", "joint2_pos") == {"velocity": (0, 1), "position": (2, 3)}
+    assert seen("q1", "q2") == {}
+    assert seen("j1", "j2", "j3", "j4") == {}
+
+
+def test_roll_pitch_and_yaw_are_an_orientation_where_no_joint_tells_it(tmp_path: Path) -> None:
+    """Their axes are questions, whose answers are taken; angles of a neck are none."""
+    head = "t_s,fx_N,fy_N,fz_N,tx_Nm,ty_Nm,tz_Nm,tcp_yaw_deg,tcp_roll_deg,tcp_pitch_deg"
+    rows = "\n".join(f"{k},1,2,3,4,5,6,{k},10,20" for k in range(9))
+    (tmp_path / "log.csv").write_text(f"{head}\n{rows}\n", encoding="utf-8")
+    text = draft_experiment([tmp_path / "log.csv"]).content
+    assert _keys(text)[:4] == ["frame", "axes", "about", "sense"]
+    answers = {"frame": '"ft_sensor"', "axes": '"xyz"', "about": '"fixed"', "sense": '"sensor_to_world"'}
+    signal = tomllib.loads(answered(text, answers))["recording"]["stream"][0]["signal"][1]
+    assert signal["columns"] == ["tcp_roll_deg", "tcp_pitch_deg", "tcp_yaw_deg"]
+    assert signal["units"] == ["deg"] * 3
+    table = {**signal["orientation"], "gravity": 9.8}
+    assert OrientationTable.model_validate(table).layout().axes == "xyz"
+    assert likenesses([read_heading(f"neck_{name}") for name in ("roll", "pitch", "yaw")], []) == ()
+
+
+def test_forces_and_moments_without_units_have_ranges_of_their_own(tmp_path: Path) -> None:
+    """One range of both would hide that moments are in N mm."""
+    rows = "\n".join(f"{k},{k},{k},{k},{1000 * k},0,0" for k in range(9))
+    (tmp_path / "log.csv").write_text(f"t_s,fx,fy,fz,tx,ty,tz\n{rows}\n", encoding="utf-8")
+    asked = {one.key: one.question for one in draft_experiment([tmp_path / "log.csv"]).questions}
+    assert asked["units"].endswith("forces run from 0 to 8, moments from 0 to 8000")
+
+
+def test_what_goes_with_a_log_is_no_log(tmp_path: Path) -> None:
+    """A robot and a calibration are called what they are, with where they belong."""
+    with pytest.raises(FormatError, match=r"got the URDF of a robot: `forcetorque init LOG --urdf"):
+        draft_experiment([BIPED_URDF])
+    (tmp_path / "matrix.csv").write_text("\n".join(["1,2,3,4,5,6"] * 6), encoding="utf-8")
+    with pytest.raises(FormatError, match=r"got the calibration that a sensor came with: .* prior"):
+        draft_experiment([tmp_path / "matrix.csv"])
+    (tmp_path / "other.xml").write_text("<mujoco/>", encoding="utf-8")
+    with pytest.raises(FormatError, match="found none of them"):
+        draft_experiment([tmp_path / "other.xml"])
+
+
 def test_a_wrist_sensor_without_a_robot_has_a_load(tmp_path: Path) -> None:
     """Several tables are one recording; the pose is the motion of the load, and who acts on whom is asked."""
     (tmp_path / "wrench.csv").write_text("t_s,fx_N,fy_N,fz_N,tx_Nm,ty_Nm,tz_Nm\n0,1,2,3,4,5,6\n1,1,2,3,4,5,7\n")
@@ -194,12 +245,15 @@ def test_boards_that_count_their_joints_are_asked_for_names(tmp_path: Path) -> N
     rows = joint_rows(model, 6, "left_leg")
     assert rows
     assert all(joint.startswith("l_") for row in rows for joint in row)
+    assert joint_rows(model, 6, "head") == []
+    assert joint_rows(model, 6, "log")
     draft = draft_experiment([tmp_path / "log"], urdf=BIPED_URDF)
     asked = {question.key: question.question for question in draft.questions}
     assert str(rows[0]).replace("'", '"') in asked["joints"]
     sensor = tomllib.loads(draft.content)["sensor"][0]
     assert sensor["name"] == "l_leg_ft"
     assert asked["frame"].startswith("link that stands still")
+    assert re.search(r": l_sole, r_sole.* or one of \d+ other ends of it$", asked["frame"])
 
 
 def test_what_is_left_out_is_said(tmp_path: Path) -> None:

@@ -18,9 +18,11 @@ from pydantic_core import CoreSchema
 from forcetorque.errors import FormatError, known_names
 from forcetorque.exchange.array_file import Hdf5Format, MatlabFormat, NpzFormat
 from forcetorque.exchange.log_format import LogContext, LogFormat, LogReading, LogTable
+from forcetorque.exchange.other_file import other_file
 from forcetorque.exchange.parquet import ParquetFormat
 from forcetorque.exchange.robometry import RobometryFormat
 from forcetorque.exchange.ros import RosFormat
+from forcetorque.exchange.tabular.hindrance import hindrance
 from forcetorque.exchange.tabular.log_format import TabularFormat
 from forcetorque.exchange.yarp.log_format import YarpFormat
 from forcetorque.recording.joined import joined_stream
@@ -160,6 +162,9 @@ def not_recognised(path: Path) -> FormatError:
         return FormatError(
             f"{path}: expected a log, got a folder of several: {shown}; name one, or those of one recording"
         )
+    reason = other_file(path) or (hindrance(path) if path.is_file() else None)
+    if reason is not None:
+        return FormatError(reason)
     signs = [known.sign for known in LOG_FORMATS if known.sign is not None]
     return FormatError(
         f"{path}: expected {', or '.join(signs)}; found none of them; name the folder that holds them, or an "

@@ -6,6 +6,7 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
+from pathlib import Path
 
 _BRACKETED = re.compile(r"^(?P<name>.*?)\s*[\[(](?P<unit>[^\[\]()]*)[\])]\s*$")
 _SPELLINGS = {
@@ -110,6 +111,37 @@ def headings_of(names: Sequence[str], units: Sequence[str]) -> tuple[str, ...] |
     if len(names) != len(units) or len(set(names)) < len(names) or "" in names or len(known) - known.count(None) < 2:
         return None
     return tuple(name if unit is None else f"{name} [{unit}]" for name, unit in zip(names, known, strict=True))
+
+
+def named_columns(headings: Sequence[str]) -> tuple[str, ...]:
+    """Name columns by their headings.
+
+    Args:
+        headings: Cells of the line of headings.
+
+    Returns:
+        The headings; the number of the column, from 1, for each that is empty.
+    """
+    return tuple(heading or str(k) for k, heading in enumerate(headings, start=1))
+
+
+def repeated_words(file: Path, line: int, headings: Sequence[str]) -> str:
+    """Say that a heading comes twice.
+
+    Args:
+        file: The table.
+        line: Line of the headings.
+        headings: The headings, of which one does.
+
+    Returns:
+        Which, where, and what to do.
+    """
+    name = next(heading for heading in headings if heading and headings.count(heading) > 1)
+    places = " and ".join(str(k) for k, heading in enumerate(headings, start=1) if heading == name)
+    return (
+        f"{file}:{line}: expected every heading once, got {name!r} in columns {places}; give each its own name there, "
+        f"or state skip_rows = {line} and column_names"
+    )
 
 
 def is_time_name(name: str) -> bool:

@@ -44,6 +44,8 @@ class LogSketch:
     """Whether its columns are those of one table, not arrays of a file."""
     delimiter: str | None = None
     """Of a text table the character between columns; a space for any run of blanks."""
+    decimal: str = "."
+    """Of a text table the character in front of decimals."""
     skipped: tuple[str, ...] = ()
     """Of a text table the lines in front of it, headings not counted."""
     names_apart: bool = False

@@ -12,6 +12,13 @@ from forcetorque.robot import RobotModel
 _MOST_ROWS = 2
 _SIDES = {"left", "right"}
 """Words of which joints have the first letter."""
+_LIMBS = {
+    "head": {"head", "neck", "eye", "eyes", "eyelids"},
+    "torso": {"torso", "waist"},
+    "arm": {"arm", "shoulder", "elbow", "wrist"},
+    "leg": {"leg", "hip", "knee", "ankle"},
+}
+"""Words that streams and joints of a limb are called by."""
 
 
 def joints_question(count: int, where: str, model: RobotModel | None, *, key: str = "joints") -> str:
@@ -35,8 +42,10 @@ def joints_question(count: int, where: str, model: RobotModel | None, *, key: st
     if rows:
         choices = " or ".join(toml_value(row) for row in rows[:_MOST_ROWS])
         return question(key, f"{words}; the robot has {choices}")
+    limbs = _limbs_called(_words(where))
     names = [name for name, joint in model.joints.items() if joint.type.moves]
-    return question(key, f"{words}: of {listed(names, 40)}")
+    likely = [name for name in names if not (limbs and _is_of_another([name], limbs))]
+    return question(key, f"{words}: of {listed(likely or names, 40)}")
 
 
 def joint_rows(model: RobotModel, count: int, where: str = "") -> list[list[str]]:
@@ -45,13 +54,15 @@ def joint_rows(model: RobotModel, count: int, where: str = "") -> list[list[str]
     Args:
         model: The robot.
         count: How many joints.
-        where: Name that may tell a limb, as `left_leg`; rows whose joints begin alike come first.
+        where: Name that may tell a limb, as `left_leg`; rows of another are left out, and any others where joints of
+            some begin alike.
 
     Returns:
         Rows of joints, each from the inner to the outer one.
     """
-    rows = [row for row in _limbs(model) if len(row) == count]
-    words = set(re.findall(r"[a-z]+", where.lower()))
+    words = _words(where)
+    limbs = _limbs_called(words)
+    rows = [row for row in _limbs(model) if len(row) == count and not (limbs and _is_of_another(row, limbs))]
     initials = {side[0] for side in _SIDES & words}
     named = [row for row in rows if all(_begins(joint, words, initials) for joint in row)]
     return named or rows
@@ -60,6 +71,19 @@ def joint_rows(model: RobotModel, count: int, where: str = "") -> list[list[str]
 def _begins(joint: str, words: set[str], initials: set[str]) -> bool:
     first = re.split(r"[_\W]+", joint.lower())[0]
     return first in words or first in initials
+
+
+def _is_of_another(row: list[str], limbs: set[str]) -> bool:
+    called = _limbs_called({word for joint in row for word in _words(joint)})
+    return bool(called) and not called & limbs
+
+
+def _words(name: str) -> set[str]:
+    return set(re.findall("[a-z]+", name.lower()))
+
+
+def _limbs_called(words: set[str]) -> set[str]:
+    return {limb for limb, known in _LIMBS.items() if words & known}
 
 
 def _limbs(model: RobotModel) -> list[list[str]]:

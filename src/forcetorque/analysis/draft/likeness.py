@@ -21,11 +21,17 @@ _VECTORS = (
     (r"(?:g)", OPEN, "gravity or angular_velocity"),
 )
 _QUATERNION = re.compile(r"^(?P<before>.*?)(?:quaternion|orientation|quat|q|r|o)" + _APART + r"(?P<axis>[xyzw])$")
+_ANGLES = re.compile(
+    r"^(?P<before>|.*(?:euler|rpy|orientation|rotation|pose|imu|tcp|ee|tool|flange|sensor)[ _./]+)"
+    r"(?P<axis>roll|pitch|yaw)$"
+)
+"""Alone or of a frame: those of a neck or a hip are joints."""
 _MATRIX = re.compile(r"^(?P<before>.*?)r" + _APART + r"(?P<axis>[123]_?[123])$")
 _NUMBERED = re.compile(r"^(?P<before>.*?)(?P<number>\d+)(?P<behind>\D*)$")
 _CHANNELS = re.compile(r"(?:ch|channel|raw|gauge|gage|strain|sg|adc|ai|v)$")
 _MOTIONS = {
     "": "position",
+    "j": "position",
     "q": "position",
     "pos": "position",
     "position": "position",
@@ -48,6 +54,8 @@ _MOTIONS = {
     "current": "motor_current",
 }
 _FIXED_ROWS = 9
+_OF_JOINTS = {"j", "joint", "joints"}
+"""Words of columns that are of joints, however many they are."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -92,7 +100,7 @@ def likenesses(headings: Sequence[Heading], joints: Sequence[str]) -> tuple[Like
     """
     used: set[int] = set()
     groups: list[Likeness] = []
-    for search in (_of_joints, _wrenches, _rotations, _quaternions, _vectors, _temperatures, _numbered):
+    for search in (_of_joints, _wrenches, _rotations, _quaternions, _angles, _vectors, _temperatures, _numbered):
         free = {k: heading.name.strip().lower() for k, heading in enumerate(headings) if k not in used}
         for group in search(free, joints):
             if used.isdisjoint(group.columns):
@@ -166,6 +174,18 @@ def _quaternions(free: Mapping[int, str], joints: Sequence[str]) -> list[Likenes
     ]
 
 
+def _angles(free: Mapping[int, str], joints: Sequence[str]) -> list[Likeness]:
+    return [
+        Likeness(
+            quantity="orientation",
+            columns=tuple(axes[axis] for axis in ("roll", "pitch", "yaw")),
+            form=OrientationForm.EULER,
+        )
+        for axes in _axes(free, _ANGLES).values()
+        if len(axes) == 3
+    ]
+
+
 def _vectors(free: Mapping[int, str], joints: Sequence[str]) -> list[Likeness]:
     vectors = []
     for words, quantity, question in _VECTORS:
@@ -195,7 +215,8 @@ def _numbered(free: Mapping[int, str], joints: Sequence[str]) -> list[Likeness]:
         word = _plain(before or behind)
         if _CHANNELS.search(word) and len(columns) >= 6:
             likeness.setdefault("raw", Likeness(quantity="raw", columns=columns))
-        quantity = _MOTIONS.get(word.removeprefix("actual_") or word)
-        if word and quantity is not None and len(columns) == len(joints):
+        quantity = _MOTIONS.get(_plain(behind) or word.removeprefix("actual_"), _MOTIONS.get(word))
+        counted = len(columns) == len(joints) or (word in _OF_JOINTS and 1 < len(columns) <= len(joints))
+        if word and quantity is not None and counted:
             likeness.setdefault(quantity, Likeness(quantity=quantity, columns=columns))
     return list(likeness.values())

@@ -17,6 +17,7 @@ from forcetorque.errors import FormatError, MissingFileError
 from forcetorque.exchange.formats import format_name, format_named, not_recognised, recognised_format
 from forcetorque.exchange.log_format import LogDescription, LogFormat
 from forcetorque.exchange.log_sketch import SketchingFormat
+from forcetorque.exchange.other_file import other_file
 from forcetorque.robot import RobotModel
 from forcetorque.toml_table import OPEN
 
@@ -37,10 +38,14 @@ def draft_log(paths: Sequence[Path], model: RobotModel | None, log_format: str |
 
     Raises:
         MissingFileError: If there is no such log.
+        FormatError: If a file is no log, or several are not tables.
     """
     for path in paths:
         if not path.exists():
             raise MissingFileError(f"{path}: expected a log, there is none")
+        other = other_file(path) if log_format is None else None
+        if other is not None:
+            raise FormatError(other)
     formats = [recognised_format(path) if log_format is None else format_named(log_format) for path in paths]
     known = _require_one_recording(paths, formats)
     joints = [] if model is None else [name for name, joint in model.joints.items() if joint.type.moves]

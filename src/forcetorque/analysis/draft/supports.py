@@ -11,7 +11,11 @@ from forcetorque.analysis.draft.sensors import DraftedSensor, sensor_joints, wei
 from forcetorque.analysis.draft.text import line, listed, question
 from forcetorque.robot import Joint, RobotModel
 
-_STANDS = re.compile("sole|foot|feet|toe|base|ground")
+_STANDS = ("sole", "foot", "feet", "toe", "base", "ground")
+"""Words in the names of links that robots stand on, the likeliest first."""
+_SENSES = {"acc", "imu", "gyro", "skin", "taxel", "ft", "sensor"}
+"""Words in the names of frames of sensors, which are ends of the robot too."""
+_MOST_SUPPORTS = 12
 
 
 def base_of_arm(model: RobotModel) -> str | None:
@@ -45,7 +49,8 @@ def ends_of_robot(model: RobotModel) -> tuple[str, ...]:
         model: The robot.
 
     Returns:
-        The links that are called like feet or bases first, then in the order of the model; its root last.
+        The links that are called like soles first, then feet, bases, and the others in the order of the model, its root
+        last of each.
     """
     parents = {joint.parent for joint in model.joints.values()}
     inward = {joint.child: joint for joint in model.joints.values()}
@@ -56,7 +61,7 @@ def ends_of_robot(model: RobotModel) -> tuple[str, ...]:
         and link in inward
         and (inward[link].type.moves or _next_moving(inward[link].parent, inward))
     ]
-    return tuple(sorted((*ends, model.root_link), key=lambda link: not _STANDS.search(link.lower())))
+    return tuple(sorted((*ends, model.root_link), key=_unlikely_to_stand))
 
 
 def has_no_tool(sensor: DraftedSensor, model: RobotModel) -> bool:
@@ -89,7 +94,10 @@ def support_lines(
     """
     lines = ["", "[[support]]"]
     if base is None:
-        words = f"link that stands still and alone touches the world: {listed(ends_of_robot(model))}"
+        ends = ends_of_robot(model)
+        likely = [link for link in ends if _unlikely_to_stand(link) < len(_STANDS)] or list(ends)
+        others = f", or one of {len(ends) - len(likely)} other ends of it" if len(likely) < len(ends) else ""
+        words = f"link that stands still and alone touches the world: {listed(likely, _MOST_SUPPORTS)}{others}"
         lines.append(question("frame", words))
     else:
         lines.append(line("frame", base, "it stands still: the link that the arm moves from"))
@@ -137,6 +145,14 @@ def interval_support(base: str | None) -> str:
         The line.
     """
     return question("support", "frame of the [[support]]") if base is None else line("support", base)
+
+
+def _unlikely_to_stand(link: str) -> int:
+    """Place of the word in its name by which a link may stand on the ground; the number of words for none."""
+    name = link.lower()
+    if _SENSES & set(re.split("[^a-z]+", name)):
+        return len(_STANDS)
+    return next((k for k, word in enumerate(_STANDS) if word in name), len(_STANDS))
 
 
 def _next_moving(link: str, inward: Mapping[str, Joint]) -> Joint | None:

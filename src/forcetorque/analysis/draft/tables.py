@@ -23,7 +23,7 @@ from forcetorque.analysis.draft.units import (
 )
 from forcetorque.exchange.heading import Heading, read_heading
 from forcetorque.exchange.log_sketch import LogSketch
-from forcetorque.recording import QUANTITIES, Labels
+from forcetorque.recording import QUANTITIES, Labels, OrientationForm
 from forcetorque.robot import RobotModel
 from forcetorque.toml_table import OPEN
 
@@ -31,6 +31,18 @@ _SHOWN = 60
 """Characters that are shown of a line in front of a table."""
 _FEW = 9
 """Units that are written out in a question."""
+_SENSE = "sensor_to_world where it turns vectors along the frame's axes to the world's, else world_to_sensor"
+_EULER_LINES = (
+    "",
+    "[recording.stream.signal.orientation]",
+    line("form", "euler"),
+    question("axes", 'axes in the order of the columns: "xyz" where roll turns about x, pitch y and yaw z', "xyz"),
+    question(
+        "about", "fixed for R = Rz(yaw) Ry(pitch) Rx(roll), as URDF and ROS; moving if each turns the next", "fixed"
+    ),
+    question("sense", _SENSE, "sensor_to_world"),
+)
+"""How angles are an orientation."""
 
 
 def table_streams(sketches: Sequence[LogSketch], joints: Sequence[str]) -> tuple[DraftedStream, ...]:
@@ -74,6 +86,8 @@ def _groups(sketch: LogSketch, joints: Sequence[str]) -> tuple[Likeness, ...]:
     groups: dict[str, Likeness] = {}
     for group in likenesses(_headings(sketch), joints):
         groups.setdefault(group.quantity, group)
+    if "position" in groups:  # which tell the pose
+        groups = {name: group for name, group in groups.items() if group.form is not OrientationForm.EULER}
     if "orientation" in groups:
         groups.pop("gravity", None)
         groups.pop(OPEN, None)
@@ -106,6 +120,8 @@ def table_lines(log: DraftedLog, folder: Path, model: RobotModel | None, frames:
 
 def _form_lines(sketch: LogSketch) -> list[str]:
     lines = [] if sketch.delimiter in (None, ",") else [line("delimiter", sketch.delimiter)]
+    if sketch.decimal != ".":
+        lines.append(line("decimal", sketch.decimal, "its numbers have a decimal comma"))
     if sketch.skipped:
         top = next((text for text in sketch.skipped if text.strip()), "")
         lines.append(line("skip_rows", len(sketch.skipped), f"lines that are not of the table: {top[:_SHOWN]}"))
@@ -172,7 +188,7 @@ def _group_lines(
         question("quantity", group.words) if quantity is None else line("quantity", group.quantity),
         line("columns", names),
     ]
-    if group.form is not None:
+    if group.form not in (None, OrientationForm.EULER):
         units = ["1"] * len(names)
     if all(units):
         lines.append(line("units", units))
@@ -191,11 +207,12 @@ def _group_lines(
             lines.append(line("names", group.names))
     if quantity is None or quantity.has_frame:
         lines.append(axes_line(group.quantity, stream, frames))
-    if group.form is not None:
+    if group.form is OrientationForm.EULER:
+        lines += _EULER_LINES
+    elif group.form is not None:
         stated = {"form": str(group.form), "sense": OPEN}
-        words = "sensor_to_world where it turns vectors along the frame's axes to the world's, else world_to_sensor"
         likeliest_sense = line("orientation", {**stated, "sense": "sensor_to_world"})
-        lines.append(Asked(f"orientation = {toml_value(stated)}  {remark(words)}", likeliest_sense))
+        lines.append(Asked(f"orientation = {toml_value(stated)}  {remark(_SENSE)}", likeliest_sense))
     return lines
 
 
@@ -210,7 +227,15 @@ def _largest(sketch: LogSketch, group: Likeness) -> float | None:
 
 
 def _range_words(sketch: LogSketch, group: Likeness) -> str:
-    values = [sketch.columns[k] for k in group.columns]
+    if group.quantity != "wrench":
+        extent = _extent(sketch, group.columns)
+        return f"; they run {extent}" if extent else ""
+    force, moment = (_extent(sketch, places) for places in (group.columns[:3], group.columns[3:]))
+    return f"; forces run {force}, moments {moment}" if force and moment else ""
+
+
+def _extent(sketch: LogSketch, places: Sequence[int]) -> str:
+    values = [sketch.columns[k] for k in places]
     low = [column.smallest for column in values if column.smallest is not None]
     high = [column.largest for column in values if column.largest is not None]
-    return f"; they run from {min(low):.4g} to {max(high):.4g}" if low and high else ""
+    return f"from {min(low):.4g} to {max(high):.4g}" if low and high else ""

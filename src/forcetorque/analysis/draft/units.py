@@ -19,6 +19,7 @@ USUAL_UNITS = {
     "motor_current": "A or mA",
     "proper_acceleration": "m/s2 or g",
     "angular_velocity": "rad/s or deg/s",
+    "orientation": "rad or deg",
     "gravity": "m/s2",
     "temperature": "degC",
     "raw": "counts",
@@ -33,7 +34,7 @@ RATE_LINES = (
 
 _PLAUSIBLE_HZ = (1.0, 10_000.0)
 _MOST_TURNS = 13.0
-"""Joints seldom turn by more than two turns in rad; in deg they always do."""
+"""Joints and frames seldom turn by more than two turns in rad; in deg they always do."""
 
 
 def time_words(column: SketchedColumns) -> str:
@@ -88,7 +89,7 @@ def likeliest_units(quantity: str, count: int, largest: float | None) -> list[st
     if quantity == "wrench":
         return ["N"] * 3 + ["N m"] * 3
     words = USUAL_UNITS.get(quantity, "").split(" or ")
-    turned = quantity == "position" and largest is not None and largest > _MOST_TURNS
+    turned = quantity in ("position", "orientation") and largest is not None and largest > _MOST_TURNS
     return [words[-1 if turned else 0]] * count if words[0] else None
 
 

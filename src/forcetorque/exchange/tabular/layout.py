@@ -72,6 +72,8 @@ class TableLayout:
 
     delimiter: str = ","
     """One character between columns; a space stands for any run of spaces and tabs."""
+    decimal: str = "."
+    """Character in front of the decimals of numbers in a text file: a point or a comma."""
     column_names: tuple[str, ...] | None = None
     """Names of the columns, for a table without a line of headings; None if its first line has them."""
     skip_rows: int = 0
@@ -84,6 +86,10 @@ class TableLayout:
     def __post_init__(self) -> None:
         if len(self.delimiter) != 1:
             raise FormatError(f"delimiter: expected one character, got {self.delimiter!r}")
+        if self.decimal not in (".", ",") or self.decimal == self.delimiter:
+            raise FormatError(
+                f"decimal: expected a point or a comma, and not the delimiter {self.delimiter!r}, got {self.decimal!r}"
+            )
         if self.skip_rows < 0:
             raise FormatError(f"skip_rows: expected a number of lines, 0 or more, got {self.skip_rows}")
         quantities = [signal.quantity for signal in self.signals]

@@ -58,6 +58,8 @@ class TabularStream(StatedRate):
     """Name of the clock; only streams of one clock are combined."""
     delimiter: Annotated[str, Field(min_length=1, max_length=1)] = ","
     """Character between columns; a space stands for any run of blanks."""
+    decimal: Literal[".", ","] = "."
+    """Character in front of the decimals of numbers in a text file."""
     skip_rows: Annotated[int, Field(ge=0, strict=True)] = 0
     """Lines in front of the table, headings not counted: titles, comments, units."""
     column_names: tuple[Text, ...] | None = None
@@ -166,6 +168,7 @@ def _skipped(entry: TabularStream) -> Finding:
 def _layout(entry: TabularStream, number: int) -> TableLayout:
     return TableLayout(
         delimiter=entry.delimiter,
+        decimal=entry.decimal,
         skip_rows=entry.skip_rows,
         column_names=entry.column_names,
         stamp=entry.stamp_of(number),

@@ -8,10 +8,13 @@ from pathlib import Path
 from typing import Any, BinaryIO
 
 import pyarrow as pa
+import pyarrow.compute as pc
 import pyarrow.csv as pacsv
 
 from forcetorque.errors import FormatError, known_names
 from forcetorque.exchange.arrow_text import arrow_text
+from forcetorque.exchange.heading import named_columns, repeated_words
+from forcetorque.exchange.tabular.encoding import open_text
 from forcetorque.exchange.tabular.layout import StampColumn, TableLayout
 from forcetorque.exchange.tabular.rows import Rows, wanted_columns
 
@@ -56,18 +59,18 @@ def text_columns(file: Path, delimiter: str = ",", *, skip_rows: int = 0) -> lis
         skip_rows: As of a layout.
 
     Returns:
-        Their names.
+        Their names; the number, from 1, of a column whose heading is empty.
 
     Raises:
         FormatError: If that is no text.
     """
-    with file.open("rb") as stream:
+    with open_text(file) as stream:
         _skip(stream, skip_rows)
         heading = stream.readline(BLOCK_SIZE).rstrip(b"\r\n")
     if delimiter == " ":
         heading = b" ".join(heading.split())
     try:
-        return [word.strip() for word in heading.decode("utf-8-sig").split(delimiter)]
+        return list(named_columns([word.strip() for word in heading.decode("utf-8-sig").split(delimiter)]))
     except UnicodeDecodeError as error:
         raise FormatError(f"{file}:{skip_rows + 1}: expected a line of headings as text, got {error.reason}") from error
 
@@ -85,15 +88,14 @@ def _headings(file: Path, layout: TableLayout) -> tuple[tuple[str, ...], int]:
         names = tuple(text_columns(file, layout.delimiter, skip_rows=layout.skip_rows))
         first_line += 1
     if len(set(names)) != len(names):
-        headings = ", ".join(map(repr, names[:99]))
-        raise FormatError(f"{file}:{layout.skip_rows + 1}: expected every heading once, got {headings}")
+        raise FormatError(repeated_words(file, layout.skip_rows + 1, names))
     return names, first_line
 
 
 def _blocks(file: Path, first_line: int, columns: int) -> Iterator[bytes]:
     """Blocks of whole lines, each ended by a line feed, without the empty lines at the end of the file."""
     line, empty, rest = first_line, 0, b""
-    with file.open("rb") as stream:
+    with open_text(file) as stream:
         _skip(stream, first_line - 1)
         while chunk := stream.read(BLOCK_SIZE):
             end = chunk.rfind(b"\n") + 1
@@ -126,12 +128,14 @@ def _batches(file: Path, layout: TableLayout, names: tuple[str, ...], first_line
     types = {c: pa.float64() for signal in layout.signals for c in signal.columns}
     if isinstance(layout.stamp, StampColumn):
         types[layout.stamp.column] = pa.string()
-    options = pacsv.ConvertOptions(column_types=types, include_columns=list(types), null_values=["", "nan", "NaN"])
+    options = pacsv.ConvertOptions(
+        column_types=types, include_columns=list(types), null_values=["", "nan", "NaN"], decimal_point=layout.decimal
+    )
     line = first_line
     for block in _blocks(file, first_line, len(names)):
         text = b"\n".join(b" ".join(row.split()) for row in block.split(b"\n")) if layout.delimiter == " " else block
         try:
-            yield pacsv.read_csv(
+            table = pacsv.read_csv(
                 arrow_text(text),
                 read_options=pacsv.ReadOptions(column_names=list(names)),
                 parse_options=pacsv.ParseOptions(
@@ -141,13 +145,32 @@ def _batches(file: Path, layout: TableLayout, names: tuple[str, ...], first_line
             )
         except pa.ArrowException as error:
             raise _placed(file, text, layout, names, line, str(error)) from error
+        yield table if layout.decimal == "." else _with_points(file, table, layout, line)
         line += text.count(b"\n")
+
+
+def _with_points(file: Path, table: Any, layout: TableLayout, first_line: int) -> Any:
+    """The same with points in the stamps, which are read digit by digit."""
+    if not isinstance(layout.stamp, StampColumn):
+        return table
+    name = layout.stamp.column
+    column = table.column(name)
+    points = pc.fill_null(pc.match_substring(column, "."), False).to_pylist()
+    if True in points:
+        row = points.index(True)
+        raise FormatError(
+            f"{file}:{first_line + row}: column {name!r}: expected a decimal comma, as stated, got {column[row]}"
+        )
+    return table.set_column(table.column_names.index(name), name, pc.replace_substring(column, ",", "."))
 
 
 def _placed(
     file: Path, text: bytes, layout: TableLayout, names: tuple[str, ...], first_line: int, reason: str
 ) -> FormatError:
     """Find the line and column that the fast reader refused."""
+    has_comma = layout.decimal == ","
+    swapped = bytes.maketrans(b".,", b",.") if has_comma else None
+    expected = "a number with a decimal comma, as stated" if has_comma else "a number"
     wanted = {name: k for k, name in enumerate(names) if any(name in s.columns for s in layout.signals)}
     for number, line in enumerate(text.rstrip(b"\n").split(b"\n"), start=first_line):
         fields = line.split(layout.delimiter.encode())
@@ -158,9 +181,8 @@ def _placed(
         for name, k in wanted.items():
             field = fields[k].strip()
             try:
-                float(field or b"nan")
+                float(field.translate(swapped) or b"nan")
             except ValueError:
-                return FormatError(
-                    f"{file}:{number}: column {name!r}: expected a number, got {field[:40].decode(errors='replace')!r}"
-                )
+                got = field[:40].decode(errors="replace")
+                return FormatError(f"{file}:{number}: column {name!r}: expected {expected}, got {got!r}")
     return FormatError(f"{file}: expected a table of numbers, got {' '.join(reason.split())[:200]}")

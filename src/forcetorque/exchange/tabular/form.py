@@ -1,0 +1,270 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""How a text holds a table that nobody has declared: by numbers below at most one line of headings."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from forcetorque.exchange.heading import headings_of, named_columns
+from forcetorque.exchange.tabular.encoding import open_text
+
+LOOKED_AT = 1 << 20
+"""Bytes from the beginning of a text that are looked at; lines are counted in all of it."""
+PROBED_LINES = 4
+"""Lines of which the first ones of a table are."""
+DELIMITERS = ("\t", ";", ",", " ")
+"""What may stand between columns, the surest first."""
+MOST_COLUMNS = 10_000
+"""More columns are not looked at."""
+_MOST_SKIPPED = 64
+"""Lines in front of a table that are looked through."""
+_FEWEST_BELOW = 8
+"""Rows below such lines, so that no prose with a few numbers is a table."""
+_COMMA = re.compile(r"[+-]?\d*,\d+(?:[eE][+-]?\d+)?")
+_THOUSANDS = re.compile(r"[+-]?[1-9]\d{0,2},\d{3}")
+"""What may be a number of four to six digits as well."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Form:
+    """How a text holds a table."""
+
+    delimiter: str
+    """Character between columns."""
+    decimal: str
+    """Character in front of decimals."""
+    names: tuple[str, ...]
+    """Names of the columns, or their numbers."""
+    has_headings: bool
+    """Whether a line has the names."""
+    skipped: tuple[str, ...] = ()
+    """Lines in front."""
+    names_apart: bool = False
+    """Whether the last two of those have names and units."""
+
+    @property
+    def lines_above(self) -> int:
+        """Lines in front of the first row."""
+        return len(self.skipped) + int(self.has_headings and not self.names_apart)
+
+    def is_bare(self, column: int) -> bool:
+        """Tell whether a column lacks a heading where others have one.
+
+        Args:
+            column: Its place.
+
+        Returns:
+            Whether it is called by its number.
+        """
+        return self.has_headings and self.names[column] == str(column + 1)
+
+    def cells(self, line: str) -> list[str]:
+        """Take a line apart.
+
+        Args:
+            line: The line.
+
+        Returns:
+            Its cells, those with numbers as Python writes them.
+        """
+        return _with_points(cells_of(line, self.delimiter), self.decimal)
+
+
+def beginning(path: Path) -> str:
+    """Read the first lines.
+
+    Args:
+        path: The file.
+
+    Returns:
+        The text, without the last line where it may be cut; empty where it is no text.
+    """
+    with open_text(path) as file:
+        data = file.read(LOOKED_AT)
+        if file.read(4):
+            data = data[: data.rfind(b"\n") + 1]
+    if b"\0" in data:
+        return ""
+    try:
+        return data.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        return ""
+
+
+def form_of(text: str) -> Form | None:
+    """Find how a text holds a table, from its first line on or below lines of something else.
+
+    Args:
+        text: The first lines.
+
+    Returns:
+        The form; None where it holds none, or one whose headings come twice or are one too few.
+    """
+    lines = text.splitlines()
+    probed = [line for line in lines if line.strip()][:PROBED_LINES]
+    form = _form_of(probed)
+    if form is not None or repeated_headings(probed) or lacks_last_heading(probed):
+        return form
+    for count in range(1, min(len(lines), _MOST_SKIPPED + 1)):
+        form = _form_of(lines[count : count + PROBED_LINES])
+        if form is None:
+            continue
+        first = count + int(form.has_headings)
+        if _is_below(form, lines[:first], lines[first:]):
+            return _with_units(replace(form, skipped=tuple(lines[:count])), lines)
+    return None
+
+
+def repeated_headings(lines: Sequence[str]) -> tuple[str, ...]:
+    """Give the headings of some lines where one comes twice.
+
+    Args:
+        lines: The first lines of a text, none of them empty.
+
+    Returns:
+        All headings; none where each comes once, or the first line is not one of headings above rows.
+    """
+    for delimiter in DELIMITERS:
+        rows = [cells_of(line, delimiter) for line in lines]
+        if rows and len(rows[0]) > 1 and len({len(row) for row in rows}) == 1:
+            first, *others = rows
+            names = [cell for cell in first if not is_number_or_empty(cell)]
+            if len(names) > len(first) / 2 and are_rows([_with_points(row, _decimal(others)) for row in others]):
+                return tuple(first) if len(set(names)) < len(names) else ()
+    return ()
+
+
+def lacks_last_heading(lines: Sequence[str]) -> bool:
+    """Tell whether rows end with a delimiter that their headings end without.
+
+    Args:
+        lines: The first lines of a text, none of them empty.
+
+    Returns:
+        Whether the first line has one cell less than the others, none of it a number, and the others nothing in it.
+    """
+    for delimiter in DELIMITERS:
+        first, *others = ([cells_of(line, delimiter) for line in lines]) or [[]]
+        if len(first) > 1 and not any(map(is_number_or_empty, first)) and are_rows(others):
+            return all(len(row) == len(first) + 1 and not row[-1] for row in others)
+    return False
+
+
+def _with_units(form: Form, lines: Sequence[str]) -> Form:
+    """The same with names and units of two lines, where these are what stands above."""
+    first = form.lines_above
+    names, units = (form.cells(line) for line in lines[first - 2 : first]) if first > 1 else ((), ())
+    headings = headings_of(names, units)
+    if headings is None:
+        return form
+    return replace(form, names=headings, has_headings=True, skipped=tuple(lines[:first]), names_apart=True)
+
+
+def _form_of(lines: Sequence[str]) -> Form | None:
+    for delimiter in DELIMITERS:
+        texts = [cells_of(line, delimiter) for line in lines]
+        if not texts or not 2 <= len(texts[0]) <= MOST_COLUMNS or len({len(row) for row in texts}) > 1:
+            continue
+        decimal = _decimal(texts[1:])
+        first, *others = rows = [_with_points(row, decimal) for row in texts]
+        if all(map(is_number_or_empty, first)):
+            names = tuple(str(k) for k in range(1, len(first) + 1))
+            if not are_rows(rows):
+                return None
+            return Form(delimiter=delimiter, decimal=decimal, names=names, has_headings=False)
+        if are_rows(others) and _are_headings(texts[0], others):
+            return Form(delimiter=delimiter, decimal=decimal, names=named_columns(texts[0]), has_headings=True)
+    return None
+
+
+def _are_headings(cells: Sequence[str], rows: Sequence[Sequence[str]]) -> bool:
+    """Whether each comes once; a column without one is empty, but for the first, which may count the rows."""
+    bare = [k for k, cell in enumerate(cells) if k and not cell and any(row[k] for row in rows)]
+    names = named_columns(cells)
+    return len(set(names)) == len(names) and not bare
+
+
+def _is_below(form: Form, above: Sequence[str], below: Sequence[str]) -> bool:
+    """Whether lines are rows of a table, enough of them, and none above them is."""
+    rows, others = ([form.cells(line) for line in lines if line.strip()] for lines in (below, above))
+    width = len(form.names)
+    return (
+        len(rows) >= _FEWEST_BELOW
+        and {len(row) for row in rows} == {width}
+        and are_rows(rows)
+        and not any(len(row) == width and are_rows([row]) for row in others)
+    )
+
+
+def cells_of(line: str, delimiter: str) -> list[str]:
+    """Take a line apart.
+
+    Args:
+        line: The line.
+        delimiter: As of a form.
+
+    Returns:
+        Its cells, as they are.
+    """
+    return line.split() if delimiter == " " else [cell.strip() for cell in line.split(delimiter)]
+
+
+def are_rows(rows: Sequence[Sequence[str]]) -> bool:
+    """Tell whether each has two numbers, and none begins with a text that is none, as lines of prose do.
+
+    Args:
+        rows: Cells of lines.
+
+    Returns:
+        Whether there are rows, and all are such.
+    """
+    return bool(rows) and all(sum(map(_is_number, row)) >= 2 and is_number_or_empty(row[0]) for row in rows)
+
+
+def is_number_or_empty(cell: str) -> bool:
+    """Tell whether a cell may be one of numbers.
+
+    Args:
+        cell: The cell.
+
+    Returns:
+        Whether it is empty, or a number with a decimal point.
+    """
+    return not cell or _is_number(cell)
+
+
+def has_decimal_comma(cell: str) -> bool:
+    """Tell whether a cell is a number if its comma stands in front of decimals.
+
+    Args:
+        cell: The cell.
+
+    Returns:
+        Whether it is; it may have digits by thousands as well.
+    """
+    return _COMMA.fullmatch(cell) is not None
+
+
+def _is_number(cell: str) -> bool:
+    try:
+        float(cell)
+    except ValueError:
+        return False
+    return "_" not in cell
+
+
+def _decimal(rows: Sequence[Sequence[str]]) -> str:
+    """A comma where one stands in numbers, not all of which may be thousands, and a point in none."""
+    cells = [cell for row in rows for cell in row]
+    commas = [cell for cell in cells if has_decimal_comma(cell)]
+    is_comma = any(not _THOUSANDS.fullmatch(cell) for cell in commas)
+    return "," if is_comma and not any("." in cell and _is_number(cell) for cell in cells) else "."
+
+
+def _with_points(cells: list[str], decimal: str) -> list[str]:
+    if decimal == ".":
+        return cells
+    return [cell.replace(",", ".") if has_decimal_comma(cell) else cell for cell in cells]
