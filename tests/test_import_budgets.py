@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What a command costs before it does anything: CPU seconds of a child process, and the modules it loads.
 
-Measured with bytecode at hand on a shared 2-core machine: 0.16 s for a help, 1.4 s for the load of 24 poses, 1.6 s for
-a judgement of the yoga log; it was 0.4, 3.1 and 3.1 s when SciPy came with every module. The budgets are up to twice
-what was measured, as neighbours on a processor slow it down; the clock on the wall is not looked at.
+Measured with bytecode at hand on shared 2-core machines: 0.16 s for a help, 0.8 to 1.4 s for the load of 24 poses, 1.0
+to 1.6 s for a judgement of the yoga log; it was 0.4, 3.1 and 3.1 s when SciPy came with every module. The budgets are
+up to twice the most that was measured, as neighbours on a processor slow it down; the clock on the wall is not looked
+at.
 """
 
 from __future__ import annotations
