@@ -65,17 +65,20 @@ _TOKENS = [
 
 @st.composite
 def _damaged(draw: st.DrawFn, original: bytes) -> bytes:
-    """Cut, overwrite and insert, up to three times."""
+    """Cut, overwrite and insert, up to three times; or another digit, which is mostly read: few of the others are."""
     content = original
     for _ in range(draw(st.integers(1, 3))):
         at = draw(st.integers(0, len(content)))
-        kind = draw(st.sampled_from(["cut", "line", "overwrite", "insert", "delete"]))
+        kind = draw(st.sampled_from(["cut", "line", "overwrite", "insert", "delete", "digit", "digit"]))
         if kind == "cut":
             content = content[:at]
         elif kind == "line":
             content = content[: content.rfind(b"\n", 0, at) + 1]
         elif kind == "overwrite":
             content = content[:at] + bytes([draw(st.integers(0, 255))]) + content[at + 1 :]
+        elif kind == "digit":
+            digit = str(draw(st.integers(0, 9))).encode()
+            content = content[:at] + re.sub(rb"[0-9]", digit, content[at:], count=1)
         elif kind == "insert":
             content = content[:at] + draw(st.sampled_from(_TOKENS)) + content[at:]
         else:
