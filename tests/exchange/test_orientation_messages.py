@@ -24,7 +24,7 @@ from tests.exchange.robometry.logger import Leaf, write_log
 from tests.exchange.ros.bags import Types, write_bag
 from tests.exchange.yarp.port_logs import write_port
 
-POSES = Rotation.random(12, rng=8)
+POSES = Rotation.random(12, random_state=8)
 PLACES = np.random.default_rng(9).normal(size=(12, 3))
 GRAVITY = POSES.inv().apply([0.0, 0.0, -9.80665])
 OTHER = POSES.apply([0.0, 0.0, -9.80665])

@@ -174,13 +174,14 @@ def _device(path: str = "icub/leg/measures:o") -> tuple[Recording, DevicePort]:
     """Two force-torque sensors with their thermometers and an IMU, in an order of their own."""
     stamps = jittered_stamps(N, seed=9)
     ticks = signal("device_stamp", 3.0e9 + np.arange(N)[:, None] * 10_003.0)
+    turned = Rotation.random(N, random_state=6)
     streams = [
         stream(stamps, signal("wrench", _values(6, seed=1)), ticks, name="second"),
         stream(stamps, signal("wrench", _values(6, seed=2)), name="first"),
         stream(stamps, signal("temperature", 30 + _values(1, seed=3)), name="warmth"),
         stream(stamps, signal("angular_velocity", _values(3, seed=4)), name="gyro"),
         stream(stamps, signal("proper_acceleration", _values(3, seed=5)), name="accelerometer"),
-        stream(stamps, signal("orientation", Rotation.random(N, rng=6).as_matrix().reshape(N, 9)), name="turn"),
+        stream(stamps, signal("orientation", turned.as_matrix().reshape(N, 9)), name="turn"),
     ]
     ft = MeasuresList.SIX_AXIS_FORCE_TORQUE
     sensors = (
