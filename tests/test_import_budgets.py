@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What a command costs before it does anything: CPU seconds of a child process, and the modules it loads.
 
-Measured with bytecode at hand on shared 2-core machines: 0.16 s for a help, 0.8 to 1.4 s for the load of 24 poses, 1.0
-to 1.6 s for a judgement of the yoga log; it was 0.4, 3.1 and 3.1 s when SciPy came with every module. The budgets are
-up to twice the most that was measured, as neighbours on a processor slow it down; the clock on the wall is not looked
-at.
+Measured with bytecode at hand on a quiet 2-core machine: 0.1 s for a help, 0.7 to 0.9 s for the load of 24 poses, 1.0
+to 1.1 s for a judgement of the yoga log; it was 0.4, 3.1 and 3.1 s when SciPy came with every module. Neighbours on a
+processor make that up to twice as much. So a command that computes is held against a child that only loads what it
+needs of others, 0.35 s there: beside other work, on three Pythons, the load took 1.8 to 2.6 times as much in 27 runs,
+the judgement 1.9 to 3.0 times.
 """
 
 from __future__ import annotations
@@ -24,6 +25,9 @@ from forcetorque.interactive import load_experiment
 ROOT = Path(__file__).resolve().parents[1]
 RUNS = 3
 _START = "from forcetorque.cli import main; main()"
+_LIBRARIES = """import rich.console, typer, pydantic, numpy, scipy.linalg, scipy.special
+import pyarrow.compute, pyarrow.parquet
+"""
 _LIST = """import atexit, sys
 atexit.register(lambda: sys.stderr.write("MODULES " + " ".join(sys.modules) + "\\n"))
 """
@@ -53,15 +57,17 @@ def _run(code: str, environment: dict[str, str], *words: object) -> tuple[float,
     return seconds, set(run.stderr.rpartition("MODULES ")[2].split())
 
 
-def _within(budget_s: float, unused: Collection[str], environment: dict[str, str], *words: object) -> bool:
-    """Whether one of some runs, the first if neighbours let it, takes less CPU seconds; each without some modules."""
-    for _ in range(RUNS):
-        seconds, modules = _run(_START, environment, *words)
-        assert "forcetorque.cli" in modules
-        assert not modules.intersection(unused)
-        if seconds < budget_s:
-            return True
-    return False
+def _command(environment: dict[str, str], unused: Collection[str], *words: object) -> float:
+    """CPU seconds of a command that loads nothing of what it does not use."""
+    seconds, modules = _run(_START, environment, *words)
+    assert "forcetorque.cli" in modules
+    assert not modules.intersection(unused)
+    return seconds
+
+
+def _within(ratio: float, environment: dict[str, str], *words: object) -> bool:
+    """Whether in one of some runs, the first if neighbours let it, a command takes less than so often its libraries."""
+    return any(_command(environment, UNUSED, *words) < ratio * _run(_LIBRARIES, environment)[0] for _ in range(RUNS))
 
 
 def _example(number: str, data_dir: Path, folder: Path) -> Path:
@@ -73,23 +79,24 @@ def _example(number: str, data_dir: Path, folder: Path) -> Path:
 
 def test_a_help_is_there_at_once(bytecode: dict[str, str]) -> None:
     """Neither Pydantic nor anything that computes is loaded, and it takes less than 0.3 s."""
-    assert _within(0.3, ("pydantic", "numpy", "scipy", "pyarrow"), bytecode, "calibrate", "--help")
+    unused = ("pydantic", "numpy", "scipy", "pyarrow")
+    assert any(_command(bytecode, unused, "calibrate", "--help") < 0.3 for _ in range(RUNS))
 
 
 @pytest.mark.real_data
 def test_a_load_is_weighed_without_what_it_does_not_use(
     bytecode: dict[str, str], data_dir: Path, tmp_path: Path
 ) -> None:
-    """`payload` on 24 rows takes less than 2.4 s."""
-    assert _within(2.4, UNUSED, bytecode, "payload", _example("07", data_dir, tmp_path))
+    """`payload` on 24 rows takes less than 2.7 times what its libraries take."""
+    assert _within(2.7, bytecode, "payload", _example("07", data_dir, tmp_path))
 
 
 @pytest.mark.real_data
 def test_a_log_is_judged_without_what_it_does_not_use(bytecode: dict[str, str], data_dir: Path, tmp_path: Path) -> None:
-    """`evaluate` on the yoga log takes less than 2.8 s."""
+    """`evaluate` on the yoga log takes less than 3.2 times what its libraries take."""
     file, leg = _example("02", data_dir, tmp_path), tmp_path / "leg.json"
     write_calibration(leg, load_experiment(file)["r_leg_ft_sensor"].calibrate())
-    assert _within(2.8, UNUSED, bytecode, "evaluate", file, "-c", leg)
+    assert _within(3.2, bytecode, "evaluate", file, "-c", leg)
 
 
 def test_a_module_and_its_time_are_noticed(bytecode: dict[str, str]) -> None:
