@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import re
 import tomllib
+from datetime import UTC, datetime, timedelta
 from pathlib import Path
 
 import numpy as np
@@ -68,6 +69,25 @@ def test_what_is_left_is_asked_and_what_is_known_is_not(drafted: str) -> None:
     assert position["names"] == ["shoulder_yaw", "shoulder_pitch", "shoulder_roll", "elbow", "wrist"]
     assert (position["units"], wrench["units"]) == (["rad"] * 5, ["N"] * 3 + ["N m"] * 3)
     assert content["support"][0]["frame"] == "base"
+
+
+def test_dates_are_a_time_of_which_nothing_is_asked(tmp_path: Path, drafted: str) -> None:
+    """A log with dates in place of seconds has the same questions and intervals, and is read."""
+    first, *rows = log_text().splitlines()
+    midnight = datetime(2026, 11, 23, tzinfo=UTC)
+    cells = [row.split(",", 1) for row in rows]
+    dated = [f"{(midnight + timedelta(seconds=float(time))).isoformat()},{rest}" for time, rest in cells]
+    log = _written(tmp_path, "\n".join([first, *dated]) + "\n")
+    text = draft_experiment([log], tmp_path / "x.toml", urdf=tmp_path / "robot.urdf").content
+    assert _keys(text) == list(ANSWERS)
+    content, plain = tomllib.loads(text), tomllib.loads(drafted)
+    assert content["recording"]["stream"][0]["stamp"] == {"column": "time_s", "unit": "iso8601"}
+    assert content["interval"] == plain["interval"]
+    (tmp_path / "x.toml").write_text(answered(text, ANSWERS), encoding="utf-8")
+    experiment = load_experiment(tmp_path / "x.toml")
+    (stream,) = experiment.recording.streams.values()
+    assert stream.stamp_ns[0] == int(midnight.timestamp()) * 10**9
+    assert np.diff(stream.stamp_ns).tolist() == [40_000_000] * (len(rows) - 1)
 
 
 def test_an_open_question_stops_every_command_by_its_line(tmp_path: Path, drafted: str) -> None:

@@ -19,7 +19,7 @@ class SketchedColumns:
     columns: int = 1
     """How many columns; 1 for that of a table."""
     unit: str | None = None
-    """Unit that its name states; None for none."""
+    """Unit that its name states, `iso8601` of dates; None for none."""
     is_number: bool = True
     """Whether it holds numbers, as far as it was looked at."""
     smallest: float | None = None
@@ -29,7 +29,8 @@ class SketchedColumns:
     mean: float | None = None
     """Mean of the numbers that were looked at; None for none."""
     step: float | None = None
-    """Median step, where every number that was looked at is larger than the one before, as times are; else None."""
+    """Median step, where every number that was looked at is larger than the one before, as times are, in seconds of
+    dates; else None."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

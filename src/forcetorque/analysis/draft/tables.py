@@ -23,6 +23,7 @@ from forcetorque.analysis.draft.units import (
 )
 from forcetorque.exchange.heading import Heading, read_heading
 from forcetorque.exchange.log_sketch import LogSketch
+from forcetorque.exchange.tabular import ISO8601
 from forcetorque.recording import QUANTITIES, Labels, OrientationForm
 from forcetorque.robot import RobotModel
 from forcetorque.toml_table import OPEN
@@ -145,9 +146,8 @@ def _stamp_lines(sketch: LogSketch) -> list[str]:
         return [question("stamp", choice), *RATE_LINES]
     column = sketch.columns[place]
     name = column.name
-    unit = read_heading(name).unit
-    if unit in TIME_UNITS:
-        return [line("stamp", {"column": name, "unit": unit})]
+    if column.unit in (*TIME_UNITS, ISO8601):
+        return [line("stamp", {"column": name, "unit": column.unit})]
     likeliest = likeliest_time(column)
     asked = Asked(
         f"stamp = {toml_value({'column': name, 'unit': OPEN})}  {remark(time_words(column))}",

@@ -8,6 +8,7 @@ from typing import Annotated
 
 from forcetorque.exchange.log_sketch import LogSketch, SketchedColumns
 from forcetorque.exchange.prior import PriorFile
+from forcetorque.exchange.tabular import ISO8601
 from forcetorque.result import Row, Shown, Table, Values
 from forcetorque.spatial import WRENCH_COMPONENTS, WRENCH_UNITS
 
@@ -162,5 +163,5 @@ def _column_row(column: SketchedColumns, looks_like: str | None) -> ColumnRow:
         smallest=column.smallest,
         largest=column.largest,
         mean=column.mean,
-        looks_like=looks_like if column.is_number else "a text",
+        looks_like=looks_like if column.is_number or column.unit == ISO8601 else "a text",
     )

@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from forcetorque.exchange.heading import headings_of, named_columns
+from forcetorque.exchange.tabular.dates import is_date
 from forcetorque.exchange.tabular.encoding import open_text
 
 LOOKED_AT = 1 << 20
@@ -131,7 +132,7 @@ def repeated_headings(lines: Sequence[str]) -> tuple[str, ...]:
         rows = [cells_of(line, delimiter) for line in lines]
         if rows and len(rows[0]) > 1 and len({len(row) for row in rows}) == 1:
             first, *others = rows
-            names = [cell for cell in first if not is_number_or_empty(cell)]
+            names = [cell for cell in first if not is_value_or_empty(cell)]
             if len(names) > len(first) / 2 and are_rows([_with_points(row, _decimal(others)) for row in others]):
                 return tuple(first) if len(set(names)) < len(names) else ()
     return ()
@@ -148,7 +149,7 @@ def lacks_last_heading(lines: Sequence[str]) -> bool:
     """
     for delimiter in DELIMITERS:
         first, *others = ([cells_of(line, delimiter) for line in lines]) or [[]]
-        if len(first) > 1 and not any(map(is_number_or_empty, first)) and are_rows(others):
+        if len(first) > 1 and not any(map(is_value_or_empty, first)) and are_rows(others):
             return all(len(row) == len(first) + 1 and not row[-1] for row in others)
     return False
 
@@ -170,7 +171,7 @@ def _form_of(lines: Sequence[str]) -> Form | None:
             continue
         decimal = _decimal(texts[1:])
         first, *others = rows = [_with_points(row, decimal) for row in texts]
-        if all(map(is_number_or_empty, first)):
+        if all(map(is_value_or_empty, first)):
             names = tuple(str(k) for k in range(1, len(first) + 1))
             if not are_rows(rows):
                 return None
@@ -213,7 +214,7 @@ def cells_of(line: str, delimiter: str) -> list[str]:
 
 
 def are_rows(rows: Sequence[Sequence[str]]) -> bool:
-    """Tell whether each has two numbers, and none begins with a text that is none, as lines of prose do.
+    """Tell whether each has two numbers or dates, and none begins with another text, as lines of prose do.
 
     Args:
         rows: Cells of lines.
@@ -221,19 +222,19 @@ def are_rows(rows: Sequence[Sequence[str]]) -> bool:
     Returns:
         Whether there are rows, and all are such.
     """
-    return bool(rows) and all(sum(map(_is_number, row)) >= 2 and is_number_or_empty(row[0]) for row in rows)
+    return bool(rows) and all(sum(map(_is_value, row)) >= 2 and is_value_or_empty(row[0]) for row in rows)
 
 
-def is_number_or_empty(cell: str) -> bool:
-    """Tell whether a cell may be one of numbers.
+def is_value_or_empty(cell: str) -> bool:
+    """Tell whether a cell may be one of numbers or dates.
 
     Args:
         cell: The cell.
 
     Returns:
-        Whether it is empty, or a number with a decimal point.
+        Whether it is empty, a number with a decimal point, or a date with a time of day.
     """
-    return not cell or _is_number(cell)
+    return not cell or _is_value(cell)
 
 
 def has_decimal_comma(cell: str) -> bool:
@@ -246,6 +247,10 @@ def has_decimal_comma(cell: str) -> bool:
         Whether it is; it may have digits by thousands as well.
     """
     return _COMMA.fullmatch(cell) is not None
+
+
+def _is_value(cell: str) -> bool:
+    return _is_number(cell) or is_date(cell)
 
 
 def _is_number(cell: str) -> bool:

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from forcetorque.exchange.heading import repeated_words
+from forcetorque.exchange.tabular.dates import is_date
 from forcetorque.exchange.tabular.form import (
     DELIMITERS,
     LOOKED_AT,
@@ -17,7 +18,7 @@ from forcetorque.exchange.tabular.form import (
     cells_of,
     form_of,
     has_decimal_comma,
-    is_number_or_empty,
+    is_value_or_empty,
     repeated_headings,
 )
 
@@ -75,7 +76,7 @@ def _of_rows(rows: Sequence[Sequence[str]], numbers: Sequence[int], delimiter: s
     if len({len(row) for row in below}) != 1:
         return None
     plain = [["0" if _DATE.match(cell) or has_decimal_comma(cell) else cell for cell in row] for row in below]
-    if all(map(is_number_or_empty, headings)) or not are_rows(plain):
+    if all(map(is_value_or_empty, headings)) or not are_rows(plain):
         return None
     if len(headings) != len(below[0]):
         got = f"{len(headings)} headings and {len(below[0])} columns in line {numbers[1]}"
@@ -85,10 +86,10 @@ def _of_rows(rows: Sequence[Sequence[str]], numbers: Sequence[int], delimiter: s
             f"{numbers[0]}: expected a heading for every column, got {got}; make the first line as long as the others"
         )
     for k, cell in enumerate(below[0], start=1):
-        if _DATE.match(cell):
+        if _DATE.match(cell) and not is_date(cell):
             return (
-                f"{numbers[1]}: expected the time as a number, got the date {cell[:_SHOWN]!r} in column {k}; replace "
-                "it by seconds, as from the first row, or delete the column"
+                f"{numbers[1]}: expected the time as a number, or as 2026-11-23T10:05:03.123, got {cell[:_SHOWN]!r} in "
+                f"column {k}; write it so, or as seconds, or delete the column"
             )
         if has_decimal_comma(cell):
             return (

@@ -6,6 +6,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from forcetorque.errors import FormatError, known_names
+from forcetorque.exchange.tabular.dates import ISO8601
 from forcetorque.recording import OrientationLayout
 
 NANOSECOND_DIGITS = {"s": 9, "ms": 6, "us": 3, "ns": 0}
@@ -19,11 +20,12 @@ class StampColumn:
     column: str
     """Name of the column."""
     unit: str
-    """s, ms, us or ns since the epoch of the clock."""
+    """s, ms, us or ns since the epoch of the clock, or `iso8601` of dates."""
 
     def __post_init__(self) -> None:
-        if self.unit not in NANOSECOND_DIGITS:
-            raise FormatError(f"unit of the stamps: {known_names(self.unit, NANOSECOND_DIGITS)}; got {self.unit!r}")
+        units = (*NANOSECOND_DIGITS, ISO8601)
+        if self.unit not in units:
+            raise FormatError(f"unit of the stamps: {known_names(self.unit, units)}; got {self.unit!r}")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -29,8 +29,9 @@ class StampTable(Table):
 
     column: Text
     """Name of the column."""
-    unit: Literal["s", "ms", "us", "ns"]
-    """Unit of the times, since the epoch of the clock."""
+    unit: Literal["s", "ms", "us", "ns", "iso8601"]
+    """Unit of the times, since the epoch of the clock; `iso8601` for dates with a time of day, such as
+    2026-11-23T10:05:03.123, which count as UTC where they state no zone."""
 
 
 class SignalTable(StatedSignal):

@@ -13,6 +13,7 @@ import pyarrow.compute as pc
 from forcetorque.arrays import FloatArray, IntArray
 from forcetorque.arrow_numbers import arrow_numbers
 from forcetorque.errors import FormatError
+from forcetorque.exchange.tabular.dates import ISO8601, date_stamps, instant_stamps, is_date
 from forcetorque.exchange.tabular.layout import NANOSECOND_DIGITS, StampColumn
 
 LATEST_NS = 9.2e18
@@ -48,7 +49,7 @@ def column_stamps(column: Any, stamp: StampColumn, place: Callable[[int], str]) 
     """Give the times of a column.
 
     Args:
-        column: Column of Arrow: texts of decimal numbers, numbers, or instants.
+        column: Column of Arrow: texts of decimal numbers or of dates, numbers, or instants.
         stamp: Its name and unit.
         place: Says where its rows are.
 
@@ -58,10 +59,17 @@ def column_stamps(column: Any, stamp: StampColumn, place: Callable[[int], str]) 
     Raises:
         FormatError: If a time is missing or none.
     """
-    if pa.types.is_string(column.type) or pa.types.is_large_string(column.type):
+    is_text = pa.types.is_string(column.type) or pa.types.is_large_string(column.type)
+    if is_text and stamp.unit != ISO8601:
         return _of_texts(column, stamp, place)
-    if pa.types.is_timestamp(column.type):
-        column, digits = column.cast(pa.timestamp("ns", column.type.tz)).cast(pa.int64()), 0
+    if is_text:
+        column, digits = date_stamps(column, lambda row: f"{place(row)}: column {stamp.column!r}"), 0
+    elif pa.types.is_timestamp(column.type):
+        column, digits = instant_stamps(column, lambda row: f"{place(row)}: column {stamp.column!r}"), 0
+    elif stamp.unit == ISO8601:
+        raise FormatError(
+            f"{place(0)}: column {stamp.column!r}: expected dates, as stated, got {column.type}; state s, ms, us or ns"
+        )
     else:
         digits = NANOSECOND_DIGITS[stamp.unit]
     if pa.types.is_integer(column.type) and not column.null_count:
@@ -103,7 +111,8 @@ def _bad_text(stamp: StampColumn, text: Any, place: Callable[[int], str]) -> For
                 continue
         except (TypeError, ValueError):
             pass
-        return FormatError(f"{place(row)}: {_expected(stamp)}, got {field!r}")
+        remedy = f'; state unit = "{ISO8601}"' if is_date(field or "") else ""
+        return FormatError(f"{place(row)}: {_expected(stamp)}, got {field!r}{remedy}")
     return FormatError(f"{place(0)}: {_expected(stamp)} with at most 18 decimals")
 
 

@@ -10,11 +10,13 @@ import numpy as np
 import pyarrow as pa
 import pyarrow.csv as pacsv
 
+from forcetorque.arrays import FloatArray, IntArray
 from forcetorque.errors import FormatError
 from forcetorque.exchange.arrow_text import arrow_text
 from forcetorque.exchange.heading import read_heading
 from forcetorque.exchange.log_sketch import LogSketch, SketchedColumns
 from forcetorque.exchange.tabular.columnar import first_batch, is_parquet_file, parquet_size
+from forcetorque.exchange.tabular.dates import ISO8601, column_of_dates
 from forcetorque.exchange.tabular.encoding import open_text
 from forcetorque.exchange.tabular.form import LOOKED_AT, MOST_COLUMNS, beginning, form_of
 from forcetorque.exchange.tabular.hindrance import hindrance
@@ -129,6 +131,12 @@ def _unit_fours(table: Any) -> tuple[int, ...]:
 def _sketched(name: str, rows: int, column: Any) -> SketchedColumns:
     unit = read_heading(name).unit
     kind = None if column is None else column.type
+    instants = None if column is None else column_of_dates(column)
+    if instants is not None:
+        step = _median_step(instants)
+        return SketchedColumns(
+            name=name, rows=rows, unit=ISO8601, is_number=False, step=None if step is None else 1e-9 * step
+        )
     if kind is None or not (pa.types.is_floating(kind) or pa.types.is_integer(kind)):
         is_number = kind is None or pa.types.is_null(kind)
         return SketchedColumns(name=name, rows=rows, unit=unit, is_number=is_number)
@@ -136,8 +144,6 @@ def _sketched(name: str, rows: int, column: Any) -> SketchedColumns:
     finite = values[np.isfinite(values)]
     if not len(finite):
         return SketchedColumns(name=name, rows=rows, unit=unit)
-    steps = np.diff(values)
-    rises = len(steps) > 0 and bool((steps > 0.0).all())
     return SketchedColumns(
         name=name,
         rows=rows,
@@ -145,5 +151,11 @@ def _sketched(name: str, rows: int, column: Any) -> SketchedColumns:
         smallest=float(finite.min()),
         largest=float(finite.max()),
         mean=float(finite.mean()),
-        step=float(np.median(steps)) if rises else None,
+        step=_median_step(values),
     )
+
+
+def _median_step(values: FloatArray | IntArray) -> float | None:
+    """None where not every value is larger than the one before."""
+    steps = np.diff(values)
+    return float(np.median(steps)) if len(steps) and (steps > 0).all() else None

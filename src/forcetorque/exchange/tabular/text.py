@@ -14,6 +14,7 @@ import pyarrow.csv as pacsv
 from forcetorque.errors import FormatError, known_names
 from forcetorque.exchange.arrow_text import arrow_text
 from forcetorque.exchange.heading import named_columns, repeated_words
+from forcetorque.exchange.tabular.dates import ISO8601
 from forcetorque.exchange.tabular.encoding import open_text
 from forcetorque.exchange.tabular.layout import StampColumn, TableLayout
 from forcetorque.exchange.tabular.rows import Rows, wanted_columns
@@ -150,8 +151,8 @@ def _batches(file: Path, layout: TableLayout, names: tuple[str, ...], first_line
 
 
 def _with_points(file: Path, table: Any, layout: TableLayout, first_line: int) -> Any:
-    """The same with points in the stamps, which are read digit by digit."""
-    if not isinstance(layout.stamp, StampColumn):
+    """The same with points in the stamps, which are read digit by digit; dates may have either."""
+    if not isinstance(layout.stamp, StampColumn) or layout.stamp.unit == ISO8601:
         return table
     name = layout.stamp.column
     column = table.column(name)

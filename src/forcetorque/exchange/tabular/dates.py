@@ -1,0 +1,118 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Dates with a time of day, as ISO 8601 writes them, as stamps; Arrow reads them to the nanosecond."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from typing import Any
+
+import pyarrow as pa
+import pyarrow.compute as pc
+
+from forcetorque.arrays import IntArray
+from forcetorque.arrow_numbers import arrow_numbers
+from forcetorque.errors import FormatError
+
+ISO8601 = "iso8601"
+"""What stands for the unit of a column of dates."""
+_CELL = re.compile(r"\d{4}-\d\d-\d\d[T ]\d\d:\d\d(:\d\d([.,]\d{1,9})?)?(?P<zone>Z|[+-]\d\d(:?\d\d)?)?", re.ASCII)
+_QUOTES = " \t\"'"
+"""What may stand around a date."""
+
+
+def is_date(cell: str) -> bool:
+    """Tell whether a cell is a date with a time of day.
+
+    Args:
+        cell: The cell.
+
+    Returns:
+        Whether it looks like one; the month may still be the thirteenth.
+    """
+    return _CELL.fullmatch(cell.strip(_QUOTES)) is not None
+
+
+def date_stamps(column: Any, place: Callable[[int], str]) -> Any:
+    """Give the times of a column of dates.
+
+    Args:
+        column: Column of Arrow with texts.
+        place: Says where its rows are, in the words that an error begins with.
+
+    Returns:
+        Column of Arrow with nanoseconds since 1970, as if the dates were in UTC where they state no zone.
+
+    Raises:
+        FormatError: If one is missing or no date, or some state a zone and others none.
+    """
+    text = pc.replace_substring(pc.utf8_trim(column, characters=_QUOTES), ",", ".")
+    return _cast(text, place)
+
+
+def instant_stamps(column: Any, place: Callable[[int], str]) -> Any:
+    """Give the times of a column of instants, as Parquet and data frames have them.
+
+    Args:
+        column: Column of Arrow with timestamps of any unit.
+        place: Says where its rows are, in the words that an error begins with.
+
+    Returns:
+        Column of Arrow with nanoseconds since 1970, as if the instants were in UTC where they have no zone.
+
+    Raises:
+        FormatError: If one is not of the years 1677 to 2262.
+    """
+    try:
+        return column.cast(pa.timestamp("ns", column.type.tz)).cast(pa.int64())
+    except pa.ArrowException as error:
+        reason = " ".join(str(error).split())
+        raise FormatError(f"{place(0)}: expected instants of the years 1677 to 2262, got {reason}") from error
+
+
+def column_of_dates(column: Any) -> IntArray | None:
+    """Read a column of which nobody has said what it holds.
+
+    Args:
+        column: Column of Arrow.
+
+    Returns:
+        Nanoseconds since 1970; None where it holds no instants and no dates, or not in every row.
+    """
+    try:
+        if pa.types.is_timestamp(column.type):
+            stamps = instant_stamps(column, str)
+        elif pa.types.is_string(column.type) and len(column) and is_date(column[0].as_py() or ""):
+            stamps = date_stamps(column, str)
+        else:
+            return None
+    except FormatError:
+        return None
+    return None if stamps.null_count else arrow_numbers(stamps)
+
+
+def _cast(text: Any, place: Callable[[int], str]) -> Any:
+    first = _CELL.fullmatch(text[0].as_py() or "")
+    instant = pa.timestamp("ns", "UTC" if first is not None and first["zone"] is not None else None)
+    try:
+        stamps = text.cast(instant).cast(pa.int64())
+    except pa.ArrowException as error:
+        raise _bad_date(text, instant, place) from error
+    if stamps.null_count:
+        raise _bad_date(text, instant, place)
+    return stamps
+
+
+def _bad_date(text: Any, instant: Any, place: Callable[[int], str]) -> FormatError:
+    for row, cell in enumerate(text.to_pylist()):
+        match = _CELL.fullmatch(cell or "")
+        if match is None:
+            return FormatError(f"{place(row)}: expected a date as 2026-11-23T10:05:03.123, got {cell or ''!r}")
+        if (match["zone"] is None) != (instant.tz is None):
+            zone = "no zone" if instant.tz is None else "a zone"
+            return FormatError(f"{place(row)}: expected a date with {zone}, as the first one, got {cell!r}")
+        try:
+            pa.scalar(cell).cast(instant)
+        except pa.ArrowException:
+            return FormatError(f"{place(row)}: expected a day and time of the years 1677 to 2262, got {cell!r}")
+    return FormatError(f"{place(0)}: expected dates as 2026-11-23T10:05:03.123")
