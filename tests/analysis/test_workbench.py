@@ -200,8 +200,9 @@ def test_five_directions_are_named_as_they_come(tmp_path: Path) -> None:
         asked(path, full_matrix=True)
 
 
-def test_a_log_with_stretches_is_read_as_blocks(bench: Path, sound: Workbench, tmp_path: Path) -> None:
-    """The same samples as one log with time."""
+@pytest.mark.parametrize("unit", ["s", "iso8601"])
+def test_a_log_with_stretches_is_read_as_blocks(bench: Path, sound: Workbench, tmp_path: Path, unit: str) -> None:
+    """The same samples as one log with time, in seconds or as dates."""
     rows, stretches = [], []
     for k in range(24):
         block = np.loadtxt(bench.parent / f"SIM001_output{k + 1}.dat")[:, 1:]
@@ -211,15 +212,20 @@ def test_a_log_with_stretches_is_read_as_blocks(bench: Path, sound: Workbench, t
         for position, begin, end in (("bias", start - 0.05, start + 3.95), (str(k + 1), start + 3.95, start + 7.95)):
             stretches.append(f'[[readings.block]]\nposition = "{position}"\nstart_s = {begin}\nend_s = {end}\n')
     names = ["t", *(f"ch{k}" for k in range(6))]
-    np.savetxt(
-        tmp_path / "log.csv", np.concatenate(rows), delimiter=",", header=",".join(names), comments="", fmt="%.4f"
+    table = np.concatenate(rows)
+    times = [f"{time:.4f}" for time in table[:, 0]]
+    if unit == "iso8601":
+        times = [str(np.datetime64("2026-11-23T10:00:00.000") + round(1e3 * time)) for time in table[:, 0]]
+    lines = (
+        f"{time},{','.join(f'{count:.4f}' for count in row)}\n" for time, row in zip(times, table[:, 1:], strict=True)
     )
+    (tmp_path / "log.csv").write_text(f"{','.join(names)}\n{''.join(lines)}", encoding="utf-8")
     head, _, _ = bench.read_text(encoding="utf-8").partition("[readings]")
     channels = ", ".join(f'"{name}"' for name in names[1:])
     (tmp_path / "nominal.txt").write_bytes((bench.parent / "nominal.txt").read_bytes())
     (tmp_path / "log.toml").write_text(
-        f'{head}[readings]\nformat = "log"\nfile = "log.csv"\ntime = "t"\ntime_unit = "s"\nchannels = [{channels}]\n'
-        + "".join(stretches),
+        f'{head}[readings]\nformat = "log"\nfile = "log.csv"\ntime = "t"\ntime_unit = "{unit}"\n'
+        f"channels = [{channels}]\n" + "".join(stretches),
         encoding="utf-8",
     )
     by_log, by_files = asked(tmp_path / "log.toml").calibrations[0], sound.calibrations[0]

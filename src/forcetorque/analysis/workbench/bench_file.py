@@ -9,6 +9,7 @@ from typing import Annotated, Literal
 from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
+from forcetorque.exchange.tabular import StampUnit
 from forcetorque.exsitu import BIAS, THESIS_TABLE
 from forcetorque.spatial import MeasureDirection
 from forcetorque.toml_table import Finite, NotNegative, Positive, Table, Text
@@ -99,8 +100,8 @@ class LogReadings(_Readings):
     """The log."""
     time: Text
     """Column of the time."""
-    time_unit: Literal["s", "ms", "us", "ns"]
-    """Its unit."""
+    time_unit: StampUnit
+    """Its unit; `iso8601` for dates with a time of day."""
     block: Annotated[tuple[LogBlock, ...], Field(min_length=1)]
     """Stretches in the order of time; the first is `bias`."""
 

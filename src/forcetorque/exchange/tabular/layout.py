@@ -4,10 +4,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Literal
 
 from forcetorque.errors import FormatError, known_names
 from forcetorque.exchange.tabular.dates import ISO8601
 from forcetorque.recording import OrientationLayout
+
+StampUnit = Literal["s", "ms", "us", "ns", "iso8601"]
+"""Unit of times since the epoch of a clock; `iso8601` for dates."""
 
 NANOSECOND_DIGITS = {"s": 9, "ms": 6, "us": 3, "ns": 0}
 """Decimal digits from a unit of time to nanoseconds."""

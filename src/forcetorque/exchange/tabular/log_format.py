@@ -16,7 +16,7 @@ from forcetorque.exchange.log_format import LogContext, LogDescription, LogReadi
 from forcetorque.exchange.log_sketch import LogSketch
 from forcetorque.exchange.signal_table import StatedSignal
 from forcetorque.exchange.stated_rate import StatedRate
-from forcetorque.exchange.tabular.layout import EvenRows, StampColumn, TableLayout, TableSignal
+from forcetorque.exchange.tabular.layout import EvenRows, StampColumn, StampUnit, TableLayout, TableSignal
 from forcetorque.exchange.tabular.sketch import is_table, sketch_table
 from forcetorque.exchange.tabular.table import ROW_NS, read_table, table_columns
 from forcetorque.recording import Finding, Stream
@@ -29,7 +29,7 @@ class StampTable(Table):
 
     column: Text
     """Name of the column."""
-    unit: Literal["s", "ms", "us", "ns", "iso8601"]
+    unit: StampUnit
     """Unit of the times, since the epoch of the clock; `iso8601` for dates with a time of day, such as
     2026-11-23T10:05:03.123, which count as UTC where they state no zone."""
 
