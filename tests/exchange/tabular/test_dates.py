@@ -84,9 +84,9 @@ def test_seconds_of_a_date_have_the_comma_of_the_table_or_a_point(tmp_path: Path
     [
         ("", "expected a date as 2026-11-23T10:05:03.123, got ''"),
         ("23.11.2026 10:05", "expected a date as 2026-11-23T10:05:03.123, got '23.11.2026 10:05'"),
-        ("2026-13-23T10:05:03", "expected a day and time of the years 1677 to 2262, got '2026-13-23T10:05:03'"),
-        ("3026-11-23T10:05:03", "expected a day and time of the years 1677 to 2262, got '3026-11-23T10:05:03'"),
-        ("2026-11-23T10:05:60", "expected a day and time of the years 1677 to 2262, got '2026-11-23T10:05:60'"),
+        ("2026-13-23T10:05:03", "expected a day and time of the years 1678 to 2261, got '2026-13-23T10:05:03'"),
+        ("3026-11-23T10:05:03", "expected a day and time of the years 1678 to 2261, got '3026-11-23T10:05:03'"),
+        ("2026-11-23T10:05:60", "expected a day and time of the years 1678 to 2261, got '2026-11-23T10:05:60'"),
         ("2026-11-23T10:05:03Z", "expected a date with no zone, as the first one, got '2026-11-23T10:05:03Z'"),
         ("1795428303.25", "expected a date as 2026-11-23T10:05:03.123, got '1795428303.25'"),
     ],
@@ -127,7 +127,7 @@ def test_an_instant_beyond_64_bits_is_refused(tmp_path: Path) -> None:
     """Milliseconds of the year 3000 are no nanoseconds."""
     late = pa.array([32503680000000], pa.timestamp("ms"))
     pq.write_table(pa.table({"t": late, "u": [1.0], "i": [1.0]}), tmp_path / "log.parquet")
-    with pytest.raises(FormatError, match=r"row 1: column 't': expected instants of the years 1677 to 2262"):
+    with pytest.raises(FormatError, match=r"row 1: column 't': expected instants of the years 1678 to 2261"):
         read_table(tmp_path / "log.parquet", _layout(), stream="supply", clock="pc")
 
 

@@ -17,6 +17,8 @@ from forcetorque.errors import FormatError
 ISO8601 = "iso8601"
 """What stands for the unit of a column of dates."""
 _CELL = re.compile(r"\d{4}-\d\d-\d\d[T ]\d\d:\d\d(:\d\d([.,]\d{1,9})?)?(?P<zone>Z|[+-]\d\d(:?\d\d)?)?", re.ASCII)
+_YEARS = (1678, 2261)
+"""Years all of whose nanoseconds since 1970 are held by 64 bits."""
 _QUOTES = " \t\"'"
 """What may stand around a date."""
 
@@ -61,13 +63,15 @@ def instant_stamps(column: Any, place: Callable[[int], str]) -> Any:
         Column of Arrow with nanoseconds since 1970, as if the instants were in UTC where they have no zone.
 
     Raises:
-        FormatError: If one is not of the years 1677 to 2262.
+        FormatError: If one is not of the years 1678 to 2261.
     """
     try:
         return column.cast(pa.timestamp("ns", column.type.tz)).cast(pa.int64())
     except pa.ArrowException as error:
         reason = " ".join(str(error).split())
-        raise FormatError(f"{place(0)}: expected instants of the years 1677 to 2262, got {reason}") from error
+        raise FormatError(
+            f"{place(0)}: expected instants of the years {_YEARS[0]} to {_YEARS[1]}, got {reason}"
+        ) from error
 
 
 def column_of_dates(column: Any) -> IntArray | None:
@@ -95,10 +99,12 @@ def _cast(text: Any, place: Callable[[int], str]) -> Any:
     first = _CELL.fullmatch(text[0].as_py() or "")
     instant = pa.timestamp("ns", "UTC" if first is not None and first["zone"] is not None else None)
     try:
+        years = pc.min_max(pc.utf8_slice_codeunits(text, 0, 4).cast(pa.int32())).as_py()
         stamps = text.cast(instant).cast(pa.int64())
     except pa.ArrowException as error:
         raise _bad_date(text, instant, place) from error
-    if stamps.null_count:
+    # older Arrow takes years that 64 bits do not hold for others
+    if stamps.null_count or years["min"] < _YEARS[0] or years["max"] > _YEARS[1]:
         raise _bad_date(text, instant, place)
     return stamps
 
@@ -113,6 +119,10 @@ def _bad_date(text: Any, instant: Any, place: Callable[[int], str]) -> FormatErr
             return FormatError(f"{place(row)}: expected a date with {zone}, as the first one, got {cell!r}")
         try:
             pa.scalar(cell).cast(instant)
+            is_held = _YEARS[0] <= int(cell[:4]) <= _YEARS[1]
         except pa.ArrowException:
-            return FormatError(f"{place(row)}: expected a day and time of the years 1677 to 2262, got {cell!r}")
+            is_held = False
+        if not is_held:
+            years = f"{_YEARS[0]} to {_YEARS[1]}"
+            return FormatError(f"{place(row)}: expected a day and time of the years {years}, got {cell!r}")
     return FormatError(f"{place(0)}: expected dates as 2026-11-23T10:05:03.123")
