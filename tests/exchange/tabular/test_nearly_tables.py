@@ -3,7 +3,10 @@
 
 from __future__ import annotations
 
+import csv
+import io
 from pathlib import Path
+from typing import Literal
 
 import numpy as np
 import pytest
@@ -65,6 +68,34 @@ def test_what_says_how_it_is_written_is_read(
     stream = _read(file, delimiter, decimal)
     np.testing.assert_array_equal(stream.signal("wrench").values, NUMBERS[:, 1:])
     np.testing.assert_array_equal(stream.stamp_ns, np.arange(30) * 4_000_000)
+
+
+@pytest.mark.parametrize("delimiter", [",", ";", "\t"])
+@pytest.mark.parametrize("quoting", [csv.QUOTE_NONNUMERIC, csv.QUOTE_ALL])
+def test_quotes_are_no_part_of_cells(tmp_path: Path, delimiter: str, quoting: Literal[1, 2]) -> None:
+    """Around headings and notes, or around every cell; a delimiter and other quotes may stand in them."""
+    headings = [*HEADINGS, "note"]
+    text = io.StringIO()
+    writer = csv.writer(text, delimiter=delimiter, quoting=quoting)
+    writer.writerows([headings, *([*numbers, f'at rest{delimiter} then "moved"'] for numbers in NUMBERS.tolist())])
+    file = _file(tmp_path, text.getvalue())
+    sketch = sketch_table(file)
+    assert [column.name for column in sketch.columns] == headings
+    stream = _read(file, delimiter)
+    np.testing.assert_array_equal(stream.signal("wrench").values, NUMBERS[:, 1:])
+    np.testing.assert_array_equal(stream.stamp_ns, np.arange(30) * 4_000_000)
+
+
+@pytest.mark.parametrize("line", [4, 30])
+def test_a_quote_that_is_not_closed_is_refused_by_its_line(tmp_path: Path, line: int) -> None:
+    """It would take the lines behind it for one cell; a mark of inches inside a note takes nothing."""
+    rows = [[*row, '5" pipe'] for row in ROWS]
+    file = _file(tmp_path, _text(rows, headings=[*HEADINGS, "note"]))
+    assert len(_read(file)) == len(ROWS)
+    rows[line - 2][-1] = '"5 inch'
+    file = _file(tmp_path, _text(rows, headings=[*HEADINGS, "note"]))
+    with pytest.raises(FormatError, match=rf":{line}: expected a quote on either side of a cell, got one"):
+        _read(file)
 
 
 @pytest.mark.parametrize(

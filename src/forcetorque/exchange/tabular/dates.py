@@ -19,7 +19,7 @@ ISO8601 = "iso8601"
 _CELL = re.compile(r"\d{4}-\d\d-\d\d[T ]\d\d:\d\d(:\d\d([.,]\d{1,9})?)?(?P<zone>Z|[+-]\d\d(:?\d\d)?)?", re.ASCII)
 _YEARS = (1678, 2261)
 """Years all of whose nanoseconds since 1970 are held by 64 bits."""
-_QUOTES = " \t\"'"
+_AROUND = " \t'"
 """What may stand around a date."""
 
 
@@ -32,7 +32,7 @@ def is_date(cell: str) -> bool:
     Returns:
         Whether it looks like one; the month may still be the thirteenth.
     """
-    return _CELL.fullmatch(cell.strip(_QUOTES)) is not None
+    return _CELL.fullmatch(cell.strip(_AROUND)) is not None
 
 
 def date_stamps(column: Any, place: Callable[[int], str]) -> Any:
@@ -48,7 +48,7 @@ def date_stamps(column: Any, place: Callable[[int], str]) -> Any:
     Raises:
         FormatError: If one is missing or no date, or some state a zone and others none.
     """
-    text = pc.replace_substring(pc.utf8_trim(column, characters=_QUOTES), ",", ".")
+    text = pc.replace_substring(pc.utf8_trim(column, characters=_AROUND), ",", ".")
     return _cast(text, place)
 
 

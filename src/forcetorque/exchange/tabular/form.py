@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from forcetorque.exchange.heading import headings_of, named_columns
+from forcetorque.exchange.tabular.cells import cells_of
 from forcetorque.exchange.tabular.dates import is_date
 from forcetorque.exchange.tabular.encoding import open_text
 
@@ -198,19 +199,6 @@ def _is_below(form: Form, above: Sequence[str], below: Sequence[str]) -> bool:
         and are_rows(rows)
         and not any(len(row) == width and are_rows([row]) for row in others)
     )
-
-
-def cells_of(line: str, delimiter: str) -> list[str]:
-    """Take a line apart.
-
-    Args:
-        line: The line.
-        delimiter: As of a form.
-
-    Returns:
-        Its cells, as they are.
-    """
-    return line.split() if delimiter == " " else [cell.strip() for cell in line.split(delimiter)]
 
 
 def are_rows(rows: Sequence[Sequence[str]]) -> bool:

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from forcetorque.exchange.heading import repeated_words
+from forcetorque.exchange.tabular.cells import cells_of
 from forcetorque.exchange.tabular.dates import is_date
 from forcetorque.exchange.tabular.form import (
     DELIMITERS,
@@ -15,14 +16,13 @@ from forcetorque.exchange.tabular.form import (
     PROBED_LINES,
     are_rows,
     beginning,
-    cells_of,
     form_of,
     has_decimal_comma,
     is_value_or_empty,
     repeated_headings,
 )
 
-_DATE = re.compile(r"[\"']?\d{1,4}[-/.]\d{1,2}[-/.]\d{1,4}([T ]|$)|[\"']?\d{1,2}:\d{2}(:|$)")
+_DATE = re.compile(r"'?\d{1,4}[-/.]\d{1,2}[-/.]\d{1,4}([T ]|$)|'?\d{1,2}:\d{2}(:|$)")
 _TABLES = {".csv", ".tsv"}
 """Endings of files of which one line alone is that of headings."""
 _SHOWN = 40

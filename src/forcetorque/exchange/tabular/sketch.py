@@ -15,6 +15,7 @@ from forcetorque.errors import FormatError
 from forcetorque.exchange.arrow_text import arrow_text
 from forcetorque.exchange.heading import read_heading
 from forcetorque.exchange.log_sketch import LogSketch, SketchedColumns
+from forcetorque.exchange.tabular.cells import quote_of
 from forcetorque.exchange.tabular.columnar import first_batch, is_parquet_file, parquet_size
 from forcetorque.exchange.tabular.dates import ISO8601, column_of_dates
 from forcetorque.exchange.tabular.encoding import open_text
@@ -82,7 +83,7 @@ def _sketch_text(path: Path) -> LogSketch:
         table = pacsv.read_csv(
             arrow_text(f"{whole}\n".encode()),
             read_options=pacsv.ReadOptions(column_names=list(form.names)),
-            parse_options=pacsv.ParseOptions(delimiter=form.delimiter, quote_char=False),
+            parse_options=pacsv.ParseOptions(delimiter=form.delimiter, quote_char=quote_of(form.delimiter)),
             convert_options=pacsv.ConvertOptions(decimal_point=form.decimal),
         ).combine_chunks()
     except pa.ArrowException as error:

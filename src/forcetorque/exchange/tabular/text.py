@@ -14,6 +14,7 @@ import pyarrow.csv as pacsv
 from forcetorque.errors import FormatError, known_names
 from forcetorque.exchange.arrow_text import arrow_text
 from forcetorque.exchange.heading import named_columns, repeated_words
+from forcetorque.exchange.tabular.cells import cells_of, has_open_quote, quote_of
 from forcetorque.exchange.tabular.dates import ISO8601
 from forcetorque.exchange.tabular.encoding import open_text
 from forcetorque.exchange.tabular.layout import StampColumn, TableLayout
@@ -68,10 +69,8 @@ def text_columns(file: Path, delimiter: str = ",", *, skip_rows: int = 0) -> lis
     with open_text(file) as stream:
         _skip(stream, skip_rows)
         heading = stream.readline(BLOCK_SIZE).rstrip(b"\r\n")
-    if delimiter == " ":
-        heading = b" ".join(heading.split())
     try:
-        return list(named_columns([word.strip() for word in heading.decode("utf-8-sig").split(delimiter)]))
+        return list(named_columns(cells_of(heading.decode("utf-8-sig"), delimiter)))
     except UnicodeDecodeError as error:
         raise FormatError(f"{file}:{skip_rows + 1}: expected a line of headings as text, got {error.reason}") from error
 
@@ -140,14 +139,17 @@ def _batches(file: Path, layout: TableLayout, names: tuple[str, ...], first_line
                 arrow_text(text),
                 read_options=pacsv.ReadOptions(column_names=list(names)),
                 parse_options=pacsv.ParseOptions(
-                    delimiter=layout.delimiter, quote_char=False, ignore_empty_lines=False
+                    delimiter=layout.delimiter, quote_char=quote_of(layout.delimiter), ignore_empty_lines=False
                 ),
                 convert_options=options,
             )
         except pa.ArrowException as error:
             raise _placed(file, text, layout, names, line, str(error)) from error
+        rows = text.count(b"\n")
+        if len(table) != rows:
+            raise _unclosed(file, text, layout, line)
         yield table if layout.decimal == "." else _with_points(file, table, layout, line)
-        line += text.count(b"\n")
+        line += rows
 
 
 def _with_points(file: Path, table: Any, layout: TableLayout, first_line: int) -> Any:
@@ -170,20 +172,25 @@ def _placed(
 ) -> FormatError:
     """Find the line and column that the fast reader refused."""
     has_comma = layout.decimal == ","
-    swapped = bytes.maketrans(b".,", b",.") if has_comma else None
+    swapped = str.maketrans(".,", ",.") if has_comma else {}
     expected = "a number with a decimal comma, as stated" if has_comma else "a number"
     wanted = {name: k for k, name in enumerate(names) if any(name in s.columns for s in layout.signals)}
     for number, line in enumerate(text.rstrip(b"\n").split(b"\n"), start=first_line):
-        fields = line.split(layout.delimiter.encode())
+        fields = cells_of(line.decode(errors="replace"), layout.delimiter)
         if len(fields) != len(names):
             return FormatError(
                 f"{file}:{number}: expected {len(names)} columns separated by {layout.delimiter!r}, got {len(fields)}"
             )
         for name, k in wanted.items():
-            field = fields[k].strip()
             try:
-                float(field.translate(swapped) or b"nan")
+                float(fields[k].translate(swapped) or "nan")
             except ValueError:
-                got = field[:40].decode(errors="replace")
-                return FormatError(f"{file}:{number}: column {name!r}: expected {expected}, got {got!r}")
+                return FormatError(f"{file}:{number}: column {name!r}: expected {expected}, got {fields[k][:40]!r}")
     return FormatError(f"{file}: expected a table of numbers, got {' '.join(reason.split())[:200]}")
+
+
+def _unclosed(file: Path, text: bytes, layout: TableLayout, first_line: int) -> FormatError:
+    """Name the first line with a quote that takes what stands behind it for one cell."""
+    lines = (line.decode(errors="replace") for line in text.split(b"\n"))
+    number = next((k for k, line in enumerate(lines, first_line) if has_open_quote(line, layout.delimiter)), first_line)
+    return FormatError(f"{file}:{number}: expected a quote on either side of a cell, got one; delete it")
