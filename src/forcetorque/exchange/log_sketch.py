@@ -7,6 +7,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Protocol, runtime_checkable
 
+import numpy as np
+
+from forcetorque.arrays import FloatArray, IntArray
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SketchedColumns:
@@ -29,8 +33,7 @@ class SketchedColumns:
     mean: float | None = None
     """Mean of the numbers that were looked at; None for none."""
     step: float | None = None
-    """Median step, where every number that was looked at is larger than the one before, as times are, in seconds of
-    dates; else None."""
+    """Median step, in seconds of dates, where the numbers that were looked at rise as times do; else None."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -57,6 +60,21 @@ class LogSketch:
     """Places of the first columns of four that have norm 1 in every row, as quaternions do."""
     rows_looked_at: int | None = None
     """How many rows were looked at from the first; None where no number was."""
+
+
+def median_step(values: FloatArray | IntArray) -> float | None:
+    """Say how far numbers are apart that rise as times do.
+
+    Args:
+        values: Numbers in the order of the file; shape (n,).
+
+    Returns:
+        Their median step; None where one falls, or half of them do not rise: times that were rounded, or sent twice,
+        come again, but those of most samples do not.
+    """
+    steps = np.diff(values)
+    median = float(np.median(steps)) if len(steps) and (steps >= 0).all() else 0.0
+    return median if median > 0.0 else None
 
 
 @runtime_checkable

@@ -121,7 +121,7 @@ def array_time(columns: Sequence[SketchedColumns]) -> SketchedColumns | None:
         columns: Arrays.
 
     Returns:
-        One that rises all along, the first that is called so if any is; None for none.
+        One that rises as times do, the first that is called so if any is; None for none.
     """
     rising = [column for column in columns if column.step is not None]
     named = [

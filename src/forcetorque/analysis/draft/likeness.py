@@ -79,7 +79,7 @@ def time_column(headings: Sequence[Heading], steps: Sequence[float | None]) -> i
 
     Args:
         headings: Headings of the table.
-        steps: Median step of each column that rises all along; None for the others.
+        steps: Median step of each column that rises as times do; None for the others.
 
     Returns:
         Its place: the first one that is called so and rises, else the first column if that rises; None for none.

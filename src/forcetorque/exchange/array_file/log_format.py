@@ -19,7 +19,7 @@ from forcetorque.exchange.array_file.statement import ArrayLog, Hdf5Log, MatlabL
 from forcetorque.exchange.array_file.streams import array_stream, wanted_arrays
 from forcetorque.exchange.hdf5_file import is_hdf5_file
 from forcetorque.exchange.log_format import LogContext, LogDescription, LogReading
-from forcetorque.exchange.log_sketch import LogSketch, SketchedColumns
+from forcetorque.exchange.log_sketch import LogSketch, SketchedColumns, median_step
 from forcetorque.recording import Finding, Stream
 
 
@@ -133,10 +133,9 @@ class NpzFormat(_ArrayFormat):
 
 
 def _sketched(name: str, rows: int, columns: int, values: FloatArray | None) -> SketchedColumns:
-    """An array; of a single column with its range, and its step where it may be times: it rises all along."""
+    """An array; of a single column with its range, and its step where it may be times."""
     if values is None or not np.isfinite(values).all():
         return SketchedColumns(name=name, rows=rows, columns=columns)
-    steps = np.diff(values[:, 0])
     return SketchedColumns(
         name=name,
         rows=rows,
@@ -144,7 +143,7 @@ def _sketched(name: str, rows: int, columns: int, values: FloatArray | None) -> 
         smallest=float(values.min()),
         largest=float(values.max()),
         mean=float(values.mean()),
-        step=float(np.median(steps)) if (steps > 0.0).all() else None,
+        step=median_step(values[:, 0]),
     )
 
 

@@ -10,11 +10,10 @@ import numpy as np
 import pyarrow as pa
 import pyarrow.csv as pacsv
 
-from forcetorque.arrays import FloatArray, IntArray
 from forcetorque.errors import FormatError
 from forcetorque.exchange.arrow_text import arrow_text
 from forcetorque.exchange.heading import read_heading
-from forcetorque.exchange.log_sketch import LogSketch, SketchedColumns
+from forcetorque.exchange.log_sketch import LogSketch, SketchedColumns, median_step
 from forcetorque.exchange.tabular.cells import quote_of
 from forcetorque.exchange.tabular.columnar import first_batch, is_parquet_file, parquet_size
 from forcetorque.exchange.tabular.dates import ISO8601, column_of_dates
@@ -134,7 +133,7 @@ def _sketched(name: str, rows: int, column: Any) -> SketchedColumns:
     kind = None if column is None else column.type
     instants = None if column is None else column_of_dates(column)
     if instants is not None:
-        step = _median_step(instants)
+        step = median_step(instants)
         return SketchedColumns(
             name=name, rows=rows, unit=ISO8601, is_number=False, step=None if step is None else 1e-9 * step
         )
@@ -152,11 +151,5 @@ def _sketched(name: str, rows: int, column: Any) -> SketchedColumns:
         smallest=float(finite.min()),
         largest=float(finite.max()),
         mean=float(finite.mean()),
-        step=_median_step(values),
+        step=median_step(values),
     )
-
-
-def _median_step(values: FloatArray | IntArray) -> float | None:
-    """None where not every value is larger than the one before."""
-    steps = np.diff(values)
-    return float(np.median(steps)) if len(steps) and (steps > 0).all() else None
