@@ -47,17 +47,12 @@ class Case:
     motion: str
     seed: int
     data: list[DataSet]
+    prior: FloatArray
+    """Workbench matrix."""
+    truth: FloatArray
+    """True matrix."""
     specimen: Specimen
-
-    @property
-    def prior(self) -> FloatArray:
-        """Workbench matrix."""
-        return self.specimen.workbench
-
-    @property
-    def truth(self) -> FloatArray:
-        """True matrix."""
-        return self.specimen.sensor.matrix
+    """The sensor as drawn, to record it in other motions."""
 
     def fitted(self, regularisation: float | None = None) -> CalibrationFit:
         """Calibrate with the default type, temperature and all."""
@@ -151,6 +146,8 @@ def cases(
                     motion=motion,
                     seed=seed,
                     data=[data[sensor, name] for name in motions[motion]],
+                    prior=drawn.specimens[sensor].workbench,
+                    truth=drawn.specimens[sensor].sensor.matrix,
                     specimen=drawn.specimens[sensor],
                 )
 
