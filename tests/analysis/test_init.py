@@ -243,6 +243,16 @@ def test_forces_and_moments_without_units_have_ranges_of_their_own(tmp_path: Pat
     assert asked["units"].endswith("forces run from 0 to 8, moments from 0 to 8000")
 
 
+def test_counts_are_not_taken_for_newtons(tmp_path: Path) -> None:
+    """Millions of newtons are counts: the question says how their size is stated, and no answer is likely."""
+    rows = "\n".join(f"{k / 10},{1e6 * k},2000000,-9000000,1000,2000,{k}" for k in range(20))
+    (tmp_path / "log.csv").write_text(f"t_s,fx,fy,fz,tx,ty,tz\n{rows}\n", encoding="utf-8")
+    draft = draft_experiment([tmp_path / "log.csv"])
+    (units,) = (one.question for one in draft.questions if one.key == "units")
+    assert '"1e-6 N" where 1000000 are a newton; forces run from -9e+06 to 1.9e+07' in units
+    assert '"N", "N"' not in units
+
+
 def test_what_goes_with_a_log_is_no_log(tmp_path: Path) -> None:
     """A robot and a calibration are called what they are, with where they belong."""
     with pytest.raises(FormatError, match=r"got the URDF of a robot: `forcetorque init LOG --urdf"):

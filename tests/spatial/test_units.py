@@ -7,6 +7,7 @@ import math
 
 import pytest
 
+from forcetorque.errors import UnitError
 from forcetorque.spatial.units import SI_FACTORS, si_factor
 
 POUND_KG, GRAVITY, INCH_M = 0.45359237, 9.80665, 0.0254
@@ -50,3 +51,37 @@ DEFINITIONS = {
 def test_a_unit_is_what_its_definition_says(unit: str) -> None:
     """Name of the SI unit, and factor to it; a unit without a definition here is noticed."""
     assert si_factor(unit) == (DEFINITIONS[unit][0], pytest.approx(DEFINITIONS[unit][1], rel=1e-14))
+
+
+@pytest.mark.parametrize(
+    ("unit", "si"),
+    [
+        ("1e-6 N", ("N", 1e-6)),
+        ("0.1 N mm", ("N m", 1e-4)),
+        ("2.5E+1 deg", ("rad", math.radians(25.0))),
+        ("+.5 1", ("1", 0.5)),
+    ],
+)
+def test_a_factor_in_front_multiplies(unit: str, si: tuple[str, float]) -> None:
+    """Devices send counts of a part of a unit: a million per newton, ten per millimetre of a newton."""
+    assert si_factor(unit) == (si[0], pytest.approx(si[1], rel=1e-14))
+
+
+@pytest.mark.parametrize(
+    ("unit", "message"),
+    [
+        ("1e-6 pounds", "unknown unit '1e-6 pounds'"),
+        ("1e-6N", "unknown unit '1e-6N'"),
+        ("1e-6", "unknown unit '1e-6'"),
+        ("1_000 N", "unknown unit '1_000 N'"),
+        ("nan N", "unknown unit 'nan N'"),
+        ("2 3 N", "unknown unit '2 3 N'"),
+        ("-1 N", "expected a positive factor, got -1"),
+        ("0 N", "expected a positive factor, got 0"),
+        ("1e999 N", "expected a positive factor, got 1e999"),
+    ],
+)
+def test_what_is_no_unit_is_refused(unit: str, message: str) -> None:
+    """A factor needs a blank and a unit; it turns no sign, which is stated elsewhere."""
+    with pytest.raises(UnitError, match=message):
+        si_factor(unit)

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import math
+import re
 
 from forcetorque.constants import STANDARD_GRAVITY
 from forcetorque.errors import UnitError, known_names
@@ -11,6 +12,7 @@ from forcetorque.errors import UnitError, known_names
 _POUND_FORCE = 4.4482216152605
 """One pound-force in N, by definition of pound and standard gravity."""
 _INCH = 0.0254
+_NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?", re.ASCII)
 
 SI_FACTORS: dict[str, tuple[str, float]] = {
     "N": ("N", 1.0),
@@ -52,14 +54,22 @@ def si_factor(unit: str) -> tuple[str, float]:
     """Look up a unit.
 
     Args:
-        unit: Unit as the file's description states it.
+        unit: Unit as the file's description states it, with a factor in front where the numbers are counts of a part
+            of it: `1e-6 N` where 1000000 of them are a newton.
 
     Returns:
         Its SI unit, and the factor from one to the other.
 
     Raises:
-        UnitError: If the unit is not known.
+        UnitError: If the unit is not known, or its factor no positive number.
     """
-    if unit not in SI_FACTORS:
-        raise UnitError(f"unknown unit {unit!r}; {known_names(unit, SI_FACTORS)}")
-    return SI_FACTORS[unit]
+    if unit in SI_FACTORS:
+        return SI_FACTORS[unit]
+    number, _, name = unit.partition(" ")
+    if name not in SI_FACTORS or not _NUMBER.fullmatch(number):
+        raise UnitError(f"unknown unit {unit!r}; {known_names(unit, SI_FACTORS)}, and with a factor, such as '1e-6 N'")
+    factor = float(number)
+    if not 0.0 < factor < math.inf:
+        raise UnitError(f"unit {unit!r}: expected a positive factor, got {number}")
+    si_unit, si = SI_FACTORS[name]
+    return si_unit, factor * si

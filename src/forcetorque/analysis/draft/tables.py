@@ -198,6 +198,8 @@ def _group_lines(
         likeliest = likeliest_units(group.quantity, len(names), _largest(sketch, group))
         shown = "" if likeliest is None else f", as {_repeated(likeliest)}"
         choice = f" ({usual})" if " or " in usual else ""
+        if group.quantity == "wrench" and likeliest is None:
+            shown = ', with a factor in front of counts, as "1e-6 N" where 1000000 are a newton'
         example = f"{shown}{choice}"
         lines.append(question("units", f"unit of each column{example}{extent}", likeliest))
     if quantity is not None and quantity.labels is Labels.JOINTS:

@@ -35,6 +35,8 @@ RATE_LINES = (
 _PLAUSIBLE_HZ = (1.0, 10_000.0)
 _MOST_TURNS = 13.0
 """Joints and frames seldom turn by more than two turns in rad; in deg they always do."""
+_MOST_N = 1e5
+"""No sensor of a robot reads so much."""
 
 
 def time_words(column: SketchedColumns) -> str:
@@ -86,6 +88,8 @@ def likeliest_units(quantity: str, count: int, largest: float | None) -> list[st
     Returns:
         A unit for each column; None where nothing is usual.
     """
+    if quantity == "wrench" and largest is not None and largest > _MOST_N:
+        return None
     if quantity == "wrench":
         return ["N"] * 3 + ["N m"] * 3
     words = USUAL_UNITS.get(quantity, "").split(" or ")
