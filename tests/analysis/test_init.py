@@ -205,6 +205,18 @@ def test_columns_look_like_what_they_are_called() -> None:
     assert likenesses([read_heading(name) for name in ("fx", "fy", "fz", "note")], []) == ()
 
 
+def test_messages_of_joints_as_a_table_are_of_joints() -> None:
+    """As PlotJuggler names them by topic, as rostopic counts them; what is wanted of joints is not where they are."""
+    robot = ["shoulder", "elbow", "wrist"]
+    names = ["/arm/joint_states/elbow/position", "/arm/joint_states/wrist/position", "/arm/joint_states/elbow/effort"]
+    names += ["/target/elbow/position", "field.name0", "field.velocity0", "field.velocity1", "field.wanted0"]
+    seen = {one.quantity: one for one in likenesses([read_heading(name) for name in names], robot)}
+    assert (seen["position"].columns, seen["position"].names) == ((0, 1), ("elbow", "wrist"))
+    assert (seen["torque"].columns, seen["torque"].names) == ((2,), ("elbow",))
+    assert (seen["velocity"].columns, seen["velocity"].names) == ((5, 6), None)
+    assert len(seen) == 3
+
+
 def test_joints_by_number_are_joints_however_many() -> None:
     """As many as the robot has by any letter, fewer where the heading says joint; the word behind is the quantity."""
     robot = ["shoulder", "elbow", "wrist"]

@@ -53,6 +53,8 @@ _MOTIONS = {
     "effort": "torque",
     "current": "motor_current",
 }
+_STATES = re.compile(r"^(?:.*_)?joint_states?_|^field_(?=position|velocity|effort)")
+"""What stands in front where programs of ROS wrote messages of joints as a table."""
 _FIXED_ROWS = 9
 _OF_JOINTS = {"j", "joint", "joints"}
 """Words of columns that are of joints, however many they are."""
@@ -125,10 +127,15 @@ def _of_joints(free: Mapping[int, str], joints: Sequence[str]) -> list[Likeness]
             groups.setdefault(rest, {}).setdefault(joint, k)
     likeness: dict[str, Likeness] = {}
     for rest, members in groups.items():
-        quantity = _MOTIONS.get(rest.removeprefix("actual_") or rest)
+        quantity = _motion(rest)
         if quantity is not None and quantity not in likeness:
             likeness[quantity] = Likeness(quantity=quantity, columns=tuple(members.values()), names=tuple(members))
     return list(likeness.values())
+
+
+def _motion(words: str) -> str | None:
+    """The quantity of joints that words are for, whatever program or topic stands in front."""
+    return _MOTIONS.get(words.removeprefix("actual_") or words) or _MOTIONS.get(_STATES.sub("", words))
 
 
 def _axes(free: Mapping[int, str], pattern: re.Pattern[str]) -> dict[tuple[str, str], dict[str, int]]:
@@ -215,8 +222,9 @@ def _numbered(free: Mapping[int, str], joints: Sequence[str]) -> list[Likeness]:
         word = _plain(before or behind)
         if _CHANNELS.search(word) and len(columns) >= 6:
             likeness.setdefault("raw", Likeness(quantity="raw", columns=columns))
-        quantity = _MOTIONS.get(_plain(behind) or word.removeprefix("actual_"), _MOTIONS.get(word))
-        counted = len(columns) == len(joints) or (word in _OF_JOINTS and 1 < len(columns) <= len(joints))
+        quantity = _motion(_plain(behind) or word) or _motion(word)
+        of_joints = word in _OF_JOINTS or _STATES.match(word) is not None
+        counted = len(columns) == len(joints) or (of_joints and 1 < len(columns) <= len(joints))
         if word and quantity is not None and counted:
             likeness.setdefault(quantity, Likeness(quantity=quantity, columns=columns))
     return list(likeness.values())
