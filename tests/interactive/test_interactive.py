@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -12,12 +13,12 @@ import pytest
 
 import forcetorque
 from forcetorque import Experiment, experiment_of_arrays, load_experiment, read_calibration
-from forcetorque.analysis import SensorRun, evaluate
+from forcetorque.analysis import SensorRun, data_doubts, evaluate, learnt_directions
 from forcetorque.analysis import plan as analysis_plan
 from forcetorque.analysis.plan.proposal import Effort
 from forcetorque.errors import ExperimentError, FitError, ShapeError
 from forcetorque.interactive import Run
-from forcetorque.recording import Use
+from forcetorque.recording import Finding, Use
 from tests.experiment_folders import arm, intact
 from tests.experiments import PARQUET
 
@@ -165,6 +166,39 @@ def test_without_a_span_to_judge_nothing_is_judged(experiment: Experiment) -> No
         run.expected_wrenches("judge")
     with pytest.raises(FitError):
         run.calibrate(nonlinear=True, kind="generative")
+
+
+def test_what_makes_a_fit_doubtful_is_said(arm: Path, caplog: pytest.LogCaptureFixture) -> None:
+    """A channel that reaches its limit in fitted samples is logged, as `calibrate` of the command line warns of it."""
+    experiment = load_experiment(arm / PARQUET)
+    with caplog.at_level("WARNING", logger="forcetorque"):
+        experiment["arm_ft"].calibrate()
+    assert caplog.messages == []
+    fitted = experiment["arm_ft"].samples(Use.CALIBRATION)[0].readings.raw
+    saturated = experiment_of_arrays(**_arrays(experiment, limit_counts=float(np.abs(fitted).max())))["arm_ft"]
+    expected = list(data_doubts(saturated))
+    assert any("saturation" in sentence for sentence in expected)
+    with caplog.at_level("WARNING", logger="forcetorque"):
+        saturated.calibrate()
+    assert caplog.messages[: len(expected)] == expected
+
+
+def test_the_page_of_an_experiment_says_what_was_found_while_reading(experiment: Experiment) -> None:
+    """Findings of the log, with what would be markup escaped; none where there are none."""
+    assert "warning" not in experiment._repr_html_()
+    found = Finding(kind="gap", message="3 messages <lost>", stream="arm_ft", start_ns=0, end_ns=1, count=3)
+    told = Experiment.of(replace(experiment, recording=replace(experiment.recording, findings=(found,))))
+    assert told._repr_html_().startswith("<p><b>warning:</b> arm_ft: 3 messages &lt;lost&gt;</p>")
+
+
+def test_the_page_of_a_calibration_says_what_was_learnt_and_what_is_doubtful(experiment: Experiment) -> None:
+    """The share of every load that the recording decided, and doubts before the matrix."""
+    calibration = experiment["arm_ft"].calibrate()
+    rows = learnt_directions(calibration)
+    assert rows is not None
+    page = calibration.model_copy(update={"doubts": ("a < b",)})._repr_html_()
+    assert page.startswith("<p><b>warning:</b> a &lt; b</p><table>")
+    assert all(f"{row.direction} {100.0 * row.learnt:.0f} %" in page for row in rows)
 
 
 def test_what_a_notebook_shows_is_short(experiment: Experiment) -> None:

@@ -18,7 +18,7 @@ from forcetorque.calibration.joint import ModelTolerance
 from forcetorque.estimation.balance import ForceLimit
 from forcetorque.evaluation import OffsetPolicy
 from forcetorque.interactive.run import Calibrations, Run, named
-from forcetorque.result import Table, html_table
+from forcetorque.result import Table, html_table, html_warnings
 
 
 class Experiment(experiments.Experiment):
@@ -105,7 +105,8 @@ class Experiment(experiments.Experiment):
                 for one in self.recording.intervals
             ),
         )
-        return html_table(table)
+        found = (f"{finding.stream}: {finding.message}" for finding in self.recording.findings)
+        return html_warnings(found) + html_table(table)
 
 
 def load_experiment(path: Path | str) -> Experiment:

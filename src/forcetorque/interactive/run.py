@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Mapping
 from datetime import UTC, datetime
 from importlib.metadata import version
@@ -26,6 +27,8 @@ Calibrations = Calibration | Mapping[str, Calibration]
 NEW = "calibration"
 """Name of a calibration that is given without one."""
 
+_LOG = logging.getLogger(__name__)
+
 
 class Run(SensorRun):
     """One sensor of one experiment: `run.calibrate()`, `run.evaluate(calibration)`, `run.report(calibration)`.
@@ -36,13 +39,21 @@ class Run(SensorRun):
     def calibrate(self, **options: Any) -> Calibration:
         """Fit the sensor on its calibration intervals.
 
+        What makes the fit doubtful is logged as warnings, which Python writes to standard error and a notebook shows.
+
         Args:
             options: As of `calibrate_sensor`: kind, regularisation, nonlinear, moments.
 
         Returns:
             The calibration.
         """
-        return analysis.calibrate_sensor(self, code_version=version("forcetorque"), created=_now(), **options)
+        answer = analysis.calibrate_for_file(
+            self, f"{self.sensor.name}.json", code_version=version("forcetorque"), created=_now(), **options
+        )
+        for sentence in answer.cautions():
+            _LOG.warning("%s", sentence)
+        (entry,) = answer.calibrations
+        return entry.calibration
 
     def expected_wrenches(self, label: str) -> tuple[FloatArray, FloatArray]:
         """Give what mechanics demands that the sensor reads over an interval.

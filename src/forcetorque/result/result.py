@@ -12,7 +12,7 @@ from typing import Any, ClassVar, Self
 from pydantic import Field
 
 from forcetorque.errors import ShapeError
-from forcetorque.result.html import html_table
+from forcetorque.result.html import html_table, html_warnings
 from forcetorque.result.row import Row
 from forcetorque.result.table import Table
 from forcetorque.result.text import table_text, wrapped
@@ -98,8 +98,7 @@ class Result(Row):
         return f"{doubtful}\n{self.text()}" if doubtful else self.text()
 
     def _repr_html_(self) -> str:
-        doubtful = "".join(f"<p><b>warning:</b> {html.escape(sentence)}</p>" for sentence in self.cautions())
-        return doubtful + "".join(
+        return html_warnings(self.cautions()) + "".join(
             f"<p>{html.escape(block)}</p>" if isinstance(block, str) else html_table(block) for block in self.blocks()
         )
 
