@@ -126,14 +126,64 @@ def test_a_calibrated_wrench_needs_the_matrix_that_made_it(experiment: Experimen
         ({"gravity_direction": [0, 0, 0]}, forcetorque.ForceTorqueError, "gravity_direction"),
         ({"limit_counts": 0.0}, ExperimentError, "limit_counts: expected a positive number of counts, got 0.0"),
         ({"calibrate": (9.0, 2.0)}, forcetorque.ForceTorqueError, "expected an end after its start"),
+        ({"calibrate": (1.0, 2.0, 3.0)}, ExperimentError, r"calibrate: expected one span.*got \(1.0, 2.0, 3.0\)"),
+        ({"calibrate": [(1, 2), (3, 4)]}, ExperimentError, "calibrate: expected one span"),
+        ({"calibrate": None}, ExperimentError, "calibrate: expected one span"),
+        ({"judge": (np.nan, 2.0)}, ExperimentError, "judge: expected one span"),
+        ({"judge": (0.0, np.inf)}, ExperimentError, "judge: expected one span"),
+        (
+            {"time_s": pd.date_range("2026-01-01", periods=5)},
+            ExperimentError,
+            "time_s: expected numbers, .*timedelta64",
+        ),
+        ({"time_s": np.arange(5, dtype="timedelta64[ns]")}, ExperimentError, "time_s: expected numbers, .*timedelta64"),
+        ({"time_s": 1.7e18 + 1e9 * np.arange(5)}, ExperimentError, "time_s: expected seconds.*divide nanoseconds"),
+        ({"robot": "<robot name='arm'/>"}, ExperimentError, "robot: expected the path of a URDF file, got its text"),
+        ({"robot": None}, ExperimentError, "robot: expected a RobotModel or the path of a URDF file, got None"),
+        ({"sensor": None}, forcetorque.ForceTorqueError, "no force-torque sensor None; known: arm_ft"),
+        (
+            {"joints": np.zeros((9, 5))},
+            ExperimentError,
+            r"joints: .*dictionary or a pandas frame, got ndarray of shape",
+        ),
+        ({"reading": np.zeros((9, 6), dtype=complex)}, ExperimentError, "reading: expected numbers"),
+        ({"quantity": "wrnch"}, ExperimentError, "quantity: expected 'raw' or 'wrench', got 'wrnch'"),
+        ({"serial": 26}, ExperimentError, "serial: expected the serial number as text, such as 'SN026', got 26"),
+        ({"serial": ""}, ExperimentError, "serial: expected the serial number as text"),
+        ({"prior": "matrix.txt"}, ExperimentError, "prior: expected numbers, got 'matrix.txt'"),
+        ({"prior": np.full((6, 6), np.nan)}, ExperimentError, "prior: expected a matrix of finite numbers"),
+        ({"full_scale": [0.0] * 6}, ExperimentError, "full_scale: expected six finite numbers above 0"),
+        ({"gravity_direction": "down"}, ExperimentError, "gravity_direction: expected numbers, got 'down'"),
+        ({"limit_counts": None}, ExperimentError, "limit_counts: expected a positive number of counts, got None"),
     ],
 )
 def test_arrays_that_do_not_fit_are_refused(
     experiment: Experiment, changes: dict[str, Any], error: type[Exception], message: str
 ) -> None:
-    """In words that name the argument."""
-    with pytest.raises(error, match=message):
+    """In one line of words that name the argument, however large it is."""
+    with pytest.raises(error, match=message) as refused:
         experiment_of_arrays(**_arrays(experiment, **changes))
+    assert "\n" not in str(refused.value)
+    assert len(str(refused.value)) < 300
+
+
+def test_columns_of_a_wrench_in_another_order_are_refused(experiment: Experiment) -> None:
+    """A frame whose columns are named says itself that moments come first; they were taken for forces."""
+    arguments = _arrays(experiment, quantity="wrench", prior=np.eye(6), full_scale=[900.0] * 3 + [30.0] * 3)
+    frame = pd.DataFrame(arguments["reading"] * 1e-3, columns=["fx", "fy", "fz", "tx", "ty", "tz"])
+    with pytest.raises(ExperimentError, match="in this order, got tx, ty, tz, fx, fy, fz"):
+        experiment_of_arrays(**arguments | {"reading": frame[["tx", "ty", "tz", "fx", "fy", "fz"]]})
+    assert experiment_of_arrays(**arguments | {"reading": frame}).sensors
+
+
+def test_an_experiment_is_a_collection_of_sensors_by_name(experiment: Experiment) -> None:
+    """It lists their names, knows whether it has one, offers them to a notebook, and names them where one is wrong."""
+    assert list(experiment) == ["arm_ft"] == experiment._ipython_key_completions_()
+    assert "arm_ft" in experiment
+    assert "leg_ft" not in experiment
+    assert 0 not in experiment
+    with pytest.raises(ExperimentError, match="has no sensor 0; known: arm_ft"):
+        experiment[0]  # type: ignore[index]
 
 
 def test_the_limit_of_the_converter_is_that_of_16_bits_or_stated(experiment: Experiment) -> None:

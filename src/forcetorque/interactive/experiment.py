@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import fields
 from datetime import UTC, datetime
 from importlib.metadata import version
@@ -22,7 +22,7 @@ from forcetorque.result import Table, html_table, html_warnings
 
 
 class Experiment(experiments.Experiment):
-    """Everything that an experiment file points to, sensors by name."""
+    """Everything that an experiment file points to, sensors by name: `[experiment[name] for name in experiment]`."""
 
     __slots__ = ()
 
@@ -51,6 +51,15 @@ class Experiment(experiments.Experiment):
             ExperimentError: If the experiment has none of that name.
         """
         return Run(self, self.sensor(sensor))
+
+    def __iter__(self) -> Iterator[str]:
+        return (sensor.name for sensor in self.sensors)
+
+    def __contains__(self, sensor: object) -> bool:
+        return any(sensor in (one.name, *self.model.sensor(one.name).aliases) for one in self.sensors)
+
+    def _ipython_key_completions_(self) -> list[str]:
+        return list(self)
 
     def balance(
         self, calibrations: Calibrations | None = None, *, touch: str = "15%", release: str = "6%", **options: Any
