@@ -13,9 +13,18 @@ import pytest
 
 import forcetorque
 from forcetorque import Experiment, experiment_of_arrays, load_experiment, read_calibration
-from forcetorque.analysis import SensorRun, data_doubts, evaluate, learnt_directions
+from forcetorque.analysis import (
+    SensorRun,
+    data_doubts,
+    evaluate,
+    learnt_directions,
+    spheres,
+    use_verdicts,
+    validate,
+)
 from forcetorque.analysis import plan as analysis_plan
 from forcetorque.analysis.plan.proposal import Effort
+from forcetorque.calibration import ESTIMATION_TYPES
 from forcetorque.errors import ExperimentError, FitError, ShapeError
 from forcetorque.interactive import Run
 from forcetorque.recording import Finding, Use
@@ -262,3 +271,42 @@ def test_what_a_notebook_shows_is_short(experiment: Experiment) -> None:
     assert str(calibration) == repr(calibration)
     assert "<td" in experiment._repr_html_()
     assert f"{calibration.matrix[0, 0]:.4g}" in calibration._repr_html_()
+
+
+@pytest.mark.parametrize("question", ["evaluate", "validate", "verdicts", "plan", "figure"])
+def test_what_is_no_calibration_is_refused_in_a_line(experiment: Experiment, question: str) -> None:
+    """The file of one is named with what reads it; so is another thing under a name."""
+    ask = getattr(experiment["arm_ft"], question)
+    with pytest.raises(
+        ExperimentError, match=r"expected a Calibration.*; read_calibration\('arm.json'\) reads a file$"
+    ):
+        ask("arm.json")
+    with pytest.raises(ExperimentError, match="expected a Calibration.*, got a int$"):
+        ask(26)
+    if question != "plan":
+        with pytest.raises(
+            ExperimentError, match=r"calibrations\['mine'\]: expected a Calibration, got 'arm.json'; read"
+        ):
+            ask({"mine": Path("arm.json")})
+
+
+def test_one_calibration_needs_no_name(experiment: Experiment) -> None:
+    """The functions of `analysis` take it as the methods do."""
+    run = experiment["arm_ft"]
+    calibration = run.calibrate()
+    assert evaluate(run, calibration).json_text() == run.evaluate(calibration).json_text()
+    assert validate(run, calibration).json_text() == run.validate(calibration).json_text()
+    assert use_verdicts(run, calibration) == run.verdicts(calibration)
+    assert [row.candidate for row in spheres(run, calibration).rows] == ["prior", "calibration"]
+
+
+def test_an_estimation_type_is_given_by_its_name(experiment: Experiment) -> None:
+    """As on the command line; another name, and a lambda that is no number, are refused in a line."""
+    run = experiment["arm_ft"]
+    by_name = run.calibrate(kind="OnTdTO", regularisation=1000.0)
+    by_type = run.calibrate(kind=ESTIMATION_TYPES["OnTdTO"], regularisation=1000.0)
+    np.testing.assert_array_equal(by_name.matrix, by_type.matrix)
+    with pytest.raises(FitError, match="no estimation type is called 'OnTd'; did you mean"):
+        run.calibrate(kind="OnTd")
+    with pytest.raises(FitError, match="regularisation: expected lambda in counts2, or 'held-out', got 'some'"):
+        run.calibrate(regularisation="some")

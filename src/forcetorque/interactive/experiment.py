@@ -13,11 +13,12 @@ from typing import Any, Self
 from forcetorque import analysis
 from forcetorque import experiment as experiments
 from forcetorque.analysis import SensorCalibrations
+from forcetorque.analysis.runs.named import NEW, Calibrations, named
 from forcetorque.calibration import Calibration
 from forcetorque.calibration.joint import ModelTolerance
 from forcetorque.estimation.balance import ForceLimit
 from forcetorque.evaluation import OffsetPolicy
-from forcetorque.interactive.run import Calibrations, Run, named
+from forcetorque.interactive.run import Run
 from forcetorque.result import Table, html_table, html_warnings
 
 
@@ -84,19 +85,22 @@ class Experiment(experiments.Experiment):
 
     def coherence(
         self,
-        candidates: Mapping[str, Mapping[str, Calibration]] | None = None,
+        candidates: Calibration | Mapping[str, Mapping[str, Calibration]] | None = None,
         offsets: Sequence[OffsetPolicy | str] = (),
     ) -> analysis.Coherence:
         """Hold the net contact force of every phase against the weight.
 
         Args:
-            candidates: By name of the candidate its calibrations by any name; the prior is always judged.
+            candidates: One calibration, or by name of the candidate its calibrations by any name; the prior is always
+                judged.
             offsets: Where offsets come from, such as `one-link-imu:hanging`; as of `analysis.coherence`.
 
         Returns:
             Net forces and errors per offset, phase and candidate.
         """
-        return analysis.coherence(self, candidates, offsets=offsets)
+        judged = {NEW: candidates} if isinstance(candidates, Calibration) else candidates or {}
+        sensors = {name: named(calibrations) for name, calibrations in judged.items()}
+        return analysis.coherence(self, sensors, offsets=offsets)
 
     def _repr_html_(self) -> str:
         start = self.recording.start_ns

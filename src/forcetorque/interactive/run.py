@@ -4,13 +4,13 @@
 from __future__ import annotations
 
 import logging
-from collections.abc import Mapping
 from datetime import UTC, datetime
 from importlib.metadata import version
 from typing import TYPE_CHECKING, Any
 
 from forcetorque import analysis
 from forcetorque.analysis import SensorRun
+from forcetorque.analysis.runs.named import Calibrations, named, one_named
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration import Calibration
 from forcetorque.errors import ExperimentError, known_names
@@ -20,12 +20,6 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
     from forcetorque.report import Report
-
-Calibrations = Calibration | Mapping[str, Calibration]
-"""One calibration, or several by name."""
-
-NEW = "calibration"
-"""Name of a calibration that is given without one."""
 
 _LOG = logging.getLogger(__name__)
 
@@ -117,7 +111,8 @@ class Run(SensorRun):
         Returns:
             The offset, to be added, with its interval.
         """
-        return analysis.tare(self, label, name=None if calibration is None else NEW, calibration=calibration)
+        name, reader = one_named(calibration)
+        return analysis.tare(self, label, name=name, calibration=reader)
 
     def thermal(self, calibration: Calibration | None = None, **options: Any) -> analysis.Thermal:
         """Find how the reading drifts with temperature at a load that stays.
@@ -129,8 +124,8 @@ class Run(SensorRun):
         Returns:
             Drift per degree and per hour, and hysteresis, with intervals.
         """
-        name = None if calibration is None else NEW
-        return analysis.thermal(self, name=name, calibration=calibration, **options)
+        name, reader = one_named(calibration)
+        return analysis.thermal(self, name=name, calibration=reader, **options)
 
     def response(self, excitation: str, calibration: Calibration | None = None, **options: Any) -> analysis.Response:
         """Tell what the sensor does to fast forces: `run.response("impact", force="hammer").corrected(stream)`.
@@ -143,8 +138,8 @@ class Run(SensorRun):
         Returns:
             Events and their decays, frequency response, and the filter that undoes it.
         """
-        name = None if calibration is None else NEW
-        return analysis.response(self, excitation, name=name, calibration=calibration, **options)
+        name, reader = one_named(calibration)
+        return analysis.response(self, excitation, name=name, calibration=reader, **options)
 
     def verdicts(self, calibrations: Calibrations) -> tuple[analysis.UseVerdict, ...]:
         """Say whether calibrations may be used for the loads to come.
@@ -167,7 +162,8 @@ class Run(SensorRun):
         Returns:
             The recordings, and the error to expect after each.
         """
-        return analysis.plan(self, calibration, **options)
+        _, known = one_named(calibration)
+        return analysis.plan(self, known, **options)
 
     def report(self, calibrations: Calibrations | None = None, **options: Any) -> Report:
         """Say everything about the sensor in a document: `run.report(calibration).save("a.html")`.
@@ -202,20 +198,6 @@ class Run(SensorRun):
 
         judged = self.judged(named(calibrations))
         return comparison_figure(judged.time_s, judged.reference, dict(judged.measured))
-
-
-def named(calibrations: Calibrations | None) -> dict[str, Calibration]:
-    """Give calibrations their names.
-
-    Args:
-        calibrations: One, several by name, or none.
-
-    Returns:
-        Them by name; one alone is called `calibration`.
-    """
-    if calibrations is None:
-        return {}
-    return {NEW: calibrations} if isinstance(calibrations, Calibration) else dict(calibrations)
 
 
 def _now() -> str:

@@ -101,7 +101,7 @@ def calibrate_for_file(
     created: str,
     moments: Sequence[RecordingMoments] = (),
     regularisation: float | Literal["held-out"] | None = None,
-    kind: EstimationType | Literal["generative"] | None = None,
+    kind: EstimationType | str | None = None,
     nonlinear: bool | None = None,
 ) -> SensorCalibrations:
     """Fit a sensor, and say what makes the calibration doubtful.
