@@ -30,6 +30,7 @@ from forcetorque.interactive import Run
 from forcetorque.recording import Finding, Use
 from tests.experiment_folders import arm, intact
 from tests.experiments import PARQUET
+from tests.interactive.arrays import arrays_of
 
 __all__ = ["arm", "intact"]
 
@@ -38,33 +39,6 @@ __all__ = ["arm", "intact"]
 def experiment(arm: Path) -> Experiment:
     """The experiment of the small arm, from its file."""
     return load_experiment(arm / PARQUET)
-
-
-def _arrays(experiment: Experiment, **changes: Any) -> dict[str, Any]:
-    """The same as arrays."""
-    recording, sensor = experiment.recording, experiment.sensors[0]
-    readings = recording.stream(sensor.stream)
-    (joints,) = (stream for stream in recording.streams.values() if "position" in stream.signals)
-    position, start = joints.signal("position"), recording.start_ns
-    spans = {
-        interval.use: ((interval.start_ns - start) * 1e-9, (interval.end_ns - start) * 1e-9)
-        for interval in recording.intervals
-    }
-    arguments = {
-        "robot": experiment.model,
-        "sensor": sensor.name,
-        "time_s": (readings.stamp_ns - start) * 1e-9,
-        "reading": readings.signal("raw").values,
-        "joints": dict(zip(position.columns, position.values.T, strict=True)),
-        "joint_time_s": (joints.stamp_ns - start) * 1e-9,
-        "support": "base",
-        "gravity_direction": [0.0, 0.0, -1.0],
-        "calibrate": spans[Use.CALIBRATION],
-        "judge": spans[Use.VALIDATION],
-        "serial": sensor.serial,
-        "prior": sensor.prior,
-    }
-    return arguments | changes
 
 
 @pytest.mark.usefixtures("blank_pictures")
@@ -86,7 +60,7 @@ def test_a_sensor_is_chosen_by_name_and_asked_by_method(experiment: Experiment, 
 
 def test_arrays_give_what_the_file_gives(experiment: Experiment) -> None:
     """The same matrix, errors and expected wrenches, but for instants that are rounded to a nanosecond."""
-    arrays = experiment_of_arrays(**_arrays(experiment))
+    arrays = experiment_of_arrays(**arrays_of(experiment))
     one, other = experiment["arm_ft"], arrays["arm_ft"]
     fitted, same = one.calibrate(), other.calibrate()
     np.testing.assert_allclose(same.matrix, fitted.matrix, rtol=1e-6, atol=1e-9)  # instants are rounded to 1 ns
@@ -101,7 +75,7 @@ def test_arrays_give_what_the_file_gives(experiment: Experiment) -> None:
 
 def test_arrays_may_come_in_frames_of_pandas(experiment: Experiment) -> None:
     """Readings, instants and joint positions: the columns of one frame, or of several."""
-    arguments = _arrays(experiment)
+    arguments = arrays_of(experiment)
     joints = pd.DataFrame(arguments["joints"])
     readings = pd.DataFrame(arguments["reading"], columns=[f"ch{k}" for k in range(6)])
     frames = {"joints": joints, "reading": readings, "time_s": pd.Series(arguments["time_s"])}
@@ -113,7 +87,7 @@ def test_a_calibrated_wrench_needs_the_matrix_that_made_it(experiment: Experimen
     """Or the identity with full scales; the calibration is then of the wrench."""
     prior = experiment.sensors[0].prior
     assert prior is not None
-    arguments = _arrays(experiment)
+    arguments = arrays_of(experiment)
     wrench = arguments["reading"] @ prior.T
     with pytest.raises(ExperimentError, match="needs the prior that made it"):
         experiment_of_arrays(**arguments | {"reading": wrench, "quantity": "wrench", "prior": None})
@@ -171,14 +145,14 @@ def test_arrays_that_do_not_fit_are_refused(
 ) -> None:
     """In one line of words that name the argument, however large it is."""
     with pytest.raises(error, match=message) as refused:
-        experiment_of_arrays(**_arrays(experiment, **changes))
+        experiment_of_arrays(**arrays_of(experiment, **changes))
     assert "\n" not in str(refused.value)
     assert len(str(refused.value)) < 300
 
 
 def test_columns_of_a_wrench_in_another_order_are_refused(experiment: Experiment) -> None:
     """A frame whose columns are named says itself that moments come first; they were taken for forces."""
-    arguments = _arrays(experiment, quantity="wrench", prior=np.eye(6), full_scale=[900.0] * 3 + [30.0] * 3)
+    arguments = arrays_of(experiment, quantity="wrench", prior=np.eye(6), full_scale=[900.0] * 3 + [30.0] * 3)
     frame = pd.DataFrame(arguments["reading"] * 1e-3, columns=["fx", "fy", "fz", "tx", "ty", "tz"])
     with pytest.raises(ExperimentError, match="in this order, got tx, ty, tz, fx, fy, fz"):
         experiment_of_arrays(**arguments | {"reading": frame[["tx", "ty", "tz", "fx", "fy", "fz"]]})
@@ -198,15 +172,16 @@ def test_an_experiment_is_a_collection_of_sensors_by_name(experiment: Experiment
 def test_the_limit_of_the_converter_is_that_of_16_bits_or_stated(experiment: Experiment) -> None:
     """As in a file; head-room is counted from it."""
     one, other = (
-        experiment_of_arrays(**_arrays(experiment, **changes)).sensors[0] for changes in ({}, {"limit_counts": 2047.0})
+        experiment_of_arrays(**arrays_of(experiment, **changes)).sensors[0]
+        for changes in ({}, {"limit_counts": 2047.0})
     )
     assert one.limit_counts == experiment.sensors[0].limit_counts
     assert other.limit_counts == 2047.0
 
 
-def test_what_to_record_next_is_planned_from_arrays(experiment: Experiment) -> None:
+def test_what_to_record_next_is_planned_fromarrays_of(experiment: Experiment) -> None:
     """As from the file, and as the function says it."""
-    run = experiment_of_arrays(**_arrays(experiment))["arm_ft"]
+    run = experiment_of_arrays(**arrays_of(experiment))["arm_ft"]
     quick: dict[str, Any] = {"clearance_deg": 5.0, "recordings": 1, "effort": Effort(postures=30, swaps=5)}
     plan = run.plan(**quick)
     assert len(plan.recordings) == 1
@@ -216,7 +191,7 @@ def test_what_to_record_next_is_planned_from_arrays(experiment: Experiment) -> N
 
 def test_without_a_span_to_judge_nothing_is_judged(experiment: Experiment) -> None:
     """A fit is had all the same, and may not be used yet."""
-    run = experiment_of_arrays(**_arrays(experiment, judge=None))["arm_ft"]
+    run = experiment_of_arrays(**arrays_of(experiment, judge=None))["arm_ft"]
     calibration = run.calibrate()
     assert [verdict.decision for verdict in run.verdicts(calibration)] == ["not enough data"]
     with pytest.raises(ExperimentError, match="expected an interval"):
@@ -234,7 +209,7 @@ def test_what_makes_a_fit_doubtful_is_said(arm: Path, caplog: pytest.LogCaptureF
         experiment["arm_ft"].calibrate()
     assert caplog.messages == []
     fitted = experiment["arm_ft"].samples(Use.CALIBRATION)[0].readings.raw
-    saturated = experiment_of_arrays(**_arrays(experiment, limit_counts=float(np.abs(fitted).max())))["arm_ft"]
+    saturated = experiment_of_arrays(**arrays_of(experiment, limit_counts=float(np.abs(fitted).max())))["arm_ft"]
     expected = list(data_doubts(saturated))
     assert any("saturation" in sentence for sentence in expected)
     with caplog.at_level("WARNING", logger="forcetorque"):

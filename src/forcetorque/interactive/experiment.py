@@ -18,6 +18,7 @@ from forcetorque.calibration import Calibration
 from forcetorque.calibration.joint import ModelTolerance
 from forcetorque.estimation.balance import ForceLimit
 from forcetorque.evaluation import OffsetPolicy
+from forcetorque.experiment.contacts import contact_in_words
 from forcetorque.interactive.run import Run
 from forcetorque.result import Table, html_table, html_warnings
 
@@ -101,6 +102,53 @@ class Experiment(experiments.Experiment):
         judged = {NEW: candidates} if isinstance(candidates, Calibration) else candidates or {}
         sensors = {name: named(calibrations) for name, calibrations in judged.items()}
         return analysis.coherence(self, sensors, offsets=offsets)
+
+    def inspect(self) -> analysis.Inspection:
+        """Find gaps, lost messages, frozen or saturated sensors, steps and contacts.
+
+        Returns:
+            What the recording holds, and what is wrong with it.
+        """
+        return analysis.inspected(self)
+
+    def estimate(
+        self,
+        calibrations: Calibrations | None = None,
+        *,
+        contacts: Sequence[str] | None = None,
+        length_scale: float | None = None,
+        offset: OffsetPolicy | str = "fitted",
+        fuse: bool = False,
+        output: Path | str | None = None,
+    ) -> analysis.EstimateSummary:
+        """Estimate contact wrenches, joint torques and expected readings.
+
+        Args:
+            calibrations: How sensors are read; by their prior or as logged if left out.
+            contacts: `FRAME`, `FRAME:force` or `FRAME:force_along:x,y,z` each; those of the file if left out, else at
+                the sensors.
+            length_scale: Moment that weighs as much as one newton, for more than six unknowns; m.
+            offset: Where offsets come from, such as `one-link-imu:hanging`.
+            fuse: Whether joint torques of sensors, known contacts and motors are made one, beside each other.
+            output: File for every sample, .parquet or .csv; none if left out.
+
+        Returns:
+            Mean norms of contacts and residuals, with every sample in `intervals`.
+        """
+        stated = [contact_in_words(words, self.model) for words in contacts] if contacts else None
+        corrections = analysis.corrections_of(self, named(calibrations), offset=offset)
+        patches = analysis.frames_of_patches(self)
+        spans = analysis.estimate_experiment(
+            self, corrections, contacts=stated, length_scale=length_scale, patches=patches
+        )
+        fusions, frictions = (
+            analysis.fuse_experiment(self, corrections, contacts=stated, patches=patches) if fuse else ([], ())
+        )
+        file = None if output is None else Path(output)
+        summary = analysis.summarise_estimates(
+            self, corrections, spans, file=file, fusions=fusions, frictions=frictions
+        )
+        return summary.model_copy(update={"intervals": tuple(spans)})
 
     def _repr_html_(self) -> str:
         start = self.recording.start_ns

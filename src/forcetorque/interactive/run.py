@@ -4,8 +4,10 @@
 from __future__ import annotations
 
 import logging
+from collections.abc import Sequence
 from datetime import UTC, datetime
 from importlib.metadata import version
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from forcetorque import analysis
@@ -151,6 +153,53 @@ class Run(SensorRun):
             A verdict for every calibration and load case.
         """
         return analysis.use_verdicts(self, named(calibrations))
+
+    def accept(
+        self, spec: analysis.AcceptanceFile | Path | str, calibration: Calibration | None = None, **options: Any
+    ) -> analysis.Acceptance:
+        """Accept or reject the sensor by limits: `run.accept("limits.toml", calibration).accepted`.
+
+        Args:
+            spec: Content of an acceptance file, or the file.
+            calibration: The calibration that is judged; the prior if left out.
+            options: As of `analysis.accept`: others, population.
+
+        Returns:
+            Criteria, each with what was measured.
+        """
+        stated = spec if isinstance(spec, analysis.AcceptanceFile) else analysis.read_acceptance(spec)
+        name, judged = one_named(calibration)
+        return analysis.accept(self, stated, None if name is None or judged is None else (name, judged), **options)
+
+    def gains(self, calibration: Calibration | None = None, *, margin: float = 0.2) -> analysis.Gains:
+        """Show how far the raw channels are from saturation, and which amplifier gains would suit them.
+
+        Args:
+            calibration: Tells what a count is worth; the prior if left out.
+            margin: Share of the limit to keep free for forces that were not recorded.
+
+        Returns:
+            Head-room of every channel, and gains where the experiment states which can be set.
+        """
+        name, matrix = one_named(calibration)
+        return analysis.select_gains(
+            self, margin=margin, calibration=None if name is None or matrix is None else (name, matrix)
+        )
+
+    def sphere(
+        self, calibrations: Calibrations | None = None, intervals: Sequence[str] | None = None
+    ) -> analysis.Spheres:
+        """Compare how the three axes weigh a limb that is carried around.
+
+        Args:
+            calibrations: As of `evaluate`, compared with the prior.
+            intervals: Labels or kinds of the intervals whose motion draws the sphere; those of the experiment if left
+                out, else all.
+
+        Returns:
+            Ellipsoids of the prior and of every calibration on the same samples.
+        """
+        return analysis.spheres(self, named(calibrations), intervals)
 
     def plan(self, calibration: Calibration | None = None, **options: Any) -> analysis.Plan:
         """Say what to record next: `run.plan(calibration, clearance_deg=10.0)`.

@@ -1,0 +1,93 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What commands say is had from Python in a line, from a file and from arrays."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+from typer.testing import CliRunner
+
+from forcetorque import Experiment, load_experiment, read_calibration
+from forcetorque.analysis import inspect_log, read_acceptance
+from forcetorque.cli.main import app
+from forcetorque.errors import ExperimentError
+from forcetorque.interactive import experiment_of_arrays
+from tests.experiment_folders import arm, intact
+from tests.experiments import PARQUET
+from tests.interactive.arrays import arrays_of
+
+__all__ = ["arm", "intact"]
+
+SPEC = """
+schema = "forcetorque/acceptance/1"
+name = "arm"
+[evaluate]
+force_error_mean_N = 5.0
+"""
+
+
+@pytest.fixture
+def experiment(arm: Path) -> Experiment:
+    """The experiment of the small arm, from its file."""
+    return load_experiment(arm / PARQUET)
+
+
+def _said(*words: Path | str) -> str:
+    """What a command writes as JSON to standard output."""
+    answer = CliRunner().invoke(app, [*map(str, words), "--format", "json"])
+    assert answer.exit_code in (0, 1), answer.output
+    return answer.stdout
+
+
+def test_an_experiment_is_inspected_without_its_file(experiment: Experiment, arm: Path) -> None:
+    """As the file is; one that was made from arrays too."""
+    assert experiment.inspect().json_text() == inspect_log(arm / PARQUET).json_text()
+    saturated = experiment_of_arrays(**arrays_of(experiment, limit_counts=1000.0)).inspect()
+    assert saturated.source == "arrays"
+    assert "saturation" in {row.kind for row in saturated.findings}
+
+
+def test_contacts_are_estimated_without_a_file(experiment: Experiment, arm: Path, tmp_path: Path) -> None:
+    """As the command says it, with every sample; a file is written where one is named."""
+    calibration = experiment["arm_ft"].calibrate()
+    calibration.save(tmp_path / "calibration")
+    summary = experiment.estimate(calibration, contacts=["hand"])
+    file = tmp_path / "estimates.parquet"
+    words = ("-c", tmp_path / "calibration", "--contacts", "hand", "-o", file)
+    command = json.loads(_said("estimate", arm / PARQUET, *words))
+    mine = json.loads(summary.json_text())
+    assert mine["contacts"] == command["contacts"] != []
+    assert sum(len(span.stamp_ns) for span in summary.intervals) == summary.rows == command["rows"]
+    assert summary.file is None
+    assert experiment.estimate(calibration, output=tmp_path / "mine.csv").file == str(tmp_path / "mine.csv")
+    assert (tmp_path / "mine.csv").is_file()
+    with pytest.raises(ExperimentError, match="contact 'knee': robot 'arm' has no link 'knee'"):
+        experiment.estimate(contacts=["knee"])
+
+
+def test_a_sensor_is_accepted_by_limits(experiment: Experiment, arm: Path, tmp_path: Path) -> None:
+    """By a file or its content, as the command says it."""
+    run, spec = experiment["arm_ft"], tmp_path / "limits.toml"
+    spec.write_text(SPEC, encoding="utf-8")
+    run.calibrate().save(tmp_path / "calibration")
+    calibration = read_calibration(tmp_path / "calibration")
+    acceptance = run.accept(spec, calibration)
+    command = json.loads(_said("accept", arm / PARQUET, "--spec", spec, "-c", tmp_path / "calibration"))
+    mine = json.loads(acceptance.json_text())
+    assert mine["accepted"] == command["accepted"]
+    assert mine["criteria"] == [row | {"candidate": "calibration"} for row in command["criteria"]] != []
+    assert run.accept(read_acceptance(spec), calibration).criteria == acceptance.criteria
+
+
+def test_head_room_and_spheres_are_asked_of_a_run(experiment: Experiment, arm: Path, tmp_path: Path) -> None:
+    """As the commands say them."""
+    run = experiment["arm_ft"]
+    assert run.gains(margin=0.3).json_text() == _said("gains", arm / PARQUET, "--margin", "0.3").strip()
+    calibration = run.calibrate()
+    calibration.save(tmp_path / "calibration")
+    spheres = run.sphere({str(tmp_path / "calibration"): calibration})
+    command = json.loads(_said("sphere", arm / PARQUET, "-c", tmp_path / "calibration"))
+    rows = json.loads(spheres.json_text())["rows"]
+    assert rows == command["rows"] != []
