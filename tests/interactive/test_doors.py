@@ -9,11 +9,12 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner
 
-from forcetorque import Experiment, load_experiment, read_calibration
-from forcetorque.analysis import inspect_log, read_acceptance
+from forcetorque import Experiment, analysis, load_experiment, read_calibration
+from forcetorque.analysis import draft_experiment, evaluate, inspect_log, read_acceptance
 from forcetorque.cli.main import app
-from forcetorque.errors import ExperimentError
-from forcetorque.interactive import experiment_of_arrays
+from forcetorque.errors import ExperimentError, FitError, ForceTorqueError
+from forcetorque.interactive import experiment_of_arrays, simulate, study, workbench
+from tests.benches import write_bench
 from tests.experiment_folders import arm, intact
 from tests.experiments import PARQUET
 from tests.interactive.arrays import arrays_of
@@ -91,3 +92,51 @@ def test_head_room_and_spheres_are_asked_of_a_run(experiment: Experiment, arm: P
     command = json.loads(_said("sphere", arm / PARQUET, "-c", tmp_path / "calibration"))
     rows = json.loads(spheres.json_text())["rows"]
     assert rows == command["rows"] != []
+
+
+def test_ways_to_fit_are_studied_without_a_folder(arm: Path, tmp_path: Path) -> None:
+    """Every candidate as the command has it; no file, and a type that there is not, are refused."""
+    mine = study(arm / PARQUET, kinds=["OnTdTO"], lambdas=[1000.0, 0.0, 1000.0])
+    words = ("--type", "OnTdTO", "--lambda", "0", "--lambda", "1000", "-o", tmp_path / "study")
+    command = json.loads(_said("study", arm / PARQUET, *words))
+    (sensor,), (twin,) = json.loads(mine.json_text())["sensors"], command["sensors"]
+    assert sensor | {"folder": twin["folder"], "files": twin["files"]} == twin
+    assert mine.folder is None
+    with pytest.raises(FitError, match="no estimation type is called 'On'"):
+        study(arm / PARQUET, kinds=["On"])
+    with pytest.raises(ExperimentError, match="expected at least one experiment file to study, got none"):
+        study()
+
+
+def test_a_robot_is_simulated_and_its_sensor_fitted_over_recordings(tmp_path: Path) -> None:
+    """A bundled scenario by name; runs of two experiments are fitted together, and a file is no run."""
+    written = simulate("wrist", tmp_path / "simulated")
+    assert len(written.records()) == 2
+    with pytest.raises(ForceTorqueError, match="no scenario is called 'wrst'; did you mean \"wrist\""):
+        simulate("wrst", tmp_path / "other")
+    cold = load_experiment(tmp_path / "simulated" / "cold.toml")["arm_ft"]
+    stated = (tmp_path / "simulated" / "warm.toml").read_text(encoding="utf-8")
+    (tmp_path / "simulated" / "more.toml").write_text(stated.replace('"validation"', '"calibration"'), encoding="utf-8")
+    warm = load_experiment(tmp_path / "simulated" / "more.toml")["arm_ft"]
+    both = cold.calibrate(warm)
+    assert both.provenance.samples == cold.calibrate().provenance.samples + warm.calibrate().provenance.samples
+    with pytest.raises(ExperimentError, match=r"expected sensors of experiments.*got a str"):
+        cold.calibrate("warm.toml")  # type: ignore[arg-type]
+    with pytest.raises(ExperimentError, match=r"expected sensors of experiments.*got a Experiment"):
+        evaluate(warm.experiment, {})  # type: ignore[arg-type]
+
+
+def test_a_workbench_is_asked_by_its_file(tmp_path: Path) -> None:
+    """Its content gives the same."""
+    file, _ = write_bench(tmp_path)
+    answer = workbench(file)
+    assert answer.faults == workbench(analysis.read_bench(file)).faults
+    assert answer.calibrations[0].provenance.code_version
+
+
+def test_a_log_and_trials_may_be_named_by_text(arm: Path) -> None:
+    """One log needs no list; trials need no Path."""
+    log = "docs/tutorial/log.csv"
+    assert draft_experiment(log).content == draft_experiment([Path(log)]).content
+    spheres = analysis.compare([str(arm / PARQUET)])
+    assert spheres.json_text() == analysis.compare([arm / PARQUET]).json_text()

@@ -32,19 +32,20 @@ class Run(SensorRun):
     Every method asks the question of `forcetorque.analysis` of that name, where its other options are.
     """
 
-    def calibrate(self, **options: Any) -> Calibration:
-        """Fit the sensor on its calibration intervals.
+    def calibrate(self, *more: SensorRun, **options: Any) -> Calibration:
+        """Fit the sensor on its calibration intervals: `first["wrist"].calibrate(second["wrist"])` on those of both.
 
         What makes the fit doubtful is logged as warnings, which Python writes to standard error and a notebook shows.
 
         Args:
+            more: The sensor in other experiments, which are fitted together.
             options: As of `calibrate_sensor`: kind, regularisation, nonlinear, moments.
 
         Returns:
             The calibration.
         """
         answer = analysis.calibrate_for_file(
-            self, f"{self.sensor.name}.json", code_version=version("forcetorque"), created=_now(), **options
+            [self, *more], f"{self.sensor.name}.json", code_version=version("forcetorque"), created=_now(), **options
         )
         for sentence in answer.cautions():
             _LOG.warning("%s", sentence)
