@@ -285,3 +285,19 @@ def test_an_estimation_type_is_given_by_its_name(experiment: Experiment) -> None
         run.calibrate(kind="OnTd")
     with pytest.raises(FitError, match="regularisation: expected lambda in counts2, or 'held-out', got 'some'"):
         run.calibrate(regularisation="some")
+
+
+def test_answers_and_calibrations_are_compared_by_their_numbers(experiment: Experiment, tmp_path: Path) -> None:
+    """What was saved is what is read; another offset, another kind of thing and another name are not the same."""
+    run = experiment["arm_ft"]
+    calibration = run.calibrate()
+    calibration.save(tmp_path / "arm.json")
+    read = read_calibration(tmp_path / "arm.json")
+    assert read == calibration
+    assert calibration in [read]
+    assert run.evaluate(read) == run.evaluate(calibration)
+    offset = calibration.offset + np.array([0.0, 0.0, 0.0, 0.0, 0.0, 1e-9])
+    assert read != calibration.model_copy(update={"offset": offset})
+    assert read != calibration.model_copy(update={"raw_offset_counts": np.zeros(6)})
+    assert read != calibration.sensor
+    assert run.evaluate({"other": read}) != run.evaluate(calibration)
