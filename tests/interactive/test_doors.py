@@ -140,3 +140,21 @@ def test_a_log_and_trials_may_be_named_by_text(arm: Path) -> None:
     assert draft_experiment(log).content == draft_experiment([Path(log)]).content
     spheres = analysis.compare([str(arm / PARQUET)])
     assert spheres.json_text() == analysis.compare([arm / PARQUET]).json_text()
+
+
+def test_a_page_of_posture_and_forces_is_written_from_what_a_script_holds(
+    experiment: Experiment, tmp_path: Path
+) -> None:
+    """With a calibration that no file holds; of arrays too, and of no sensor that there is not."""
+    calibration = experiment["arm_ft"].calibrate()
+    view = experiment.view(tmp_path / "view.html", {"mine": calibration})
+    page = (tmp_path / "view.html").read_text(encoding="utf-8")
+    assert view.file_bytes == (tmp_path / "view.html").stat().st_size
+    assert "mine" in page
+    assert view.sensors == ("arm_ft",)
+    arrays = experiment_of_arrays(**arrays_of(experiment))
+    assert arrays.view(tmp_path / "arrays.html").samples == view.samples
+    with pytest.raises(ExperimentError, match="has no sensor 'leg'"):
+        experiment.view(tmp_path / "leg.html", sensors=["leg"])
+    with pytest.raises(ExperimentError, match="expected a Calibration"):
+        experiment.view(tmp_path / "leg.html", "arm.json")  # type: ignore[arg-type]

@@ -8,7 +8,7 @@ from dataclasses import fields
 from datetime import UTC, datetime
 from importlib.metadata import version
 from pathlib import Path
-from typing import Any, Self
+from typing import TYPE_CHECKING, Any, Self
 
 from forcetorque import analysis
 from forcetorque import experiment as experiments
@@ -18,9 +18,13 @@ from forcetorque.calibration import Calibration
 from forcetorque.calibration.joint import ModelTolerance
 from forcetorque.estimation.balance import ForceLimit
 from forcetorque.evaluation import OffsetPolicy
+from forcetorque.experiment import parse_experiment
 from forcetorque.experiment.contacts import contact_in_words
 from forcetorque.interactive.run import Run
 from forcetorque.result import Table, html_table, html_warnings
+
+if TYPE_CHECKING:  # what shows takes long to import, and most scripts do not
+    from forcetorque.viewer import View
 
 
 class Experiment(experiments.Experiment):
@@ -149,6 +153,30 @@ class Experiment(experiments.Experiment):
             self, corrections, spans, file=file, fusions=fusions, frictions=frictions
         )
         return summary.model_copy(update={"intervals": tuple(spans)})
+
+    def view(
+        self, output: Path | str, calibrations: Calibrations | None = None, *, sensors: Sequence[str] | None = None
+    ) -> View:
+        """Write robot pose and force space, linked in time, as a page: `experiment.view("view.html", calibration)`.
+
+        Args:
+            output: File of the page, which works offline in any browser.
+            calibrations: How sensors are read, beside their priors; of a sensor any number.
+            sensors: Sensors to show; all if left out.
+
+        Returns:
+            What the page shows. A robot from arrays is drawn without its looks, whose files only its URDF names.
+
+        Raises:
+            ForceTorqueError: If there are too many samples for one file; `forcetorque view` serves them.
+        """
+        from forcetorque.viewer import View, build_scene, write_page
+
+        robot = parse_experiment(self.file).robot if self.file.is_file() else None
+        urdf = None if robot is None else self.file.parent / robot.urdf
+        built = build_scene(self, named(calibrations), urdf=urdf, sensors=sensors)
+        written = write_page(Path(output), built)
+        return View.of(built).model_copy(update={"file": str(output), "file_bytes": written})
 
     def _repr_html_(self) -> str:
         start = self.recording.start_ns
