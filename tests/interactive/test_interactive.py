@@ -25,7 +25,7 @@ from forcetorque.analysis import (
 from forcetorque.analysis import plan as analysis_plan
 from forcetorque.analysis.plan.proposal import Effort
 from forcetorque.calibration import ESTIMATION_TYPES
-from forcetorque.errors import ExperimentError, FitError, ShapeError
+from forcetorque.errors import ExperimentError, FitError, RecordingError, ShapeError
 from forcetorque.interactive import Run
 from forcetorque.recording import Finding, Use
 from tests.experiment_folders import arm, intact
@@ -148,6 +148,27 @@ def test_arrays_that_do_not_fit_are_refused(
         experiment_of_arrays(**arrays_of(experiment, **changes))
     assert "\n" not in str(refused.value)
     assert len(str(refused.value)) < 300
+
+
+def test_milliseconds_for_seconds_are_refused_with_the_likely_cause(experiment: Experiment) -> None:
+    """All stamps and spans a thousand times too large contradict no other argument."""
+    arguments = arrays_of(experiment)
+    times = {name: 1000.0 * np.asarray(arguments[name]) for name in ("time_s", "joint_time_s", "calibrate", "judge")}
+    with pytest.raises(RecordingError, match="lengthen the window, or state the stamps in their unit"):
+        experiment_of_arrays(**arguments | times)["arm_ft"].calibrate()
+
+
+def test_what_is_missing_is_no_reading(experiment: Experiment) -> None:
+    """Samples that are masked, or NA of pandas, are left out as NaN is; the values below a mask were fitted."""
+    arguments = arrays_of(experiment)
+    lost = np.arange(len(arguments["reading"])) % 10 == 3
+    holes = np.where(lost[:, None], np.nan, arguments["reading"])
+    masked = np.ma.masked_array(np.where(lost[:, None], 7.0, holes), mask=np.repeat(lost[:, None], 6, axis=1))
+    expected = experiment_of_arrays(**arguments | {"reading": holes})["arm_ft"].calibrate()
+    for reading in (masked, pd.DataFrame(holes).convert_dtypes()):
+        calibration = experiment_of_arrays(**arguments | {"reading": reading})["arm_ft"].calibrate()
+        assert calibration.provenance.samples == expected.provenance.samples
+        np.testing.assert_array_equal(calibration.matrix, expected.matrix)
 
 
 def test_columns_of_a_wrench_in_another_order_are_refused(experiment: Experiment) -> None:

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any, Literal, get_args
 
 import numpy as np
+import numpy.typing as npt
 
 from forcetorque.arrays import FloatArray, IntArray, require_shape
 from forcetorque.errors import ExperimentError, known_names
@@ -157,14 +158,24 @@ def _what(given: Any) -> str:
 
 
 def _numbers(given: Any, name: str) -> FloatArray:
-    """What is given as numbers; text of numbers is taken for them, instants and complex numbers are not."""
+    """What is given as numbers, NaN where none is; text of numbers is taken for them, instants and complex are not."""
     try:
-        array = np.asarray(given)
+        array = _plain(given)
         if array.dtype.kind in "mMc":
             raise TypeError
         return array.astype(np.float64)
     except (TypeError, ValueError) as error:
         raise ExperimentError(f"{name}: expected numbers, got {_what(given)}") from error
+
+
+def _plain(given: Any) -> npt.NDArray[Any]:
+    """An array of numpy, whose NaN stands for what is masked and for what pandas knows to be missing."""
+    if isinstance(given, np.ma.MaskedArray):
+        return np.where(np.ma.getmaskarray(given), np.nan, given.data)
+    array = np.asarray(given)
+    if array.dtype == object and hasattr(given, "to_numpy"):  # of pandas, where numbers that may be missing are objects
+        return np.asarray(given.to_numpy(dtype=np.float64, na_value=np.nan))
+    return array
 
 
 def _full_scale(given: Any) -> FloatArray:
