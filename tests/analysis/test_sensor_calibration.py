@@ -32,7 +32,9 @@ def test_a_file_is_written_when_it_is_asked_for(arm: Path) -> None:
     file = arm / "deep" / "made.json"
     calibrations = _calibrated(arm / PARQUET, file)
     assert snapshot(arm) == before
-    calibrations.save()
+    assert f"not written yet: `save` writes {file}" in calibrations.text(1000)
+    assert f"written to {file}" not in calibrations.text(1000)
+    assert f"written to {file}" in calibrations.save().text(1000)
     run = SensorRun(load_experiment(arm / PARQUET), "arm_ft")
     plain = calibrate_sensor(run, code_version="1", created="now", regularisation=5.0)
     written = read_calibration(file)

@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, Literal, Self
 
 from pydantic import Field
 
@@ -56,9 +56,15 @@ class SensorCalibrations(Result):
     """What a joint calibration says beside that; None where every sensor was calibrated alone."""
     figure: str | None = None
     """File of the figure of what the recordings taught; none where none was drawn."""
+    saved: bool = Field(default=False, exclude=True, repr=False)
+    """Whether the files are written; nothing is until `save`."""
 
-    def save(self) -> None:
-        """Write every calibration to its file, in folders that are made where they are missing."""
+    def save(self) -> Self:
+        """Write every calibration to its file, in folders that are made where they are missing.
+
+        Returns:
+            The same, which says that it is written.
+        """
         for entry in self.calibrations:
             file = Path(entry.file)
             file.parent.mkdir(parents=True, exist_ok=True)
@@ -66,6 +72,7 @@ class SensorCalibrations(Result):
         if self.joint is not None and self.joint.file is not None:
             sensors = [entry.calibration.sensor for entry in self.calibrations]
             JointPosterior.of(self.joint.fit, {one.name: one.serial for one in sensors}).save(self.joint.file)
+        return self.model_copy(update={"saved": True})
 
     def blocks(self) -> Iterator[Table | str]:
         """Give matrix, variables and excitation of every sensor.
@@ -78,9 +85,12 @@ class SensorCalibrations(Result):
             if entry.learnt:
                 yield table_of(entry.learnt, "what the recordings taught: error that a unit load makes, one s.d.")
                 yield learnt_words(entry.learnt)
-            yield f"written to {entry.file}"
+            yield f"written to {entry.file}" if self.saved else f"not written yet: `save` writes {entry.file}"
         if self.joint is not None:
             yield from self.joint.blocks()
+            if self.joint.file is not None:
+                written = f"written to {self.joint.file}" if self.saved else f"goes to {self.joint.file} by `save`"
+                yield f"covariance of all sensors together {written}"
         if self.figure is not None:
             yield f"drawn to {self.figure}"
 
