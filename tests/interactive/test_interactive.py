@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+import copy
+import pickle
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -322,3 +324,14 @@ def test_answers_and_calibrations_are_compared_by_their_numbers(experiment: Expe
     assert read != calibration.model_copy(update={"raw_offset_counts": np.zeros(6)})
     assert read != calibration.sensor
     assert run.evaluate({"other": read}) != run.evaluate(calibration)
+
+
+def test_an_experiment_goes_to_another_process(experiment: Experiment) -> None:
+    """Experiment and run, pickled or copied, before and after a question, fit as they do themselves."""
+    run = experiment["arm_ft"]
+    untouched = pickle.loads(pickle.dumps(experiment))  # noqa: S301 - pickled here
+    calibration = run.calibrate()
+    for twin in (untouched["arm_ft"], copy.deepcopy(run)):
+        np.testing.assert_array_equal(twin.calibrate().matrix, calibration.matrix)
+    with pytest.raises(TypeError, match="does not support item assignment"):
+        untouched.recording.streams["other"] = untouched.recording.streams["joints"]
