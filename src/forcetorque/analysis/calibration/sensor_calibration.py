@@ -29,6 +29,9 @@ from forcetorque.calibration.joint import JointPosterior
 from forcetorque.recording import Use
 from forcetorque.result import Result, Row, Table, table_of
 
+_MOST_ALIKE = 5
+"""Findings of one kind in an interval that are doubts by themselves; the rest is counted."""
+
 
 class SensorCalibration(Row):
     """One calibration and the file that holds it."""
@@ -164,7 +167,7 @@ def data_doubts(run: SensorRun, *, by_model: bool = True) -> Iterator[str]:
     Yields:
         A sentence where the load was weighed with the sensor itself, one for whatever the readings then contradict of
         the file, one per interval in which the file says that something touches the robot beyond it, and one per
-        finding in a fitted interval.
+        finding in a fitted interval; of many of one kind the first few, and how many more there are.
     """
     experiment = run.experiment
     if experiment.wrist is not None and not experiment.wrist.are_stated:
@@ -179,13 +182,21 @@ def data_doubts(run: SensorRun, *, by_model: bool = True) -> Iterator[str]:
         if (sentence := possible_touch(run)) is not None:
             yield sentence
     yield from added_to(experiment.recording)
-    start_ns, alone = experiment.recording.start_ns, replace(experiment, sensors=(run.sensor,))
+    yield from _found(run, by_model=by_model)
+
+
+def _found(run: SensorRun, *, by_model: bool) -> Iterator[str]:
+    """Findings in fitted intervals; a channel that saturates in every swing does not hide the others."""
+    start_ns, alone = run.experiment.recording.start_ns, replace(run.experiment, sensors=(run.sensor,))
+    alike: dict[str, list[str]] = {}
     for interval, finding in doubtful_spans(alone, Use.CALIBRATION, by_model=by_model):
         start, end = (((stamp_ns or 0) - start_ns) * 1e-9 for stamp_ns in (finding.start_ns, finding.end_ns))
-        yield (
-            f"interval {interval.label!r}: {finding.stream} {finding.kind} at {start:.2f}-{end:.2f} s: "
-            f"{finding.message}"
-        )
+        kind = f"interval {interval.label!r}: {finding.stream} {finding.kind}"
+        alike.setdefault(kind, []).append(f"{kind} at {start:.2f}-{end:.2f} s: {finding.message}")
+    for kind, sentences in alike.items():
+        yield from sentences[:_MOST_ALIKE]
+        if len(sentences) > _MOST_ALIKE:
+            yield f"{kind}: {len(sentences) - _MOST_ALIKE} more, which `inspect` lists"
 
 
 def _touched(run: SensorRun) -> Iterator[str]:
