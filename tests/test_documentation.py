@@ -11,6 +11,7 @@ from pathlib import Path
 
 import pytest
 
+from forcetorque import analysis, interactive
 from forcetorque.cli.main import app
 from tests.cli.commands import typed_commands
 
@@ -107,6 +108,28 @@ def test_the_index_says_when_to_take_every_command() -> None:
     _, _, table = INDEX.read_text(encoding="utf-8").partition("## Which command when")
     named = set(re.findall(r"`([a-z]+(?:[ -][a-z]+)*)`", table.partition("\n## ")[0]))
     assert named == set(typed_commands(app))
+
+
+def _absent(code: str) -> list[str]:
+    """Calls of a line of Python whose name is in none of the things that the page on Python has."""
+    holders = {"experiment": interactive.Experiment, "run": interactive.Run, "analysis": analysis}
+    holders["interactive"] = interactive
+    called = re.findall(r"\b(experiment|run|analysis|interactive)\.(\w+)", code)
+    return [f"{holder}.{name}" for holder, name in called if not hasattr(holders[holder], name)]
+
+
+def test_the_page_on_python_has_a_line_for_every_command() -> None:
+    """Each names what is there."""
+    page = (ROOT / "docs" / "python.md").read_text(encoding="utf-8")
+    rows = dict(re.findall(r"^\| `([a-z -]+)` \| (.+) \|$", page, re.MULTILINE))
+    assert list(rows) == sorted(typed_commands(app))
+    assert {command: _absent(line) for command, line in rows.items()} == dict.fromkeys(rows, [])
+    assert all(re.search(r"`(experiment|run|analysis|interactive)\.\w+", line) for line in rows.values())
+
+
+def test_an_absent_question_is_noticed() -> None:
+    """Negative control."""
+    assert _absent('`run.accept("a.toml")`, `run.judge()`, `analysis.accepted`') == ["run.judge", "analysis.accepted"]
 
 
 def _unknown_names(code: str) -> list[str]:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
+from pydantic import BaseModel, GetCoreSchemaHandler, GetJsonSchemaHandler
 from pydantic_core import CoreSchema, core_schema
 
 from forcetorque.arrays import FloatArray, read_only
@@ -51,3 +51,21 @@ class ArrayField:
             if length is not None:
                 described |= {"minItems": length, "maxItems": length}
         return described
+
+
+class ArrayModel(BaseModel):
+    """A model whose fields may be arrays, compared by their numbers: NumPy has no single answer, so pydantic fails."""
+
+    def __eq__(self, other: object) -> bool:
+        return type(other) is type(self) and _same(self.__dict__, other.__dict__)
+
+
+def _same(one: Any, other: Any) -> bool:
+    if isinstance(one, np.ndarray) or isinstance(other, np.ndarray):
+        numbers = all(isinstance(given, np.ndarray) and given.dtype.kind == "f" for given in (one, other))
+        return np.array_equal(one, other, equal_nan=numbers)
+    if isinstance(one, dict) and isinstance(other, dict):
+        return one.keys() == other.keys() and all(_same(one[name], other[name]) for name in one)
+    if isinstance(one, tuple | list) and type(one) is type(other):
+        return len(one) == len(other) and all(map(_same, one, other))
+    return one is other or bool(one == other)

@@ -67,11 +67,11 @@ class SerialNumberError(ForceTorqueError, ValueError):
     """A calibration was offered to a sensor with another serial number."""
 
 
-def known_names(wanted: str, known: Iterable[str]) -> str:
+def known_names(wanted: object, known: Iterable[str]) -> str:
     """List the names that would have been accepted, the likeliest one first.
 
     Args:
-        wanted: Name that was not found.
+        wanted: Name that was not found; anything else is not close to any.
         known: Names that exist.
 
     Returns:
@@ -80,6 +80,6 @@ def known_names(wanted: str, known: Iterable[str]) -> str:
     # names come from files: one with a line break in it must not break the message in two
     names = sorted(name if name.isprintable() else repr(name) for name in known)
     spelled = {name.lower(): name for name in names}
-    close = get_close_matches(wanted.lower(), spelled, n=1)
+    close = get_close_matches(str(wanted).lower(), spelled, n=1)
     hint = f'did you mean "{spelled[close[0]]}"? ' if close else ""
     return f"{hint}known: {', '.join(names) if names else 'none'}"

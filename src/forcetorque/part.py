@@ -7,12 +7,13 @@ import json
 from pathlib import Path
 from typing import Any, TypeVar
 
-from pydantic import BaseModel, ConfigDict, ValidationError
+from pydantic import ConfigDict, ValidationError
 
+from forcetorque.array_field import ArrayModel
 from forcetorque.errors import FormatError, MissingFileError, ShapeError
 
 
-class Part(BaseModel):
+class Part(ArrayModel):
     """A frozen table of a file; unknown keys are errors."""
 
     model_config = ConfigDict(defer_build=True, extra="forbid", frozen=True, arbitrary_types_allowed=True)

@@ -10,11 +10,16 @@ import numpy as np
 import pytest
 
 from forcetorque.analysis import SensorCalibrations, SensorRun, calibrate_for_file, calibrate_sensor, data_doubts
+from forcetorque.analysis.inspect.findings import doubtful_spans
 from forcetorque.calibration import read_calibration
 from forcetorque.errors import FitError
 from forcetorque.exchange.icub import encode_matrix, read_matrix_file, write_matrix_file
 from forcetorque.experiment import load_experiment
+from forcetorque.interactive import experiment_of_arrays
+from forcetorque.interactive import load_experiment as interactive_experiment
+from forcetorque.recording import Use
 from tests.experiments import FT_LOG, PARQUET, TWO, YARP, edit, edit_lines, snapshot
+from tests.interactive.arrays import arrays_of
 from tests.result.showing import require_shown
 from tests.warm_experiments import TEMPERATURE, with_variables
 
@@ -32,7 +37,9 @@ def test_a_file_is_written_when_it_is_asked_for(arm: Path) -> None:
     file = arm / "deep" / "made.json"
     calibrations = _calibrated(arm / PARQUET, file)
     assert snapshot(arm) == before
-    calibrations.save()
+    assert f"not written yet: `save` writes {file}" in calibrations.text(1000)
+    assert f"written to {file}" not in calibrations.text(1000)
+    assert f"written to {file}" in calibrations.save().text(1000)
     run = SensorRun(load_experiment(arm / PARQUET), "arm_ft")
     plain = calibrate_sensor(run, code_version="1", created="now", regularisation=5.0)
     written = read_calibration(file)
@@ -94,3 +101,26 @@ def test_directions_without_load_are_said(arm: Path) -> None:
     missing = calibrations.calibrations[0].calibration.validity.excited.count(False)
     assert missing > 0
     assert any(f"the loads leave {missing} of 6 raw directions unexcited" in text for text in calibrations.warnings)
+
+
+def test_findings_of_one_kind_do_not_bury_the_others(arm: Path) -> None:
+    """Saturation that comes again and again is said five times and counted; where it comes seldom, all is said."""
+    arrays = arrays_of(interactive_experiment(arm / PARQUET))
+    counts = arrays["reading"].copy()
+    for first in range(len(counts) // 10, len(counts) // 2, 20):
+        counts[first : first + 3, 0] = 32767.0
+    saturated = experiment_of_arrays(**arrays | {"reading": counts})
+    kinds = [finding.kind for _, finding in doubtful_spans(saturated, Use.CALIBRATION)]
+    assert kinds.count("saturation") > 10
+    doubts = list(data_doubts(SensorRun(saturated, "arm_ft")))
+    told = [sentence for sentence in doubts if "saturation" in sentence]
+    assert len(told) == 6
+    assert (
+        told[-1]
+        == f"interval 'calibrate': readings saturation: {kinds.count('saturation') - 5} more, which `inspect` lists"
+    )
+    counts[len(counts) // 10 + 20 :] = arrays["reading"][len(counts) // 10 + 20 :]
+    once = experiment_of_arrays(**arrays | {"reading": counts})
+    told = [sentence for sentence in data_doubts(SensorRun(once, "arm_ft")) if "saturation" in sentence]
+    assert len(told) == 1
+    assert "more" not in told[0]

@@ -3,6 +3,9 @@
 
 from __future__ import annotations
 
+import copy
+import pickle
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -12,14 +15,24 @@ import pytest
 
 import forcetorque
 from forcetorque import Experiment, experiment_of_arrays, load_experiment, read_calibration
-from forcetorque.analysis import SensorRun, evaluate
+from forcetorque.analysis import (
+    SensorRun,
+    data_doubts,
+    evaluate,
+    learnt_directions,
+    spheres,
+    use_verdicts,
+    validate,
+)
 from forcetorque.analysis import plan as analysis_plan
 from forcetorque.analysis.plan.proposal import Effort
-from forcetorque.errors import ExperimentError, FitError, ShapeError
+from forcetorque.calibration import ESTIMATION_TYPES
+from forcetorque.errors import ExperimentError, FitError, RecordingError, ShapeError
 from forcetorque.interactive import Run
-from forcetorque.recording import Use
+from forcetorque.recording import Finding, Use
 from tests.experiment_folders import arm, intact
 from tests.experiments import PARQUET
+from tests.interactive.arrays import arrays_of
 
 __all__ = ["arm", "intact"]
 
@@ -28,33 +41,6 @@ __all__ = ["arm", "intact"]
 def experiment(arm: Path) -> Experiment:
     """The experiment of the small arm, from its file."""
     return load_experiment(arm / PARQUET)
-
-
-def _arrays(experiment: Experiment, **changes: Any) -> dict[str, Any]:
-    """The same as arrays."""
-    recording, sensor = experiment.recording, experiment.sensors[0]
-    readings = recording.stream(sensor.stream)
-    (joints,) = (stream for stream in recording.streams.values() if "position" in stream.signals)
-    position, start = joints.signal("position"), recording.start_ns
-    spans = {
-        interval.use: ((interval.start_ns - start) * 1e-9, (interval.end_ns - start) * 1e-9)
-        for interval in recording.intervals
-    }
-    arguments = {
-        "robot": experiment.model,
-        "sensor": sensor.name,
-        "time_s": (readings.stamp_ns - start) * 1e-9,
-        "reading": readings.signal("raw").values,
-        "joints": dict(zip(position.columns, position.values.T, strict=True)),
-        "joint_time_s": (joints.stamp_ns - start) * 1e-9,
-        "support": "base",
-        "gravity_direction": [0.0, 0.0, -1.0],
-        "calibrate": spans[Use.CALIBRATION],
-        "judge": spans[Use.VALIDATION],
-        "serial": sensor.serial,
-        "prior": sensor.prior,
-    }
-    return arguments | changes
 
 
 @pytest.mark.usefixtures("blank_pictures")
@@ -76,7 +62,7 @@ def test_a_sensor_is_chosen_by_name_and_asked_by_method(experiment: Experiment, 
 
 def test_arrays_give_what_the_file_gives(experiment: Experiment) -> None:
     """The same matrix, errors and expected wrenches, but for instants that are rounded to a nanosecond."""
-    arrays = experiment_of_arrays(**_arrays(experiment))
+    arrays = experiment_of_arrays(**arrays_of(experiment))
     one, other = experiment["arm_ft"], arrays["arm_ft"]
     fitted, same = one.calibrate(), other.calibrate()
     np.testing.assert_allclose(same.matrix, fitted.matrix, rtol=1e-6, atol=1e-9)  # instants are rounded to 1 ns
@@ -91,7 +77,7 @@ def test_arrays_give_what_the_file_gives(experiment: Experiment) -> None:
 
 def test_arrays_may_come_in_frames_of_pandas(experiment: Experiment) -> None:
     """Readings, instants and joint positions: the columns of one frame, or of several."""
-    arguments = _arrays(experiment)
+    arguments = arrays_of(experiment)
     joints = pd.DataFrame(arguments["joints"])
     readings = pd.DataFrame(arguments["reading"], columns=[f"ch{k}" for k in range(6)])
     frames = {"joints": joints, "reading": readings, "time_s": pd.Series(arguments["time_s"])}
@@ -103,7 +89,7 @@ def test_a_calibrated_wrench_needs_the_matrix_that_made_it(experiment: Experimen
     """Or the identity with full scales; the calibration is then of the wrench."""
     prior = experiment.sensors[0].prior
     assert prior is not None
-    arguments = _arrays(experiment)
+    arguments = arrays_of(experiment)
     wrench = arguments["reading"] @ prior.T
     with pytest.raises(ExperimentError, match="needs the prior that made it"):
         experiment_of_arrays(**arguments | {"reading": wrench, "quantity": "wrench", "prior": None})
@@ -125,28 +111,100 @@ def test_a_calibrated_wrench_needs_the_matrix_that_made_it(experiment: Experimen
         ({"gravity_direction": [0, 0, 0]}, forcetorque.ForceTorqueError, "gravity_direction"),
         ({"limit_counts": 0.0}, ExperimentError, "limit_counts: expected a positive number of counts, got 0.0"),
         ({"calibrate": (9.0, 2.0)}, forcetorque.ForceTorqueError, "expected an end after its start"),
+        ({"calibrate": (1.0, 2.0, 3.0)}, ExperimentError, r"calibrate: expected one span.*got \(1.0, 2.0, 3.0\)"),
+        ({"calibrate": [(1, 2), (3, 4)]}, ExperimentError, "calibrate: expected one span"),
+        ({"calibrate": None}, ExperimentError, "calibrate: expected one span"),
+        ({"judge": (np.nan, 2.0)}, ExperimentError, "judge: expected one span"),
+        ({"judge": (0.0, np.inf)}, ExperimentError, "judge: expected one span"),
+        (
+            {"time_s": pd.date_range("2026-01-01", periods=5)},
+            ExperimentError,
+            "time_s: expected numbers, .*timedelta64",
+        ),
+        ({"time_s": np.arange(5, dtype="timedelta64[ns]")}, ExperimentError, "time_s: expected numbers, .*timedelta64"),
+        ({"time_s": 1.7e18 + 1e9 * np.arange(5)}, ExperimentError, "time_s: expected seconds.*divide nanoseconds"),
+        ({"robot": "<robot name='arm'/>"}, ExperimentError, "robot: expected the path of a URDF file, got its text"),
+        ({"robot": None}, ExperimentError, "robot: expected a RobotModel or the path of a URDF file, got None"),
+        ({"sensor": None}, forcetorque.ForceTorqueError, "no force-torque sensor None; known: arm_ft"),
+        (
+            {"joints": np.zeros((9, 5))},
+            ExperimentError,
+            r"joints: .*dictionary or a pandas frame, got ndarray of shape",
+        ),
+        ({"reading": np.zeros((9, 6), dtype=complex)}, ExperimentError, "reading: expected numbers"),
+        ({"quantity": "wrnch"}, ExperimentError, "quantity: expected 'raw' or 'wrench', got 'wrnch'"),
+        ({"serial": 26}, ExperimentError, "serial: expected the serial number as text, such as 'SN026', got 26"),
+        ({"serial": ""}, ExperimentError, "serial: expected the serial number as text"),
+        ({"prior": "matrix.txt"}, ExperimentError, "prior: expected numbers, got 'matrix.txt'"),
+        ({"prior": np.full((6, 6), np.nan)}, ExperimentError, "prior: expected a matrix of finite numbers"),
+        ({"full_scale": [0.0] * 6}, ExperimentError, "full_scale: expected six finite numbers above 0"),
+        ({"gravity_direction": "down"}, ExperimentError, "gravity_direction: expected numbers, got 'down'"),
+        ({"limit_counts": None}, ExperimentError, "limit_counts: expected a positive number of counts, got None"),
     ],
 )
 def test_arrays_that_do_not_fit_are_refused(
     experiment: Experiment, changes: dict[str, Any], error: type[Exception], message: str
 ) -> None:
-    """In words that name the argument."""
-    with pytest.raises(error, match=message):
-        experiment_of_arrays(**_arrays(experiment, **changes))
+    """In one line of words that name the argument, however large it is."""
+    with pytest.raises(error, match=message) as refused:
+        experiment_of_arrays(**arrays_of(experiment, **changes))
+    assert "\n" not in str(refused.value)
+    assert len(str(refused.value)) < 300
+
+
+def test_milliseconds_for_seconds_are_refused_with_the_likely_cause(experiment: Experiment) -> None:
+    """All stamps and spans a thousand times too large contradict no other argument."""
+    arguments = arrays_of(experiment)
+    times = {name: 1000.0 * np.asarray(arguments[name]) for name in ("time_s", "joint_time_s", "calibrate", "judge")}
+    with pytest.raises(RecordingError, match="lengthen the window, or state the stamps in their unit"):
+        experiment_of_arrays(**arguments | times)["arm_ft"].calibrate()
+
+
+def test_what_is_missing_is_no_reading(experiment: Experiment) -> None:
+    """Samples that are masked, or NA of pandas, are left out as NaN is; the values below a mask were fitted."""
+    arguments = arrays_of(experiment)
+    lost = np.arange(len(arguments["reading"])) % 10 == 3
+    holes = np.where(lost[:, None], np.nan, arguments["reading"])
+    masked = np.ma.masked_array(np.where(lost[:, None], 7.0, holes), mask=np.repeat(lost[:, None], 6, axis=1))
+    expected = experiment_of_arrays(**arguments | {"reading": holes})["arm_ft"].calibrate()
+    for reading in (masked, pd.DataFrame(holes).convert_dtypes()):
+        calibration = experiment_of_arrays(**arguments | {"reading": reading})["arm_ft"].calibrate()
+        assert calibration.provenance.samples == expected.provenance.samples
+        np.testing.assert_array_equal(calibration.matrix, expected.matrix)
+
+
+def test_columns_of_a_wrench_in_another_order_are_refused(experiment: Experiment) -> None:
+    """A frame whose columns are named says itself that moments come first; they were taken for forces."""
+    arguments = arrays_of(experiment, quantity="wrench", prior=np.eye(6), full_scale=[900.0] * 3 + [30.0] * 3)
+    frame = pd.DataFrame(arguments["reading"] * 1e-3, columns=["fx", "fy", "fz", "tx", "ty", "tz"])
+    with pytest.raises(ExperimentError, match="in this order, got tx, ty, tz, fx, fy, fz"):
+        experiment_of_arrays(**arguments | {"reading": frame[["tx", "ty", "tz", "fx", "fy", "fz"]]})
+    assert experiment_of_arrays(**arguments | {"reading": frame}).sensors
+
+
+def test_an_experiment_is_a_collection_of_sensors_by_name(experiment: Experiment) -> None:
+    """It lists their names, knows whether it has one, offers them to a notebook, and names them where one is wrong."""
+    assert list(experiment) == ["arm_ft"] == experiment._ipython_key_completions_()
+    assert "arm_ft" in experiment
+    assert "leg_ft" not in experiment
+    assert 0 not in experiment
+    with pytest.raises(ExperimentError, match="has no sensor 0; known: arm_ft"):
+        experiment[0]  # type: ignore[index]
 
 
 def test_the_limit_of_the_converter_is_that_of_16_bits_or_stated(experiment: Experiment) -> None:
     """As in a file; head-room is counted from it."""
     one, other = (
-        experiment_of_arrays(**_arrays(experiment, **changes)).sensors[0] for changes in ({}, {"limit_counts": 2047.0})
+        experiment_of_arrays(**arrays_of(experiment, **changes)).sensors[0]
+        for changes in ({}, {"limit_counts": 2047.0})
     )
     assert one.limit_counts == experiment.sensors[0].limit_counts
     assert other.limit_counts == 2047.0
 
 
-def test_what_to_record_next_is_planned_from_arrays(experiment: Experiment) -> None:
+def test_what_to_record_next_is_planned_fromarrays_of(experiment: Experiment) -> None:
     """As from the file, and as the function says it."""
-    run = experiment_of_arrays(**_arrays(experiment))["arm_ft"]
+    run = experiment_of_arrays(**arrays_of(experiment))["arm_ft"]
     quick: dict[str, Any] = {"clearance_deg": 5.0, "recordings": 1, "effort": Effort(postures=30, swaps=5)}
     plan = run.plan(**quick)
     assert len(plan.recordings) == 1
@@ -156,7 +214,7 @@ def test_what_to_record_next_is_planned_from_arrays(experiment: Experiment) -> N
 
 def test_without_a_span_to_judge_nothing_is_judged(experiment: Experiment) -> None:
     """A fit is had all the same, and may not be used yet."""
-    run = experiment_of_arrays(**_arrays(experiment, judge=None))["arm_ft"]
+    run = experiment_of_arrays(**arrays_of(experiment, judge=None))["arm_ft"]
     calibration = run.calibrate()
     assert [verdict.decision for verdict in run.verdicts(calibration)] == ["not enough data"]
     with pytest.raises(ExperimentError, match="expected an interval"):
@@ -165,6 +223,39 @@ def test_without_a_span_to_judge_nothing_is_judged(experiment: Experiment) -> No
         run.expected_wrenches("judge")
     with pytest.raises(FitError):
         run.calibrate(nonlinear=True, kind="generative")
+
+
+def test_what_makes_a_fit_doubtful_is_said(arm: Path, caplog: pytest.LogCaptureFixture) -> None:
+    """A channel that reaches its limit in fitted samples is logged, as `calibrate` of the command line warns of it."""
+    experiment = load_experiment(arm / PARQUET)
+    with caplog.at_level("WARNING", logger="forcetorque"):
+        experiment["arm_ft"].calibrate()
+    assert caplog.messages == []
+    fitted = experiment["arm_ft"].samples(Use.CALIBRATION)[0].readings.raw
+    saturated = experiment_of_arrays(**arrays_of(experiment, limit_counts=float(np.abs(fitted).max())))["arm_ft"]
+    expected = list(data_doubts(saturated))
+    assert any("saturation" in sentence for sentence in expected)
+    with caplog.at_level("WARNING", logger="forcetorque"):
+        saturated.calibrate()
+    assert caplog.messages[: len(expected)] == expected
+
+
+def test_the_page_of_an_experiment_says_what_was_found_while_reading(experiment: Experiment) -> None:
+    """Findings of the log, with what would be markup escaped; none where there are none."""
+    assert "warning" not in experiment._repr_html_()
+    found = Finding(kind="gap", message="3 messages <lost>", stream="arm_ft", start_ns=0, end_ns=1, count=3)
+    told = Experiment.of(replace(experiment, recording=replace(experiment.recording, findings=(found,))))
+    assert told._repr_html_().startswith("<p><b>warning:</b> arm_ft: 3 messages &lt;lost&gt;</p>")
+
+
+def test_the_page_of_a_calibration_says_what_was_learnt_and_what_is_doubtful(experiment: Experiment) -> None:
+    """The share of every load that the recording decided, and doubts before the matrix."""
+    calibration = experiment["arm_ft"].calibrate()
+    rows = learnt_directions(calibration)
+    assert rows is not None
+    page = calibration.model_copy(update={"doubts": ("a < b",)})._repr_html_()
+    assert page.startswith("<p><b>warning:</b> a &lt; b</p><table>")
+    assert all(f"{row.direction} {100.0 * row.learnt:.0f} %" in page for row in rows)
 
 
 def test_what_a_notebook_shows_is_short(experiment: Experiment) -> None:
@@ -178,3 +269,69 @@ def test_what_a_notebook_shows_is_short(experiment: Experiment) -> None:
     assert str(calibration) == repr(calibration)
     assert "<td" in experiment._repr_html_()
     assert f"{calibration.matrix[0, 0]:.4g}" in calibration._repr_html_()
+
+
+@pytest.mark.parametrize("question", ["evaluate", "validate", "verdicts", "plan", "figure"])
+def test_what_is_no_calibration_is_refused_in_a_line(experiment: Experiment, question: str) -> None:
+    """The file of one is named with what reads it; so is another thing under a name."""
+    ask = getattr(experiment["arm_ft"], question)
+    with pytest.raises(
+        ExperimentError, match=r"expected a Calibration.*; read_calibration\('arm.json'\) reads a file$"
+    ):
+        ask("arm.json")
+    with pytest.raises(ExperimentError, match="expected a Calibration.*, got a int$"):
+        ask(26)
+    if question != "plan":
+        with pytest.raises(
+            ExperimentError, match=r"calibrations\['mine'\]: expected a Calibration, got 'arm.json'; read"
+        ):
+            ask({"mine": Path("arm.json")})
+
+
+def test_one_calibration_needs_no_name(experiment: Experiment) -> None:
+    """The functions of `analysis` take it as the methods do."""
+    run = experiment["arm_ft"]
+    calibration = run.calibrate()
+    assert evaluate(run, calibration).json_text() == run.evaluate(calibration).json_text()
+    assert validate(run, calibration).json_text() == run.validate(calibration).json_text()
+    assert use_verdicts(run, calibration) == run.verdicts(calibration)
+    assert [row.candidate for row in spheres(run, calibration).rows] == ["prior", "calibration"]
+
+
+def test_an_estimation_type_is_given_by_its_name(experiment: Experiment) -> None:
+    """As on the command line; another name, and a lambda that is no number, are refused in a line."""
+    run = experiment["arm_ft"]
+    by_name = run.calibrate(kind="OnTdTO", regularisation=1000.0)
+    by_type = run.calibrate(kind=ESTIMATION_TYPES["OnTdTO"], regularisation=1000.0)
+    np.testing.assert_array_equal(by_name.matrix, by_type.matrix)
+    with pytest.raises(FitError, match="no estimation type is called 'OnTd'; did you mean"):
+        run.calibrate(kind="OnTd")
+    with pytest.raises(FitError, match="regularisation: expected lambda in counts2, or 'held-out', got 'some'"):
+        run.calibrate(regularisation="some")
+
+
+def test_answers_and_calibrations_are_compared_by_their_numbers(experiment: Experiment, tmp_path: Path) -> None:
+    """What was saved is what is read; another offset, another kind of thing and another name are not the same."""
+    run = experiment["arm_ft"]
+    calibration = run.calibrate()
+    calibration.save(tmp_path / "arm.json")
+    read = read_calibration(tmp_path / "arm.json")
+    assert read == calibration
+    assert calibration in [read]
+    assert run.evaluate(read) == run.evaluate(calibration)
+    offset = calibration.offset + np.array([0.0, 0.0, 0.0, 0.0, 0.0, 1e-9])
+    assert read != calibration.model_copy(update={"offset": offset})
+    assert read != calibration.model_copy(update={"raw_offset_counts": np.zeros(6)})
+    assert read != calibration.sensor
+    assert run.evaluate({"other": read}) != run.evaluate(calibration)
+
+
+def test_an_experiment_goes_to_another_process(experiment: Experiment) -> None:
+    """Experiment and run, pickled or copied, before and after a question, fit as they do themselves."""
+    run = experiment["arm_ft"]
+    untouched = pickle.loads(pickle.dumps(experiment))  # noqa: S301 - pickled here
+    calibration = run.calibrate()
+    for twin in (untouched["arm_ft"], copy.deepcopy(run)):
+        np.testing.assert_array_equal(twin.calibrate().matrix, calibration.matrix)
+    with pytest.raises(TypeError, match="does not support item assignment"):
+        untouched.recording.streams["other"] = untouched.recording.streams["joints"]

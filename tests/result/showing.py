@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import html
 from collections.abc import Iterator
 
 from forcetorque.result import Result, Table
@@ -28,7 +29,7 @@ def folded(result: Result, width: int) -> set[str]:
 
 
 def require_shown(result: Result) -> None:
-    """Narrow text keeps its numbers, the page holds every table, and the first cell of a notebook is short."""
+    """Narrow text keeps its numbers, the page every table, both say the warnings; a first cell is short."""
     assert folded(result, NARROW) == set()
     page = result._repr_html_()
     tables = [block for block in result.blocks() if isinstance(block, Table)]
@@ -36,4 +37,9 @@ def require_shown(result: Result) -> None:
     for table in tables:
         assert all(f">{cell}</td>" in page for cell in table.rows[0] if cell.isalnum())
     assert len(repr(result)) < FEW
-    assert str(result) == result.text()
+    printed = str(result)
+    assert printed.endswith(result.text())
+    assert (printed == result.text()) == (not result.warnings)
+    for sentence in result.warnings:
+        assert " ".join(sentence.split()) in " ".join(printed.split())
+        assert html.escape(sentence) in page

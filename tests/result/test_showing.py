@@ -23,3 +23,13 @@ def test_a_folded_number_is_noticed() -> None:
     """Negative control: a number on two lines stands in none of them."""
     require_shown(_Whole())
     assert folded(_Folded(), 60) == {"-12345.678"}
+
+
+def test_print_and_page_say_what_is_doubtful() -> None:
+    """Once each and before the answer, as the command line does on standard error; the text alone does without."""
+    doubtful = _Whole(warnings=("fx < fy in 3 % of it", "no offset", "no offset"))
+    require_shown(doubtful)
+    assert str(doubtful).startswith("warning: fx < fy in 3 % of it\nwarning: no offset (2 times)\n\n")
+    assert doubtful._repr_html_().startswith("<p><b>warning:</b> fx &lt; fy in 3 % of it</p>")
+    assert "warning" not in doubtful.text()
+    assert str(_Whole()) == _Whole().text()

@@ -62,7 +62,14 @@ if TYPE_CHECKING:
     from forcetorque.analysis.gains.gains import Gains, SensorGains, select_gains, sensor_gains
     from forcetorque.analysis.init import Draft, draft_experiment
     from forcetorque.analysis.inspect.findings import doubtful_spans, inspect_experiment, inspect_recording
-    from forcetorque.analysis.inspect.inspect import FindingRow, Inspection, finding_rows, finding_table, inspect_log
+    from forcetorque.analysis.inspect.inspect import (
+        FindingRow,
+        Inspection,
+        finding_rows,
+        finding_table,
+        inspect_log,
+        inspected,
+    )
     from forcetorque.analysis.joint.calibration import calibrate_jointly, calibration_file
     from forcetorque.analysis.joint.data import JOINT_FILE
     from forcetorque.analysis.joint.interval import joint_interval
@@ -285,6 +292,7 @@ __all__ = [
     "inspect_experiment",
     "inspect_log",
     "inspect_recording",
+    "inspected",
     "joint_interval",
     "joint_torques",
     "learnt_directions",

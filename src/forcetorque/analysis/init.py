@@ -100,7 +100,7 @@ class Draft(Result):
 
 
 def draft_experiment(
-    logs: Sequence[Path | str],
+    logs: Path | str | Sequence[Path | str],
     output: Path | str | None = None,
     *,
     urdf: Path | str | None = None,
@@ -128,11 +128,12 @@ def draft_experiment(
     file = Path("experiment.toml") if output is None else Path(output)
     if output is not None and file != STANDARD_OUTPUT and file.exists():
         raise ExperimentError(f"{file}: there is such a file already; choose another name, or move it away")
-    if not logs:
+    files = [logs] if isinstance(logs, Path | str) else logs
+    if not files:
         raise ExperimentError("expected a log to begin an experiment file of, got none")
     folder = Path() if file == STANDARD_OUTPUT else file.parent
     model = None if urdf is None else read_urdf(Path(urdf))
-    log = draft_log([Path(path) for path in logs], model, log_format)
+    log = draft_log([Path(path) for path in files], model, log_format)
     robot = None if urdf is None else relative(Path(urdf), folder)
     text, notes, recording = _written(log, folder, model, robot)
     if output is not None:

@@ -31,7 +31,7 @@ from forcetorque.calibration.secondary import secondary_matrix
 from forcetorque.calibration.wrench_model import WrenchModel
 from forcetorque.errors import FormatError, RecordingError, SerialNumberError, ShapeError
 from forcetorque.part import Part, checked_part, read_json
-from forcetorque.result import Table, html_table
+from forcetorque.result import Table, html_table, html_warnings
 from forcetorque.spatial import WRENCH_COMPONENTS, WRENCH_UNITS, MeasureDirection
 
 SCHEMA: Final = "forcetorque/calibration/3"
@@ -314,7 +314,9 @@ class Calibration(Part):
                 for k, (name, unit) in enumerate(zip(WRENCH_COMPONENTS, WRENCH_UNITS, strict=True))
             ),
         )
-        return html_table(table)
+        shares = None if self.posterior is None else self.posterior.learnt_shares()
+        learnt = "" if shares is None else f"<p>{_learnt(shares)}</p>"
+        return html_warnings(self.doubts) + html_table(table) + learnt
 
     def save(self, path: Path | str) -> None:
         """Write the calibration as JSON; on any error the file keeps what it held before.
@@ -417,6 +419,11 @@ class Calibration(Part):
         if self.prior is None or self.matrix.shape != (6, 6):
             return None
         return secondary_matrix(self.matrix, self.prior.matrix)
+
+
+def _learnt(shares: FloatArray) -> str:
+    each = ", ".join(f"{name} {100.0 * share:.0f} %" for name, share in zip(WRENCH_COMPONENTS, shares, strict=True))
+    return f"learnt of each load: {each}; the rest the prior decides"
 
 
 def write_calibration(path: Path | str, calibration: Calibration) -> None:

@@ -129,8 +129,7 @@ def calibrate(
                 for sentence in analysis.data_doubts(run):  # what may be the reason
                     log.warning("%s", sentence)
     if results:
-        calibrations = analysis.SensorCalibrations.together(results)
-        calibrations.save()
+        calibrations = analysis.SensorCalibrations.together(results).save()
         if figure is not None:
             try:
                 calibrations = _drawn(calibrations, figure)

@@ -69,8 +69,8 @@ def calibrate_together(
         created=datetime.now(UTC).isoformat(timespec="seconds"),
         progress=log.info,
     )
-    result.save()
-    show(_drawn(result, figure) if figure is not None else result, output_format)
+    written = result.save()
+    show(_drawn(written, figure) if figure is not None else written, output_format)
 
 
 def _drawn(result: SensorCalibrations, figure: Path) -> SensorCalibrations:

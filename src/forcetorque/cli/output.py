@@ -6,7 +6,6 @@ from __future__ import annotations
 import csv
 import logging
 import sys
-from collections import Counter
 from collections.abc import Sequence
 from enum import StrEnum
 from pathlib import Path
@@ -96,8 +95,8 @@ def show_warnings(result: Result) -> None:
         result: The result.
     """
     log = start_logging()
-    for sentence, count in Counter(result.warnings).items():
-        log.warning("%s", sentence if count == 1 else f"{sentence} ({count} times)")
+    for sentence in result.cautions():
+        log.warning("%s", sentence)
 
 
 def say(sentence: str, output_format: Format) -> None:

@@ -14,7 +14,7 @@ from forcetorque.cli.output import Format, refuse_output_folder, show, start_log
 
 def simulate(
     scenario: Annotated[
-        str, typer.Argument(help="Scenario file (TOML), or a bundled one: icub-insitu, stance, wrist.")
+        str, typer.Argument(help="Scenario file (TOML), or a bundled one: icub-insitu, stance, switching, wrist.")
     ],
     output: Annotated[Path, typer.Option("--output", "-o", help="Folder to make.")],
     output_format: FormatOption = Format.TABLE,

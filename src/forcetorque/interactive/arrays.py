@@ -4,13 +4,15 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from numbers import Real
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any, Literal, get_args
 
 import numpy as np
+import numpy.typing as npt
 
 from forcetorque.arrays import FloatArray, IntArray, require_shape
-from forcetorque.errors import ExperimentError
+from forcetorque.errors import ExperimentError, known_names
 from forcetorque.estimation import Processing
 from forcetorque.experiment.content import ExperimentSensor, FitOptions, Role
 from forcetorque.interactive.experiment import Experiment
@@ -20,7 +22,10 @@ from forcetorque.spatial import WRENCH_COMPONENTS, WRENCH_UNITS
 
 Span = tuple[float, float]
 """Start and end; s on the clock of the samples; the end is excluded."""
+_Quantity = Literal["raw", "wrench"]
 _READINGS, _JOINTS = "readings", "joints"
+_LATEST_S = 9.2e9
+"""Seconds, which as nanoseconds fill 64 bits."""
 
 
 def experiment_of_arrays(
@@ -39,7 +44,7 @@ def experiment_of_arrays(
     prior: Any = None,
     full_scale: Any = None,
     limit_counts: float = 32767.0,
-    quantity: Literal["raw", "wrench"] = "raw",
+    quantity: _Quantity = "raw",
     name: str = "arrays",
 ) -> Experiment:
     """Make an experiment of one sensor from arrays.
@@ -71,7 +76,11 @@ def experiment_of_arrays(
         ExperimentError: If joints, frames or spans do not fit each other.
         ShapeError: If the shapes are not these.
     """
-    model = robot if isinstance(robot, RobotModel) else read_urdf(robot)
+    model = _robot(robot)
+    if quantity not in get_args(_Quantity):
+        raise ExperimentError(f"quantity: expected {' or '.join(map(repr, get_args(_Quantity)))}, got {quantity!r}")
+    if not (isinstance(serial, str) and serial):
+        raise ExperimentError(f"serial: expected the serial number as text, such as 'SN026', got {serial!r}")
     stamps = _stamps(time_s, "time_s")
     joint_stamps = stamps if joint_time_s is None else _stamps(joint_time_s, "joint_time_s")
     recording = Recording(
@@ -83,17 +92,18 @@ def experiment_of_arrays(
     if quantity == "wrench" and prior is None:
         raise ExperimentError("reading: a calibrated wrench needs the prior that made it, or numpy.eye(6); got none")
     if support not in model.links:
-        raise ExperimentError(f"support: the robot {model.name!r} has no link {support!r}")
-    if not limit_counts > 0.0:
+        raise ExperimentError(
+            f"support: the robot {model.name!r} has no link {support!r}; {known_names(support, model.links)}"
+        )
+    if not (isinstance(limit_counts, Real) and limit_counts > 0.0):
         raise ExperimentError(f"limit_counts: expected a positive number of counts, got {limit_counts!r}")
-    ground = Support(frame=support, gravity_direction=gravity_direction)
-    spans = [("calibrate", calibrate, Use.CALIBRATION), ("judge", judge, Use.VALIDATION)]
-    intervals = [
-        Interval(label=label, start_ns=_ns(span[0]), end_ns=_ns(span[1]), use=use, support=ground)
-        for label, span, use in spans
-        if span is not None
-    ]
-    matrix = None if prior is None else np.asarray(prior, dtype=np.float64)
+    ground = Support(frame=support, gravity_direction=_numbers(gravity_direction, "gravity_direction"))
+    intervals = [_interval("calibrate", calibrate, Use.CALIBRATION, ground)]
+    if judge is not None:
+        intervals.append(_interval("judge", judge, Use.VALIDATION, ground))
+    matrix = None if prior is None else _numbers(prior, "prior")
+    if matrix is not None and not np.isfinite(matrix).all():
+        raise ExperimentError("prior: expected a matrix of finite numbers, got NaN or infinity in it")
     known = _same(matrix, quantity)
     return Experiment(
         name=name,
@@ -109,7 +119,7 @@ def experiment_of_arrays(
                 prior=matrix,
                 prior_source=None if matrix is None else "identity" if known else "given as an array",
                 limit_counts=limit_counts,
-                full_scale=None if full_scale is None else np.asarray(full_scale, dtype=np.float64),
+                full_scale=None if full_scale is None else _full_scale(full_scale),
             ),
         ),
         contacts=(),
@@ -129,22 +139,87 @@ def _same(matrix: FloatArray | None, quantity: str) -> bool:
     return matrix is not None and quantity == "wrench" and np.array_equal(matrix, np.eye(6))
 
 
-def _ns(seconds: float) -> int:
-    return round(seconds * 1e9)
+def _robot(robot: RobotModel | Path | str) -> RobotModel:
+    if isinstance(robot, RobotModel):
+        return robot
+    if not isinstance(robot, str | Path):
+        raise ExperimentError(f"robot: expected a RobotModel or the path of a URDF file, got {_what(robot)}")
+    if str(robot).lstrip().startswith("<"):
+        raise ExperimentError("robot: expected the path of a URDF file, got its text; write that to a file first")
+    return read_urdf(robot)
+
+
+def _what(given: Any) -> str:
+    """What came, in a few words however large it is."""
+    shape = getattr(given, "shape", None)
+    if shape is not None:
+        return f"{type(given).__name__} of shape {shape}"
+    return repr(given) if given is None or isinstance(given, str | int | float) else f"a {type(given).__name__}"
+
+
+def _numbers(given: Any, name: str) -> FloatArray:
+    """What is given as numbers, NaN where none is; text of numbers is taken for them, instants and complex are not."""
+    try:
+        array = _plain(given)
+        if array.dtype.kind in "mMc":
+            raise TypeError
+        return array.astype(np.float64)
+    except (TypeError, ValueError) as error:
+        raise ExperimentError(f"{name}: expected numbers, got {_what(given)}") from error
+
+
+def _plain(given: Any) -> npt.NDArray[Any]:
+    """An array of numpy, whose NaN stands for what is masked and for what pandas knows to be missing."""
+    if isinstance(given, np.ma.MaskedArray):
+        return np.where(np.ma.getmaskarray(given), np.nan, given.data)
+    array = np.asarray(given)
+    if array.dtype == object and hasattr(given, "to_numpy"):  # of pandas, where numbers that may be missing are objects
+        return np.asarray(given.to_numpy(dtype=np.float64, na_value=np.nan))
+    return array
+
+
+def _full_scale(given: Any) -> FloatArray:
+    full_scale = _numbers(given, "full_scale")
+    require_shape(full_scale, name="full_scale", shape=(6,))
+    if not (np.isfinite(full_scale) & (full_scale > 0.0)).all():
+        raise ExperimentError(f"full_scale: expected six finite numbers above 0, N and N m, got {full_scale.tolist()}")
+    return full_scale
+
+
+def _interval(label: str, span: Span, use: Use, ground: Support) -> Interval:
+    try:
+        start, end = (round(float(second) * 1e9) for second in span)
+    except (TypeError, ValueError, OverflowError) as error:
+        raise ExperimentError(
+            f"{label}: expected one span, start and end in s on the clock of time_s, such as (1.0, 59.0), got {span!r}"
+        ) from error
+    return Interval(label=label, start_ns=start, end_ns=end, use=use, support=ground)
 
 
 def _stamps(time_s: Any, name: str) -> IntArray:
-    time = np.asarray(time_s, dtype=np.float64)
+    try:
+        time = _numbers(time_s, name)
+    except ExperimentError as error:
+        raise ExperimentError(
+            f"{error}; give seconds: of dates t those are (t - t[0]) / numpy.timedelta64(1, 's'), one t[0] for all"
+        ) from error
     require_shape(time, name=name, shape=(None,))
     if not np.isfinite(time).all() or (np.diff(time) <= 0.0).any():
         raise ExperimentError(f"{name}: expected finite instants that rise; sort the samples, drop repeated ones")
+    if time.size and np.abs(time).max() > _LATEST_S:
+        raise ExperimentError(f"{name}: expected seconds, got {time[-1]:.3g}; divide nanoseconds by 1e9")
     return np.round(time * 1e9).astype(np.int64)
 
 
 def _reading_stream(model: RobotModel, sensor: str, stamps: IntArray, reading: Any, quantity: str) -> Stream:
-    values = np.asarray(reading, dtype=np.float64)
+    values = _numbers(reading, "reading")
     require_shape(values, name="reading", shape=(len(stamps), 6 if quantity == "wrench" else None))
     if quantity == "wrench":
+        named = [str(column) for column in getattr(reading, "columns", WRENCH_COMPONENTS)]
+        if sorted(named) == sorted(WRENCH_COMPONENTS) and named != list(WRENCH_COMPONENTS):
+            raise ExperimentError(
+                f"reading: expected the columns {', '.join(WRENCH_COMPONENTS)} in this order, got {', '.join(named)}"
+            )
         frame = model.sensor(sensor).name
         signal = Signal(quantity="wrench", values=values, columns=WRENCH_COMPONENTS, units=WRENCH_UNITS, frame=frame)
     else:
@@ -155,17 +230,22 @@ def _reading_stream(model: RobotModel, sensor: str, stamps: IntArray, reading: A
 
 
 def _joint_stream(model: RobotModel, stamps: IntArray, joints: Mapping[str, Any]) -> Stream:
+    if not hasattr(joints, "keys"):  # a frame of pandas has them, and is no Mapping
+        raise ExperimentError(
+            f"joints: expected positions by name of the joint, a dictionary or a pandas frame, got {_what(joints)}"
+        )
     names = tuple(str(joint) for joint in joints)
     absent = [joint for joint in names if joint not in model.joints]
     if absent or not names:
         raise ExperimentError(
             f"joints: expected names of joints of the robot {model.name!r}, got {', '.join(absent) or 'none'}"
         )
-    for joint in names:
-        require_shape(np.asarray(joints[joint], dtype=np.float64), name=f"joints[{joint!r}]", shape=(len(stamps),))
+    positions = [_numbers(joints[joint], f"joints[{joint!r}]") for joint in joints]
+    for joint, values in zip(names, positions, strict=True):
+        require_shape(values, name=f"joints[{joint!r}]", shape=(len(stamps),))
     signal = Signal(
         quantity="position",
-        values=np.column_stack([np.asarray(joints[joint], dtype=np.float64) for joint in names]),
+        values=np.column_stack(positions),
         columns=names,
         units=tuple(model.joints[joint].type.unit for joint in names),
     )

@@ -3,26 +3,32 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import fields
 from datetime import UTC, datetime
 from importlib.metadata import version
 from pathlib import Path
-from typing import Any, Self
+from typing import TYPE_CHECKING, Any, Self
 
 from forcetorque import analysis
 from forcetorque import experiment as experiments
 from forcetorque.analysis import SensorCalibrations
+from forcetorque.analysis.runs.named import NEW, Calibrations, named
 from forcetorque.calibration import Calibration
 from forcetorque.calibration.joint import ModelTolerance
 from forcetorque.estimation.balance import ForceLimit
 from forcetorque.evaluation import OffsetPolicy
-from forcetorque.interactive.run import Calibrations, Run, named
-from forcetorque.result import Table, html_table
+from forcetorque.experiment import parse_experiment
+from forcetorque.experiment.contacts import contact_in_words
+from forcetorque.interactive.run import Run
+from forcetorque.result import Table, html_table, html_warnings
+
+if TYPE_CHECKING:  # what shows takes long to import, and most scripts do not
+    from forcetorque.viewer import View
 
 
 class Experiment(experiments.Experiment):
-    """Everything that an experiment file points to, sensors by name."""
+    """Everything that an experiment file points to, sensors by name: `[experiment[name] for name in experiment]`."""
 
     __slots__ = ()
 
@@ -52,6 +58,15 @@ class Experiment(experiments.Experiment):
         """
         return Run(self, self.sensor(sensor))
 
+    def __iter__(self) -> Iterator[str]:
+        return (sensor.name for sensor in self.sensors)
+
+    def __contains__(self, sensor: object) -> bool:
+        return any(sensor in (one.name, *self.model.sensor(one.name).aliases) for one in self.sensors)
+
+    def _ipython_key_completions_(self) -> list[str]:
+        return list(self)
+
     def balance(
         self, calibrations: Calibrations | None = None, *, touch: str = "15%", release: str = "6%", **options: Any
     ) -> analysis.Balance:
@@ -75,19 +90,93 @@ class Experiment(experiments.Experiment):
 
     def coherence(
         self,
-        candidates: Mapping[str, Mapping[str, Calibration]] | None = None,
+        candidates: Calibration | Mapping[str, Mapping[str, Calibration]] | None = None,
         offsets: Sequence[OffsetPolicy | str] = (),
     ) -> analysis.Coherence:
         """Hold the net contact force of every phase against the weight.
 
         Args:
-            candidates: By name of the candidate its calibrations by any name; the prior is always judged.
+            candidates: One calibration, or by name of the candidate its calibrations by any name; the prior is always
+                judged.
             offsets: Where offsets come from, such as `one-link-imu:hanging`; as of `analysis.coherence`.
 
         Returns:
             Net forces and errors per offset, phase and candidate.
         """
-        return analysis.coherence(self, candidates, offsets=offsets)
+        judged = {NEW: candidates} if isinstance(candidates, Calibration) else candidates or {}
+        sensors = {name: named(calibrations) for name, calibrations in judged.items()}
+        return analysis.coherence(self, sensors, offsets=offsets)
+
+    def inspect(self) -> analysis.Inspection:
+        """Find gaps, lost messages, frozen or saturated sensors, steps and contacts.
+
+        Returns:
+            What the recording holds, and what is wrong with it.
+        """
+        return analysis.inspected(self)
+
+    def estimate(
+        self,
+        calibrations: Calibrations | None = None,
+        *,
+        contacts: Sequence[str] | None = None,
+        length_scale: float | None = None,
+        offset: OffsetPolicy | str = "fitted",
+        fuse: bool = False,
+        output: Path | str | None = None,
+    ) -> analysis.EstimateSummary:
+        """Estimate contact wrenches, joint torques and expected readings.
+
+        Args:
+            calibrations: How sensors are read; by their prior or as logged if left out.
+            contacts: `FRAME`, `FRAME:force` or `FRAME:force_along:x,y,z` each; those of the file if left out, else at
+                the sensors.
+            length_scale: Moment that weighs as much as one newton, for more than six unknowns; m.
+            offset: Where offsets come from, such as `one-link-imu:hanging`.
+            fuse: Whether joint torques of sensors, known contacts and motors are made one, beside each other.
+            output: File for every sample, .parquet or .csv; none if left out.
+
+        Returns:
+            Mean norms of contacts and residuals, with every sample in `intervals`.
+        """
+        stated = [contact_in_words(words, self.model) for words in contacts] if contacts else None
+        corrections = analysis.corrections_of(self, named(calibrations), offset=offset)
+        patches = analysis.frames_of_patches(self)
+        spans = analysis.estimate_experiment(
+            self, corrections, contacts=stated, length_scale=length_scale, patches=patches
+        )
+        fusions, frictions = (
+            analysis.fuse_experiment(self, corrections, contacts=stated, patches=patches) if fuse else ([], ())
+        )
+        file = None if output is None else Path(output)
+        summary = analysis.summarise_estimates(
+            self, corrections, spans, file=file, fusions=fusions, frictions=frictions
+        )
+        return summary.model_copy(update={"intervals": tuple(spans)})
+
+    def view(
+        self, output: Path | str, calibrations: Calibrations | None = None, *, sensors: Sequence[str] | None = None
+    ) -> View:
+        """Write robot pose and force space, linked in time, as a page: `experiment.view("view.html", calibration)`.
+
+        Args:
+            output: File of the page, which works offline in any browser.
+            calibrations: How sensors are read, beside their priors; of a sensor any number.
+            sensors: Sensors to show; all if left out.
+
+        Returns:
+            What the page shows. A robot from arrays is drawn without its looks, whose files only its URDF names.
+
+        Raises:
+            ForceTorqueError: If there are too many samples for one file; `forcetorque view` serves them.
+        """
+        from forcetorque.viewer import View, build_scene, write_page
+
+        robot = parse_experiment(self.file).robot if self.file.is_file() else None
+        urdf = None if robot is None else self.file.parent / robot.urdf
+        built = build_scene(self, named(calibrations), urdf=urdf, sensors=sensors)
+        written = write_page(Path(output), built)
+        return View.of(built).model_copy(update={"file": str(output), "file_bytes": written})
 
     def _repr_html_(self) -> str:
         start = self.recording.start_ns
@@ -105,7 +194,8 @@ class Experiment(experiments.Experiment):
                 for one in self.recording.intervals
             ),
         )
-        return html_table(table)
+        found = (f"{finding.stream}: {finding.message}" for finding in self.recording.findings)
+        return html_warnings(found) + html_table(table)
 
 
 def load_experiment(path: Path | str) -> Experiment:

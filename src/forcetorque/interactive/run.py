@@ -3,13 +3,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import logging
+from collections.abc import Sequence
 from datetime import UTC, datetime
 from importlib.metadata import version
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from forcetorque import analysis
 from forcetorque.analysis import SensorRun
+from forcetorque.analysis.runs.named import Calibrations, named, one_named
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration import Calibration
 from forcetorque.errors import ExperimentError, known_names
@@ -20,11 +23,7 @@ if TYPE_CHECKING:
 
     from forcetorque.report import Report
 
-Calibrations = Calibration | Mapping[str, Calibration]
-"""One calibration, or several by name."""
-
-NEW = "calibration"
-"""Name of a calibration that is given without one."""
+_LOG = logging.getLogger(__name__)
 
 
 class Run(SensorRun):
@@ -33,16 +32,25 @@ class Run(SensorRun):
     Every method asks the question of `forcetorque.analysis` of that name, where its other options are.
     """
 
-    def calibrate(self, **options: Any) -> Calibration:
-        """Fit the sensor on its calibration intervals.
+    def calibrate(self, *more: SensorRun, **options: Any) -> Calibration:
+        """Fit the sensor on its calibration intervals: `first["wrist"].calibrate(second["wrist"])` on those of both.
+
+        What makes the fit doubtful is logged as warnings, which Python writes to standard error and a notebook shows.
 
         Args:
+            more: The sensor in other experiments, which are fitted together.
             options: As of `calibrate_sensor`: kind, regularisation, nonlinear, moments.
 
         Returns:
             The calibration.
         """
-        return analysis.calibrate_sensor(self, code_version=version("forcetorque"), created=_now(), **options)
+        answer = analysis.calibrate_for_file(
+            [self, *more], f"{self.sensor.name}.json", code_version=version("forcetorque"), created=_now(), **options
+        )
+        for sentence in answer.cautions():
+            _LOG.warning("%s", sentence)
+        (entry,) = answer.calibrations
+        return entry.calibration
 
     def expected_wrenches(self, label: str) -> tuple[FloatArray, FloatArray]:
         """Give what mechanics demands that the sensor reads over an interval.
@@ -106,7 +114,8 @@ class Run(SensorRun):
         Returns:
             The offset, to be added, with its interval.
         """
-        return analysis.tare(self, label, name=None if calibration is None else NEW, calibration=calibration)
+        name, reader = one_named(calibration)
+        return analysis.tare(self, label, name=name, calibration=reader)
 
     def thermal(self, calibration: Calibration | None = None, **options: Any) -> analysis.Thermal:
         """Find how the reading drifts with temperature at a load that stays.
@@ -118,8 +127,8 @@ class Run(SensorRun):
         Returns:
             Drift per degree and per hour, and hysteresis, with intervals.
         """
-        name = None if calibration is None else NEW
-        return analysis.thermal(self, name=name, calibration=calibration, **options)
+        name, reader = one_named(calibration)
+        return analysis.thermal(self, name=name, calibration=reader, **options)
 
     def response(self, excitation: str, calibration: Calibration | None = None, **options: Any) -> analysis.Response:
         """Tell what the sensor does to fast forces: `run.response("impact", force="hammer").corrected(stream)`.
@@ -132,8 +141,8 @@ class Run(SensorRun):
         Returns:
             Events and their decays, frequency response, and the filter that undoes it.
         """
-        name = None if calibration is None else NEW
-        return analysis.response(self, excitation, name=name, calibration=calibration, **options)
+        name, reader = one_named(calibration)
+        return analysis.response(self, excitation, name=name, calibration=reader, **options)
 
     def verdicts(self, calibrations: Calibrations) -> tuple[analysis.UseVerdict, ...]:
         """Say whether calibrations may be used for the loads to come.
@@ -146,6 +155,53 @@ class Run(SensorRun):
         """
         return analysis.use_verdicts(self, named(calibrations))
 
+    def accept(
+        self, spec: analysis.AcceptanceFile | Path | str, calibration: Calibration | None = None, **options: Any
+    ) -> analysis.Acceptance:
+        """Accept or reject the sensor by limits: `run.accept("limits.toml", calibration).accepted`.
+
+        Args:
+            spec: Content of an acceptance file, or the file.
+            calibration: The calibration that is judged; the prior if left out.
+            options: As of `analysis.accept`: others, population.
+
+        Returns:
+            Criteria, each with what was measured.
+        """
+        stated = spec if isinstance(spec, analysis.AcceptanceFile) else analysis.read_acceptance(spec)
+        name, judged = one_named(calibration)
+        return analysis.accept(self, stated, None if name is None or judged is None else (name, judged), **options)
+
+    def gains(self, calibration: Calibration | None = None, *, margin: float = 0.2) -> analysis.Gains:
+        """Show how far the raw channels are from saturation, and which amplifier gains would suit them.
+
+        Args:
+            calibration: Tells what a count is worth; the prior if left out.
+            margin: Share of the limit to keep free for forces that were not recorded.
+
+        Returns:
+            Head-room of every channel, and gains where the experiment states which can be set.
+        """
+        name, matrix = one_named(calibration)
+        return analysis.select_gains(
+            self, margin=margin, calibration=None if name is None or matrix is None else (name, matrix)
+        )
+
+    def sphere(
+        self, calibrations: Calibrations | None = None, intervals: Sequence[str] | None = None
+    ) -> analysis.Spheres:
+        """Compare how the three axes weigh a limb that is carried around.
+
+        Args:
+            calibrations: As of `evaluate`, compared with the prior.
+            intervals: Labels or kinds of the intervals whose motion draws the sphere; those of the experiment if left
+                out, else all.
+
+        Returns:
+            Ellipsoids of the prior and of every calibration on the same samples.
+        """
+        return analysis.spheres(self, named(calibrations), intervals)
+
     def plan(self, calibration: Calibration | None = None, **options: Any) -> analysis.Plan:
         """Say what to record next: `run.plan(calibration, clearance_deg=10.0)`.
 
@@ -156,7 +212,8 @@ class Run(SensorRun):
         Returns:
             The recordings, and the error to expect after each.
         """
-        return analysis.plan(self, calibration, **options)
+        _, known = one_named(calibration)
+        return analysis.plan(self, known, **options)
 
     def report(self, calibrations: Calibrations | None = None, **options: Any) -> Report:
         """Say everything about the sensor in a document: `run.report(calibration).save("a.html")`.
@@ -191,20 +248,6 @@ class Run(SensorRun):
 
         judged = self.judged(named(calibrations))
         return comparison_figure(judged.time_s, judged.reference, dict(judged.measured))
-
-
-def named(calibrations: Calibrations | None) -> dict[str, Calibration]:
-    """Give calibrations their names.
-
-    Args:
-        calibrations: One, several by name, or none.
-
-    Returns:
-        Them by name; one alone is called `calibration`.
-    """
-    if calibrations is None:
-        return {}
-    return {NEW: calibrations} if isinstance(calibrations, Calibration) else dict(calibrations)
 
 
 def _now() -> str:

@@ -5,9 +5,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
-from types import MappingProxyType
 
 from forcetorque.errors import RecordingError, known_names
+from forcetorque.read_only_mapping import read_only_mapping
 from forcetorque.recording.clock import ClockShift
 from forcetorque.recording.finding import Finding
 from forcetorque.recording.interval import Interval
@@ -30,11 +30,11 @@ class Recording:
     """How stamps were brought to one clock when it was read; not stored, for what is stored has that clock."""
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "streams", MappingProxyType(dict(self.streams)))
+        object.__setattr__(self, "streams", read_only_mapping(self.streams))
         object.__setattr__(self, "intervals", tuple(self.intervals))
         object.__setattr__(self, "findings", tuple(self.findings))
         object.__setattr__(self, "clocks", tuple(self.clocks))
-        object.__setattr__(self, "origin", MappingProxyType(dict(self.origin)))
+        object.__setattr__(self, "origin", read_only_mapping(self.origin))
         for key, stream in self.streams.items():
             if key != stream.name:
                 raise RecordingError(f"the key {key!r} holds the stream {stream.name!r}")

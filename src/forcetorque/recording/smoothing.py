@@ -83,7 +83,7 @@ class EvenGrid:
         if length <= window.order:
             raise RecordingError(
                 f"Savitzky-Golay: a window of {window.window_s:g} s holds {length} sample(s) of {self.period_s:.4g} s, "
-                f"which cannot carry order {window.order}; lengthen the window"
+                f"which cannot carry order {window.order}; lengthen the window, or state the stamps in their unit"
             )
         return length
 

@@ -5,13 +5,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from types import MappingProxyType
 from typing import Any, Self
 
 import numpy as np
 
 from forcetorque.arrays import BoolArray, FloatArray, IntArray, read_only
 from forcetorque.errors import RecordingError, ShapeError, known_names
+from forcetorque.read_only_mapping import read_only_mapping
 from forcetorque.recording.quantity import QUANTITIES, Labels
 
 
@@ -119,7 +119,7 @@ class Stream:
             object.__setattr__(self, "sequence", _stamps(self.sequence, name=f"{self.name}: sequence"))
             if len(self.sequence) != len(stamps):
                 raise ShapeError(f"{self.name}: {len(self.sequence)} sequence numbers for {len(stamps)} stamps")
-        object.__setattr__(self, "signals", MappingProxyType(dict(self.signals)))
+        object.__setattr__(self, "signals", read_only_mapping(self.signals))
         if not self.signals:
             raise RecordingError(f"stream {self.name!r}: expected at least one signal, got none")
         for key, signal in self.signals.items():

@@ -2,7 +2,7 @@
 """The one form of every answer: rows whose fields say unit and digits, and all that is shown made from them."""
 
 from forcetorque.result.cells import finite_or_none, interval, number, with_error
-from forcetorque.result.html import html_table
+from forcetorque.result.html import html_table, html_warnings
 from forcetorque.result.names import short_names
 from forcetorque.result.registry import result_classes
 from forcetorque.result.result import Result
@@ -26,6 +26,7 @@ __all__ = [
     "WrenchValues",
     "finite_or_none",
     "html_table",
+    "html_warnings",
     "interval",
     "number",
     "result_classes",

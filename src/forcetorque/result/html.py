@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tables as HTML, for notebooks."""
+"""Tables and warnings as HTML, for notebooks."""
 
 from __future__ import annotations
 
 import html
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 from forcetorque.result.table import Table
 
@@ -29,3 +29,15 @@ def html_table(table: Table) -> str:
     rows = "".join(f"<tr>{line(row, 'td')}</tr>" for row in table.rows)
     caption = f"<caption>{html.escape(table.caption)}</caption>" if table.caption else ""
     return f"<table>{caption}<thead><tr>{line(table.headings, 'th')}</tr></thead><tbody>{rows}</tbody></table>"
+
+
+def html_warnings(sentences: Iterable[str]) -> str:
+    """Write what is doubtful for a page.
+
+    Args:
+        sentences: What is doubtful.
+
+    Returns:
+        HTML.
+    """
+    return "".join(f"<p><b>warning:</b> {html.escape(sentence)}</p>" for sentence in sentences)

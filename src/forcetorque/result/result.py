@@ -5,13 +5,14 @@ from __future__ import annotations
 
 import html
 import json
+from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from typing import Any, ClassVar, Self
 
 from pydantic import Field
 
 from forcetorque.errors import ShapeError
-from forcetorque.result.html import html_table
+from forcetorque.result.html import html_table, html_warnings
 from forcetorque.result.row import Row
 from forcetorque.result.table import Table
 from forcetorque.result.text import table_text, wrapped
@@ -82,11 +83,22 @@ class Result(Row):
         stated = {name: value for name, value in content.items() if value or name not in self.of_several}
         return json.dumps(stated, indent=2, allow_nan=False)
 
+    def cautions(self) -> Iterator[str]:
+        """Say what makes the answer doubtful.
+
+        Yields:
+            Every warning once, with how often it comes.
+        """
+        for sentence, count in Counter(self.warnings).items():
+            yield sentence if count == 1 else f"{sentence} ({count} times)"
+
     def __str__(self) -> str:
-        return self.text()
+        # the command line has standard error for what is doubtful; a script that prints an answer has no other place
+        doubtful = "".join(f"{wrapped(f'warning: {sentence}', NOTEBOOK_WIDTH)}\n" for sentence in self.cautions())
+        return f"{doubtful}\n{self.text()}" if doubtful else self.text()
 
     def _repr_html_(self) -> str:
-        return "".join(
+        return html_warnings(self.cautions()) + "".join(
             f"<p>{html.escape(block)}</p>" if isinstance(block, str) else html_table(block) for block in self.blocks()
         )
 

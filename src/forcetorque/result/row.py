@@ -10,7 +10,7 @@ from typing import Annotated, Any
 import numpy as np
 from pydantic import BaseModel, ConfigDict, PlainSerializer
 
-from forcetorque.array_field import ArrayField
+from forcetorque.array_field import ArrayField, ArrayModel
 from forcetorque.arrays import FloatArray
 from forcetorque.result.cells import finite_or_none
 from forcetorque.spatial import WRENCH_COMPONENTS, WRENCH_UNITS
@@ -28,7 +28,7 @@ _FEW = 8
 """Numbers of a list that are shown; more are counted."""
 
 
-class Row(BaseModel):
+class Row(ArrayModel):
     """One line of an answer. Names of fields are its keys in JSON, with the unit where it is not plain."""
 
     model_config = ConfigDict(

@@ -6,10 +6,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from enum import StrEnum
-from types import MappingProxyType
 
 from forcetorque.arrays import FloatArray, read_only
 from forcetorque.errors import RobotError, known_names
+from forcetorque.read_only_mapping import read_only_mapping
 from forcetorque.spatial import Inertia, MeasureDirection
 
 
@@ -137,7 +137,7 @@ class RobotModel:
 
     def __post_init__(self) -> None:
         for field in ("links", "joints", "sensors"):
-            object.__setattr__(self, field, MappingProxyType(dict(getattr(self, field))))
+            object.__setattr__(self, field, read_only_mapping(getattr(self, field)))
         _require_tree(self)
 
     @property

@@ -13,13 +13,13 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from enum import StrEnum
 from functools import lru_cache
-from types import MappingProxyType
 from typing import Final
 
 import numpy as np
 
 from forcetorque.arrays import FloatArray
 from forcetorque.errors import RobotError, known_names
+from forcetorque.read_only_mapping import read_only_mapping
 from forcetorque.robot.model import ForceTorqueSensor, Joint, JointType, RobotModel, SensorFrame
 from forcetorque.spatial import Inertia, invert_pose, make_pose, reading_sign, rotation_with_z_along, split_pose
 
@@ -99,7 +99,7 @@ class BodyTree:
 
     def __post_init__(self) -> None:
         for field in ("frames", "inertias", "cuts"):
-            object.__setattr__(self, field, MappingProxyType(dict(getattr(self, field))))
+            object.__setattr__(self, field, read_only_mapping(getattr(self, field)))
 
 
 def build_tree(model: RobotModel, root_link: str) -> BodyTree:

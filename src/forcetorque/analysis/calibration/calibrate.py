@@ -11,7 +11,7 @@ from forcetorque.analysis.calibration.recording_moments import recording_moments
 from forcetorque.analysis.calibration.thesis import thesis_calibration
 from forcetorque.analysis.runs.campaign import Campaign, Runs
 from forcetorque.analysis.runs.possible_touch import possible_touch
-from forcetorque.calibration import Calibration, EstimationType, RecordingMoments
+from forcetorque.calibration import Calibration, EstimationType, RecordingMoments, estimation_type
 from forcetorque.errors import ExperimentError, FitError
 from forcetorque.experiment import Experiment
 
@@ -23,7 +23,7 @@ def calibrate_sensor(
     created: str,
     moments: Sequence[RecordingMoments] = (),
     regularisation: float | Literal["held-out"] | None = None,
-    kind: EstimationType | Literal["generative"] | None = None,
+    kind: EstimationType | str | None = None,
     nonlinear: bool | None = None,
 ) -> Calibration:
     """Fit a sensor on the calibration intervals of any number of recordings.
@@ -35,8 +35,8 @@ def calibrate_sensor(
         moments: What was kept of other recordings, for the generative model.
         regularisation: Lambda of a type of the thesis; counts2; `held-out` to choose it on held-out data; None for what
             the experiment says.
-        kind: `generative`, or an estimation type of the thesis; None for what the experiment says, which is the
-            generative model unless it names a type or a lambda, or one is given here.
+        kind: `generative`, or an estimation type of the thesis, also by its name, such as `OwTrTO`; None for what the
+            experiment says, which is the generative model unless it names a type or a lambda, or one is given here.
         nonlinear: Whether quadratic terms may correct readings; None for what the experiment says.
 
     Returns:
@@ -44,9 +44,9 @@ def calibrate_sensor(
 
     Raises:
         ExperimentError: If files ask for different estimators.
-        FitError: If the data cannot be those of the sensor under the modelled load, or do not determine the fit; or
-            moments are to be fitted by a type of the thesis, which needs samples; or quadratic terms are asked for of
-            such a type, or of a single recording.
+        FitError: If no estimation type is called so; the data cannot be those of the sensor under the modelled load, or
+            do not determine the fit; or moments are to be fitted by a type of the thesis, which needs samples; or
+            quadratic terms are asked for of such a type, or of a single recording.
     """
     if runs is None:
         return generative_calibration(moments, code_version=code_version, created=created, nonlinear=nonlinear)
@@ -77,7 +77,7 @@ def _fitted(
     created: str,
     moments: Sequence[RecordingMoments],
     regularisation: float | Literal["held-out"] | None,
-    kind: EstimationType | Literal["generative"] | None,
+    kind: EstimationType | str | None,
     nonlinear: bool | None,
 ) -> Calibration:
     experiment = campaign.runs[0].experiment
@@ -89,10 +89,13 @@ def _fitted(
         raise FitError("nonlinear: the types of the thesis are linear; leave out the estimation type and lambda")
     if moments:
         raise FitError("stored moments are fitted by the generative model; leave out the estimation type and lambda")
+    if isinstance(regularisation, str) and regularisation != "held-out":
+        raise FitError(f"regularisation: expected lambda in counts2, or 'held-out', got {regularisation!r}")
+    named = estimation_type(kind) if isinstance(kind, str) else kind
     given = experiment.regularisation if regularisation is None else regularisation
     return thesis_calibration(
         campaign,
-        options.kind(has_variables=bool(campaign.sensor.variables)) if kind is None else kind,
+        options.kind(has_variables=bool(campaign.sensor.variables)) if named is None else named,
         regularisation=None if given == "held-out" else given,
         code_version=code_version,
         created=created,

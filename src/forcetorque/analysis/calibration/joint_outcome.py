@@ -80,8 +80,6 @@ class JointOutcome(Row):
         if self.touches:
             yield table_of(self.touches, "left out, because the part's equation does not hold: touched, or a knock")
         yield from self.left_out
-        if self.file is not None:
-            yield f"covariance of all sensors together written to {self.file}"
 
     def doubts(self) -> Iterator[str]:
         """Say what makes the calibrations doubtful.

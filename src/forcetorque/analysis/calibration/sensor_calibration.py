@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import Annotated, Literal
+from typing import Annotated, Literal, Self
 
 from pydantic import Field
 
@@ -28,6 +28,9 @@ from forcetorque.calibration import Calibration, EstimationType, RecordingMoment
 from forcetorque.calibration.joint import JointPosterior
 from forcetorque.recording import Use
 from forcetorque.result import Result, Row, Table, table_of
+
+_MOST_ALIKE = 5
+"""Findings of one kind in an interval that are doubts by themselves; the rest is counted."""
 
 
 class SensorCalibration(Row):
@@ -56,9 +59,15 @@ class SensorCalibrations(Result):
     """What a joint calibration says beside that; None where every sensor was calibrated alone."""
     figure: str | None = None
     """File of the figure of what the recordings taught; none where none was drawn."""
+    saved: bool = Field(default=False, exclude=True, repr=False)
+    """Whether the files are written; nothing is until `save`."""
 
-    def save(self) -> None:
-        """Write every calibration to its file, in folders that are made where they are missing."""
+    def save(self) -> Self:
+        """Write every calibration to its file, in folders that are made where they are missing.
+
+        Returns:
+            The same, which says that it is written.
+        """
         for entry in self.calibrations:
             file = Path(entry.file)
             file.parent.mkdir(parents=True, exist_ok=True)
@@ -66,6 +75,7 @@ class SensorCalibrations(Result):
         if self.joint is not None and self.joint.file is not None:
             sensors = [entry.calibration.sensor for entry in self.calibrations]
             JointPosterior.of(self.joint.fit, {one.name: one.serial for one in sensors}).save(self.joint.file)
+        return self.model_copy(update={"saved": True})
 
     def blocks(self) -> Iterator[Table | str]:
         """Give matrix, variables and excitation of every sensor.
@@ -78,9 +88,12 @@ class SensorCalibrations(Result):
             if entry.learnt:
                 yield table_of(entry.learnt, "what the recordings taught: error that a unit load makes, one s.d.")
                 yield learnt_words(entry.learnt)
-            yield f"written to {entry.file}"
+            yield f"written to {entry.file}" if self.saved else f"not written yet: `save` writes {entry.file}"
         if self.joint is not None:
             yield from self.joint.blocks()
+            if self.joint.file is not None:
+                written = f"written to {self.joint.file}" if self.saved else f"goes to {self.joint.file} by `save`"
+                yield f"covariance of all sensors together {written}"
         if self.figure is not None:
             yield f"drawn to {self.figure}"
 
@@ -101,7 +114,7 @@ def calibrate_for_file(
     created: str,
     moments: Sequence[RecordingMoments] = (),
     regularisation: float | Literal["held-out"] | None = None,
-    kind: EstimationType | Literal["generative"] | None = None,
+    kind: EstimationType | str | None = None,
     nonlinear: bool | None = None,
 ) -> SensorCalibrations:
     """Fit a sensor, and say what makes the calibration doubtful.
@@ -154,7 +167,7 @@ def data_doubts(run: SensorRun, *, by_model: bool = True) -> Iterator[str]:
     Yields:
         A sentence where the load was weighed with the sensor itself, one for whatever the readings then contradict of
         the file, one per interval in which the file says that something touches the robot beyond it, and one per
-        finding in a fitted interval.
+        finding in a fitted interval; of many of one kind the first few, and how many more there are.
     """
     experiment = run.experiment
     if experiment.wrist is not None and not experiment.wrist.are_stated:
@@ -169,13 +182,21 @@ def data_doubts(run: SensorRun, *, by_model: bool = True) -> Iterator[str]:
         if (sentence := possible_touch(run)) is not None:
             yield sentence
     yield from added_to(experiment.recording)
-    start_ns, alone = experiment.recording.start_ns, replace(experiment, sensors=(run.sensor,))
+    yield from _found(run, by_model=by_model)
+
+
+def _found(run: SensorRun, *, by_model: bool) -> Iterator[str]:
+    """Findings in fitted intervals; a channel that saturates in every swing does not hide the others."""
+    start_ns, alone = run.experiment.recording.start_ns, replace(run.experiment, sensors=(run.sensor,))
+    alike: dict[str, list[str]] = {}
     for interval, finding in doubtful_spans(alone, Use.CALIBRATION, by_model=by_model):
         start, end = (((stamp_ns or 0) - start_ns) * 1e-9 for stamp_ns in (finding.start_ns, finding.end_ns))
-        yield (
-            f"interval {interval.label!r}: {finding.stream} {finding.kind} at {start:.2f}-{end:.2f} s: "
-            f"{finding.message}"
-        )
+        kind = f"interval {interval.label!r}: {finding.stream} {finding.kind}"
+        alike.setdefault(kind, []).append(f"{kind} at {start:.2f}-{end:.2f} s: {finding.message}")
+    for kind, sentences in alike.items():
+        yield from sentences[:_MOST_ALIKE]
+        if len(sentences) > _MOST_ALIKE:
+            yield f"{kind}: {len(sentences) - _MOST_ALIKE} more, which `inspect` lists"
 
 
 def _touched(run: SensorRun) -> Iterator[str]:

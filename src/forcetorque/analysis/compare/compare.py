@@ -83,7 +83,7 @@ class Comparison(Result):
 
 
 def compare(
-    paths: Sequence[Path],
+    paths: Sequence[Path | str],
     *,
     sensors: Sequence[str] | None = None,
     calibrations: Mapping[str, Calibration] | None = None,

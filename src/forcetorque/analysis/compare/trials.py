@@ -79,7 +79,7 @@ class _Reading:
 
 
 def read_trials(
-    paths: Sequence[Path],
+    paths: Sequence[Path | str],
     *,
     sensors: Sequence[str] | None = None,
     calibrations: Mapping[str, Calibration] | None = None,
@@ -104,11 +104,12 @@ def read_trials(
         MissingFileError: If a file is not there; nothing has been read then.
         ExperimentError: If a file is named twice.
     """
-    _refuse_wrong_names(paths)
+    files = [Path(path) for path in paths]
+    _refuse_wrong_names(files)
     reading = _Reading(sensors=sensors, calibrations=calibrations or {}, intervals=intervals, by_interval=by_interval)
-    for count, path in enumerate(paths, 1):
+    for count, path in enumerate(files, 1):
         if progress is not None:
-            progress(f"reading {path} ({count} of {len(paths)})")
+            progress(f"reading {path} ({count} of {len(files)})")
         try:
             experiment = load_experiment(path)
             spans = sphere_intervals(experiment, intervals)

@@ -122,6 +122,8 @@ class EstimateSummary(Result):
     """File of the figure of joint torques, where one was drawn."""
     recordings: tuple[EstimatedRecording, ...] = ()
     """Of several recordings one each, where these things then stand; none where there is one recording."""
+    intervals: tuple[IntervalEstimates, ...] = Field(default=(), exclude=True, repr=False)
+    """Every sample, where it was asked for in a script; none where they went to a file."""
 
     def blocks(self) -> Iterator[Table | str]:
         """Give a table of the contacts and one of the sub-models, of one recording after the other.

@@ -15,6 +15,7 @@ from forcetorque.analysis.payload.load_doubts import circular_loads
 from forcetorque.analysis.runs.campaign import Campaign, Runs
 from forcetorque.analysis.runs.candidate import JudgedCandidate, JudgedRow
 from forcetorque.analysis.runs.judged import JudgedWrenches
+from forcetorque.analysis.runs.named import Calibrations, named
 from forcetorque.analysis.runs.unseen import doubts_about_choice, require_unseen
 from forcetorque.analysis.runs.validity import ReadingsOutside, readings_outside, sentences
 from forcetorque.analysis.use.decide import use_verdicts
@@ -169,12 +170,12 @@ class _Judged:
     time_s: FloatArray
 
 
-def evaluate(runs: Runs, calibrations: Mapping[str, Calibration]) -> Evaluation:
+def evaluate(runs: Runs, calibrations: Calibrations) -> Evaluation:
     """Judge calibrations, and the priors that they came from, on data that was not fitted.
 
     Args:
         runs: The sensor in one recording, or in several.
-        calibrations: Its calibrations by name; without any the prior of the experiment is judged.
+        calibrations: Its calibrations by name, or one; without any the prior of the experiment is judged.
 
     Returns:
         For every candidate the errors with the offset of the fitted data and with the mean of the judged samples of
@@ -189,9 +190,9 @@ def evaluate(runs: Runs, calibrations: Mapping[str, Calibration]) -> Evaluation:
         FitError: If a load case changes a variable that a calibration does not know.
         ShapeError: If a matrix does not have one column per channel of the sensor.
     """
-    campaign = Campaign.of(runs)
-    errors = judge_errors(campaign, calibrations)
-    return errors.model_copy(update={"uses": use_verdicts(campaign, calibrations)})
+    campaign, judged = Campaign.of(runs), named(calibrations)
+    errors = judge_errors(campaign, judged)
+    return errors.model_copy(update={"uses": use_verdicts(campaign, judged)})
 
 
 def judge_errors(runs: Runs, calibrations: Mapping[str, Calibration]) -> Evaluation:

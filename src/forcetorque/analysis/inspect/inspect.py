@@ -27,7 +27,15 @@ from forcetorque.errors import FormatError, MissingFileError, RecordingError
 from forcetorque.exchange.formats import format_named, not_recognised, recognised_format
 from forcetorque.exchange.log_sketch import SketchingFormat
 from forcetorque.exchange.prior import PriorFile, StatedUnits, holds_prior, read_prior_file
-from forcetorque.experiment import ExperimentFile, load_experiment, load_patches, load_shown, parse_experiment
+from forcetorque.experiment import (
+    Experiment,
+    ExperimentFile,
+    PatchExperiment,
+    load_experiment,
+    load_patches,
+    load_shown,
+    parse_experiment,
+)
 from forcetorque.experiment.recipes.tried_clocks import load_tried_clocks
 from forcetorque.recording import Finding, Recording
 from forcetorque.result import Result, Row, Table, table_of
@@ -140,10 +148,26 @@ def inspect_log(path: Path | str, *, log_format: str | None = None) -> Inspectio
     unread = _without_experiment(source, log_format)
     if unread is not None:
         return unread
-    recording, findings = _recorded(source, log_format)
+    return _inspection(str(source), *_recorded(source, log_format))
+
+
+def inspected(experiment: Experiment) -> Inspection:
+    """Inspect the recording of an experiment that is read already, or was made from arrays.
+
+    Args:
+        experiment: The experiment.
+
+    Returns:
+        What it holds, and what is wrong with it.
+    """
+    findings = _of_experiment(experiment, experiment.skin)
+    return _inspection(str(experiment.file), experiment.recording, findings)
+
+
+def _inspection(source: str, recording: Recording, findings: Iterable[Finding]) -> Inspection:
     start, end = recording.span_ns
     return Inspection(
-        source=str(source),
+        source=source,
         streams=stream_rows(recording.streams),
         duration_s=(end - start) * 1e-9,
         findings=finding_rows(start, findings),
@@ -200,8 +224,12 @@ def _recorded(source: Path, name: str | None) -> tuple[Recording, tuple[Finding,
         if all(clock.untold is None for clock in recording.clocks):
             raise
         return recording, inspect_recording(recording)
+    return experiment.recording, _of_experiment(experiment, patches)
+
+
+def _of_experiment(experiment: Experiment, patches: PatchExperiment | None) -> tuple[Finding, ...]:
     findings = inspect_experiment(experiment)
-    return experiment.recording, findings if patches is None else (*findings, *taxel_findings(patches))
+    return findings if patches is None else (*findings, *taxel_findings(patches))
 
 
 def _parsed(source: Path) -> ExperimentFile:

@@ -30,7 +30,12 @@ class Campaign:
             ExperimentError: If there is none, they are not of one sensor that is mounted, described and read in one
                 way, or a file comes twice.
         """
-        self.runs = (runs,) if isinstance(runs, SensorRun) else tuple(runs)
+        self.runs = tuple(runs) if isinstance(runs, Sequence) else (runs,)
+        for run in self.runs:
+            if not isinstance(run, SensorRun):
+                raise ExperimentError(
+                    f"expected sensors of experiments, such as experiment['wrist_ft'], got a {type(run).__name__}"
+                )
         if not self.runs:
             raise ExperimentError("expected at least one run of a sensor, got none; name an experiment file")
         self._recordings = [CampaignRecording.of(run) for run in self.runs]

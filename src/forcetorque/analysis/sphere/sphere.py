@@ -9,6 +9,7 @@ from typing import Literal
 from pydantic import Field
 
 from forcetorque.analysis.runs.applicability import by_sensor
+from forcetorque.analysis.runs.named import Calibrations, named
 from forcetorque.analysis.runs.sensor_run import SensorRun
 from forcetorque.analysis.sphere.rows import FailureRow, SphereRow
 from forcetorque.analysis.sphere.sensor_sphere import SensorSphere, sensor_spheres, sphere_intervals
@@ -66,12 +67,12 @@ class Spheres(Result):
             yield f"drawn to {self.figure}"
 
 
-def spheres(run: SensorRun, calibrations: Mapping[str, Calibration], intervals: Sequence[str] | None = None) -> Spheres:
+def spheres(run: SensorRun, calibrations: Calibrations, intervals: Sequence[str] | None = None) -> Spheres:
     """Compare how the three axes of a sensor weigh the limb that is carried around.
 
     Args:
         run: The sensor.
-        calibrations: Its calibrations by name, to compare with its prior.
+        calibrations: Its calibrations by name, or one, to compare with its prior.
         intervals: Labels or kinds of the intervals whose motion draws the sphere; None for the sphere intervals of the
             experiment file, else all.
 
@@ -83,7 +84,7 @@ def spheres(run: SensorRun, calibrations: Mapping[str, Calibration], intervals: 
         ExperimentError: If an interval is not there, there is no way to read the sensor, a calibration may not be
             applied, or the supports of the intervals are on both sides of the sensor.
     """
-    analyses = sensor_spheres(run, calibrations, sphere_intervals(run.experiment, intervals))
+    analyses = sensor_spheres(run, named(calibrations), sphere_intervals(run.experiment, intervals))
     return Spheres(
         experiment=run.experiment.name,
         gravity_m_s2=run.experiment.processing.gravity,

@@ -74,9 +74,11 @@ def read_study_data(
         The data of every sensor.
 
     Raises:
-        ExperimentError: If a file lacks a sensor, a sensor is not the same in all files, or samples that are fitted
-            are judged too.
+        ExperimentError: If there is no file, a file lacks a sensor, a sensor is not the same in all files, or samples
+            that are fitted are judged too.
     """
+    if not paths:
+        raise ExperimentError("expected at least one experiment file to study, got none")
     refuse_a_file_twice(paths)
     shares: dict[str, list[_Share]] = {}
     for path in paths:

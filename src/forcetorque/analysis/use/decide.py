@@ -3,17 +3,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import Final
 
 from forcetorque.analysis.runs.campaign import Campaign, Runs
+from forcetorque.analysis.runs.named import Calibrations, named
 from forcetorque.analysis.runs.unseen import require_unseen_if_judged
 from forcetorque.analysis.use.judge import UseJudge
 from forcetorque.analysis.use.judged_evidence import judged_evidence
 from forcetorque.analysis.use.loads_of_use import Refuse, loads_of_use, raise_refused
 from forcetorque.analysis.use.prior_comparison import compare_with_prior
 from forcetorque.analysis.use.verdict import UseVerdict
-from forcetorque.calibration import Calibration
 from forcetorque.errors import FitError
 from forcetorque.evaluation import Offset
 from forcetorque.evaluation.use import UseOffset
@@ -22,7 +22,7 @@ from forcetorque.experiment.tables.load_case import LoadCaseTable
 
 def use_verdicts(
     runs: Runs,
-    calibrations: Mapping[str, Calibration],
+    calibrations: Calibrations,
     more: Sequence[LoadCaseTable] = (),
     *,
     refuse: Refuse = raise_refused,
@@ -34,7 +34,7 @@ def use_verdicts(
 
     Args:
         runs: The sensor in one recording, or in several.
-        calibrations: Its calibrations by name, which have not seen the validation intervals.
+        calibrations: Its calibrations by name, or one, which have not seen the validation intervals.
         more: Load cases beside those of the experiments, such as those of an acceptance file.
         refuse: Called with what is wrong with a load case, on which there is then no verdict; raises it if left out.
 
@@ -46,15 +46,15 @@ def use_verdicts(
         SerialNumberError: If a calibration is of another sensor.
         FitError: If a load case changes a variable that the calibration does not know.
     """
-    campaign = Campaign.of(runs)
-    for name, calibration in calibrations.items():
+    campaign, judged = Campaign.of(runs), named(calibrations)
+    for name, calibration in judged.items():
         for run in campaign.runs:
             require_unseen_if_judged(name, calibration, run)
-    measured = judged_evidence(campaign, calibrations)
-    compared = compare_with_prior(campaign, calibrations) if measured else ()
+    measured = judged_evidence(campaign, judged)
+    compared = compare_with_prior(campaign, judged) if measured else ()
     worse = [row for row in compared if row.judgement == "worse"]
     verdicts = []
-    for name, calibration in calibrations.items():
+    for name, calibration in judged.items():
         for case in loads_of_use(campaign.runs, more, matrix=calibration.matrix, refuse=refuse):
             try:
                 judge = UseJudge(

@@ -11,6 +11,7 @@ from pydantic import Field
 from forcetorque.analysis.evaluate.tables import smoothing_words
 from forcetorque.analysis.runs.campaign import Campaign, Runs
 from forcetorque.analysis.runs.free_sub_model import FreeSubModel
+from forcetorque.analysis.runs.named import Calibrations, named
 from forcetorque.analysis.runs.validity import ReadingsOutside, readings_outside, sentences
 from forcetorque.analysis.torque.joint_torques import (
     JointTorqueErrors,
@@ -109,7 +110,7 @@ class Validation(Result):
 
 def validate(
     runs: Runs,
-    calibrations: Mapping[str, Calibration],
+    calibrations: Calibrations,
     *,
     others: Mapping[str, Calibration] | None = None,
     other_sensors: OtherSensors = OtherSensors.MODEL,
@@ -120,8 +121,8 @@ def validate(
 
     Args:
         runs: The sensor in one recording, or in several, whose errors are pooled; the validation intervals are judged.
-        calibrations: Calibrations of that sensor by name; their priors are judged too, or that of the experiment where
-            there is none.
+        calibrations: Calibrations of that sensor by name, or one; their priors are judged too, or that of the
+            experiment where there is none.
         others: Calibrations of the other sensors by name, for the mode `measured`; where there is none, their prior.
         other_sensors: Whether the other sensors read what the model expects or what they measured.
         sub_model: The sub-model that nothing touches, by the sensor at its base or the root link; None for that
@@ -134,7 +135,7 @@ def validate(
     Raises:
         ExperimentError: If there is nothing to judge, or an interval has no support.
     """
-    campaign = Campaign.of(runs)
+    campaign, judged_by = Campaign.of(runs), named(calibrations)
     contacts: dict[str, ContactWrenches] = {}
     torques: dict[str, JudgedTorques] = {}
     for run in campaign.runs_with(Use.VALIDATION):
@@ -143,13 +144,13 @@ def validate(
                 run, others=others, other_sensors=other_sensors, sub_model=sub_model, contact=contact
             )
             # torques need the motion of more joints, in which that of the contact force is found
-            torques[campaign.recording(run)] = judged_torques(free, calibrations)
-            contacts[campaign.recording(run)] = contact_wrenches(free, calibrations)
+            torques[campaign.recording(run)] = judged_torques(free, judged_by)
+            contacts[campaign.recording(run)] = contact_wrenches(free, judged_by)
     judged = joint_torques_of(campaign, pooled_torques(torques))
     forces = contact_forces_of(campaign.sensor, contacts)
     name = campaign.sensor.name
-    validity, unknown = _validity(campaign, calibrations)
-    uses, undecided = _uses(campaign, calibrations)
+    validity, unknown = _validity(campaign, judged_by)
+    uses, undecided = _uses(campaign, judged_by)
     reasons = (*forces.left_out, *judged.left_out, *unknown, *undecided)
     left_out = tuple(dict.fromkeys(f"{name}: {words}" for words in reasons))
     several = len(campaign.runs) > 1
