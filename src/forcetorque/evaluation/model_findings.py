@@ -15,6 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from forcetorque.arrays import BoolArray, FloatArray, IntArray
+from forcetorque.constants import MAD_TO_DEVIATION
 from forcetorque.errors import ShapeError
 from forcetorque.recording import Finding
 from forcetorque.recording.quality import spans
@@ -33,8 +34,6 @@ OUTLIER_SCATTERS = 12.0
 
 _SMOOTH_S, _LEVEL_S, _EDGE_S, _MERGE_S, _SHORTEST_S = 0.5, 1.0, 0.25, 1.0, 0.5
 _LONGEST_OUTLIER = 3
-_ROBUST = 1.4826
-"""Standard deviation of a normal distribution over its median absolute deviation."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -91,7 +90,7 @@ def model_findings(
         )
     residual = _residual(stream, stamp_ns, measured, expected, in_use)
     carried, weight = _carried(residual, expected), np.linalg.norm(expected[:, :3], axis=1)
-    usual = CONTACT_SCATTERS * _ROBUST * float(np.median(np.abs(carried[in_use])))
+    usual = CONTACT_SCATTERS * MAD_TO_DEVIATION * float(np.median(np.abs(carried[in_use])))
     contacts = _merged(residual, carried > np.maximum(LOAD_SHARE * weight, usual))
     free = np.ones(len(stamp_ns), dtype=bool)
     for first, last in contacts:
@@ -115,7 +114,7 @@ def _residual(
     rate_hz = 1e9 / float(np.median(np.diff(stamp_ns))) if len(stamp_ns) > 1 else 1.0
     size = max(1, round(_SMOOTH_S * rate_hz))
     smooth: FloatArray = median_filter(values, size=(size, 1), mode="nearest")
-    scatter = _ROBUST * np.median(np.abs(smooth[in_use]), axis=0)
+    scatter = MAD_TO_DEVIATION * np.median(np.abs(smooth[in_use]), axis=0)
     load = np.repeat(
         [np.percentile(np.linalg.norm(expected[:, part], axis=1), 95) for part in (slice(0, 3), slice(3, 6))], 3
     )
@@ -200,7 +199,7 @@ def _steps(residual: _Residual, free: BoolArray) -> list[Finding]:
         # a repeated edge sample is no level; and where a wrong prior makes levels wander, only the sudden counts
         margin = shift + width // 2
         change[:margin] = change[len(change) - margin :] = 0.0
-        usual = _ROBUST * float(np.median(np.abs(change[residual.in_use])))
+        usual = MAD_TO_DEVIATION * float(np.median(np.abs(change[residual.in_use])))
         limit = max(residual.least[axis], SCATTERS * usual)
         change[~away] = 0.0
         while np.abs(change).max() > limit:
@@ -224,7 +223,7 @@ def _steepest(residual: _Residual, axis: int, peak: int, shift: int, sign: float
 
 def _outliers(residual: _Residual, free: BoolArray) -> list[Finding]:
     quick = residual.values - residual.smooth
-    scatter = _ROBUST * np.median(np.abs(quick[residual.in_use]), axis=0)
+    scatter = MAD_TO_DEVIATION * np.median(np.abs(quick[residual.in_use]), axis=0)
     found: list[Finding] = []
     for axis, name in enumerate(WRENCH_COMPONENTS):
         limit = max(OUTLIER_SCATTERS * scatter[axis], residual.limit[axis])

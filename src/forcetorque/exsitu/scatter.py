@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from forcetorque.arrays import FloatArray
+from forcetorque.constants import MAD_TO_DEVIATION
 from forcetorque.errors import SensorError
 from forcetorque.exsitu.bench import Bench, Placement
 from forcetorque.exsitu.loads import BenchLoads
@@ -31,7 +32,6 @@ _QUANTILE, _DISTANCE = 0.85, 9.446
 
 By the median, errors with long tails, as nonlinearity makes them, alarm two to three times too often.
 """
-_MAD_TO_DEVIATION = 1.4826
 _EFFICIENCY = 0.37
 """What a median of magnitudes tells of a deviation, over what all values tell of it."""
 _FLOOR = 1e-6
@@ -120,7 +120,7 @@ def own_scatter(loads: FloatArray, residual: FloatArray) -> Scatter:
     design = np.hstack([loads, np.ones((n, 1))])
     left = residual - design @ np.linalg.lstsq(design, residual, rcond=None)[0]
     free = max(n - int(np.linalg.matrix_rank(design)), 1)
-    deviation = _MAD_TO_DEVIATION * np.median(np.abs(left), axis=0) * np.sqrt(n / free)
+    deviation = MAD_TO_DEVIATION * np.median(np.abs(left), axis=0) * np.sqrt(n / free)
     floor = np.sqrt(np.diag(_floor(loads)))
     covariance = np.tile(np.diag(np.maximum(deviation, floor) ** 2), (n, 1, 1))
     return Scatter(

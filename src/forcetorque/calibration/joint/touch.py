@@ -12,6 +12,7 @@ import numpy as np
 from forcetorque.arrays import BoolArray, FloatArray
 from forcetorque.calibration.joint.fit import JointFit
 from forcetorque.calibration.joint.windows import UNITS, WINDOW_S, PartWindows
+from forcetorque.constants import MAD_TO_DEVIATION
 
 _LOADS = 6
 FAR: Final = 4.0
@@ -20,8 +21,6 @@ _NEIGHBOURS = 2
 """Windows to either side that leave with it: a touch begins and ends gently."""
 _FEWEST = 20
 """Windows below which nobody can tell which disagree."""
-_NORMAL = 1.4826
-"""Standard deviation over median absolute deviation of a normal distribution."""
 _LEAST = 1e-3
 """Smallest scale of a residual, in `UNITS`: below that it is rounding."""
 
@@ -94,7 +93,7 @@ def untouched(windows: PartWindows, fit: JointFit | None) -> BoolArray:
         return np.ones(len(windows), dtype=bool)
     left = residuals(windows, fit)[:, windows.rows > 0.0]
     left = left - np.median(left, axis=0)
-    scale = np.maximum(_NORMAL * np.median(np.abs(left), axis=0), _LEAST)
+    scale = np.maximum(MAD_TO_DEVIATION * np.median(np.abs(left), axis=0), _LEAST)
     far = np.sqrt(((left / scale) ** 2).mean(axis=1)) > FAR
     spread = np.convolve(far, np.ones(2 * _NEIGHBOURS + 1), mode="full")[_NEIGHBOURS : _NEIGHBOURS + len(far)]
     agree = np.asarray(spread < 0.5)
