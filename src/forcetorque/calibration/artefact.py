@@ -379,14 +379,14 @@ class Calibration(Part):
         return self.model.beyond(counts, self._values(counts, variables))
 
     def _values(self, counts: FloatArray, variables: Mapping[str, Any] | None) -> FloatArray | None:
-        given = {} if variables is None else variables
+        by_name = {} if variables is None else variables
         names = [variable.name for variable in self.variables]
-        if set(given) != set(names):
+        if set(by_name) != set(names):
             raise RecordingError(
                 f"calibration of sensor {self.sensor.serial!r}: expected values of the variables {names}, "
-                f"got {sorted(given)}; its offset holds only with them"
+                f"got {sorted(by_name)}; its offset holds only with them"
             )
-        values = [np.asarray(given[name], dtype=np.float64) for name in names]
+        values = [np.asarray(by_name[name], dtype=np.float64) for name in names]
         for name, value in zip(names, values, strict=True):
             if value.shape not in ((), counts.shape[:-1]):
                 raise ShapeError(f"variable {name!r}: expected shape () or {counts.shape[:-1]}, got {value.shape}")

@@ -95,8 +95,10 @@ class Estimates:
         Returns:
             Results that are not filled yet.
         """
-        made = make or (lambda _, shape, dtype: np.empty(shape, dtype=dtype))
-        arrays: dict[str, Any] = {name: made(name, shape, _dtype(name)) for name, shape in layout.shapes(n).items()}
+        make_array = make or (lambda _, shape, dtype: np.empty(shape, dtype=dtype))
+        arrays: dict[str, Any] = {
+            name: make_array(name, shape, _dtype(name)) for name, shape in layout.shapes(n).items()
+        }
         return cls(layout=layout, **arrays)
 
     def __len__(self) -> int:

@@ -110,12 +110,12 @@ def refuse_infinite(inputs: Inputs, block: slice) -> None:
         EstimationError: If there is one, with its place.
     """
     for name, columns, values in _arrays(inputs, block):
-        found = np.argwhere(np.isinf(values))
-        if len(found):
-            sample = block.start + int(found[0][0])
+        places = np.argwhere(np.isinf(values))
+        if len(places):
+            sample = block.start + int(places[0][0])
             raise EstimationError(
-                f"{name}: expected finite numbers, or NaN for a gap; {columns[found[0][1]]} is "
-                f"{values[tuple(found[0])]} in sample {sample}"
+                f"{name}: expected finite numbers, or NaN for a gap; {columns[places[0][1]]} is "
+                f"{values[tuple(places[0])]} in sample {sample}"
             )
 
 

@@ -158,26 +158,26 @@ def _is_firm(residual: _Residual, expected: FloatArray, first: int, last: int) -
 
 def _contact_findings(residual: _Residual, contacts: Sequence[tuple[int, int]], expected: FloatArray) -> list[Finding]:
     carried = _carried(residual, expected)
-    found = []
+    findings = []
     for first, last in contacts:
         largest = float(carried[first : last + 1].max())
         if _is_firm(residual, expected, first, last):
             kind, text = "contact", "the limb touches something, which carries part of its weight"
         else:
             kind, text = "light_contact", "the limb is lifted a little: a light contact, or a step of the sensor"
-        found.append(residual.finding(kind, text, first, last, None, largest))
-    return found
+        findings.append(residual.finding(kind, text, first, last, None, largest))
+    return findings
 
 
 def _off_level(residual: _Residual, free: BoolArray) -> list[Finding]:
-    found = []
+    findings = []
     for axis, name in enumerate(WRENCH_COMPONENTS):
         far = (np.abs(residual.smooth[:, axis]) > residual.limit[axis]) & free
         for first, last in _merged(residual, far):
             level = float(np.median(residual.values[first : last + 1, axis]))
             text = f"{name} is off the level of the samples in use"
-            found.append(residual.finding("off_level", text, first, last, axis, level))
-    return found
+            findings.append(residual.finding("off_level", text, first, last, axis, level))
+    return findings
 
 
 def _steps(residual: _Residual, free: BoolArray) -> list[Finding]:
@@ -186,9 +186,9 @@ def _steps(residual: _Residual, free: BoolArray) -> list[Finding]:
 
     width = residual.samples(_LEVEL_S)
     shift = width // 2 + residual.samples(_EDGE_S)
-    found: list[Finding] = []
+    findings: list[Finding] = []
     if len(free) <= 2 * shift:
-        return found
+        return findings
     levels = median_filter(residual.values, size=(width, 1), mode="nearest")
     away = binary_erosion(
         free, structure=np.ones(2 * shift + 1, dtype=np.bool_), border_value=1
@@ -206,9 +206,9 @@ def _steps(residual: _Residual, free: BoolArray) -> list[Finding]:
             peak = int(np.argmax(np.abs(change)))
             at = _steepest(residual, axis, peak, shift, float(np.sign(change[peak])))
             text = f"{name} steps against the model"
-            found.append(residual.finding("step", text, at, at, axis, float(change[peak])))
+            findings.append(residual.finding("step", text, at, at, axis, float(change[peak])))
             change[max(0, peak - 2 * shift) : peak + 2 * shift + 1] = 0.0
-    return sorted(found, key=lambda finding: finding.start_ns or 0)
+    return sorted(findings, key=lambda finding: finding.start_ns or 0)
 
 
 def _steepest(residual: _Residual, axis: int, peak: int, shift: int, sign: float) -> int:
@@ -224,7 +224,7 @@ def _steepest(residual: _Residual, axis: int, peak: int, shift: int, sign: float
 def _outliers(residual: _Residual, free: BoolArray) -> list[Finding]:
     quick = residual.values - residual.smooth
     scatter = MAD_TO_DEVIATION * np.median(np.abs(quick[residual.in_use]), axis=0)
-    found: list[Finding] = []
+    findings: list[Finding] = []
     for axis, name in enumerate(WRENCH_COMPONENTS):
         limit = max(OUTLIER_SCATTERS * scatter[axis], residual.limit[axis])
         runs = [run for run in spans((np.abs(quick[:, axis]) > limit) & free) if run[1] - run[0] < _LONGEST_OUTLIER]
@@ -232,5 +232,5 @@ def _outliers(residual: _Residual, free: BoolArray) -> list[Finding]:
             largest = max(runs, key=lambda run: float(np.abs(quick[run[0], axis])))
             size = float(quick[largest[0], axis])
             text = f"{len(runs)} outlier(s) of {name} of at most {_LONGEST_OUTLIER} samples, the largest here"
-            found.append(residual.finding("outlier", text, *largest, axis, size))
-    return found
+            findings.append(residual.finding("outlier", text, *largest, axis, size))
+    return findings

@@ -90,13 +90,13 @@ class PairedErrors:
         Raises:
             ShapeError: If the shapes are not these.
         """
-        wanted = np.asarray(reference, dtype=np.float64)
-        require_shape(wanted, name="reference", shape=(None, 6))
+        truth = np.asarray(reference, dtype=np.float64)
+        require_shape(truth, name="reference", shape=(None, 6))
         errors = []
         for name, given in (("first", first), ("second", second)):
             values = np.asarray(given, dtype=np.float64)
-            require_shape(values, name=name, shape=wanted.shape)
-            errors.append(values - wanted)
+            require_shape(values, name=name, shape=truth.shape)
+            errors.append(values - truth)
         whole = np.isfinite(errors[0]).all(axis=1) & np.isfinite(errors[1]).all(axis=1)
         return cls(first=errors[0][whole], second=errors[1][whole])
 

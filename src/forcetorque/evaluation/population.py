@@ -107,7 +107,7 @@ def position_in_population(matrix: FloatArray, population: Mapping[str, FloatArr
     return PopulationPosition(
         count=len(population),
         features=tuple(
-            _position(name, value, np.array([each[name] for each in theirs])) for name, value in mine.items()
+            _position(name, value, np.array([elements[name] for elements in theirs])) for name, value in mine.items()
         ),
     )
 

@@ -61,10 +61,10 @@ def read_sensors(
     Raises:
         ExperimentError: If two entries are one sensor or share a stream.
     """
-    found: list[ExperimentSensor] = []
+    sensors: list[ExperimentSensor] = []
     for index in range(len(parsed.sensor)):
         sensor = _sensor(parsed, file, index, model, recording, inputs)
-        for earlier in found:
+        for earlier in sensors:
             if sensor.name == earlier.name:
                 raise ExperimentError(f"{file}: sensor[{index}]: {sensor.name!r} is listed twice; keep one")
             if sensor.stream == earlier.stream:
@@ -72,8 +72,8 @@ def read_sensors(
                     f"{file}: sensor[{index}]: {sensor.name!r} reads the stream {sensor.stream!r}, as does "
                     f"{earlier.name!r}; every sensor has its own"
                 )
-        found.append(sensor)
-    return tuple(found)
+        sensors.append(sensor)
+    return tuple(sensors)
 
 
 def _sensor(

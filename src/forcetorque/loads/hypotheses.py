@@ -212,8 +212,8 @@ def _of_nothing(fitted: Fit) -> Iterator[Hypothesis]:
     for k, one in enumerate(fitted.guess.parameters):
         if one.kind is Kind.MASS and turns and abs(fitted.guess.values[k]) <= half[k] < np.inf:
             words = f"the mass of {problem.loads[one.owner].name!r} is not told from 0 although gravity turns"
-            said = f"{words}: nothing hangs on the sensor, or it was not read"
-            yield Hypothesis(name="no load", words=said, residual_share=1.0)
+            sentence = f"{words}: nothing hangs on the sensor, or it was not read"
+            yield Hypothesis(name="no load", words=sentence, residual_share=1.0)
 
 
 def _scale(problem: LoadProblem) -> Iterator[Hypothesis]:
@@ -231,10 +231,10 @@ def _scale(problem: LoadProblem) -> Iterator[Hypothesis]:
     scale = float((weight * force).sum()) / square if square > 0.0 else 1.0
     for unit, words in _UNITS.items():
         if abs(scale / unit - 1.0) < 0.02:
-            said = (
+            sentence = (
                 f"readings are {scale:.4g} of the weight of the stated masses: {words}; state the units of the columns"
             )
-            yield Hypothesis(name="mixed units", words=said, residual_share=1.0)
+            yield Hypothesis(name="mixed units", words=sentence, residual_share=1.0)
 
 
 def _lag(problem: LoadProblem, residual: FloatArray, *, drift: bool) -> Iterator[Hypothesis]:

@@ -77,7 +77,7 @@ class PatchDescription:
         Raises:
             SkinError: If it is not sound.
         """
-        given = self.unit_normals() if normals is None else normals
+        directions = self.unit_normals() if normals is None else normals
         return SkinLayout(
             name=self.name,
             frame=self.frame,
@@ -85,7 +85,7 @@ class PatchDescription:
             taxels=self.taxels,
             modules=self.modules,
             positions=self.positions,
-            normals=given,
+            normals=directions,
             thermal_pads=self.thermal_pads,
             thermal_modules=self.thermal_modules,
         )

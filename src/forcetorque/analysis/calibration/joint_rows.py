@@ -172,8 +172,10 @@ class ModelErrorRow(Row):
     @property
     def is_far(self) -> bool:
         """Whether it is farther from what the model says than it would be by chance, and the recordings tell it."""
-        told = self.prior_deviation**2 - self.deviation**2  # variance of what is found, if the tolerance is right
-        return told > _TOLD * self.prior_deviation**2 and self.value**2 > _FAR**2 * told
+        found_variance = (
+            self.prior_deviation**2 - self.deviation**2
+        )  # variance of what is found, if the tolerance is right
+        return found_variance > _TOLD * self.prior_deviation**2 and self.value**2 > _FAR**2 * found_variance
 
     @classmethod
     def of(cls, term: ErrorTerm, value: float, deviation: float) -> Self:

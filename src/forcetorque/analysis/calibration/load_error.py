@@ -32,9 +32,9 @@ def load_error_of(solution: LoadSolution) -> LoadError | None:
     size = np.sqrt(np.diag(own))
     size[size == 0.0] = 1.0
     variance, directions = np.linalg.eigh(own / np.outer(size, size))
-    told = variance > _ROUNDING * variance.max(initial=0.0)
+    uncertain = variance > _ROUNDING * variance.max(initial=0.0)
     # S^-1/2, in the directions in which loads are uncertain
-    root = directions[:, told] / np.sqrt(variance[told]) / size[:, None]
+    root = directions[:, uncertain] / np.sqrt(variance[uncertain]) / size[:, None]
     sessions = [name.name for name in solution.sessions]
     factor = np.zeros((6, 6 + len(sessions), root.shape[1]))
     for row in range(6):

@@ -131,15 +131,15 @@ class UseJudge:
 
     def _predicted_words(self) -> str:
         """Such as `it errs by some 4.1 N, at most 6.3 N, where 16 N are allowed, and by some 0.1 N m, ...`."""
-        said, prior = [], []
+        parts, prior = [], []
         for (quantity, unit, _), allowed in zip(_QUANTITIES, self.case.requirement, strict=True):
             size: ErrorSize = getattr(self.after, quantity)
             limit = "" if np.isinf(allowed) else f" ({amount(allowed, unit)} allowed)"
-            said.append(f"by some {amount(size.typical, unit)}, at most {amount(size.at_most, unit)}{limit}")
+            parts.append(f"by some {amount(size.typical, unit)}, at most {amount(size.at_most, unit)}{limit}")
             if self.before is not None:
                 prior.append(amount(getattr(self.before, quantity).typical, unit))
         before = f"; the prior by some {' and '.join(prior)}" if prior else ""
-        return f"it errs {' and '.join(said)}{before}"
+        return f"it errs {' and '.join(parts)}{before}"
 
     def errors(self) -> Iterator[UseError]:
         """Predict the errors.

@@ -50,13 +50,13 @@ def disagreements(
         recordings.setdefault(stretch.recording, []).append(stretch)
     if len(recordings) < 2:
         return ()
-    found = []
+    ranked = []
     floor = np.array([np.linalg.norm(accuracy[part]) for part in (slice(3), slice(3, 6))])
     for name, parts in recordings.items():
         residual, own, ratio = _compared(parts, model, floor)
         if ratio > DISAGREEMENT:
-            found.append((ratio, Disagreement(recording=name, residual=residual, own=own)))
-    return tuple(one for _, one in sorted(found, key=lambda pair: -pair[0]))
+            ranked.append((ratio, Disagreement(recording=name, residual=residual, own=own)))
+    return tuple(one for _, one in sorted(ranked, key=lambda pair: -pair[0]))
 
 
 def _compared(

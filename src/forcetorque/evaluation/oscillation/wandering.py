@@ -64,8 +64,8 @@ def fit_wandering(values: FloatArray, rate_hz: float, candidate: Candidate) -> O
         ).x
     )
     before, here, after = (explained(cycles + step) for step in (-_STEP, 0.0, _STEP))
-    seen = numbers(cycles)
-    noise = float(((np.abs(seen) ** 2).sum() - here.sum()) / (parts * (candidate.family.count - 1)))
+    transform = numbers(cycles)
+    noise = float(((np.abs(transform) ** 2).sum() - here.sum()) / (parts * (candidate.family.count - 1)))
     slope, bend = 0.5 * (after - before) / _STEP, (2.0 * here - after - before) / _STEP**2
     curvature = float(bend.sum())
     # a part that weighs much draws the frequency to itself: its slope would be more without it
@@ -73,7 +73,7 @@ def fit_wandering(values: FloatArray, rate_hz: float, candidate: Candidate) -> O
     scatter = float(apart @ apart) / curvature**2
     squares = 4.0 * (here - noise) / size
     amplitude = math.sqrt(max(float(squares.mean()), 0.0))
-    most = math.sqrt(4.0 * float((np.abs(seen) ** 2).sum()) / parts / size)
+    most = math.sqrt(4.0 * float((np.abs(transform) ** 2).sum()) / parts / size)
     uneven = float(squares.std(ddof=1)) / math.sqrt(parts) / (2.0 * amplitude) if amplitude else math.inf
     quantile = float(half_width(np.ones(1), np.array([parts - 1.0]))[0])
     errors = np.array(
@@ -83,7 +83,7 @@ def fit_wandering(values: FloatArray, rate_hz: float, candidate: Candidate) -> O
             math.nan,
         ]
     )
-    swing = 2.0 * (seen @ steady / size)[:, None] * np.exp(2j * np.pi * cycles * place)
+    swing = 2.0 * (transform @ steady / size)[:, None] * np.exp(2j * np.pi * cycles * place)
     fitted = np.zeros_like(values)
     fitted[: swing.size] = swing.real.ravel()
     return Oscillation(

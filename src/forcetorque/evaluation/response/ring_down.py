@@ -300,8 +300,8 @@ def _covariance(jacobian: FloatArray, autocovariance: FloatArray) -> FloatArray:
 
     scale = np.sqrt((jacobian**2).sum(axis=0))
     columns = jacobian / scale
-    both = np.concatenate([autocovariance[:0:-1], autocovariance])
-    noisy = fftconvolve(columns, both[:, None], mode="full", axes=0)[len(autocovariance) - 1 :][: len(columns)]
+    symmetric = np.concatenate([autocovariance[:0:-1], autocovariance])
+    noisy = fftconvolve(columns, symmetric[:, None], mode="full", axes=0)[len(autocovariance) - 1 :][: len(columns)]
     spread = np.linalg.pinv(columns.T @ columns, hermitian=True)
     covariance: FloatArray = spread @ (columns.T @ noisy) @ spread / np.outer(scale, scale)
     return covariance

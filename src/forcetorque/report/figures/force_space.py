@@ -73,7 +73,7 @@ def force_space_figure(
             panel.set_xlabel(labels[plane[0]])
             panel.set_ylabel(labels[plane[1]])
         panels[0].set_title(shown_name(title), fontsize=TITLE_POINTS, loc="left")
-    legend_below(figure, [(shown_name(name), each.key) for name, each in looks.items()])
+    legend_below(figure, [(shown_name(name), style.key) for name, style in looks.items()])
     return figure
 
 
@@ -85,10 +85,10 @@ def _checked(clouds: Mapping[str, Sequence[tuple[str, Any]]]) -> dict[str, list[
     for title, named in clouds.items():
         if not named:
             raise ShapeError(f"clouds[{title!r}]: expected at least one cloud to draw, got none")
-        given = [
+        drawables = [
             (name, drawable(points, name=f"clouds[{title!r}], {name!r}", shape=(None, 3))) for name, points in named
         ]
-        rows[title] = [(name, points[np.isfinite(points).all(axis=1)]) for name, points in given]
+        rows[title] = [(name, points[np.isfinite(points).all(axis=1)]) for name, points in drawables]
     return rows
 
 

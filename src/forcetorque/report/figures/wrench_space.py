@@ -51,12 +51,12 @@ def space_figure(clouds: Mapping[str, FloatArray]) -> Figure:
     References:
         [1] F. J. Andrade Chavez, Force-torque sensing in robotics, thesis (2019), figure 5.2.
     """
-    given = drawable_each(clouds, name="clouds", shape=(None, 6))
+    wrenches_by_name = drawable_each(clouds, name="clouds", shape=(None, 6))
     figure = new_figure(2 * ROW_INCHES[1])
     # the narrow column keeps the label of the third axis clear of the next panel
     grid = figure.add_gridspec(2, 5, width_ratios=(1.5, 0.1, 1.0, 1.0, 1.0))
     for row, (title, unit, part) in enumerate(_ROWS):
-        parts = [wrenches[np.isfinite(wrenches).all(axis=1), part] for wrenches in given.values()]
+        parts = [wrenches[np.isfinite(wrenches).all(axis=1), part] for wrenches in wrenches_by_name.values()]
         labels = [f"{name}, {unit}" for name in WRENCH_COMPONENTS[part]]
         _draw_space(figure.add_subplot(grid[row, 0], projection="3d"), parts, labels, title=title)
         for column, plane in enumerate(_PLANES):
@@ -64,7 +64,7 @@ def space_figure(clouds: Mapping[str, FloatArray]) -> Figure:
             _draw_plane(panel, [points[:, plane] for points in parts])
             panel.set_xlabel(labels[plane[0]])
             panel.set_ylabel(labels[plane[1]], labelpad=0.0)
-    legend_below(figure, [(shown_name(name), look(k).key) for k, name in enumerate(given)])
+    legend_below(figure, [(shown_name(name), look(k).key) for k, name in enumerate(wrenches_by_name)])
     return figure
 
 
