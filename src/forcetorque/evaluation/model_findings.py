@@ -19,7 +19,7 @@ from forcetorque.constants import MAD_TO_DEVIATION
 from forcetorque.errors import ShapeError
 from forcetorque.recording import Finding
 from forcetorque.recording.quality import spans
-from forcetorque.spatial import WRENCH_COMPONENTS, WRENCH_UNITS
+from forcetorque.spatial import FORCE_AND_MOMENT, WRENCH_COMPONENTS, WRENCH_UNITS
 
 LOAD_SHARE = 0.1
 """Part of the limb's load on the sensor that makes a residual worth a line."""
@@ -115,9 +115,7 @@ def _residual(
     size = max(1, round(_SMOOTH_S * rate_hz))
     smooth: FloatArray = median_filter(values, size=(size, 1), mode="nearest")
     scatter = MAD_TO_DEVIATION * np.median(np.abs(smooth[in_use]), axis=0)
-    load = np.repeat(
-        [np.percentile(np.linalg.norm(expected[:, part], axis=1), 95) for part in (slice(0, 3), slice(3, 6))], 3
-    )
+    load = np.repeat([np.percentile(np.linalg.norm(expected[:, part], axis=1), 95) for part in FORCE_AND_MOMENT], 3)
     return _Residual(
         stream=stream,
         stamp_ns=stamp_ns,

@@ -18,6 +18,7 @@ import numpy as np
 from forcetorque.arrays import FloatArray, require_shape
 from forcetorque.errors import ShapeError
 from forcetorque.evaluation.autocorrelation import autocorrelation
+from forcetorque.spatial import FORCE, MOMENT
 
 CONFIDENCE = 0.95
 """Probability with which the interval holds the ratio: one side of it is passed by chance half as often as 1 in 20,
@@ -151,8 +152,8 @@ def compare_errors(recordings: Sequence[PairedErrors]) -> PairedComparison:
         raise ShapeError("expected at least one sample in which everything is finite, got none")
     return PairedComparison(
         count=sum(len(recording.first) for recording in whole),
-        force=_ratio(whole, slice(0, 3)),
-        moment=_ratio(whole, slice(3, 6)),
+        force=_ratio(whole, FORCE),
+        moment=_ratio(whole, MOMENT),
     )
 
 

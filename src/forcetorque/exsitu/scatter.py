@@ -13,7 +13,7 @@ from forcetorque.errors import SensorError
 from forcetorque.exsitu.bench import Bench, Placement
 from forcetorque.exsitu.loads import BenchLoads
 from forcetorque.exsitu.residual import ResidualSpace
-from forcetorque.spatial import skew
+from forcetorque.spatial import FORCE_AND_MOMENT, skew
 
 LEAST_SENSORS = 30
 """Fewer sensors do not tell the covariance of six components at a position."""
@@ -102,7 +102,7 @@ def stated_scatter(bench: Bench, matrix: FloatArray, placement: Placement) -> Sc
 
 
 def _floor(loads: FloatArray) -> FloatArray:
-    sizes = np.repeat([np.abs(loads[:, part]).max() for part in (slice(3), slice(3, 6))], 3)
+    sizes = np.repeat([np.abs(loads[:, part]).max() for part in FORCE_AND_MOMENT], 3)
     return np.diag((_FLOOR * np.where(sizes > 0.0, sizes, 1.0)) ** 2)
 
 

@@ -16,6 +16,7 @@ from forcetorque.calibration import WrenchModel
 from forcetorque.evaluation import KNOWN_BEFORE, Offset
 from forcetorque.report import figures
 from forcetorque.report.figures.canvas import png_bytes
+from forcetorque.spatial import FORCE, MOMENT
 from forcetorque.study import WORKBENCH, Candidate, ValidationSet, tables, with_offset
 
 if TYPE_CHECKING:
@@ -43,8 +44,8 @@ def write_figures(sensor: SensorStudy, folder: Path) -> list[str]:
     draw: dict[str, Callable[[], Figure]] = {
         "figure_5_2_wrench_space.png": lambda: figures.space_figure(_clouds(sensor)),
         "figure_5_3_matrix_differences.png": lambda: figures.difference_figure(names, differences, unit=unit),
-        "figure_5_6_contact_forces.png": lambda: _contact_figure(sensor, slice(0, 3), "N"),
-        "figure_5_7_contact_moments.png": lambda: _contact_figure(sensor, slice(3, 6), "N m"),
+        "figure_5_6_contact_forces.png": lambda: _contact_figure(sensor, FORCE, "N"),
+        "figure_5_7_contact_moments.png": lambda: _contact_figure(sensor, MOMENT, "N m"),
         "figure_5_9_measured_and_reference.png": lambda: _comparison_figure(sensor),
     }
     lambdas = {candidate.lambda_counts2 for candidate in study.fits.candidates}

@@ -13,7 +13,7 @@ from forcetorque.calibration.posterior import Posterior
 from forcetorque.evaluation.planning import ASSUMED_NOISE, Criterion
 from forcetorque.result import Table, number, table_of
 from forcetorque.robot import JointMotion
-from forcetorque.spatial import WRENCH_COMPONENTS
+from forcetorque.spatial import FORCE_AND_MOMENT, WRENCH_COMPONENTS
 
 HELPS = 0.05
 """Part by which a recording lowers an error at least, to be called a help."""
@@ -187,6 +187,6 @@ def _rank(places: Sequence[Workplace]) -> int:
         loads = place.loads(JointMotion.at_rest(place.stand.joints, drawn))
         moved.append(loads - loads.mean(axis=0))
     changes = np.concatenate(moved)
-    sizes = np.repeat([np.sqrt((changes[:, part] ** 2).mean()) for part in (slice(3), slice(3, 6))], 3)
+    sizes = np.repeat([np.sqrt((changes[:, part] ** 2).mean()) for part in FORCE_AND_MOMENT], 3)
     strengths = np.linalg.svd(changes / sizes, compute_uv=False)
     return int((strengths > _SPAN * strengths[0]).sum())

@@ -33,6 +33,7 @@ from forcetorque.evaluation.use import (
     predict_prior,
 )
 from forcetorque.evaluation.use.evidence import Evidence, MeasuredError
+from forcetorque.spatial import FORCE, MOMENT
 
 HOPELESS: Final = 0.1
 """Predicted probability of an error within what is allowed up to which the verdict is `do not use`."""
@@ -41,8 +42,8 @@ FEWEST_S: Final = 5
 CONSTANT_SHARE: Final = 0.01
 """Constant error that is allowed where nobody states an error, as a share of the loads."""
 _QUANTITIES: Final[tuple[tuple[Literal["force", "moment"], Literal["N", "N m"], slice], ...]] = (
-    ("force", "N", slice(0, 3)),
-    ("moment", "N m", slice(3, 6)),
+    ("force", "N", FORCE),
+    ("moment", "N m", MOMENT),
 )
 
 

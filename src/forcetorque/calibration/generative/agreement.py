@@ -12,6 +12,7 @@ from forcetorque.arrays import FloatArray
 from forcetorque.calibration.generative.assumptions import FLATTENED
 from forcetorque.calibration.generative.means import WindowMeans
 from forcetorque.calibration.wrench_model import WrenchModel
+from forcetorque.spatial import FORCE_AND_MOMENT
 
 DISAGREEMENT = 5.0
 """Residual of one matrix for all over that of a line through the recording's own data, from which it is said."""
@@ -51,7 +52,7 @@ def disagreements(
     if len(recordings) < 2:
         return ()
     ranked = []
-    floor = np.array([np.linalg.norm(accuracy[part]) for part in (slice(3), slice(3, 6))])
+    floor = np.array([np.linalg.norm(accuracy[part]) for part in FORCE_AND_MOMENT])
     for name, parts in recordings.items():
         residual, own, ratio = _compared(parts, model, floor)
         if ratio > DISAGREEMENT:
@@ -83,4 +84,4 @@ def _compared(
 
 def _sizes(error: FloatArray, freedom: int) -> FloatArray:
     """Root mean square of force and moment; shape (2,)."""
-    return np.sqrt([(error[:, part] ** 2).sum() / freedom for part in (slice(3), slice(3, 6))])
+    return np.sqrt([(error[:, part] ** 2).sum() / freedom for part in FORCE_AND_MOMENT])

@@ -20,7 +20,7 @@ from forcetorque.report.figures.canvas import (
 from forcetorque.report.figures.inputs import drawable, drawable_each, instants
 from forcetorque.report.figures.thinning import thinned_line
 from forcetorque.report.figures.time_lines import draw_over_time
-from forcetorque.spatial.wrench import WRENCH_COMPONENTS
+from forcetorque.spatial.wrench import FORCE_AND_MOMENT, WRENCH_COMPONENTS
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -81,5 +81,5 @@ def _difference(error: FloatArray) -> str:
     error = error[np.isfinite(error).all(axis=1)]
     if not len(error):
         return "no samples"
-    force, torque = (np.sqrt((error[:, part] ** 2).sum(axis=1).mean()) for part in (slice(0, 3), slice(3, 6)))
+    force, torque = (np.sqrt((error[:, part] ** 2).sum(axis=1).mean()) for part in FORCE_AND_MOMENT)
     return f"rms difference {force:.3g} N, {torque:.3g} N m"

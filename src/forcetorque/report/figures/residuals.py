@@ -22,7 +22,7 @@ from forcetorque.report.figures.canvas import (
     shown_name,
 )
 from forcetorque.report.figures.inputs import drawable_each, instants
-from forcetorque.spatial.wrench import WRENCH_COMPONENTS
+from forcetorque.spatial.wrench import FORCE_AND_MOMENT, WRENCH_COMPONENTS
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -207,7 +207,7 @@ def _size(values: FloatArray) -> str:
     whole = values[np.isfinite(values).all(axis=1)]
     if not len(whole):
         return "no whole samples"
-    force, torque = (np.sqrt((whole[:, part] ** 2).sum(axis=1).mean()) for part in (slice(0, 3), slice(3, 6)))
+    force, torque = (np.sqrt((whole[:, part] ** 2).sum(axis=1).mean()) for part in FORCE_AND_MOMENT)
     return f"rms {force:.3g} N, {torque:.3g} N m"
 
 

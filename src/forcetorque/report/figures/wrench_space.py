@@ -20,13 +20,13 @@ from forcetorque.report.figures.canvas import (
 )
 from forcetorque.report.figures.inputs import drawable_each
 from forcetorque.report.figures.thinning import thinned_cloud
-from forcetorque.spatial.wrench import WRENCH_COMPONENTS
+from forcetorque.spatial.wrench import FORCE, MOMENT, WRENCH_COMPONENTS
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-_ROWS = (("force space", "N", slice(0, 3)), ("torque space", "N m", slice(3, 6)))
+_ROWS = (("force space", "N", FORCE), ("torque space", "N m", MOMENT))
 _PLANES = ((0, 1), (1, 2), (0, 2))
 _SMALL_PANEL_POINTS = 8.0
 
