@@ -15,13 +15,16 @@ from forcetorque.errors import ExperimentError, known_names
 from forcetorque.experiment.content import ExperimentSensor
 from forcetorque.experiment.full_scale import full_scale_of
 from forcetorque.experiment.inputs import Inputs, stated_in
+from forcetorque.experiment.loads.link_load_rows import HungInterval, link_load_problem
 from forcetorque.experiment.loads.load_inertia import inertia_of_estimated, inertia_of_stated
+from forcetorque.experiment.loads.loads_together import joined_problem
 from forcetorque.experiment.loads.weighed_load import WeighedLoad, read_weighed
 from forcetorque.experiment.tables.link_load import LinkLoad
 from forcetorque.loads import Load, LoadEstimate, LoadProblem, LoadSolution, MatrixSpread, settled, solve
 from forcetorque.loads.fit import fit
 from forcetorque.loads.load import INERTIAL
 from forcetorque.loads.solve import load_estimates
+from forcetorque.loads.unknowns import six_of
 from forcetorque.recording import Interval, MovingSupport, Support, Use
 from forcetorque.robot import RobotModel, build_tree
 from forcetorque.robot.sub_model import path_to_root
@@ -29,7 +32,6 @@ from forcetorque.spatial import Inertia, skew
 
 if TYPE_CHECKING:
     from forcetorque.experiment.content import Experiment
-    from forcetorque.experiment.loads.link_load_rows import HungInterval
 
 GYRATION_M: Final = 0.1
 """Radius of gyration about its centre of mass that an unknown load is expected to stay below (one s.d.); m."""
@@ -81,8 +83,6 @@ class LinkLoads:
         Returns:
             The same with link and number of the load.
         """
-        from forcetorque.experiment.loads.link_load_rows import HungInterval
-
         numbers = [self.number_of(interval.support) or 0 for interval in intervals]
         return [
             HungInterval(interval=interval, number=number, link=self.links[number])
@@ -117,8 +117,6 @@ class LinkLoads:
         return self._problem_and_left_out(experiment, use)[1]
 
     def _problem_and_left_out(self, experiment: Experiment, use: Use) -> tuple[LoadProblem, int]:
-        from forcetorque.experiment.loads.link_load_rows import link_load_problem
-
         if use in self._problems:
             return self._problems[use]
         if self.sensor is None:
@@ -145,8 +143,6 @@ class LinkLoads:
         Returns:
             Loads and offsets.
         """
-        from forcetorque.experiment.loads.loads_together import joined_problem
-
         if "solution" not in self._known:
             problem = joined_problem(self.beside or {experiment.name: experiment})
             self._known["solution"] = solve(with_matrix_in_part(problem, spread_of(experiment, self.weigher)))
@@ -357,8 +353,6 @@ def with_matrix_in_part(problem: LoadProblem, spread: MatrixSpread) -> LoadProbl
 
 def _of_usual_size(load: Load, point: LoadEstimate) -> Load:
     """A load whose inertia about its centre of mass is that of a body of usual size."""
-    from forcetorque.loads.unknowns import six_of
-
     hat = skew(point.centre_of_mass)
     expected, precision = np.zeros(INERTIAL), np.zeros((INERTIAL, INERTIAL))
     expected[4:] = six_of(-point.mass * hat @ hat)
