@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -56,7 +57,7 @@ def write_figures(sensor: SensorStudy, folder: Path) -> list[str]:
         )
         for offset in KNOWN_BEFORE:
             name = f"figure_5_5_mean_forces_offset_{offset.replace('-', '_')}.png"
-            draw[name] = lambda offset=offset: _lambda_force_figure(sensor, offset)  # type: ignore[misc]
+            draw[name] = partial(_lambda_force_figure, sensor, offset)
     for name, figure in draw.items():
         write_bytes_atomically(folder / name, png_bytes(figure()))
     return sorted(draw)
