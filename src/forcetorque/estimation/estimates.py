@@ -67,7 +67,8 @@ class Estimates:
     torques: FloatArray
     """Inverse-dynamics torques: what the motor does along +q; shape (n, joints); N m, N where prismatic."""
     net_wrenches: FloatArray
-    """Wrench that moves each link as it moves, gravity included (thesis 2.3), in its frame; (n, links, 6); N, N m."""
+    """Wrench that moves each link as it moves, gravity included (thesis 2.3), in its frame; shape (n, links, 6);
+    N, N m."""
     rank: IntArray
     """Unknown components that the equation determines; shape (n, parts)."""
     condition: FloatArray

@@ -40,11 +40,11 @@ class Inputs:
     needs: Needs
     """What the answer depends on."""
     joint_columns: IntArray
-    """Columns of `joints` that matter."""
+    """Columns of `joints` that matter; shape (j,)."""
     measured_columns: IntArray
-    """Columns of `measured`, in the order of the question's sensors."""
+    """Columns of `measured`, in the order of the question's sensors; shape (sensors,)."""
     known_columns: IntArray
-    """Columns of `known`, in the order of the question's known contacts."""
+    """Columns of `known`, in the order of the question's known contacts; shape (contacts,)."""
 
 
 def checked_inputs(

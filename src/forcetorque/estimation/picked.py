@@ -121,7 +121,7 @@ def pick_samples(recording: Recording, source: Stream, interval: Interval) -> tu
         interval: The interval.
 
     Returns:
-        Indices of its samples with increasing stamps, and the number of all its samples.
+        Indices of its samples with increasing stamps, shape (k,), and the number of all its samples.
 
     Raises:
         RecordingError: If it lies outside the log, or no sample is left.

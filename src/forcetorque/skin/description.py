@@ -41,7 +41,7 @@ class PatchDescription:
     thermal_modules: IntArray
     """Module that each thermal pad sits on; shape (t,)."""
     representatives: IntArray | None = None
-    """Entry of `taxel2Repr` for each column, as many as are written; None if the form has none."""
+    """Entry of `taxel2Repr` for each column, as many as are written; shape (k,); None if the form has none."""
     placed: IntArray | None = None
     """Columns whose row in the file is a place, whatever they are; shape (k,); None for the taxels."""
 

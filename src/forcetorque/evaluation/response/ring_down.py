@@ -165,10 +165,10 @@ def error_of_mean(count: int, noise: FloatArray) -> float:
 
     Args:
         count: How many.
-        noise: Autocovariance from lag 0 on.
+        noise: Autocovariance from lag 0 on; shape (lags,); square of the unit of the signal.
 
     Returns:
-        The error.
+        The error, in that unit.
     """
     return math.sqrt(max(float(_covariance(np.ones((count, 1)), noise)[0, 0]), 0.0))
 
