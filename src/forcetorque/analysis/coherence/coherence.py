@@ -23,6 +23,7 @@ from forcetorque.analysis.coherence.rows import (
 )
 from forcetorque.analysis.runs.applicability import one_per_sensor, overlapping
 from forcetorque.analysis.runs.candidate import PRIOR
+from forcetorque.analysis.runs.corrections import without_calibration
 from forcetorque.analysis.runs.offsets import SensorOffset, offset_policies, with_policy
 from forcetorque.analysis.runs.reading import Correction
 from forcetorque.analysis.runs.sensor_run import SensorRun
@@ -170,9 +171,7 @@ def _readers(
         for sensor in experiment.sensors:
             run = SensorRun(experiment, sensor)
             if sensor.name in chosen:
-                name, calibration = chosen[sensor.name]
-                run.require_fit(name, calibration)
-                correction = Correction.of(name, calibration)
+                correction = run.read_by(*chosen[sensor.name])
             else:
                 correction = _of_prior(run, every, policy)
                 by_prior.append(sensor.name)
@@ -195,7 +194,7 @@ def _of_prior(run: SensorRun, calibrations: Mapping[str, Calibration], policy: O
         for name, calibration in calibrations.items():
             if calibration.prior is not None and calibration.sensor.serial == run.sensor.serial:
                 return Correction.of_prior(name, calibration.prior, calibration.sessions)
-    return run.uncalibrated() if policy.offset is Offset.FITTED else Correction.without_offset(run.sensor)
+    return without_calibration(run, policy)
 
 
 def _rows(experiment: Experiment, reader: _Reader, phases: Sequence[NetContact], weight: float) -> Iterator[PhaseForce]:
