@@ -11,6 +11,7 @@ import numpy as np
 from forcetorque.arrays import FloatArray
 from forcetorque.errors import ShapeError
 from forcetorque.report.figures.canvas import (
+    PLANES,
     ROW_INCHES,
     TITLE_POINTS,
     Look,
@@ -35,7 +36,6 @@ _LABELS: Final[dict[Quantity, list[str]]] = {
     "force": [f"{name}, N" for name in WRENCH_COMPONENTS[:3]],
     "moment": [f"{name}, N m" for name in WRENCH_COMPONENTS[3:]],
 }
-_PLANES = ((0, 1), (1, 2), (0, 2))
 
 
 def force_space_figure(
@@ -68,7 +68,7 @@ def force_space_figure(
     grid = figure.subplots(len(rows), 3, squeeze=False)
     labels = _LABELS[quantity]
     for panels, (title, named) in zip(grid, rows.items(), strict=True):
-        for panel, plane in zip(panels, _PLANES, strict=True):
+        for panel, plane in zip(panels, PLANES, strict=True):
             _draw_plane(panel, [(looks[name], points[:, plane]) for name, points in named])
             panel.set_xlabel(labels[plane[0]])
             panel.set_ylabel(labels[plane[1]])

@@ -11,7 +11,9 @@ from scipy.spatial import ConvexHull, QhullError
 
 from forcetorque.arrays import FloatArray
 from forcetorque.report.figures.canvas import (
+    PLANES,
     ROW_INCHES,
+    SMALL_PANEL_POINTS,
     TITLE_POINTS,
     legend_below,
     look,
@@ -27,8 +29,6 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 _ROWS = (("force space", "N", FORCE), ("torque space", "N m", MOMENT))
-_PLANES = ((0, 1), (1, 2), (0, 2))
-_SMALL_PANEL_POINTS = 8.0
 
 
 def space_figure(clouds: Mapping[str, FloatArray]) -> Figure:
@@ -59,7 +59,7 @@ def space_figure(clouds: Mapping[str, FloatArray]) -> Figure:
         parts = [wrenches[np.isfinite(wrenches).all(axis=1), part] for wrenches in wrenches_by_name.values()]
         labels = [f"{name}, {unit}" for name in WRENCH_COMPONENTS[part]]
         _draw_space(figure.add_subplot(grid[row, 0], projection="3d"), parts, labels, title=title)
-        for column, plane in enumerate(_PLANES):
+        for column, plane in enumerate(PLANES):
             panel = figure.add_subplot(grid[row, column + 2])
             _draw_plane(panel, [points[:, plane] for points in parts])
             panel.set_xlabel(labels[plane[0]])
@@ -76,7 +76,7 @@ def _draw_space(panel: Any, parts: list[FloatArray], labels: list[str], *, title
     panel.locator_params(nbins=5)
     for axis, label in zip("xyz", labels, strict=True):
         getattr(panel, f"set_{axis}label")(label)
-        panel.tick_params(axis=axis, labelsize=_SMALL_PANEL_POINTS)
+        panel.tick_params(axis=axis, labelsize=SMALL_PANEL_POINTS)
 
 
 def _draw_plane(panel: Axes, parts: list[FloatArray]) -> None:
@@ -87,7 +87,7 @@ def _draw_plane(panel: Axes, parts: list[FloatArray]) -> None:
         # above all points
         panel.plot(*outline(points).T, color=look(k).colour, linestyle=look(k).dashes, linewidth=1.2, zorder=3.0)
     panel.set_aspect("equal", adjustable="datalim")
-    panel.tick_params(labelsize=_SMALL_PANEL_POINTS)
+    panel.tick_params(labelsize=SMALL_PANEL_POINTS)
     panel.grid(visible=True, color="0.9", linewidth=0.6)
     panel.set_axisbelow(True)
 
