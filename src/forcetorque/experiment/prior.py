@@ -16,7 +16,7 @@ from forcetorque.experiment import schema
 from forcetorque.experiment.inputs import Inputs, stated_in
 
 IDENTITY = "identity"
-"""Prior of a sensor whose calibrated reading takes the place of counts."""
+"""Prior of a sensor whose calibrated reading, a wrench already, takes the place of counts."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

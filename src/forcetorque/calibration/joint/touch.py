@@ -10,11 +10,11 @@ from typing import Final
 import numpy as np
 
 from forcetorque.arrays import BoolArray, FloatArray
+from forcetorque.calibration.generative.rows import LOADS
 from forcetorque.calibration.joint.fit import JointFit
 from forcetorque.calibration.joint.windows import UNITS, WINDOW_S, PartWindows
 from forcetorque.constants import MAD_TO_DEVIATION
 
-_LOADS = 6
 FAR: Final = 4.0
 """Robust standard deviations of the residual from which a window disagrees."""
 _NEIGHBOURS = 2
@@ -50,7 +50,7 @@ def residuals(windows: PartWindows, fit: JointFit | None) -> FloatArray:
         Left side less right side; shape (w, 6); in `UNITS`.
     """
     if fit is None:
-        return residuals_by(windows, {name: np.eye(_LOADS) for name in windows.sensors}, None)
+        return residuals_by(windows, {name: np.eye(LOADS) for name in windows.sensors}, None)
     unknowns = fit.mean[fit.places.of_part(windows.sensors, windows.stretch.session, windows.terms)]
     return np.concatenate([block.columns @ unknowns - block.right for block in windows.blocks()])
 
@@ -68,7 +68,7 @@ def residuals_by(
     Returns:
         Left side less right side; shape (w, 6); in `UNITS`.
     """
-    changes = [(factors[name] * (UNITS / UNITS[:, None]) - np.eye(_LOADS)).ravel() for name in windows.sensors]
+    changes = [(factors[name] * (UNITS / UNITS[:, None]) - np.eye(LOADS)).ravel() for name in windows.sensors]
     left = np.concatenate([block.changes @ np.concatenate(changes) - block.right for block in windows.blocks()])
     of_offsets = windows.offsets
     if offsets is None:

@@ -24,6 +24,8 @@ SAME_AS_TIME = 0.98
 MIXED_WITH_TIME = 0.5
 """Share of heating against cooling that offset, time and temperature explain, from which on they are hard to tell
 apart: 0.75 for one even cycle, 0.19 for two."""
+LEAST_RANGE_DEGC = 5.0
+"""Range of temperatures below which little is told of what a day, or a motor that warms up, does; degC."""
 
 _HOUR_S = 3600.0
 
