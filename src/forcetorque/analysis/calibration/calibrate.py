@@ -89,11 +89,11 @@ def _fitted(
         raise FitError("nonlinear: the types of the thesis are linear; leave out the estimation type and lambda")
     if moments:
         raise FitError("stored moments are fitted by the generative model; leave out the estimation type and lambda")
-    lambda_ = experiment.regularisation if regularisation is None else regularisation
+    given = experiment.regularisation if regularisation is None else regularisation
     return thesis_calibration(
         campaign,
         options.kind(has_variables=bool(campaign.sensor.variables)) if kind is None else kind,
-        regularisation=None if lambda_ == "held-out" else lambda_,
+        regularisation=None if given == "held-out" else given,
         code_version=code_version,
         created=created,
     )
