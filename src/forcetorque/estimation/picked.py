@@ -137,7 +137,7 @@ def pick_samples(recording: Recording, source: Stream, interval: Interval) -> tu
     inside = interval.holds(stamps)
     for other in recording.intervals:
         if other.use is Use.IGNORE:
-            inside &= (stamps < other.start_ns) | (stamps >= other.end_ns)
+            inside &= ~other.holds(stamps)
     usable = usable_samples(stamps)
     picked = usable[inside[usable]]
     if not len(picked):
