@@ -59,6 +59,28 @@ def test_a_file_that_moved_is_noticed() -> None:
     ]
 
 
+def _unknown(section: str) -> list[str]:
+    """Plain names in code that are no module, folder, function or class of the library."""
+    modules = {path.stem for path in LIBRARY.rglob("*.py")} | {path.parent.name for path in LIBRARY.rglob("*.py")}
+    texts = [path.read_text(encoding="utf-8") for path in LIBRARY.rglob("*.py")]
+    defined = {name for text in texts for name in re.findall(r"^\s*(?:def|class) (\w+)", text, re.MULTILINE)}
+    names = [name.rpartition(".")[2] for name in re.findall(r"`([\w.]+)`", section)]
+    return [name for name in names if name not in modules | defined]
+
+
+def test_modules_of_the_page_are_called_so() -> None:
+    """What is inside is told by the names that files and functions have now."""
+    _, inside = PAGE.split("\n## What is inside\n")
+    inside = inside.split("\n## ")[0]
+    assert len(re.findall(r"`[\w.]+`", inside)) > 150
+    assert _unknown(inside) == []
+
+
+def test_a_module_of_another_name_is_noticed() -> None:
+    """Negative control: the name of a module that there is, and one that nothing has."""
+    assert _unknown("`trials` and `contest_trials`") == ["contest_trials"]
+
+
 def test_every_recipe_names_the_test_that_follows_it() -> None:
     """The test is there, and says that it follows this page."""
     _, *recipes = re.split(r"^### To add ", PAGE, flags=re.MULTILINE)

@@ -52,11 +52,11 @@ def read_only_integers(values: Any, *, name: str, shape: tuple[int | None, ...])
     Raises:
         ShapeError: If the shape differs, or a number has a fraction.
     """
-    given = np.asarray(values)
-    require_shape(given, name=name, shape=shape)
-    array = given.astype(np.int64)
-    if not np.array_equal(array, given):
-        raise ShapeError(f"{name}: expected whole numbers, got {given[array != given].flat[0]}")
+    numbers = np.asarray(values)
+    require_shape(numbers, name=name, shape=shape)
+    array = numbers.astype(np.int64)
+    if not np.array_equal(array, numbers):
+        raise ShapeError(f"{name}: expected whole numbers, got {numbers[array != numbers].flat[0]}")
     array.setflags(write=False)
     return array
 

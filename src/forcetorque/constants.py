@@ -9,3 +9,6 @@ VACUUM_PERMITTIVITY = 8.8541878188e-12
 
 NORMAL_95 = 1.959963984540054
 """Standard deviations of half a 95 % interval of a normal distribution, its 0.975 quantile (`scipy.special.ndtri`)."""
+
+MAD_TO_DEVIATION = 1.4826
+"""Standard deviation of a normal distribution over its median absolute deviation, 1 / `ndtri(0.75)`, to five digits."""

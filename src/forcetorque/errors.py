@@ -6,6 +6,8 @@ from __future__ import annotations
 from collections.abc import Iterable
 from difflib import get_close_matches
 
+_LONGEST_QUOTE = 40
+
 
 class ForceTorqueError(Exception):
     """Base of everything this library raises on purpose."""
@@ -83,3 +85,15 @@ def known_names(wanted: object, known: Iterable[str]) -> str:
     close = get_close_matches(str(wanted).lower(), spelled, n=1)
     hint = f'did you mean "{spelled[close[0]]}"? ' if close else ""
     return f"{hint}known: {', '.join(names) if names else 'none'}"
+
+
+def quoted(text: str) -> str:
+    """Show a text of a file in a message: on one line, and not longer than what says what is wrong with it.
+
+    Args:
+        text: Anything.
+
+    Returns:
+        The text in quotes, with what cannot be printed escaped, cut after 40 characters.
+    """
+    return repr(text if len(text) <= _LONGEST_QUOTE else f"{text[:_LONGEST_QUOTE]}...")

@@ -63,6 +63,18 @@ class OpenQuestion:
     """What is asked: the comment behind it."""
 
 
+def word_or_table(value: Any) -> str:
+    """Tell which of two forms a key has that takes a word, such as a path, or a table: the tag of a union of both.
+
+    Args:
+        value: Its value.
+
+    Returns:
+        `word` or `table`.
+    """
+    return "word" if isinstance(value, str | Path) else "table"
+
+
 def open_questions(text: str) -> tuple[OpenQuestion, ...]:
     """Find the questions in the text of a TOML file.
 

@@ -12,7 +12,7 @@ import pytest
 from forcetorque.analysis import BalanceOptions, Correction, balance, corrections_of
 from forcetorque.calibration import WrenchModel
 from forcetorque.errors import ExperimentError
-from forcetorque.estimation.balance import NO_FOOT, ForceLimit, support_phases
+from forcetorque.estimation.balance import NO_FOOT, ContactThresholds, ForceLimit, support_phases
 from forcetorque.experiment import load_experiment, load_foot_forces
 from forcetorque.robot import read_urdf
 from forcetorque.simulation import BIPED_URDF, Stand, balancing_movement
@@ -249,6 +249,11 @@ def test_the_script_of_the_page_runs(
     assert "support phases of switching" in shown
     assert "centre of pressure of each foot" in shown
     assert Path("samples.parquet").exists()
+
+
+def test_thresholds_are_shares_of_the_weight() -> None:
+    """The defaults are 15 and 6 percent."""
+    assert BalanceOptions().thresholds(300.0) == ContactThresholds(touch_N=45.0, release_N=18.0)
 
 
 WALKING = BalanceOptions(touch=ForceLimit(force_N=50.0), release=ForceLimit(force_N=20.0))

@@ -25,7 +25,6 @@ from tests.experiments import PARQUET, TWO, add, edit, snapshot
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 FIRST, SECOND, LOOSE = "first.toml", "second.toml", "loose.toml"
-INTERVAL = '[[interval]]\nlabel = "judge"'
 
 
 @pytest.fixture

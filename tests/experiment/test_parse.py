@@ -14,7 +14,7 @@ from forcetorque.exchange.ros import RosLog
 from forcetorque.exchange.tabular.log_format import TabularLog
 from forcetorque.exchange.yarp.log_tables import StateExtPort, YarpLog
 from forcetorque.experiment import ExperimentFile, parse_experiment
-from forcetorque.experiment.schema import Smoothing
+from forcetorque.experiment.tables.processing import Smoothing
 from forcetorque.recording import Use
 from tests.experiments import JOINTS, PARQUET, TEXTS, TWO, YARP
 

@@ -107,6 +107,15 @@ def test_the_load_is_estimated_on_the_calibration_poses(tmp_path: Path) -> None:
     np.testing.assert_allclose(session.bias, BIAS, atol=4 * NOISE.max())
 
 
+def test_counts_without_a_prior_weigh_nothing(tmp_path: Path) -> None:
+    """The message says what is lacking, and the way round it."""
+    counts = TEXT.replace('quantity = "wrench"', 'quantity = "raw"').replace('prior = "identity"\n', "")
+    counts = counts.replace('["N", "N", "N", "N mm", "N mm", "N mm"]\nframe = "tool"', str(["counts"] * 6))
+    path = _write(tmp_path, text=counts.replace("'", '"'))
+    with pytest.raises(ExperimentError, match="'wrist': expected prior, .*; or state mass_kg and centre_of_mass_m"):
+        _solution(path)
+
+
 def _solution(path: Path) -> LoadSolution:
     experiment = load_experiment(path)
     assert experiment.wrist is not None

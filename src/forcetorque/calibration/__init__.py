@@ -6,14 +6,8 @@ from forcetorque.calibration.artefact import (
     JOINT,
     CalibratedVariable,
     Calibration,
-    Content,
-    FittedInterval,
     Prior,
-    Provenance,
-    Selection,
-    SensorIdentity,
     SessionOffset,
-    Validity,
     read_calibration,
     write_calibration,
 )
@@ -44,6 +38,7 @@ from forcetorque.calibration.linear_variable import LinearVariable
 from forcetorque.calibration.moments import Moments, pooled
 from forcetorque.calibration.nonlinear_trial import NonlinearTrial
 from forcetorque.calibration.posterior import Posterior, RowNoise
+from forcetorque.calibration.provenance import Content, FittedInterval, Provenance
 from forcetorque.calibration.quadratic_correction import QuadraticCorrection
 from forcetorque.calibration.raw import is_invertible, recover_raw
 from forcetorque.calibration.recording_moments import (
@@ -55,7 +50,10 @@ from forcetorque.calibration.recording_moments import (
 )
 from forcetorque.calibration.regression import Regression, solve
 from forcetorque.calibration.secondary import secondary_matrix, secondary_model
+from forcetorque.calibration.selection import Selection
+from forcetorque.calibration.sensor_identity import SensorIdentity
 from forcetorque.calibration.sphere import sphere_centre
+from forcetorque.calibration.validity import Validity
 from forcetorque.calibration.wrench_model import WrenchModel
 
 __all__ = [

@@ -4,18 +4,14 @@
 from __future__ import annotations
 
 import json
-import math
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Annotated, Any, Final, Literal
 
 import numpy as np
 from pydantic import (
-    BeforeValidator,
     ConfigDict,
     Field,
-    PlainSerializer,
-    WithJsonSchema,
     field_validator,
 )
 from pydantic_core import PydanticCustomError
@@ -23,16 +19,19 @@ from pydantic_core import PydanticCustomError
 from forcetorque.array_field import ArrayField
 from forcetorque.arrays import BoolArray, FloatArray
 from forcetorque.atomic import write_bytes_atomically
-from forcetorque.calibration.fitted_loads import FittedLoads
 from forcetorque.calibration.nonlinear_trial import NonlinearTrial
 from forcetorque.calibration.posterior import Posterior
+from forcetorque.calibration.provenance import Provenance
 from forcetorque.calibration.quadratic_correction import QuadraticCorrection
 from forcetorque.calibration.secondary import secondary_matrix
+from forcetorque.calibration.selection import Lambda, Selection
+from forcetorque.calibration.sensor_identity import SensorIdentity
+from forcetorque.calibration.validity import Validity
 from forcetorque.calibration.wrench_model import WrenchModel
 from forcetorque.errors import FormatError, RecordingError, SerialNumberError, ShapeError
 from forcetorque.part import Part, checked_part, read_json
 from forcetorque.result import Table, html_table, html_warnings
-from forcetorque.spatial import WRENCH_COMPONENTS, WRENCH_UNITS, MeasureDirection
+from forcetorque.spatial import WRENCH_COMPONENTS, WRENCH_UNITS
 
 SCHEMA: Final = "forcetorque/calibration/3"
 """Name and version of the file's form."""
@@ -48,35 +47,6 @@ JOINT: Final = "joint"
 
 JOINT_SCHEMA: Final = "forcetorque/joint/1"
 """Name and version of the form of the file that sensors of a joint calibration share."""
-
-
-def _lambda_from_file(value: Any) -> Any:
-    return math.inf if value == "infinite" else value
-
-
-Lambda = Annotated[
-    float,
-    BeforeValidator(_lambda_from_file),
-    Field(ge=0.0),
-    PlainSerializer(lambda value: "infinite" if math.isinf(value) else value, return_type=float | str),
-    WithJsonSchema({"anyOf": [{"type": "number", "minimum": 0}, {"const": "infinite"}]}),
-]
-"""Lambda in counts2; `infinite`, which JSON has no number for, means that the prior was kept."""
-
-
-class SensorIdentity(Part):
-    """Which sensor, mounted where, read how."""
-
-    name: str
-    """Name in the robot model."""
-    serial: str = Field(min_length=1)
-    """Serial number."""
-    robot: str
-    """Name of the robot."""
-    frame: str
-    """Frame of the reading: child, parent or sensor frame of the robot model's tag."""
-    measure_direction: MeasureDirection
-    """Who acts on whom in the reading."""
 
 
 class Prior(Part):
@@ -111,31 +81,6 @@ class CalibratedVariable(Part):
     """Largest fitted value."""
 
 
-class Validity(Part):
-    """Where the fit is supported by data."""
-
-    raw_minimum_counts: Annotated[FloatArray, ArrayField((None,))]
-    """Smallest fitted reading per channel; counts."""
-    raw_maximum_counts: Annotated[FloatArray, ArrayField((None,))]
-    """Largest fitted reading per channel; counts."""
-    reference_deviation: Annotated[FloatArray, ArrayField((6,), minimum=0.0)]
-    """Standard deviation of the reference wrench; N, N m."""
-    rank: int
-    """Number of raw directions that moved at all."""
-    condition: float | None
-    """Ratio of the largest to the smallest deviation over the raw directions; None if infinite."""
-    directions: Annotated[FloatArray, ArrayField((None, None))]
-    """Raw directions, strongest first, one per row; shape (c, c)."""
-    variance_counts2: Annotated[FloatArray, ArrayField((None,), minimum=0.0)]
-    """Variance of the raw reading along each direction; counts2."""
-    explained: Annotated[FloatArray, ArrayField((None,))]
-    """Share of each variance that the reference explains."""
-    excited: tuple[bool, ...]
-    """Whether the loads move the direction more than anything else does."""
-    loads: FittedLoads | None = None
-    """Range of the fitted loads; None in files of earlier versions, where the ranges of the channels stand for it."""
-
-
 class SessionOffset(Part):
     """Offset of one session: a stretch of time in which the sensor was not switched off."""
 
@@ -151,68 +96,6 @@ class SessionOffset(Part):
     """Instant from which the drift counts; ns on the recording's clock."""
     prior_offset: Annotated[FloatArray, ArrayField((6,))] | None
     """Offset that the same data give with the prior matrix; shape (6,); N, N m."""
-
-
-class Content(Part):
-    """By what the samples of an interval are known again in another log (`recording.fingerprint`)."""
-
-    quantity: str
-    """Quantity of the reading as it was logged: `raw` or `wrench`."""
-    windows: str = Field(pattern=r"^([0-9a-f]{16})+$", repr=False)
-    """Hashes of windows of its samples, hexadecimal numbers of 16 letters one behind the other."""
-
-
-class FittedInterval(Part):
-    """A stretch of time that was fitted."""
-
-    label: str
-    """Label of the interval."""
-    start_ns: int
-    """Start; ns on the recording's clock."""
-    end_ns: int
-    """End; ns on the recording's clock."""
-    session: str | None = None
-    """Session that it belongs to; None in files of earlier versions."""
-    experiment: str | None = None
-    """Experiment that it is of; None in files of earlier versions, where there was one."""
-    content: Content | None = None
-    """By what its samples are known again; None in files of earlier versions, and where they hardly change."""
-
-
-class Selection(Part):
-    """How lambda came about."""
-
-    rule: str
-    """The rule, in words; `given` where the caller chose."""
-    lambda_counts2: tuple[Lambda, ...] = ()
-    """Candidates."""
-    held_out_rmse: tuple[float, ...] = ()
-    """Held-out error of every candidate; 1 N counted like 1 N m."""
-    worst_ratio_to_prior: tuple[float, ...] = ()
-    """Largest ratio over the blocks of held-out squared error to that of the prior."""
-    chosen_on: tuple[FittedInterval, ...] = ()
-    """Intervals that were not fitted but that the choice was made on: a verdict on them flatters."""
-
-
-class Provenance(Part):
-    """What the fit was made from."""
-
-    code_version: str
-    """Version of this library."""
-    created: str
-    """Date and time of the fit, ISO 8601, UTC."""
-    experiment: str
-    """Name of the experiment."""
-    intervals: tuple[FittedInterval, ...]
-    """The fitted intervals."""
-    samples: int = Field(ge=0)
-    """Number of fitted samples."""
-    dropped: int = Field(ge=0)
-    """Samples of the intervals that were left out."""
-    inputs_sha256: dict[str, str]
-    """SHA-256 of every input file, by its path as the experiment file names it."""
-    added: tuple[str, ...] = ()
-    """What experiment files add to their logs: clocks, frames, joints, rates; in sentences."""
 
 
 class Calibration(Part):
@@ -381,14 +264,14 @@ class Calibration(Part):
         return self.model.beyond(counts, self._values(counts, variables))
 
     def _values(self, counts: FloatArray, variables: Mapping[str, Any] | None) -> FloatArray | None:
-        given = {} if variables is None else variables
+        by_name = {} if variables is None else variables
         names = [variable.name for variable in self.variables]
-        if set(given) != set(names):
+        if set(by_name) != set(names):
             raise RecordingError(
                 f"calibration of sensor {self.sensor.serial!r}: expected values of the variables {names}, "
-                f"got {sorted(given)}; its offset holds only with them"
+                f"got {sorted(by_name)}; its offset holds only with them"
             )
-        values = [np.asarray(given[name], dtype=np.float64) for name in names]
+        values = [np.asarray(by_name[name], dtype=np.float64) for name in names]
         for name, value in zip(names, values, strict=True):
             if value.shape not in ((), counts.shape[:-1]):
                 raise ShapeError(f"variable {name!r}: expected shape () or {counts.shape[:-1]}, got {value.shape}")

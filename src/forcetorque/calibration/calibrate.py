@@ -138,10 +138,10 @@ def estimation_of(
     Raises:
         ShapeError: If the data have another number of variables.
     """
-    found = first.variables.shape[1]
-    if found != len(variables):
-        raise ShapeError(f"variables: {len(variables)} are described, the data sets have {found}")
-    values = np.zeros(found)
+    columns = first.variables.shape[1]
+    if columns != len(variables):
+        raise ShapeError(f"variables: {len(variables)} are described, the data sets have {columns}")
+    values = np.zeros(columns)
     if kind.from_reference:
         own = [variable.reference_value for variable in variables]
         pairs = zip(first.variables[0], own, strict=True)

@@ -10,10 +10,9 @@ import numpy as np
 
 from forcetorque.array_field import ArrayField
 from forcetorque.arrays import FloatArray
+from forcetorque.calibration.generative.rows import LOADS
 from forcetorque.calibration.posterior import Posterior
 from forcetorque.part import Part
-
-_LOADS = 6
 
 
 class LoadError(Part):
@@ -25,7 +24,7 @@ class LoadError(Part):
 
     sessions: tuple[str, ...]
     """Power-ups whose offsets it moves."""
-    factor: Annotated[FloatArray, ArrayField((_LOADS, None, None))]
+    factor: Annotated[FloatArray, ArrayField((LOADS, None, None))]
     """Of every component of the reading, what each of q independent errors of size 1 does to the six coefficients of
     its response and to its offsets; shape (6, 6 + sessions, q); per N, per N m; N, N m."""
 
@@ -41,7 +40,7 @@ class LoadError(Part):
             common. None if none carries any.
         """
         known = [error for error in errors if error is not None]
-        return max(known, key=lambda error: float((error.factor[:, :_LOADS] ** 2).sum()), default=None)
+        return max(known, key=lambda error: float((error.factor[:, :LOADS] ** 2).sum()), default=None)
 
     def widened(self, posterior: Posterior, prior: FloatArray) -> Posterior:
         """Add what the loads leave open to what a fit knows under them.
@@ -61,19 +60,19 @@ class LoadError(Part):
         return posterior.model_copy(
             update={
                 "covariance": posterior.covariance + added,
-                "learnt_covariance": posterior.learnt_covariance + added[:, :_LOADS, :_LOADS],
+                "learnt_covariance": posterior.learnt_covariance + added[:, :LOADS, :LOADS],
             }
         )
 
     def _placed(self, posterior: Posterior) -> FloatArray:
         """The factor at the places of the posterior's unknowns; shape (6, p, q)."""
-        placed = np.zeros((_LOADS, posterior.mean.shape[1], self.factor.shape[2]))
-        placed[:, :_LOADS] = self.factor[:, :_LOADS]
-        first = _LOADS + len(posterior.variables)
+        placed = np.zeros((LOADS, posterior.mean.shape[1], self.factor.shape[2]))
+        placed[:, :LOADS] = self.factor[:, :LOADS]
+        first = LOADS + len(posterior.variables)
         for place, session in enumerate(posterior.sessions, start=first):
             number = next((k for k, name in enumerate(self.sessions) if _same(name, session)), None)
             if number is not None:
-                placed[:, place] = self.factor[:, _LOADS + number]
+                placed[:, place] = self.factor[:, LOADS + number]
         return placed
 
 

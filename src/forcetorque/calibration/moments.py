@@ -154,10 +154,12 @@ class Moments:
             Moments of what is left, without variables.
         """
         v = slice(self.channels, self.channels + self.variables)
-        kept = np.r_[: self.channels, self.channels + self.variables : len(self.origin)]
-        shared = self.second[kept][:, v]
-        left = self.second[np.ix_(kept, kept)] - shared @ symmetric_pseudo_inverse(self.second[v, v]) @ shared.T
-        origin, step = self.origin[kept], self.step[kept]
+        remaining = np.r_[: self.channels, self.channels + self.variables : len(self.origin)]
+        shared = self.second[remaining][:, v]
+        left = (
+            self.second[np.ix_(remaining, remaining)] - shared @ symmetric_pseudo_inverse(self.second[v, v]) @ shared.T
+        )
+        origin, step = self.origin[remaining], self.step[remaining]
         return Moments(count=self.count, channels=self.channels, variables=0, origin=origin, step=step, second=left)
 
     def squared_error(self, model: WrenchModel) -> FloatArray:
@@ -169,9 +171,9 @@ class Moments:
         Returns:
             Mean of the squared error of every component; shape (6,); N2, (N m)2.
         """
-        same = model.counted_from_zero(self.variables)
-        error_of = np.hstack([same.matrix, same.coefficients, -np.eye(6)])  # (6, m)
-        bias = error_of @ self.mean + same.offset
+        from_zero = model.counted_from_zero(self.variables)
+        error_of = np.hstack([from_zero.matrix, from_zero.coefficients, -np.eye(6)])  # (6, m)
+        bias = error_of @ self.mean + from_zero.offset
         spread = np.einsum("ij,jk,ik->i", error_of, self.second, error_of)
         error: FloatArray = np.maximum(spread, 0.0) + bias**2
         return error

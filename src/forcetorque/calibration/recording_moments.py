@@ -14,13 +14,14 @@ from pydantic import ConfigDict, Field
 from forcetorque.array_field import ArrayField
 from forcetorque.arrays import FloatArray, IntArray
 from forcetorque.atomic import write_bytes_atomically
-from forcetorque.calibration.artefact import FittedInterval, SensorIdentity
 from forcetorque.calibration.data_set import DataSet
 from forcetorque.calibration.generative.assumptions import Assumptions
 from forcetorque.calibration.generative.means import WindowMeans
 from forcetorque.calibration.linear_variable import LinearVariable
 from forcetorque.calibration.load_error import LoadError
 from forcetorque.calibration.moments import Moments
+from forcetorque.calibration.provenance import FittedInterval
+from forcetorque.calibration.sensor_identity import SensorIdentity
 from forcetorque.errors import FitError
 from forcetorque.part import Part, read_part
 

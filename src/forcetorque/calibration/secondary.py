@@ -65,10 +65,10 @@ def secondary_model(new: WrenchModel, stream: WrenchModel) -> WrenchModel:
             f"stream: expected the {len(new.reference_values)} variables of the new model or none, "
             f"got {len(stream.reference_values)}"
         )
-    made = stream.offset + stream.coefficients @ (new.reference_values - stream.reference_values)
+    stream_offset = stream.offset + stream.coefficients @ (new.reference_values - stream.reference_values)
     return replace(
         new,
         matrix=matrix,
-        offset=new.offset - matrix @ made,
+        offset=new.offset - matrix @ stream_offset,
         coefficients=new.coefficients - matrix @ stream.coefficients,
     )

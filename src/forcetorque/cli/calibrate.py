@@ -100,7 +100,7 @@ def calibrate(
     names = _sensors(contents, stored, sensor)
     files = _files(output, names)
     refuse_inputs(files, experiments)
-    given, chosen = _lambda(regularisation), _kind(kind)
+    lambda_, chosen = _lambda(regularisation), _kind(kind)
     created = datetime.now(UTC).isoformat(timespec="seconds")
     results, refusals = [], []
     for (name, serial), file in zip(names, files, strict=True):
@@ -118,7 +118,7 @@ def calibrate(
                         code_version=version("forcetorque"),
                         created=created,
                         moments=own,
-                        regularisation=given,
+                        regularisation=lambda_,
                         kind=chosen,
                         nonlinear=nonlinear,
                     )

@@ -52,14 +52,14 @@ def indistinguishable(
         active=activity[picked].astype(np.float64),
     )
     states = body_states(question, inputs.needs, block)
-    found = {}
+    ambiguous = {}
     for part in question.parts:
         if question.unknown_in(part):
             columns = contact_columns(question, part, states, block.active)
             groups = _groups(_hidden(weighted(columns, question, part)[0]), _names(question, part))
             if groups:
-                found[part.name] = groups
-    return found
+                ambiguous[part.name] = groups
+    return ambiguous
 
 
 def _picked(activity: BoolArray, *, switched: bool) -> IntArray:

@@ -67,7 +67,8 @@ class Estimates:
     torques: FloatArray
     """Inverse-dynamics torques: what the motor does along +q; shape (n, joints); N m, N where prismatic."""
     net_wrenches: FloatArray
-    """Wrench that moves each link as it moves, gravity included (thesis 2.3), in its frame; (n, links, 6); N, N m."""
+    """Wrench that moves each link as it moves, gravity included (thesis 2.3), in its frame; shape (n, links, 6);
+    N, N m."""
     rank: IntArray
     """Unknown components that the equation determines; shape (n, parts)."""
     condition: FloatArray
@@ -95,8 +96,10 @@ class Estimates:
         Returns:
             Results that are not filled yet.
         """
-        made = make or (lambda _, shape, dtype: np.empty(shape, dtype=dtype))
-        arrays: dict[str, Any] = {name: made(name, shape, _dtype(name)) for name, shape in layout.shapes(n).items()}
+        make_array = make or (lambda _, shape, dtype: np.empty(shape, dtype=dtype))
+        arrays: dict[str, Any] = {
+            name: make_array(name, shape, _dtype(name)) for name, shape in layout.shapes(n).items()
+        }
         return cls(layout=layout, **arrays)
 
     def __len__(self) -> int:
@@ -123,7 +126,7 @@ class Estimates:
         Returns:
             Readings; shape (n, 6); N, N m.
         """
-        return self.expected[:, _index(sensor, self.layout.sensors, "expected reading")]
+        return self.expected[:, column_of(sensor, self.layout.sensors, "expected reading")]
 
     def contact(self, name: str) -> FloatArray:
         """Give the wrenches of a contact.
@@ -134,7 +137,7 @@ class Estimates:
         Returns:
             Wrenches in the contact frame; shape (n, 6); N, N m.
         """
-        return self.contact_wrenches[:, _index(name, self.layout.contacts, "contact")]
+        return self.contact_wrenches[:, column_of(name, self.layout.contacts, "contact")]
 
     def torque(self, joint: str) -> FloatArray:
         """Give the torques of a joint.
@@ -145,7 +148,7 @@ class Estimates:
         Returns:
             Torques; shape (n,); N m, N where prismatic.
         """
-        return self.torques[:, _index(joint, self.layout.joints, "torque")]
+        return self.torques[:, column_of(joint, self.layout.joints, "torque")]
 
     def net_wrench(self, link: str) -> FloatArray:
         """Give the net wrenches of a link.
@@ -156,7 +159,7 @@ class Estimates:
         Returns:
             Wrenches in the link's frame; shape (n, 6); N, N m.
         """
-        return self.net_wrenches[:, _index(link, self.layout.links, "net wrench")]
+        return self.net_wrenches[:, column_of(link, self.layout.links, "net wrench")]
 
     def residual_of(self, part: str) -> FloatArray:
         """Give what the contacts of a sub-model leave unexplained.
@@ -167,14 +170,27 @@ class Estimates:
         Returns:
             Wrenches in the frame of that sensor or link; shape (n, 6); N, N m.
         """
-        return self.residual[:, _index(part, self.layout.parts, "sub-model")]
+        return self.residual[:, column_of(part, self.layout.parts, "sub-model")]
 
 
 def _dtype(field: str) -> np.dtype[Any]:
     return np.dtype(np.int64 if field == "rank" else np.float64)
 
 
-def _index(name: str, names: tuple[str, ...], what: str) -> int:
+def column_of(name: str, names: tuple[str, ...], what: str) -> int:
+    """Find the column of a name among those of a result.
+
+    Args:
+        name: The name.
+        names: Names of the columns.
+        what: What they are, for messages.
+
+    Returns:
+        Its number.
+
+    Raises:
+        EstimationError: If it was not asked for.
+    """
     if name not in names:
         raise EstimationError(f"no {what} of {name!r} was asked for; {known_names(name, names)}")
     return names.index(name)

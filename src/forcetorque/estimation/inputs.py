@@ -40,11 +40,11 @@ class Inputs:
     needs: Needs
     """What the answer depends on."""
     joint_columns: IntArray
-    """Columns of `joints` that matter."""
+    """Columns of `joints` that matter; shape (j,)."""
     measured_columns: IntArray
-    """Columns of `measured`, in the order of the question's sensors."""
+    """Columns of `measured`, in the order of the question's sensors; shape (sensors,)."""
     known_columns: IntArray
-    """Columns of `known`, in the order of the question's known contacts."""
+    """Columns of `known`, in the order of the question's known contacts; shape (contacts,)."""
 
 
 def checked_inputs(
@@ -110,12 +110,12 @@ def refuse_infinite(inputs: Inputs, block: slice) -> None:
         EstimationError: If there is one, with its place.
     """
     for name, columns, values in _arrays(inputs, block):
-        found = np.argwhere(np.isinf(values))
-        if len(found):
-            sample = block.start + int(found[0][0])
+        places = np.argwhere(np.isinf(values))
+        if len(places):
+            sample = block.start + int(places[0][0])
             raise EstimationError(
-                f"{name}: expected finite numbers, or NaN for a gap; {columns[found[0][1]]} is "
-                f"{values[tuple(found[0])]} in sample {sample}"
+                f"{name}: expected finite numbers, or NaN for a gap; {columns[places[0][1]]} is "
+                f"{values[tuple(places[0])]} in sample {sample}"
             )
 
 

@@ -61,17 +61,16 @@ def needs_of(question: Question, *, switched: Collection[str] = ()) -> Needs:
     return _needs(question, frozenset(switched))
 
 
-def required_joints_of(question: Question, *, switched: Collection[str] = ()) -> tuple[str, ...]:
+def required_joints_of(question: Question) -> tuple[str, ...]:
     """Name the joints whose motion the answer depends on.
 
     Args:
         question: The question.
-        switched: Contacts that are not there in every sample.
 
     Returns:
         Joints, each once, from the root outwards; leaders instead of joints that mimic.
     """
-    return needs_of(question, switched=switched).joints(question.tree)
+    return needs_of(question).joints(question.tree)
 
 
 def closed_form(question: Question, part: SubModel) -> bool:

@@ -121,7 +121,7 @@ def pick_samples(recording: Recording, source: Stream, interval: Interval) -> tu
         interval: The interval.
 
     Returns:
-        Indices of its samples with increasing stamps, and the number of all its samples.
+        Indices of its samples with increasing stamps, shape (k,), and the number of all its samples.
 
     Raises:
         RecordingError: If it lies outside the log, or no sample is left.
@@ -137,7 +137,7 @@ def pick_samples(recording: Recording, source: Stream, interval: Interval) -> tu
     inside = interval.holds(stamps)
     for other in recording.intervals:
         if other.use is Use.IGNORE:
-            inside &= (stamps < other.start_ns) | (stamps >= other.end_ns)
+            inside &= ~other.holds(stamps)
     usable = usable_samples(stamps)
     picked = usable[inside[usable]]
     if not len(picked):

@@ -28,8 +28,10 @@ def imu_streams(recording: Recording) -> tuple[str, ...]:
     Returns:
         Names of the streams; those of an orientation, which tells gravity alone, only where nothing tells more.
     """
-    told = {name: stream.signals.keys() & set(IMU_QUANTITIES) for name, stream in recording.streams.items()}
-    return tuple(name for name in told if told[name] - {"gravity"}) or tuple(name for name in told if told[name])
+    quantities = {name: stream.signals.keys() & set(IMU_QUANTITIES) for name, stream in recording.streams.items()}
+    return tuple(name for name in quantities if quantities[name] - {"gravity"}) or tuple(
+        name for name in quantities if quantities[name]
+    )
 
 
 def joints_to_support(model: RobotModel, recording: Recording, support: Support | MovingSupport) -> tuple[str, ...]:
@@ -79,23 +81,23 @@ def support_motion_at(
     if isinstance(support, Support):
         return RootMotion.fixed(support.gravity_direction, gravity=gravity)
     frame = imu_frame(model, recording, support)
-    found = _imu_signals(model, recording, support)
-    if "angular_velocity" not in found:
+    signals = _imu_signals(model, recording, support)
+    if "angular_velocity" not in signals:
         still = np.zeros((len(at_ns), 3))
         acceleration = (
-            _at(found["proper_acceleration"], at_ns) if "gravity" not in found else -_at(found["gravity"], at_ns)
+            _at(signals["proper_acceleration"], at_ns) if "gravity" not in signals else -_at(signals["gravity"], at_ns)
         )
         imu = RootMotion(proper_acceleration=acceleration, angular_velocity=still, angular_acceleration=still)
     else:
-        stream, signal = found["angular_velocity"]
+        stream, signal = signals["angular_velocity"]
         rate = (
-            _at(found["angular_acceleration"], at_ns)
-            if "angular_acceleration" in found
+            _at(signals["angular_acceleration"], at_ns)
+            if "angular_acceleration" in signals
             else interpolate(stream, smooth(stream.stamp_ns, signal.values, window, derivative=1), at_ns)
         )
         imu = RootMotion(
-            proper_acceleration=_at(found["proper_acceleration"], at_ns),
-            angular_velocity=_at(found["angular_velocity"], at_ns),
+            proper_acceleration=_at(signals["proper_acceleration"], at_ns),
+            angular_velocity=_at(signals["angular_velocity"], at_ns),
             angular_acceleration=rate,
         )
     return motion_of_link(build_tree(model, frame), joints, imu, support.frame)
@@ -131,33 +133,33 @@ def imu_frame(model: RobotModel, recording: Recording, support: MovingSupport) -
 
 
 def _imu_signals(model: RobotModel, recording: Recording, support: MovingSupport) -> dict[str, tuple[Stream, Signal]]:
-    found: dict[str, tuple[Stream, Signal]] = {}
+    signals: dict[str, tuple[Stream, Signal]] = {}
     for name in support.motion_streams:
         stream = recording.stream(name)
         for quantity in IMU_QUANTITIES:
             if quantity not in stream.signals:
                 continue
-            if quantity in found:
+            if quantity in signals:
                 raise RecordingError(
-                    f"support frame {support.frame!r}: {quantity} is in the streams {found[quantity][0].name!r} and "
+                    f"support frame {support.frame!r}: {quantity} is in the streams {signals[quantity][0].name!r} and "
                     f"{name!r}; keep one"
                 )
-            found[quantity] = (stream, stream.signals[quantity])
-    _require_complete(model, support, found)
-    return found
+            signals[quantity] = (stream, stream.signals[quantity])
+    _require_complete(model, support, signals)
+    return signals
 
 
-def _require_complete(model: RobotModel, support: MovingSupport, found: dict[str, tuple[Stream, Signal]]) -> None:
-    has: Sequence[str] = sorted(found)
+def _require_complete(model: RobotModel, support: MovingSupport, signals: dict[str, tuple[Stream, Signal]]) -> None:
+    has: Sequence[str] = sorted(signals)
     # what hangs on a wrist sensor has no joints: it is weighed in poses that are still, or nearly
     still = (
         ({"gravity"}, {"proper_acceleration"})
         if all(joint.type is JointType.FIXED for joint in model.joints.values())
         else ({"gravity"},)
     )
-    if set(found) in still:
+    if set(signals) in still:
         return
-    if "gravity" not in found and {"proper_acceleration", "angular_velocity"} <= set(found):
+    if "gravity" not in signals and {"proper_acceleration", "angular_velocity"} <= set(signals):
         return
     raise RecordingError(
         f"support frame {support.frame!r}: expected proper_acceleration and angular_velocity, or gravity alone, which "
@@ -166,6 +168,6 @@ def _require_complete(model: RobotModel, support: MovingSupport, found: dict[str
     )
 
 
-def _at(found: tuple[Stream, Signal], at_ns: IntArray) -> FloatArray:
-    stream, signal = found
+def _at(source: tuple[Stream, Signal], at_ns: IntArray) -> FloatArray:
+    stream, signal = source
     return interpolate(stream, signal.values, at_ns)

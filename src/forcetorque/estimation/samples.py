@@ -137,13 +137,13 @@ def sensor_samples(
     values = np.where(source.held[padded.rows, None], np.nan, reading.values[padded.rows])
     extra = _variables(recording, source, variables, at_ns)
     # together, because a sample that only one of them lacks would give them different filters
-    both = padded.smoothed(np.hstack([values, reference, flattening, extra]))
-    values, reference, flattening, extra = np.split(both, values.shape[1] + np.array([0, 6, 12]), axis=1)
-    complete = np.isfinite(both).all(axis=1)
+    whole = padded.smoothed(np.hstack([values, reference, flattening, extra]))
+    values, reference, flattening, extra = np.split(whole, values.shape[1] + np.array([0, 6, 12]), axis=1)
+    complete = np.isfinite(whole).all(axis=1)
     if not complete.any():
         needed = ", ".join((*joints, *(f"{v.stream} {v.column}" for v in variables))) or "motion of the support"
         raise RecordingError(
-            f"interval {interval.label!r}: none of {len(both)} samples of {stream!r} has both a reading and the "
+            f"interval {interval.label!r}: none of {len(whole)} samples of {stream!r} has both a reading and the "
             f"joint(s) {needed}; the streams have gaps or missing values all over it"
         )
     return SensorSamples(

@@ -111,5 +111,5 @@ def _finite(values: Any, name: str, shape: tuple[int | None, ...]) -> FloatArray
 
 def _contiguous(n: int, blocks: int) -> tuple[slice, ...]:
     """Divide samples as `numpy.array_split` does."""
-    each, longer = divmod(n, blocks)
-    return tuple(slice(*ends) for ends in pairwise(b * each + min(b, longer) for b in range(blocks + 1)))
+    shortest, longer = divmod(n, blocks)
+    return tuple(slice(*ends) for ends in pairwise(b * shortest + min(b, longer) for b in range(blocks + 1)))

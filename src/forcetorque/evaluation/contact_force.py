@@ -303,9 +303,9 @@ def _named(readings: Mapping[str, Any] | FloatArray, n: int) -> dict[str, FloatA
 
 
 def _refuse_infinite(candidate: str, reading: FloatArray) -> None:
-    found = np.argwhere(np.isinf(reading))
-    if len(found):
-        sample, component = found[0].tolist()
+    places = np.argwhere(np.isinf(reading))
+    if len(places):
+        sample, component = places[0].tolist()
         raise EstimationError(
             f"readings of {candidate!r}: expected finite numbers, or NaN for a gap; {WRENCH_COMPONENTS[component]} is "
             f"{reading[sample, component]} in sample {sample}"
@@ -317,8 +317,8 @@ def _contact_if_it_read_zero(
 ) -> FloatArray:
     """What the estimator finds at the contact if the judged sensor reads zero; shape (n, 6)."""
     readings = {validation.sensor: np.zeros((len(joints), 6)), **_others(validation, joints, root, measured)}
-    found = estimate(validation.contact_question, joints, root, measured=Wrenches.of(readings))
-    return found.contact(validation.point.name)
+    estimates = estimate(validation.contact_question, joints, root, measured=Wrenches.of(readings))
+    return estimates.contact(validation.point.name)
 
 
 def _others(
@@ -326,13 +326,13 @@ def _others(
 ) -> dict[str, FloatArray]:
     question = validation.expected_question
     if question is not None:
-        found = estimate(question, joints, root)
-        return {name: found.expected_of(name) for name in validation.others}
-    given = Wrenches(names=(), values=np.empty((len(joints), 0, 6))) if measured is None else measured
+        estimates = estimate(question, joints, root)
+        return {name: estimates.expected_of(name) for name in validation.others}
+    wrenches = Wrenches(names=(), values=np.empty((len(joints), 0, 6))) if measured is None else measured
     for name in validation.others:
-        if name not in given.names:
+        if name not in wrenches.names:
             raise EstimationError(
                 f"measured: reading of sensor {name!r}, which bounds sub-model {validation.part.name!r}, is missing; "
-                f"{known_names(name, given.names)}; if it has none, leave it out of cut_at, or take the mode model"
+                f"{known_names(name, wrenches.names)}; if it has none, leave it out of cut_at, or take the mode model"
             )
-    return {name: given.of_name(name) for name in validation.others}
+    return {name: wrenches.of_name(name) for name in validation.others}

@@ -149,7 +149,7 @@ def channel_ranges(
     require_shape(counts, name="counts", shape=(len(stream), len(channels)))
     if not len(counts) or not np.isfinite(counts).all():
         raise ShapeError(f"counts: expected at least one sample and no missing value, got {len(counts)} samples")
-    found = saturation_findings(stream, counts, limit_counts=limit_counts, recovered=recovered)
+    findings = saturation_findings(stream, counts, limit_counts=limit_counts, recovered=recovered)
     return tuple(
         ChannelRange(
             channel=channel,
@@ -157,7 +157,7 @@ def channel_ranges(
             smallest_counts=float(column.min()),
             largest_counts=float(column.max()),
             limit_counts=limit_counts,
-            saturated_samples=sum(finding.count for finding in found if finding.channel == f"ch{k}"),
+            saturated_samples=sum(finding.count for finding in findings if finding.channel == f"ch{k}"),
         )
         for k, (channel, column) in enumerate(zip(channels, counts.T, strict=True))
     )
@@ -196,7 +196,7 @@ def advise_gains(
     if any(not (gain > 0.0 and np.isfinite(gain)) for gain in (*(present or ()), *(allowed or ()))):
         raise ForceTorqueError("gains: expected finite numbers above 0")
     gains: Sequence[float | None] = [None] * len(ranges) if present is None else present
-    return tuple(_advice(seen, gain, allowed, margin) for seen, gain in zip(ranges, gains, strict=True))
+    return tuple(_advice(channel, gain, allowed, margin) for channel, gain in zip(ranges, gains, strict=True))
 
 
 def axis_resolution(matrix: FloatArray, *, factors: Sequence[float] | None = None) -> AxisResolution:
@@ -227,27 +227,27 @@ def strongest_samples(counts: FloatArray) -> tuple[IntArray, int]:
     return magnitudes.argmax(axis=0).astype(np.int64), int(np.linalg.norm(magnitudes, axis=1).argmax())
 
 
-def _advice(seen: ChannelRange, present: float | None, allowed: Sequence[float] | None, margin: float) -> GainAdvice:
-    free = (1.0 - margin) * seen.limit_counts
-    largest = free / seen.peak_counts if seen.peak_counts > 0.0 else None
+def _advice(channel: ChannelRange, present: float | None, allowed: Sequence[float] | None, margin: float) -> GainAdvice:
+    free = (1.0 - margin) * channel.limit_counts
+    largest = free / channel.peak_counts if channel.peak_counts > 0.0 else None
     recommended = None
     if present is not None and allowed:
-        recommended = _choose(seen, present, allowed, largest)
+        recommended = _choose(channel, present, allowed, largest)
         factor = 1.0 if recommended is None else recommended / present
-        change = GainChange.NONE_FITS if recommended is None else _change(seen, recommended, present)
+        change = GainChange.NONE_FITS if recommended is None else _change(channel, recommended, present)
     else:
         factor = 1.0 if largest is None else largest
-        change = _change(seen, factor, 1.0)
+        change = _change(channel, factor, 1.0)
     expected = ChannelRange(
-        channel=seen.channel,
-        samples=seen.samples,
-        smallest_counts=seen.smallest_counts * factor,
-        largest_counts=seen.largest_counts * factor,
-        limit_counts=seen.limit_counts,
-        saturated_samples=0 if factor < 1.0 else seen.saturated_samples,
+        channel=channel.channel,
+        samples=channel.samples,
+        smallest_counts=channel.smallest_counts * factor,
+        largest_counts=channel.largest_counts * factor,
+        limit_counts=channel.limit_counts,
+        saturated_samples=0 if factor < 1.0 else channel.saturated_samples,
     )
     return GainAdvice(
-        channel=seen.channel,
+        channel=channel.channel,
         present=present,
         recommended=recommended,
         largest_factor=largest,
@@ -258,19 +258,19 @@ def _advice(seen: ChannelRange, present: float | None, allowed: Sequence[float] 
     )
 
 
-def _choose(seen: ChannelRange, present: float, allowed: Sequence[float], largest: float | None) -> float | None:
+def _choose(channel: ChannelRange, present: float, allowed: Sequence[float], largest: float | None) -> float | None:
     """The largest gain that keeps the margin, else the lowest if that helps."""
     if largest is None:
         return present  # a channel that reads nothing says nothing about its gain
     lower = [gain for gain in allowed if gain < present]
-    candidates = lower if seen.saturated_samples else [*allowed, present]
+    candidates = lower if channel.saturated_samples else [*allowed, present]
     fitting = [gain for gain in candidates if gain <= present * largest * (1.0 + _ROUNDING)]
     return max(fitting) if fitting else min(lower, default=None)
 
 
-def _change(seen: ChannelRange, wanted: float, present: float) -> GainChange:
-    if seen.saturated_samples:
+def _change(channel: ChannelRange, recommended: float, present: float) -> GainChange:
+    if channel.saturated_samples:
         return GainChange.LOWER_AND_REPEAT
-    if wanted == present:
+    if recommended == present:
         return GainChange.KEEP
-    return GainChange.RAISE if wanted > present else GainChange.LOWER
+    return GainChange.RAISE if recommended > present else GainChange.LOWER

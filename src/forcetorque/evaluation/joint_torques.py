@@ -93,9 +93,9 @@ class TorqueMap:
         Returns:
             Change of the torques along +q; shape (n, joints); N m, N where prismatic.
         """
-        given = np.asarray(wrench, dtype=np.float64)
-        require_shape(given, name="wrench", shape=(len(self.rows), 6))
-        torques: FloatArray = np.einsum("nji,ni->nj", self.rows, given)
+        wrenches = np.asarray(wrench, dtype=np.float64)
+        require_shape(wrenches, name="wrench", shape=(len(self.rows), 6))
+        torques: FloatArray = np.einsum("nji,ni->nj", self.rows, wrenches)
         return torques
 
 
@@ -167,14 +167,14 @@ def torque_errors(errors: Any, time_s: Any) -> TorqueErrors:
     Raises:
         ShapeError: If the shape is another, or every sample has a gap.
     """
-    given = np.asarray(errors, dtype=np.float64)
-    require_shape(given, name="errors", shape=(None,))
+    samples = np.asarray(errors, dtype=np.float64)
+    require_shape(samples, name="errors", shape=(None,))
     time = np.asarray(time_s, dtype=np.float64)
-    require_shape(time, name="time_s", shape=(len(given),))
-    complete = ~np.isnan(given)
-    whole = given[complete]
+    require_shape(time, name="time_s", shape=(len(samples),))
+    complete = ~np.isnan(samples)
+    whole = samples[complete]
     if not len(whole):
-        raise ShapeError(f"errors: expected at least one sample without a gap, got none among {len(given)}")
+        raise ShapeError(f"errors: expected at least one sample without a gap, got none among {len(samples)}")
     square = float(np.mean(whole**2))
     rmse = float(np.sqrt(square))
     known = mean_error(np.column_stack([whole, whole**2]), time[complete])

@@ -15,10 +15,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from forcetorque.arrays import BoolArray, FloatArray, IntArray
+from forcetorque.constants import MAD_TO_DEVIATION
 from forcetorque.errors import ShapeError
 from forcetorque.recording import Finding
 from forcetorque.recording.quality import spans
-from forcetorque.spatial import WRENCH_COMPONENTS, WRENCH_UNITS
+from forcetorque.spatial import FORCE_AND_MOMENT, WRENCH_COMPONENTS, WRENCH_UNITS
 
 LOAD_SHARE = 0.1
 """Part of the limb's load on the sensor that makes a residual worth a line."""
@@ -33,8 +34,6 @@ OUTLIER_SCATTERS = 12.0
 
 _SMOOTH_S, _LEVEL_S, _EDGE_S, _MERGE_S, _SHORTEST_S = 0.5, 1.0, 0.25, 1.0, 0.5
 _LONGEST_OUTLIER = 3
-_ROBUST = 1.4826
-"""Standard deviation of a normal distribution over its median absolute deviation."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -91,7 +90,7 @@ def model_findings(
         )
     residual = _residual(stream, stamp_ns, measured, expected, in_use)
     carried, weight = _carried(residual, expected), np.linalg.norm(expected[:, :3], axis=1)
-    usual = CONTACT_SCATTERS * _ROBUST * float(np.median(np.abs(carried[in_use])))
+    usual = CONTACT_SCATTERS * MAD_TO_DEVIATION * float(np.median(np.abs(carried[in_use])))
     contacts = _merged(residual, carried > np.maximum(LOAD_SHARE * weight, usual))
     free = np.ones(len(stamp_ns), dtype=bool)
     for first, last in contacts:
@@ -115,10 +114,8 @@ def _residual(
     rate_hz = 1e9 / float(np.median(np.diff(stamp_ns))) if len(stamp_ns) > 1 else 1.0
     size = max(1, round(_SMOOTH_S * rate_hz))
     smooth: FloatArray = median_filter(values, size=(size, 1), mode="nearest")
-    scatter = _ROBUST * np.median(np.abs(smooth[in_use]), axis=0)
-    load = np.repeat(
-        [np.percentile(np.linalg.norm(expected[:, part], axis=1), 95) for part in (slice(0, 3), slice(3, 6))], 3
-    )
+    scatter = MAD_TO_DEVIATION * np.median(np.abs(smooth[in_use]), axis=0)
+    load = np.repeat([np.percentile(np.linalg.norm(expected[:, part], axis=1), 95) for part in FORCE_AND_MOMENT], 3)
     return _Residual(
         stream=stream,
         stamp_ns=stamp_ns,
@@ -159,26 +156,26 @@ def _is_firm(residual: _Residual, expected: FloatArray, first: int, last: int) -
 
 def _contact_findings(residual: _Residual, contacts: Sequence[tuple[int, int]], expected: FloatArray) -> list[Finding]:
     carried = _carried(residual, expected)
-    found = []
+    findings = []
     for first, last in contacts:
         largest = float(carried[first : last + 1].max())
         if _is_firm(residual, expected, first, last):
             kind, text = "contact", "the limb touches something, which carries part of its weight"
         else:
             kind, text = "light_contact", "the limb is lifted a little: a light contact, or a step of the sensor"
-        found.append(residual.finding(kind, text, first, last, None, largest))
-    return found
+        findings.append(residual.finding(kind, text, first, last, None, largest))
+    return findings
 
 
 def _off_level(residual: _Residual, free: BoolArray) -> list[Finding]:
-    found = []
+    findings = []
     for axis, name in enumerate(WRENCH_COMPONENTS):
         far = (np.abs(residual.smooth[:, axis]) > residual.limit[axis]) & free
         for first, last in _merged(residual, far):
             level = float(np.median(residual.values[first : last + 1, axis]))
             text = f"{name} is off the level of the samples in use"
-            found.append(residual.finding("off_level", text, first, last, axis, level))
-    return found
+            findings.append(residual.finding("off_level", text, first, last, axis, level))
+    return findings
 
 
 def _steps(residual: _Residual, free: BoolArray) -> list[Finding]:
@@ -187,9 +184,9 @@ def _steps(residual: _Residual, free: BoolArray) -> list[Finding]:
 
     width = residual.samples(_LEVEL_S)
     shift = width // 2 + residual.samples(_EDGE_S)
-    found: list[Finding] = []
+    findings: list[Finding] = []
     if len(free) <= 2 * shift:
-        return found
+        return findings
     levels = median_filter(residual.values, size=(width, 1), mode="nearest")
     away = binary_erosion(
         free, structure=np.ones(2 * shift + 1, dtype=np.bool_), border_value=1
@@ -200,16 +197,16 @@ def _steps(residual: _Residual, free: BoolArray) -> list[Finding]:
         # a repeated edge sample is no level; and where a wrong prior makes levels wander, only the sudden counts
         margin = shift + width // 2
         change[:margin] = change[len(change) - margin :] = 0.0
-        usual = _ROBUST * float(np.median(np.abs(change[residual.in_use])))
+        usual = MAD_TO_DEVIATION * float(np.median(np.abs(change[residual.in_use])))
         limit = max(residual.least[axis], SCATTERS * usual)
         change[~away] = 0.0
         while np.abs(change).max() > limit:
             peak = int(np.argmax(np.abs(change)))
             at = _steepest(residual, axis, peak, shift, float(np.sign(change[peak])))
             text = f"{name} steps against the model"
-            found.append(residual.finding("step", text, at, at, axis, float(change[peak])))
+            findings.append(residual.finding("step", text, at, at, axis, float(change[peak])))
             change[max(0, peak - 2 * shift) : peak + 2 * shift + 1] = 0.0
-    return sorted(found, key=lambda finding: finding.start_ns or 0)
+    return sorted(findings, key=lambda finding: finding.start_ns or 0)
 
 
 def _steepest(residual: _Residual, axis: int, peak: int, shift: int, sign: float) -> int:
@@ -224,8 +221,8 @@ def _steepest(residual: _Residual, axis: int, peak: int, shift: int, sign: float
 
 def _outliers(residual: _Residual, free: BoolArray) -> list[Finding]:
     quick = residual.values - residual.smooth
-    scatter = _ROBUST * np.median(np.abs(quick[residual.in_use]), axis=0)
-    found: list[Finding] = []
+    scatter = MAD_TO_DEVIATION * np.median(np.abs(quick[residual.in_use]), axis=0)
+    findings: list[Finding] = []
     for axis, name in enumerate(WRENCH_COMPONENTS):
         limit = max(OUTLIER_SCATTERS * scatter[axis], residual.limit[axis])
         runs = [run for run in spans((np.abs(quick[:, axis]) > limit) & free) if run[1] - run[0] < _LONGEST_OUTLIER]
@@ -233,5 +230,5 @@ def _outliers(residual: _Residual, free: BoolArray) -> list[Finding]:
             largest = max(runs, key=lambda run: float(np.abs(quick[run[0], axis])))
             size = float(quick[largest[0], axis])
             text = f"{len(runs)} outlier(s) of {name} of at most {_LONGEST_OUTLIER} samples, the largest here"
-            found.append(residual.finding("outlier", text, *largest, axis, size))
-    return found
+            findings.append(residual.finding("outlier", text, *largest, axis, size))
+    return findings

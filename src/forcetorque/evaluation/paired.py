@@ -18,6 +18,7 @@ import numpy as np
 from forcetorque.arrays import FloatArray, require_shape
 from forcetorque.errors import ShapeError
 from forcetorque.evaluation.autocorrelation import autocorrelation
+from forcetorque.spatial import FORCE, MOMENT
 
 CONFIDENCE = 0.95
 """Probability with which the interval holds the ratio: one side of it is passed by chance half as often as 1 in 20,
@@ -90,13 +91,13 @@ class PairedErrors:
         Raises:
             ShapeError: If the shapes are not these.
         """
-        wanted = np.asarray(reference, dtype=np.float64)
-        require_shape(wanted, name="reference", shape=(None, 6))
+        truth = np.asarray(reference, dtype=np.float64)
+        require_shape(truth, name="reference", shape=(None, 6))
         errors = []
         for name, given in (("first", first), ("second", second)):
             values = np.asarray(given, dtype=np.float64)
-            require_shape(values, name=name, shape=wanted.shape)
-            errors.append(values - wanted)
+            require_shape(values, name=name, shape=truth.shape)
+            errors.append(values - truth)
         whole = np.isfinite(errors[0]).all(axis=1) & np.isfinite(errors[1]).all(axis=1)
         return cls(first=errors[0][whole], second=errors[1][whole])
 
@@ -151,8 +152,8 @@ def compare_errors(recordings: Sequence[PairedErrors]) -> PairedComparison:
         raise ShapeError("expected at least one sample in which everything is finite, got none")
     return PairedComparison(
         count=sum(len(recording.first) for recording in whole),
-        force=_ratio(whole, slice(0, 3)),
-        moment=_ratio(whole, slice(3, 6)),
+        force=_ratio(whole, FORCE),
+        moment=_ratio(whole, MOMENT),
     )
 
 

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from forcetorque.arrays import FloatArray, require_shape
+from forcetorque.constants import MAD_TO_DEVIATION
 from forcetorque.errors import SensorError, ShapeError
 from forcetorque.evaluation.static_checks import matrix_condition
 from forcetorque.result import FloatOrNull, Row
@@ -16,8 +17,6 @@ from forcetorque.spatial import WRENCH_COMPONENTS
 
 LEAST_POPULATION = 5
 """Fewer sensors than this say nothing about the next one."""
-_MAD_TO_DEVIATION = 1.4826
-"""Standard deviation over median absolute deviation of a normal distribution."""
 
 
 class FeaturePosition(Row):
@@ -108,7 +107,7 @@ def position_in_population(matrix: FloatArray, population: Mapping[str, FloatArr
     return PopulationPosition(
         count=len(population),
         features=tuple(
-            _position(name, value, np.array([each[name] for each in theirs])) for name, value in mine.items()
+            _position(name, value, np.array([elements[name] for elements in theirs])) for name, value in mine.items()
         ),
     )
 
@@ -125,7 +124,7 @@ def _unit_rows(matrix: FloatArray) -> FloatArray:
 
 def _position(name: str, value: float, others: FloatArray) -> FeaturePosition:
     median = float(np.median(others))
-    deviation = _MAD_TO_DEVIATION * float(np.median(np.abs(others - median)))
+    deviation = MAD_TO_DEVIATION * float(np.median(np.abs(others - median)))
     return FeaturePosition(
         feature=name,
         value=value,

@@ -10,6 +10,7 @@ from typing import Final
 import numpy as np
 
 from forcetorque.arrays import FloatArray
+from forcetorque.spatial import FORCE_AND_MOMENT
 
 PUSH_N: Final = 50.0
 """Force of a push; N."""
@@ -67,5 +68,5 @@ def push_error(matrix: FloatArray, truth: FloatArray) -> PushError:
         Its mean errors; offsets are no matter.
     """
     error = pushes() @ (matrix @ np.linalg.pinv(truth) - np.eye(6)).T
-    force, moment = (float(np.linalg.norm(error[:, part], axis=1).mean()) for part in (slice(3), slice(3, 6)))
+    force, moment = (float(np.linalg.norm(error[:, part], axis=1).mean()) for part in FORCE_AND_MOMENT)
     return PushError(force_N=force, moment_Nm=moment)

@@ -105,14 +105,14 @@ def errors_from_zero(wrenches: Any, time_s: Any) -> WrenchErrors:
     Raises:
         ShapeError: If the shape is another, or every sample has a gap.
     """
-    given = np.asarray(wrenches, dtype=np.float64)
-    require_shape(given, name="wrenches", shape=(None, 6))
+    samples = np.asarray(wrenches, dtype=np.float64)
+    require_shape(samples, name="wrenches", shape=(None, 6))
     time = np.asarray(time_s, dtype=np.float64)
-    require_shape(time, name="time_s", shape=(len(given),))
-    complete = ~np.isnan(given).any(axis=1)
+    require_shape(time, name="time_s", shape=(len(samples),))
+    complete = ~np.isnan(samples).any(axis=1)
     if not complete.any():
-        raise ShapeError(f"wrenches: expected at least one sample without a gap, got none among {len(given)}")
-    return wrench_errors(given[complete], np.zeros((int(complete.sum()), 6)), time[complete])
+        raise ShapeError(f"wrenches: expected at least one sample without a gap, got none among {len(samples)}")
+    return wrench_errors(samples[complete], np.zeros((int(complete.sum()), 6)), time[complete])
 
 
 def offset_removed(measured: Any, reference: Any) -> FloatArray:

@@ -36,7 +36,7 @@ def read_contacts(
         ExperimentError: If a frame, stream or interval is not there, or a name comes twice.
     """
     labels = [interval.label for interval in recording.intervals]
-    found: list[ExperimentContact] = []
+    contacts: list[ExperimentContact] = []
     for index, entry in enumerate(parsed.contact):
         where = f"{file}: contact[{index}]"
         for label in entry.intervals or ():
@@ -50,15 +50,15 @@ def read_contacts(
             _require_link(contact, model)
             if entry.stream is not None:
                 _require_wrench(entry.stream, entry.frame, recording)
-        if contact.name in [earlier.contact.name for earlier in found]:
+        if contact.name in [earlier.contact.name for earlier in contacts]:
             raise ExperimentError(f"{where}: the contact {contact.name!r} is listed twice; give each its own name")
         noise, deviation = (None if v is None else np.array(v) for v in (entry.wrench_noise, entry.wrench_deviation))
-        found.append(
+        contacts.append(
             ExperimentContact(
                 contact=contact, stream=entry.stream, intervals=entry.intervals, noise=noise, deviation=deviation
             )
         )
-    return (*found, *_touched_beside(parsed, found))
+    return (*contacts, *_touched_beside(parsed, contacts))
 
 
 def _touched_beside(parsed: schema.ExperimentFile, stated: Sequence[ExperimentContact]) -> Iterator[ExperimentContact]:

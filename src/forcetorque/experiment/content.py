@@ -299,7 +299,7 @@ class Experiment:
         Raises:
             ExperimentError: If there is none.
         """
-        found = tuple(interval for interval in self.recording.intervals if interval.use is use)
-        if not found:
+        chosen = tuple(interval for interval in self.recording.intervals if interval.use is use)
+        if not chosen:
             raise ExperimentError(f'experiment {self.name!r}: expected an interval with use = "{use}", it has none')
-        return found
+        return chosen

@@ -43,8 +43,8 @@ class Inputs:
         """
         path = self.folder / relative
         for pattern in patterns:
-            for found in sorted(path.glob(pattern)):
-                self._read[(relative / found.name).as_posix()] = found
+            for file in sorted(path.glob(pattern)):
+                self._read[(relative / file.name).as_posix()] = file
         return path
 
     def names(self) -> frozenset[str]:

@@ -82,7 +82,7 @@ def read_intervals(
     """
     with stated_in(f"{file}: recording"):
         start, end = recording.span_ns
-    found = []
+    intervals = []
     for index, span in enumerate(parsed.interval):
         where = f"{file}: interval[{index}] {span.label!r}"
         if span.support is not None and span.support not in supports:
@@ -98,9 +98,9 @@ def read_intervals(
                 use=span.use,
                 support=_support(span, supports, recording, model, loads),
             )
-        found.append(interval)
-    refuse_overlap(file, found)
-    return found
+        intervals.append(interval)
+    refuse_overlap(file, intervals)
+    return intervals
 
 
 def _support(

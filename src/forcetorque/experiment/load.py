@@ -27,6 +27,8 @@ from forcetorque.experiment.skin.patches import skin_of_robot
 from forcetorque.experiment.skin.skin_alone import links_side_by_side, skin_frames_of
 from forcetorque.experiment.soles import read_soles
 from forcetorque.experiment.streams import read_streams
+from forcetorque.experiment.tables.calibration import CalibrationTable
+from forcetorque.experiment.tables.processing import ProcessingTable
 from forcetorque.recording import MovingSupport, Recording, SavitzkyGolay, Support, Use
 from forcetorque.robot import RobotModel
 from forcetorque.spatial import Inertia
@@ -224,7 +226,7 @@ def _of_wrist(parsed: schema.ExperimentFile, file: Path) -> Experiment:
     )
 
 
-def processing_of(table: schema.ProcessingTable, *, gravity: float) -> Processing:
+def processing_of(table: ProcessingTable, *, gravity: float) -> Processing:
     """Settle how samples are processed.
 
     Args:
@@ -246,7 +248,7 @@ def processing_of(table: schema.ProcessingTable, *, gravity: float) -> Processin
     )
 
 
-def fit_options(table: schema.CalibrationTable) -> FitOptions:
+def fit_options(table: CalibrationTable) -> FitOptions:
     """Settle the estimator.
 
     Args:

@@ -22,14 +22,17 @@ from forcetorque.experiment.plan_limits import read_plan
 from forcetorque.experiment.prior import full_scale_of, read_prior
 from forcetorque.experiment.recipes.recipes import read_robot
 from forcetorque.experiment.sensors import declare_sensors
+from forcetorque.experiment.tables.calibration import CalibrationTable
 from forcetorque.experiment.tables.load_case import LoadCaseTable
 from forcetorque.experiment.tables.plan import PlanTable
+from forcetorque.experiment.tables.processing import ProcessingTable
+from forcetorque.experiment.tables.sensor import Sensor
 from forcetorque.recording import Recording, ScalarSource, Support
 from forcetorque.robot import RobotModel
 from forcetorque.toml_table import Table, Text, read_toml
 
 
-class PlannedSensor(schema.Sensor):
+class PlannedSensor(Sensor):
     """A sensor of which nothing was recorded yet."""
 
     stream: Text = "none"
@@ -49,9 +52,9 @@ class PlannedFile(Table):
     """Sensors."""
     support: Annotated[tuple[schema.Support, ...], Field(min_length=1)]
     """Support frames."""
-    processing: schema.ProcessingTable = schema.ProcessingTable()
+    processing: ProcessingTable = ProcessingTable()
     """How samples will be processed."""
-    calibration: schema.CalibrationTable = schema.CalibrationTable()
+    calibration: CalibrationTable = CalibrationTable()
     """How the sensor will be fitted."""
     load_case: tuple[LoadCaseTable, ...] = ()
     """What the sensors are to be used for."""

@@ -12,11 +12,11 @@ from forcetorque.arrays import FloatArray
 from forcetorque.errors import ExperimentError
 from forcetorque.exchange.icub import serial_number_in_name
 from forcetorque.exchange.prior import PriorFile, RawUnit, StatedUnits, read_prior_file
-from forcetorque.experiment import schema
 from forcetorque.experiment.inputs import Inputs, stated_in
+from forcetorque.experiment.tables.sensor import PriorTable, Sensor
 
 IDENTITY = "identity"
-"""Prior of a sensor whose calibrated reading takes the place of counts."""
+"""Prior of a sensor whose calibrated reading, a wrench already, takes the place of counts."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -31,7 +31,7 @@ class StatedPrior:
     """Full scale that a maker states; shape (6,); N, N m; None to take it from the counts that a channel can have."""
 
 
-def read_prior(where: str, entry: schema.Sensor, inputs: Inputs) -> StatedPrior | None:
+def read_prior(where: str, entry: Sensor, inputs: Inputs) -> StatedPrior | None:
     """Read the prior matrix of a sensor.
 
     Args:
@@ -49,7 +49,7 @@ def read_prior(where: str, entry: schema.Sensor, inputs: Inputs) -> StatedPrior 
         return None
     if entry.prior == IDENTITY:
         return StatedPrior(matrix=np.eye(6), source=IDENTITY)
-    stated = entry.prior if isinstance(entry.prior, schema.PriorTable) else schema.PriorTable(path=Path(entry.prior))
+    stated = entry.prior if isinstance(entry.prior, PriorTable) else PriorTable(path=Path(entry.prior))
     with stated_in(where):
         units = StatedUnits(force=stated.force_unit, moment=stated.moment_unit)
         _require_serial(serial_number_in_name(stated.path), entry, stated.path)
@@ -65,7 +65,7 @@ def read_prior(where: str, entry: schema.Sensor, inputs: Inputs) -> StatedPrior 
     )
 
 
-def full_scale_of(entry: schema.Sensor, prior: StatedPrior | None) -> FloatArray | None:
+def full_scale_of(entry: Sensor, prior: StatedPrior | None) -> FloatArray | None:
     """Give the full scale of a sensor.
 
     Args:
@@ -80,7 +80,7 @@ def full_scale_of(entry: schema.Sensor, prior: StatedPrior | None) -> FloatArray
     return None if prior is None else prior.full_scale
 
 
-def _require_serial(serial: str | None, entry: schema.Sensor, path: Path) -> None:
+def _require_serial(serial: str | None, entry: Sensor, path: Path) -> None:
     if serial is not None and serial != entry.serial:
         raise ExperimentError(
             f"expected the prior matrix of the sensor {entry.serial!r}, got that of {serial!r} ({path}); every sensor "
@@ -88,7 +88,7 @@ def _require_serial(serial: str | None, entry: schema.Sensor, path: Path) -> Non
         )
 
 
-def _volts_per_count(file: PriorFile, stated: schema.PriorTable) -> float:
+def _volts_per_count(file: PriorFile, stated: PriorTable) -> float:
     """What makes the matrix per count."""
     if file.raw_unit is RawUnit.WRENCH:
         raise ExperimentError(

@@ -4,38 +4,32 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import Annotated, Literal
 
 from pydantic import (
-    BeforeValidator,
-    Discriminator,
     Field,
-    Tag,
-    WithJsonSchema,
     model_validator,
 )
 from pydantic_core import PydanticCustomError
 
 from forcetorque.array_field import ArrayField
 from forcetorque.arrays import FloatArray
-from forcetorque.calibration import ESTIMATION_TYPES, GENERATIVE, OffsetStrategy
-from forcetorque.calibration.generative import REPEATABILITY
 from forcetorque.constants import STANDARD_GRAVITY
-from forcetorque.errors import known_names
 from forcetorque.estimation import ContactType
 from forcetorque.exchange.formats import AnyLog
+from forcetorque.experiment.tables.calibration import CalibrationTable
 from forcetorque.experiment.tables.fusion import FusionTable, MotorTable
 from forcetorque.experiment.tables.link_load import AnyLoad, LinkLoad, require_link_loads
 from forcetorque.experiment.tables.load_case import LoadCaseTable
 from forcetorque.experiment.tables.plan import PlanTable
+from forcetorque.experiment.tables.processing import ProcessingTable
 from forcetorque.experiment.tables.recipes import ClockTable, TransformTable
+from forcetorque.experiment.tables.sensor import Sensor
 from forcetorque.experiment.tables.six_axes import SixPositive
 from forcetorque.experiment.tables.soles import SoleTable
 from forcetorque.experiment.tables.wrist import Load, OneOrSeveral, require_loads_of, require_one_sensor
 from forcetorque.recording import Use
-from forcetorque.robot import SensorFrame
-from forcetorque.spatial import MeasureDirection
-from forcetorque.toml_table import Finite, NotNegative, Positive, Table, Text
+from forcetorque.toml_table import Finite, Positive, Table, Text
 
 
 class Robot(Table):
@@ -47,107 +41,6 @@ class Robot(Table):
     """Joints that nobody logged and that stand still all along, by name: rad, or m where prismatic."""
     gravity: Positive = STANDARD_GRAVITY
     """Magnitude of gravity; m/s2."""
-
-
-class Variable(Table):
-    """Something beside the load that moves the reading of a sensor, such as its temperature."""
-
-    name: Text
-    """Name, unique for the sensor."""
-    stream: Text | None = None
-    """Stream that holds it; that of the sensor if left out."""
-    quantity: Text = "temperature"
-    """Quantity of the stream."""
-    column: Text | None = None
-    """Column of the quantity; needed where it has several."""
-    reference_value: Finite | None = None
-    """Value at which it contributes nothing; that of the first fitted sample if left out."""
-    prior_coefficients: Annotated[FloatArray, ArrayField((6,))] | None = None
-    """Coefficients that are expected; N, N m per unit; about none if left out, and not penalised by a thesis' type."""
-    prior_deviation: Annotated[tuple[Positive, ...], Field(min_length=6, max_length=6)] | None = None
-    """How far they may be from these; N, N m per unit; if left out 0.5 % of full scale per degree, and for another unit
-    one full scale over the range that was seen."""
-
-
-def _word_or_table(value: Any) -> str:
-    return "word" if isinstance(value, str | Path) else "table"
-
-
-class PriorTable(Table):
-    """A file with a calibration, and what it does not say itself."""
-
-    path: Path
-    """The file."""
-    force_unit: Text | None = None
-    """Unit of the forces of a plain table, such as N."""
-    moment_unit: Text | None = None
-    """Unit of the moments of a plain table, such as N m."""
-    volts_per_count: Positive | None = None
-    """Of a matrix per volt, what one count of the log is worth: span of the converter over its steps; 1 for a log in
-    volts."""
-
-
-class Sensor(Table):
-    """A force-torque sensor to calibrate or evaluate."""
-
-    name: Text
-    """Name of the URDF's sensor tag; with `joint`, the name to give a sensor that has no tag."""
-    stream: Text
-    """Stream of the recording that holds its reading."""
-    serial: Text
-    """Serial number."""
-    prior: (
-        Annotated[
-            Annotated[PriorTable, Tag("table")] | Annotated[Literal["identity"] | Path, Tag("word")],
-            Discriminator(_word_or_table),
-        ]
-        | None
-    ) = None
-    """File of the calibration that the sensor came with, and whose counts a calibrated stream recovers: a matrix file
-    of iCub, .dat of FirmwareUpdater, .cal of ATI, or a plain table; `identity` if that matrix is not known: the
-    calibrated reading then takes the place of counts."""
-    limit_counts: Positive = 32767.0
-    """Largest magnitude of a raw reading; counts."""
-    full_scale: SixPositive | None = None
-    """Full scale of fx, fy, fz, tx, ty, tz; N, N m; needed with the prior `identity`, which says nothing of sizes."""
-    reading_noise: SixPositive | None = None
-    """Standard deviation by which a reading differs from sample to sample; N, N m; for `estimate --fuse`."""
-    reading_deviation: SixPositive | None = None
-    """Standard deviation of what a reading is off all along, such as by its offset; N, N m; for `estimate --fuse`."""
-    amplifier_gain: Annotated[tuple[Positive, ...], Field(min_length=1)] | None = None
-    """Gain of the amplifier of each channel while it was recorded, for `forcetorque gains`."""
-    allowed_gains: Annotated[tuple[Positive, ...], Field(min_length=1)] | None = None
-    """Gains that its amplifiers can be set to."""
-    variable: tuple[Variable, ...] = ()
-    """Linear variables that may be fitted with the matrix."""
-    joint: Text | None = None
-    """Fixed joint of a sensor without a tag."""
-    measure_direction: MeasureDirection | None = None
-    """Who acts on whom, for a sensor without a tag."""
-    frame: SensorFrame | None = None
-    """`child` or `parent`, for a sensor without a tag; child if left out."""
-
-    @model_validator(mode="after")
-    def _untagged_is_complete(self) -> Sensor:
-        if self.joint is None and (self.measure_direction or self.frame):
-            raise PydanticCustomError(
-                "tag_rules", "measure_direction and frame are for a sensor without a URDF tag, which also needs joint"
-            )
-        if self.joint is not None and self.measure_direction is None:
-            raise PydanticCustomError(
-                "direction_missing",
-                "a sensor without a URDF tag needs measure_direction, child_to_parent or parent_to_child; "
-                "it is never guessed",
-            )
-        return self
-
-    @model_validator(mode="after")
-    def _allowed_gains_need_the_present_ones(self) -> Sensor:
-        if self.allowed_gains is not None and self.amplifier_gain is None:
-            raise PydanticCustomError(
-                "gain_missing", "allowed_gains needs amplifier_gain, the gains with which the recording was made"
-            )
-        return self
 
 
 class Patch(Table):
@@ -274,100 +167,6 @@ class Interval(Table):
                 "expected support or touched, got both; other links than the support are [[contact]]",
             )
         return self
-
-
-class Smoothing(Table):
-    """A Savitzky-Golay filter."""
-
-    window_s: Positive
-    """Length of the window; s."""
-    order: Annotated[int, Field(ge=0, strict=True)]
-    """Order of the polynomial."""
-
-
-class ProcessingTable(Table):
-    """How logged samples become reading and reference."""
-
-    derivatives: Annotated[
-        Annotated[Smoothing, Tag("table")] | Annotated[Literal["logged"], Tag("word")],
-        Discriminator(_word_or_table),
-    ] = Smoothing(window_s=0.3, order=3)
-    """Filter that differentiates joint positions, or `logged` to take velocity and acceleration from the log."""
-    smoothing: Smoothing | None = None
-    """Filter of reading and reference alike inside each interval, against vibration; none if left out."""
-
-
-def _lambda(value: Any) -> Any:
-    if isinstance(value, str) and value != "held-out":
-        raise PydanticCustomError("lambda_word", "expected a number of at least 0 counts2 or `held-out`")
-    return None if value == "held-out" else value
-
-
-class Accuracy(Table):
-    """Standard deviation of what neither model nor averaging takes away."""
-
-    force_N: NotNegative
-    """Of every force; N."""
-    moment_Nm: NotNegative
-    """Of every moment; N m."""
-
-
-class CalibrationTable(Table):
-    """How the sensor is fitted: by the generative model, or by a type of the thesis where one is asked for."""
-
-    accuracy: Accuracy | None = None
-    """Accuracy of the reference; 1e-3 of full scale if left out."""
-    repeatability: Annotated[float, Field(ge=0.0, lt=1.0, strict=True)] = REPEATABILITY
-    """Share of its response by which the sensor differs from one motion to the next (creep, hysteresis)."""
-    drift: bool = False
-    """Whether the offset of a session may move evenly in time."""
-    nonlinear: bool = False
-    """Whether quadratic terms may correct readings; they do where they win on recordings that were not fitted."""
-
-    lambda_counts2: Annotated[
-        Annotated[float, Field(ge=0.0, strict=True)] | None,
-        BeforeValidator(_lambda),
-        WithJsonSchema({"anyOf": [{"type": "number", "minimum": 0}, {"const": "held-out"}]}),
-    ] = None
-    """Lambda in the convention of thesis (5.4); `held-out` to choose it on held-out blocks."""
-    type: Annotated[str, Field(json_schema_extra={"enum": [GENERATIVE, *ESTIMATION_TYPES]})] | None = None
-    """`generative`, the default, or an estimation type by its name in the thesis, such as OwTrTO; in place of the next
-    three, any of which stands for a thesis' type too, as does lambda."""
-    offset: OffsetStrategy | None = None
-    """How the offset is found: one-shot, the default, gives the same as centralised; sphere needs a grid motion."""
-    with_variables: bool | None = None
-    """Whether the variables of the sensors are fitted; by default where there are any."""
-    from_reference: bool | None = None
-    """Whether variables count from their reference value, the default, or from zero."""
-    sphere_intervals: Annotated[tuple[Text, ...], Field(min_length=1)] | None = None
-    """Labels of the grid motions that give the offset of the sphere types; may be left out if there is one interval."""
-
-    @model_validator(mode="after")
-    def _by_name_or_by_options(self) -> CalibrationTable:
-        plain = (self.offset, self.with_variables, self.from_reference)
-        if self.type is not None and any(option is not None for option in plain):
-            raise PydanticCustomError(
-                "type_twice", "type stands for offset, with_variables and from_reference; give the one or the others"
-            )
-        types = (GENERATIVE, *ESTIMATION_TYPES)
-        if self.type is not None and self.type not in types:
-            message = f"no estimation type is called {self.type!r}; {known_names(self.type, types)}"
-            raise PydanticCustomError("type_name", "{message}", {"message": message})
-        if self.with_variables is False and self.from_reference:
-            raise PydanticCustomError("no_variables", "from_reference belongs to with_variables = true")
-        if self.type == GENERATIVE and "lambda_counts2" in self.model_fields_set:
-            raise PydanticCustomError("generative_lambda", "the generative model has no lambda; leave it out")
-        if self.nonlinear and not self.generative:
-            raise PydanticCustomError(
-                "linear_type", "nonlinear belongs to the generative model; leave it out, or type, offset and lambda"
-            )
-        return self
-
-    @property
-    def generative(self) -> bool:
-        """Whether the generative model is asked for: nothing of a thesis' type is."""
-        of_thesis = {"lambda_counts2", "offset", "from_reference"} & self.model_fields_set
-        return self.type == GENERATIVE or (self.type is None and not of_thesis)
 
 
 class ExperimentFile(Table):

@@ -14,11 +14,12 @@ from forcetorque.experiment import schema
 from forcetorque.experiment.content import ExperimentSensor, SensorVariable
 from forcetorque.experiment.inputs import Inputs, stated_in
 from forcetorque.experiment.prior import full_scale_of, read_prior
+from forcetorque.experiment.tables.sensor import Sensor, Variable
 from forcetorque.recording import Recording, ScalarSource
 from forcetorque.robot import RobotModel, SensorFrame
 
 
-def declare_sensors(sensors: Sequence[schema.Sensor], file: Path, model: RobotModel) -> RobotModel:
+def declare_sensors(sensors: Sequence[Sensor], file: Path, model: RobotModel) -> RobotModel:
     """Check that the robot has the sensors with a tag, and declare those without.
 
     Args:
@@ -61,10 +62,10 @@ def read_sensors(
     Raises:
         ExperimentError: If two entries are one sensor or share a stream.
     """
-    found: list[ExperimentSensor] = []
+    sensors: list[ExperimentSensor] = []
     for index in range(len(parsed.sensor)):
         sensor = _sensor(parsed, file, index, model, recording, inputs)
-        for earlier in found:
+        for earlier in sensors:
             if sensor.name == earlier.name:
                 raise ExperimentError(f"{file}: sensor[{index}]: {sensor.name!r} is listed twice; keep one")
             if sensor.stream == earlier.stream:
@@ -72,8 +73,8 @@ def read_sensors(
                     f"{file}: sensor[{index}]: {sensor.name!r} reads the stream {sensor.stream!r}, as does "
                     f"{earlier.name!r}; every sensor has its own"
                 )
-        found.append(sensor)
-    return tuple(found)
+        sensors.append(sensor)
+    return tuple(sensors)
 
 
 def _sensor(
@@ -121,9 +122,7 @@ def _sensor(
     )
 
 
-def _require_own_frame(
-    where: str, entry: schema.Sensor, model: RobotModel, frame: str | None, *, of_load: bool
-) -> None:
+def _require_own_frame(where: str, entry: Sensor, model: RobotModel, frame: str | None, *, of_load: bool) -> None:
     """Refuse a wrench that is stated in a frame which is known not to be the sensor's: nothing would move it there."""
     joint = model.joints[model.sensor(entry.name).joint]
     if frame in {None, entry.name, entry.stream, joint.parent, joint.child}:
@@ -135,7 +134,7 @@ def _require_own_frame(
         )
 
 
-def _variable(where: str, variable: schema.Variable, entry: schema.Sensor, recording: Recording) -> SensorVariable:
+def _variable(where: str, variable: Variable, entry: Sensor, recording: Recording) -> SensorVariable:
     if [other.name for other in entry.variable].count(variable.name) > 1:
         raise ExperimentError(f"{where}: the name {variable.name!r} comes twice; name the variables apart")
     with stated_in(where):

@@ -54,9 +54,9 @@ def read_streams(
 
 
 def _by_name(file: Path, streams: Iterable[Stream]) -> dict[str, Stream]:
-    found: dict[str, Stream] = {}
+    streams_by_name: dict[str, Stream] = {}
     for stream in streams:
-        if stream.name in found:
+        if stream.name in streams_by_name:
             raise ExperimentError(f"{file}: recording: two streams are named {stream.name!r}; give each its own name")
-        found[stream.name] = stream
-    return found
+        streams_by_name[stream.name] = stream
+    return streams_by_name

@@ -10,6 +10,7 @@ import numpy as np
 from forcetorque.arrays import FloatArray
 from forcetorque.exsitu.block import Block
 from forcetorque.exsitu.loads import BenchLoads
+from forcetorque.spatial import FORCE_AND_MOMENT
 
 SIZE = (0.7, 1.4)
 """Share of the expected load that a sensor reads by its nominal matrix at least and at most: specimens differ by some
@@ -61,7 +62,7 @@ def _at_rest(block: Block) -> Iterator[str]:
 
 def _of_load(wrench: FloatArray, position: str, loads: BenchLoads) -> Iterator[str]:
     """Compare a wrench by the nominal matrix with the load of its position, and with all others."""
-    sizes = np.repeat([np.linalg.norm(loads.wrench[:, part], axis=1).max() for part in (slice(3), slice(3, 6))], 3)
+    sizes = np.repeat([np.linalg.norm(loads.wrench[:, part], axis=1).max() for part in FORCE_AND_MOMENT], 3)
     known = loads.wrench / sizes
     own, read = known[loads.names.index(position)], wrench / sizes
     share = float(read @ own / (own @ own))

@@ -8,11 +8,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from forcetorque.arrays import FloatArray
+from forcetorque.constants import MAD_TO_DEVIATION
 from forcetorque.errors import SensorError
 from forcetorque.exsitu.bench import Bench, Placement
 from forcetorque.exsitu.loads import BenchLoads
 from forcetorque.exsitu.residual import ResidualSpace
-from forcetorque.spatial import skew
+from forcetorque.spatial import FORCE_AND_MOMENT, skew
 
 LEAST_SENSORS = 30
 """Fewer sensors do not tell the covariance of six components at a position."""
@@ -31,7 +32,6 @@ _QUANTILE, _DISTANCE = 0.85, 9.446
 
 By the median, errors with long tails, as nonlinearity makes them, alarm two to three times too often.
 """
-_MAD_TO_DEVIATION = 1.4826
 _EFFICIENCY = 0.37
 """What a median of magnitudes tells of a deviation, over what all values tell of it."""
 _FLOOR = 1e-6
@@ -102,7 +102,7 @@ def stated_scatter(bench: Bench, matrix: FloatArray, placement: Placement) -> Sc
 
 
 def _floor(loads: FloatArray) -> FloatArray:
-    sizes = np.repeat([np.abs(loads[:, part]).max() for part in (slice(3), slice(3, 6))], 3)
+    sizes = np.repeat([np.abs(loads[:, part]).max() for part in FORCE_AND_MOMENT], 3)
     return np.diag((_FLOOR * np.where(sizes > 0.0, sizes, 1.0)) ** 2)
 
 
@@ -120,7 +120,7 @@ def own_scatter(loads: FloatArray, residual: FloatArray) -> Scatter:
     design = np.hstack([loads, np.ones((n, 1))])
     left = residual - design @ np.linalg.lstsq(design, residual, rcond=None)[0]
     free = max(n - int(np.linalg.matrix_rank(design)), 1)
-    deviation = _MAD_TO_DEVIATION * np.median(np.abs(left), axis=0) * np.sqrt(n / free)
+    deviation = MAD_TO_DEVIATION * np.median(np.abs(left), axis=0) * np.sqrt(n / free)
     floor = np.sqrt(np.diag(_floor(loads)))
     covariance = np.tile(np.diag(np.maximum(deviation, floor) ** 2), (n, 1, 1))
     return Scatter(

@@ -10,6 +10,7 @@ import numpy as np
 
 from forcetorque.arrays import FloatArray, read_only
 from forcetorque.errors import ShapeError
+from forcetorque.spatial import FORCE_AND_MOMENT
 
 RANK_TOLERANCE: Final = 1e-9
 """Share of the largest singular value below which a direction is not spanned: rounding leaves 1e-15."""
@@ -130,5 +131,5 @@ def load_sizes(wrench: FloatArray) -> FloatArray:
     Returns:
         The force three times, then the moment, 1 where there is none; shape (6,); N, N m.
     """
-    largest = [float(np.linalg.norm(wrench[:, half], axis=1).max()) for half in (slice(3), slice(3, 6))]
+    largest = [float(np.linalg.norm(wrench[:, half], axis=1).max()) for half in FORCE_AND_MOMENT]
     return np.repeat([size if size > 0.0 else 1.0 for size in largest], 3)

@@ -8,9 +8,7 @@ import numpy as np
 from forcetorque.arrays import FloatArray
 from forcetorque.loads.expected import Guess, inertial
 from forcetorque.loads.problem import LoadProblem
-from forcetorque.loads.unknowns import Kind, places
-
-_OF_LOAD = (Kind.MASS, Kind.FIRST_MOMENT, Kind.INERTIA)
+from forcetorque.loads.unknowns import OF_LOAD, Kind, places
 
 
 def before(problem: LoadProblem, guess: Guess) -> tuple[FloatArray, FloatArray]:
@@ -32,7 +30,7 @@ def before(problem: LoadProblem, guess: Guess) -> tuple[FloatArray, FloatArray]:
             precision[np.ix_(own, own)] = known
             sides[own] = -known @ guess.values[own]
     for number, load in enumerate(problem.loads):
-        own = [place for kind in _OF_LOAD for place in places(listed, kind, number)]
+        own = [place for kind in OF_LOAD for place in places(listed, kind, number)]
         if not own:
             continue
         values, change = inertial(load, number, guess)

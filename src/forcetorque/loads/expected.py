@@ -13,7 +13,7 @@ from forcetorque.arrays import FloatArray
 from forcetorque.loads.load import Load
 from forcetorque.loads.problem import LoadProblem
 from forcetorque.loads.rows import LoadRows
-from forcetorque.loads.unknowns import Kind, Parameter, places, six_of
+from forcetorque.loads.unknowns import OF_LOAD, Kind, Parameter, places, six_of
 from forcetorque.spatial import reading_sign, skew
 
 _SMALL = 1e-5
@@ -270,7 +270,7 @@ def changes(problem: LoadProblem, guess: Guess) -> FloatArray:
     design = np.zeros((len(rows), 6, len(listed)))
     for number, load in enumerate(problem.loads):
         mine = rows.load == number
-        places_of_load = [k for kind in _OF_LOAD for k in places(listed, kind, number)]
+        places_of_load = [k for kind in OF_LOAD for k in places(listed, kind, number)]
         if places_of_load and mine.any():
             design[np.ix_(mine, range(6), places_of_load)] = columns[mine] @ inertial(load, number, guess)[1]
     for kind in (Kind.MOUNT, Kind.TILT):
@@ -289,9 +289,6 @@ def changes(problem: LoadProblem, guess: Guess) -> FloatArray:
         elif one.kind is Kind.MATRIX and wrench is not None:
             design[:, one.owner, k] = wrench[:, one.component]
     return design
-
-
-_OF_LOAD = (Kind.MASS, Kind.FIRST_MOMENT, Kind.INERTIA)
 
 
 def _difference(problem: LoadProblem, guess: Guess, place: int) -> FloatArray:

@@ -11,6 +11,7 @@ from forcetorque.loads.mixture import Estimate
 from forcetorque.loads.rows import LoadRows
 from forcetorque.loads.stacked import Group
 from forcetorque.noise import Timeline
+from forcetorque.spatial import FORCE_AND_MOMENT
 
 _LEAST_SIZE = 0.1
 """Noise of an axis counts as at least this part of that of the noisiest: three axes do not tell it from few rows."""
@@ -65,7 +66,7 @@ def noise_sizes(residual: FloatArray) -> FloatArray:
         Shape (6,); N, N m; those of exact rows are 1.
     """
     size = np.sqrt((residual**2).mean(axis=0)) if len(residual) else np.ones(6)
-    for axes in (slice(3), slice(3, 6)):
+    for axes in FORCE_AND_MOMENT:
         largest = float(size[axes].max())
         size[axes] = np.maximum(size[axes], _LEAST_SIZE * largest) if largest > 0.0 else 1.0
     return size

@@ -21,7 +21,7 @@ from forcetorque.loads.problem import LoadProblem
 from forcetorque.loads.rows import LoadRows
 from forcetorque.loads.solution import Hypothesis
 from forcetorque.loads.unknowns import Kind
-from forcetorque.spatial import WRENCH_COMPONENTS, MeasureDirection
+from forcetorque.spatial import FORCE_AND_MOMENT, WRENCH_COMPONENTS, MeasureDirection
 
 _BETTER = 0.5
 """A hypothesis is named if it leaves less than this part of what the problem as stated leaves."""
@@ -83,7 +83,7 @@ def unexplained(rows: LoadRows, residual: FloatArray) -> float:
         mine = rows.session == session
         moved[mine] -= moved[mine].mean(axis=0)
     shares = []
-    for axes in (slice(3), slice(3, 6)):
+    for axes in FORCE_AND_MOMENT:
         whole = float((moved[:, axes] ** 2).sum())
         shares.append(float((residual[:, axes] ** 2).sum()) / whole if whole > 0.0 else 0.0)
     return float(np.sqrt(np.mean(shares)))
@@ -102,7 +102,7 @@ def _others(problem: LoadProblem) -> Iterator[tuple[str, str, float, LoadProblem
         words = "the rotation is transposed: it is that of the world in the sensor's axes; state the other sense"
         yield "transposed rotation", words, _BETTER, turned
         along = np.concatenate(
-            [np.einsum("nji,nj->ni", rows.orientation, rows.wrench[:, axes]) for axes in (slice(3), slice(3, 6))],
+            [np.einsum("nji,nj->ni", rows.orientation, rows.wrench[:, axes]) for axes in FORCE_AND_MOMENT],
             axis=1,
         )
         words = "the wrench is along the axes of the world, not of the sensor: turn it, or state the other frame"
@@ -212,8 +212,8 @@ def _of_nothing(fitted: Fit) -> Iterator[Hypothesis]:
     for k, one in enumerate(fitted.guess.parameters):
         if one.kind is Kind.MASS and turns and abs(fitted.guess.values[k]) <= half[k] < np.inf:
             words = f"the mass of {problem.loads[one.owner].name!r} is not told from 0 although gravity turns"
-            said = f"{words}: nothing hangs on the sensor, or it was not read"
-            yield Hypothesis(name="no load", words=said, residual_share=1.0)
+            sentence = f"{words}: nothing hangs on the sensor, or it was not read"
+            yield Hypothesis(name="no load", words=sentence, residual_share=1.0)
 
 
 def _scale(problem: LoadProblem) -> Iterator[Hypothesis]:
@@ -231,10 +231,10 @@ def _scale(problem: LoadProblem) -> Iterator[Hypothesis]:
     scale = float((weight * force).sum()) / square if square > 0.0 else 1.0
     for unit, words in _UNITS.items():
         if abs(scale / unit - 1.0) < 0.02:
-            said = (
+            sentence = (
                 f"readings are {scale:.4g} of the weight of the stated masses: {words}; state the units of the columns"
             )
-            yield Hypothesis(name="mixed units", words=said, residual_share=1.0)
+            yield Hypothesis(name="mixed units", words=sentence, residual_share=1.0)
 
 
 def _lag(problem: LoadProblem, residual: FloatArray, *, drift: bool) -> Iterator[Hypothesis]:

@@ -59,8 +59,10 @@ def strongest_jump(fitted: Fit) -> Jump | None:
                 worth = _worth(fitted, number, block, steps, noise) / variance
                 seen = steps.T @ known[block]
                 own = worth - np.einsum("kr,rs,ks->k", seen, covariance, seen)
-                told = own > _LEAST_LEFT * worth
-                strength = np.where(told, np.abs(steps.T @ left[block]) / np.sqrt(np.where(told, own, 1.0)), 0.0)
+                told_apart = own > _LEAST_LEFT * worth
+                strength = np.where(
+                    told_apart, np.abs(steps.T @ left[block]) / np.sqrt(np.where(told_apart, own, 1.0)), 0.0
+                )
                 if len(strength) and strength.max() > best.deviations:
                     k = int(strength.argmax())
                     row = int(group.order[mine[after[k]]])

@@ -105,7 +105,7 @@ class MatrixSpread:
             Sizes, with those that were expected as a few coefficients; shape (groups, kinds).
         """
         prior = self.covariance(sizes)
-        squares, told = np.zeros_like(sizes), np.zeros_like(sizes)
+        squares, determined = np.zeros_like(sizes), np.zeros_like(sizes)
         for row, number in enumerate(self.group):
             for kind in range(len(_KINDS)):
                 variance = sizes[number, kind] ** 2
@@ -113,9 +113,9 @@ class MatrixSpread:
                 squares[number, kind] += float(((gain @ deviation[row]) ** 2).sum())
                 # share of what was not known that is known now
                 learnt = gain @ (prior[row] - posterior[row]) @ gain.T
-                told[number, kind] += float(np.trace(learnt)) / variance
+                determined[number, kind] += float(np.trace(learnt)) / variance
         weight = np.array([kind.weight for kind in _KINDS])
-        return np.asarray(np.sqrt((squares + weight * self.expected**2) / (told + weight)), dtype=np.float64)
+        return np.asarray(np.sqrt((squares + weight * self.expected**2) / (determined + weight)), dtype=np.float64)
 
 
 def settled(problem: LoadProblem, spread: MatrixSpread) -> LoadProblem:
@@ -137,15 +137,15 @@ def settled(problem: LoadProblem, spread: MatrixSpread) -> LoadProblem:
         guess, residual = plain_fit(problem, drift=bool(problem.drift))
         noise = noise_sizes(residual)
         posterior = _covariance_of_rows(problem, guess, noise)
-        told = spread.told(sizes, guess.response - np.eye(_COMPONENTS), posterior)
+        learnt = spread.told(sizes, guess.response - np.eye(_COMPONENTS), posterior)
         slope = _slope(problem, guess, posterior, noise)
-        if told.max() > _FARTHEST:
+        if learnt.max() > _FARTHEST:
             raise FitError(
-                f"loads: no matrix near its prior explains the readings, it would have to be {told.max():.0%} off; "
+                f"loads: no matrix near its prior explains the readings, it would have to be {learnt.max():.0%} off; "
                 "check gravity_direction and measure_direction, the units of joints and wrench, and the prior"
             )
-        change = np.abs(told / sizes - 1.0).max()
-        sizes = told
+        change = np.abs(learnt / sizes - 1.0).max()
+        sizes = learnt
         problem = replace(problem, matrix_prior=spread.covariance(sizes), slope=slope)
         if change < _SETTLED:
             break
@@ -155,9 +155,9 @@ def settled(problem: LoadProblem, spread: MatrixSpread) -> LoadProblem:
 def _covariance_of_rows(problem: LoadProblem, guess: Guess, noise: FloatArray) -> FloatArray:
     """Covariance of every row of E if the loads were known; shape (6, 6, 6)."""
     wrench = _about_sessions(problem, load_wrench(problem, guess))
-    told = np.einsum("n,ni,nj->ij", problem.rows.share, wrench, wrench)
+    information = np.einsum("n,ni,nj->ij", problem.rows.share, wrench, wrench)
     prior = np.linalg.inv(np.zeros((6, 6, 6)) if problem.matrix_prior is None else problem.matrix_prior)
-    covariance: FloatArray = np.linalg.inv(prior + told / noise[:, None, None] ** 2)
+    covariance: FloatArray = np.linalg.inv(prior + information / noise[:, None, None] ** 2)
     return covariance
 
 

@@ -40,8 +40,8 @@ def row_distances(groups: tuple[Group, Group], basis: FloatArray, estimate: Esti
         alone = group.line.precision_diagonal(noise) / variance
         fitted = np.einsum("nr,rs,ns->n", known, estimate.covariance, known) / variance**2
         own = alone - fitted
-        told = own > _LEAST_LEFT * alone
-        square = np.where(told, (left[:, 0] / variance) ** 2 / np.where(told, own, 1.0), 0.0)
+        checked = own > _LEAST_LEFT * alone
+        square = np.where(checked, (left[:, 0] / variance) ** 2 / np.where(checked, own, 1.0), 0.0)
         np.add.at(total, group.order, square)
     total /= weight
     middle = float(np.median(total)) / _MEDIAN

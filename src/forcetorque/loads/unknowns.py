@@ -35,6 +35,10 @@ class Kind(StrEnum):
     BIAS = "bias"
 
 
+OF_LOAD = (Kind.MASS, Kind.FIRST_MOMENT, Kind.INERTIA)
+"""What parameters of one load are."""
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Parameter:
     """One unknown number; SI units."""

@@ -34,13 +34,13 @@ def stream_findings(stream: Stream) -> tuple[Finding, ...]:
     """
     if not len(stream):
         return (Finding(stream=stream.name, kind="empty", message="the stream holds no sample", count=0),)
-    found = [*_gaps(stream), *_bad_stamps(stream), *_lost_messages(stream), *_reported_saturation(stream)]
+    findings = [*_gaps(stream), *_bad_stamps(stream), *_lost_messages(stream), *_reported_saturation(stream)]
     for signal in stream.signals.values():
         if signal.quantity not in _SPARSE:
-            found += _missing_values(stream, signal)
+            findings += _missing_values(stream, signal)
         if signal.quantity in _NOISY:
-            found += _stuck_channels(stream, signal)
-    return tuple(found)
+            findings += _stuck_channels(stream, signal)
+    return tuple(findings)
 
 
 def saturation_findings(
@@ -60,13 +60,13 @@ def saturation_findings(
     """
     if "saturated" in stream.signals:
         return ()
-    found = []
+    findings = []
     for channel in range(counts.shape[1]):
         at_limit = np.abs(counts[:, channel]) >= (1.0 - SATURATION_SHARE) * limit_counts
         for first, last in spans(at_limit):
             largest = float(np.abs(counts[first : last + 1, channel]).max())
             note = " (recovered counts)" if recovered else ""
-            found.append(
+            findings.append(
                 _finding(
                     stream,
                     "saturation",
@@ -78,7 +78,7 @@ def saturation_findings(
                     unit="counts",
                 )
             )
-    return tuple(found)
+    return tuple(findings)
 
 
 def _reported_saturation(stream: Stream) -> list[Finding]:
@@ -130,18 +130,18 @@ def _finding(
 def _gaps(stream: Stream) -> list[Finding]:
     usable = usable_samples(stream.stamp_ns)
     steps = np.diff(stream.stamp_ns[usable])
-    found = []
+    findings = []
     for k in np.flatnonzero(steps > gap_limit_ns(stream.stamp_ns[usable])):
         seconds = float(steps[k]) * 1e-9
         before, after = int(usable[k]), int(usable[k + 1])
         text = f"no sample for {seconds:.3f} s, {steps[k] / float(np.median(steps)):.0f} periods"
-        found.append(_finding(stream, "gap", text, before, after, count=1, size=seconds, unit="s"))
-    return found
+        findings.append(_finding(stream, "gap", text, before, after, count=1, size=seconds, unit="s"))
+    return findings
 
 
 def _bad_stamps(stream: Stream) -> list[Finding]:
     steps = np.diff(stream.stamp_ns)
-    found = []
+    findings = []
     for kind, bad, text in (
         ("repeated_stamp", steps == 0, "stamps repeat the one before"),
         ("backward_stamp", steps < 0, "stamps step back in time"),
@@ -149,10 +149,10 @@ def _bad_stamps(stream: Stream) -> list[Finding]:
         at = np.flatnonzero(bad) + 1
         if len(at):
             size = float(np.abs(steps[at - 1]).max()) * 1e-9
-            found.append(
+            findings.append(
                 _finding(stream, kind, f"{len(at)} {text}", int(at[0]), int(at[-1]), count=len(at), size=size, unit="s")
             )
-    return found
+    return findings
 
 
 def _lost_messages(stream: Stream) -> list[Finding]:
@@ -162,7 +162,7 @@ def _lost_messages(stream: Stream) -> list[Finding]:
     wrap = next((size for size in _WRAPS if size > int(stream.sequence.max())), None)
     steps = np.diff(stream.sequence)
     forward = steps if wrap is None else np.where(steps < 0, steps + wrap, steps)
-    found = []
+    findings = []
     for k in np.flatnonzero(forward != 1):
         lost = int(forward[k]) - 1
         restarted = lost < 0 or (wrap is not None and lost > wrap // 2)
@@ -174,8 +174,8 @@ def _lost_messages(stream: Stream) -> list[Finding]:
         )
         size = None if restarted else float(lost)
         unit = None if restarted else "messages"
-        found.append(_finding(stream, kind, text, int(k), int(k) + 1, count=max(lost, 1), size=size, unit=unit))
-    return found
+        findings.append(_finding(stream, kind, text, int(k), int(k) + 1, count=max(lost, 1), size=size, unit=unit))
+    return findings
 
 
 def _missing_values(stream: Stream, signal: Signal) -> list[Finding]:
@@ -188,17 +188,17 @@ def _stuck_channels(stream: Stream, signal: Signal) -> list[Finding]:
     """Runs of one value; one finding where all channels rest together."""
     whole: BoolArray = (np.diff(signal.values, axis=0) == 0.0).all(axis=1)
     text = f"the whole {signal.quantity} stays the same, as when a board saturates or loses its sensor"
-    found = [
+    findings = [
         _finding(stream, "frozen", text, first, last, channel=signal.quantity, size=seconds, unit="s")
         for first, last, seconds in _long_runs(stream, whole)
     ]
     for name, unit, column in zip(signal.columns, signal.units, signal.values.T, strict=True):
         alone: BoolArray = (np.diff(column) == 0.0) & ~whole
-        found += [
+        findings += [
             _finding(stream, "stuck", f"stays at {column[first]:g} {unit}", first, last, channel=name, size=s, unit="s")
             for first, last, s in _long_runs(stream, alone)
         ]
-    return found
+    return findings
 
 
 def _long_runs(stream: Stream, same_as_before: BoolArray) -> list[tuple[int, int, float]]:

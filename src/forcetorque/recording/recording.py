@@ -92,18 +92,18 @@ class Recording:
         Raises:
             RecordingError: If two streams hold the same joint.
         """
-        found: dict[str, tuple[Stream, Signal]] = {}
+        signals: dict[str, tuple[Stream, Signal]] = {}
         for stream in self.streams.values():
             signal = stream.signals.get(quantity)
             if signal is None:
                 continue
             for joint in signal.columns:
-                if joint in found:
+                if joint in signals:
                     raise RecordingError(
-                        f"joint {joint!r} is in the streams {found[joint][0].name!r} and {stream.name!r}; keep one"
+                        f"joint {joint!r} is in the streams {signals[joint][0].name!r} and {stream.name!r}; keep one"
                     )
-                found[joint] = (stream, signal)
-        return found
+                signals[joint] = (stream, signal)
+        return signals
 
     def with_intervals(self, intervals: Iterable[Interval]) -> Recording:
         """Give the same recording with other intervals.

@@ -195,9 +195,9 @@ def _write_stream(path: Path, stream: Stream) -> None:
     for quantity, signal in stream.signals.items():
         width = signal.values.shape[1]
         metadata = {key: json.dumps(value) for key, value in described[quantity].items()}
-        item = pa.list_(pa.field("element", pa.float64(), nullable=False), width)
-        fields.append(pa.field(quantity, item, nullable=False, metadata=metadata))
-        arrays.append(pa.FixedSizeListArray.from_arrays(pa.array(signal.values.ravel()), type=item))
+        row_type = pa.list_(pa.field("element", pa.float64(), nullable=False), width)
+        fields.append(pa.field(quantity, row_type, nullable=False, metadata=metadata))
+        arrays.append(pa.FixedSizeListArray.from_arrays(pa.array(signal.values.ravel()), type=row_type))
     header = {"schema": SCHEMA, "name": stream.name, "clock": stream.clock, "signals": described}
     schema = pa.schema(fields, metadata={_METADATA_KEY: json.dumps(header).encode()})
     table = pa.Table.from_arrays(arrays, schema=schema)

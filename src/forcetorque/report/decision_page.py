@@ -74,8 +74,8 @@ def _verdicts(
 ) -> Iterator[Verdict]:
     whole = len(uses) <= _MOST_SENTENCES
     for verdict in uses:
-        said = verdict.sentence.removeprefix(verdict.decision).strip() if whole else _briefly(verdict)
-        yield Verdict(tone=Tone(verdict.tone), word=verdict.decision, text=f"{names[verdict.candidate]}, {said}.")
+        sentence = verdict.sentence.removeprefix(verdict.decision).strip() if whole else _briefly(verdict)
+        yield Verdict(tone=Tone(verdict.tone), word=verdict.decision, text=f"{names[verdict.candidate]}, {sentence}.")
     for row in undecided:
         name = "" if row.candidate is None else f"{names[row.candidate]}: "
         yield Verdict(tone=Tone.UNKNOWN, word="no verdict", text=f"{name}{row.reason}.")

@@ -162,7 +162,7 @@ def _drawn(blocks: Iterator[Block]) -> Iterator[Block]:
 
 
 def _provenance(experiments: Sequence[ExperimentAssessment]) -> Section:
-    made = [
+    points = [
         origin_words(file, one)
         for experiment in experiments
         for sensor in experiment.sensors
@@ -170,4 +170,4 @@ def _provenance(experiments: Sequence[ExperimentAssessment]) -> Section:
     ]
     files = dict(item for experiment in experiments for item in experiment.inputs_sha256.items())
     read = Table(caption="Files that were read", headings=("file", "SHA-256"), rows=tuple(files.items()))
-    return Section(title="Provenance", blocks=(List(points=tuple(made)), read))
+    return Section(title="Provenance", blocks=(List(points=tuple(points)), read))

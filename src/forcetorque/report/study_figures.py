@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -16,6 +17,7 @@ from forcetorque.calibration import WrenchModel
 from forcetorque.evaluation import KNOWN_BEFORE, Offset
 from forcetorque.report import figures
 from forcetorque.report.figures.canvas import png_bytes
+from forcetorque.spatial import FORCE, MOMENT
 from forcetorque.study import WORKBENCH, Candidate, ValidationSet, tables, with_offset
 
 if TYPE_CHECKING:
@@ -43,8 +45,8 @@ def write_figures(sensor: SensorStudy, folder: Path) -> list[str]:
     draw: dict[str, Callable[[], Figure]] = {
         "figure_5_2_wrench_space.png": lambda: figures.space_figure(_clouds(sensor)),
         "figure_5_3_matrix_differences.png": lambda: figures.difference_figure(names, differences, unit=unit),
-        "figure_5_6_contact_forces.png": lambda: _contact_figure(sensor, slice(0, 3), "N"),
-        "figure_5_7_contact_moments.png": lambda: _contact_figure(sensor, slice(3, 6), "N m"),
+        "figure_5_6_contact_forces.png": lambda: _contact_figure(sensor, FORCE, "N"),
+        "figure_5_7_contact_moments.png": lambda: _contact_figure(sensor, MOMENT, "N m"),
         "figure_5_9_measured_and_reference.png": lambda: _comparison_figure(sensor),
     }
     lambdas = {candidate.lambda_counts2 for candidate in study.fits.candidates}
@@ -55,7 +57,7 @@ def write_figures(sensor: SensorStudy, folder: Path) -> list[str]:
         )
         for offset in KNOWN_BEFORE:
             name = f"figure_5_5_mean_forces_offset_{offset.replace('-', '_')}.png"
-            draw[name] = lambda offset=offset: _lambda_force_figure(sensor, offset)  # type: ignore[misc]
+            draw[name] = partial(_lambda_force_figure, sensor, offset)
     for name, figure in draw.items():
         write_bytes_atomically(folder / name, png_bytes(figure()))
     return sorted(draw)

@@ -18,18 +18,18 @@ from forcetorque.spatial import cross, make_pose, rotation_about_z, split_pose
 
 @dataclass(slots=True)
 class BodyState:
-    """Where one body is in its parent, and its motion in its own axes at its origin; vectors of shape (n, 3)."""
+    """Where one body is in its parent, and its motion in its own axes at its origin."""
 
     parent_R_body: FloatArray
     """Rotation in the parent; shape (3, 3) or (n, 3, 3)."""
     parent_p_body: FloatArray
     """Origin in the parent; shape (3,) or (n, 3); m."""
     angular_velocity: FloatArray
-    """Angular velocity; rad/s."""
+    """Angular velocity; shape (n, 3); rad/s."""
     angular_acceleration: FloatArray
-    """Angular acceleration; rad/s2."""
+    """Angular acceleration; shape (n, 3); rad/s2."""
     proper_acceleration: FloatArray
-    """Proper acceleration of the origin; m/s2."""
+    """Proper acceleration of the origin; shape (n, 3); m/s2."""
 
 
 def root_vectors(root: RootMotion, samples: int) -> tuple[FloatArray, FloatArray, FloatArray]:

@@ -240,8 +240,8 @@ def _require_tree(model: RobotModel) -> None:
         parent_joint[joint.child] = joint
     roots = _roots(model)
     if len(roots) != 1:
-        found = "none: the joints form a loop" if not roots else ", ".join(repr(r) for r in roots)
-        raise RobotError(f"robot {model.name!r}: expected one root link that is no joint's child, found {found}")
+        listed = "none: the joints form a loop" if not roots else ", ".join(repr(r) for r in roots)
+        raise RobotError(f"robot {model.name!r}: expected one root link that is no joint's child, found {listed}")
     for link in model.links:
         seen = [link]
         while seen[-1] in parent_joint:

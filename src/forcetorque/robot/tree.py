@@ -91,7 +91,7 @@ class BodyTree:
     bodies: tuple[Body, ...]
     """Bodies, every parent before its children."""
     frames: Mapping[str, tuple[int, FloatArray]]
-    """Body and `body_H_link` of every link."""
+    """Body of every link, and `body_H_link`, its pose in that; shape (4, 4); m."""
     inertias: Mapping[str, Inertia]
     """Inertia of every link, in and about the link's frame."""
     cuts: Mapping[str, SensorCut]

@@ -62,13 +62,13 @@ def read_urdf(path: Path | str) -> RobotModel:
 def _by_name(
     place: UrdfPlace, tag: str, elements: Iterable[Element], read: Callable[[UrdfPlace, Element], _Named]
 ) -> dict[str, _Named]:
-    found: dict[str, _Named] = {}
+    by_name: dict[str, _Named] = {}
     for element in elements:
         name = required(place.inside(f"<{tag}>"), element, "name")
-        if name in found:
+        if name in by_name:
             raise place.inside(f"<{tag} name={name!r}>").error("each name once", "it twice")
-        found[name] = read(place.inside(f"<{tag} name={name!r}>"), element)
-    return found
+        by_name[name] = read(place.inside(f"<{tag} name={name!r}>"), element)
+    return by_name
 
 
 def _read_link(place: UrdfPlace, link: Element) -> Inertia:

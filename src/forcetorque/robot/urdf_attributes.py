@@ -140,10 +140,10 @@ def origin(place: UrdfPlace, element: Element | None) -> FloatArray:
     Raises:
         FormatError: If an attribute is not three finite numbers.
     """
-    found = None if element is None else element.find("origin")
-    if found is None:
+    tag = None if element is None else element.find("origin")
+    if tag is None:
         return np.eye(4)
     inner = place.inside("<origin>")
-    given = {key: numbers(inner, found, key, count=3) for key in ("xyz", "rpy") if found.get(key) is not None}
+    vectors = {key: numbers(inner, tag, key, count=3) for key in ("xyz", "rpy") if tag.get(key) is not None}
     zero = np.zeros(3)
-    return make_pose(rotation_from_rpy(given.get("rpy", zero)), given.get("xyz", zero))
+    return make_pose(rotation_from_rpy(vectors.get("rpy", zero)), vectors.get("xyz", zero))

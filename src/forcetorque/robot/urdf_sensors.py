@@ -42,15 +42,15 @@ def read_sensors(place: UrdfPlace, robot: Element) -> dict[str, ForceTorqueSenso
             if tag.get("type") == "force_torque":
                 sensor = _read_simulated(place, gazebo, tag)
                 by_joint[sensor.joint] = _merge(place, by_joint.get(sensor.joint), sensor)
-    found: dict[str, ForceTorqueSensor] = {}
+    sensors: dict[str, ForceTorqueSensor] = {}
     taken: set[str] = set()
     for sensor in by_joint.values():
         for name in (sensor.name, *sensor.aliases):
             if name in taken:
                 raise place.error("each sensor name once", f"{name!r} twice")
             taken.add(name)
-        found[sensor.name] = sensor
-    return found
+        sensors[sensor.name] = sensor
+    return sensors
 
 
 def _merge(place: UrdfPlace, first: ForceTorqueSensor | None, second: ForceTorqueSensor) -> ForceTorqueSensor:

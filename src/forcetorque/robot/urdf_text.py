@@ -85,8 +85,8 @@ def _add_joint(robot: Element, joint: Joint) -> None:
 
 
 def _add_limit(joint: Element, limit: JointLimit) -> None:
-    given = {"lower": limit.lower, "upper": limit.upper, "effort": limit.effort, "velocity": limit.velocity}
-    SubElement(joint, "limit", {key: _number(value) for key, value in given.items() if value is not None})
+    limits = {"lower": limit.lower, "upper": limit.upper, "effort": limit.effort, "velocity": limit.velocity}
+    SubElement(joint, "limit", {key: _number(value) for key, value in limits.items() if value is not None})
 
 
 def _add_sensor(robot: Element, sensor: ForceTorqueSensor) -> None:

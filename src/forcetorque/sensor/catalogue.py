@@ -169,10 +169,10 @@ def sensors_with_range(
         The sensors, those with the narrowest such range first (by the force along z, then the others).
     """
     wanted = (fz, fxy, txy, tz)
-    found = []
+    suitable = []
     for sensor in sensor_catalogue() if among is None else among:
         ranges = [(c.range.fz, c.range.fxy, c.range.txy, c.range.tz) for c in sensor.calibrations]
         wide = [range_ for range_ in ranges if all(has >= needs for has, needs in zip(range_, wanted, strict=True))]
         if wide:
-            found.append((min(wide), sensor))
-    return tuple(sensor for _, sensor in sorted(found, key=lambda pair: pair[0]))
+            suitable.append((min(wide), sensor))
+    return tuple(sensor for _, sensor in sorted(suitable, key=lambda pair: pair[0]))

@@ -56,9 +56,9 @@ class SimulatedMotor:
         Returns:
             Current; shape (n,); A.
         """
-        taken = friction_factor * (self.coulomb * np.sign(velocity) + self.viscous * velocity)
-        taken = taken + self.inertia * acceleration + self._ripple(len(torque), rng, rate_hz)
-        current: FloatArray = (torque + taken) / (self.torque_constant * self.gear_ratio)
+        losses = friction_factor * (self.coulomb * np.sign(velocity) + self.viscous * velocity)
+        losses = losses + self.inertia * acceleration + self._ripple(len(torque), rng, rate_hz)
+        current: FloatArray = (torque + losses) / (self.torque_constant * self.gear_ratio)
         return current + self.offset_a + self.noise_a * rng.standard_normal(len(torque))
 
     def _ripple(self, n: int, rng: np.random.Generator, rate_hz: float) -> FloatArray:

@@ -41,7 +41,7 @@ class PatchDescription:
     thermal_modules: IntArray
     """Module that each thermal pad sits on; shape (t,)."""
     representatives: IntArray | None = None
-    """Entry of `taxel2Repr` for each column, as many as are written; None if the form has none."""
+    """Entry of `taxel2Repr` for each column, as many as are written; shape (k,); None if the form has none."""
     placed: IntArray | None = None
     """Columns whose row in the file is a place, whatever they are; shape (k,); None for the taxels."""
 
@@ -77,7 +77,7 @@ class PatchDescription:
         Raises:
             SkinError: If it is not sound.
         """
-        given = self.unit_normals() if normals is None else normals
+        directions = self.unit_normals() if normals is None else normals
         return SkinLayout(
             name=self.name,
             frame=self.frame,
@@ -85,7 +85,7 @@ class PatchDescription:
             taxels=self.taxels,
             modules=self.modules,
             positions=self.positions,
-            normals=given,
+            normals=directions,
             thermal_pads=self.thermal_pads,
             thermal_modules=self.thermal_modules,
         )

@@ -14,9 +14,20 @@ from forcetorque.spatial.rotation import (
 from forcetorque.spatial.sign import MeasureDirection, reading_sign
 from forcetorque.spatial.twist import transform_twist, twist_matrix
 from forcetorque.spatial.units import SI_FACTORS, si_factor
-from forcetorque.spatial.wrench import WRENCH_COMPONENTS, WRENCH_UNITS, transform_wrench, wrench_matrix
+from forcetorque.spatial.wrench import (
+    FORCE,
+    FORCE_AND_MOMENT,
+    MOMENT,
+    WRENCH_COMPONENTS,
+    WRENCH_UNITS,
+    transform_wrench,
+    wrench_matrix,
+)
 
 __all__ = [
+    "FORCE",
+    "FORCE_AND_MOMENT",
+    "MOMENT",
     "SI_FACTORS",
     "WRENCH_COMPONENTS",
     "WRENCH_UNITS",

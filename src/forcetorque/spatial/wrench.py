@@ -15,6 +15,12 @@ WRENCH_COMPONENTS = ("fx", "fy", "fz", "tx", "ty", "tz")
 """Names of the components of a wrench in their order: force, then moment."""
 WRENCH_UNITS = ("N", "N", "N", "N m", "N m", "N m")
 """Their units."""
+FORCE = slice(0, 3)
+"""Components of a wrench that are its force; N."""
+MOMENT = slice(3, 6)
+"""Components that are its moment; N m."""
+FORCE_AND_MOMENT = (FORCE, MOMENT)
+"""The two, as they are never averaged over each other: their units differ."""
 
 
 def wrench_matrix(a_H_b: Any) -> FloatArray:

@@ -85,7 +85,7 @@ def fit_candidates(
     _require_labels([data.label for data in data_sets], combinations, sphere)
     moments = {data.label: Moments.of(data.raw, data.reference, data.variables) for data in data_sets}
     lambdas = lambdas if prior is not None else (0.0,)
-    made, candidates, left_out = [], [], []
+    fitted, candidates, left_out = [], [], []
     for name, labels in combinations.items():
         chosen = [data for data in data_sets if data.label in labels]
         total = pooled(moments[data.label] for data in chosen)
@@ -105,10 +105,12 @@ def fit_candidates(
             excited = excitation_of(total.without_variables() if kind.with_variables else total).excited
             candidates += _sweep(name, total, estimation, lambdas, excited=all(excited))
         excitation = excitation_of(total.without_variables())
-        made.append(Combination(name=name, labels=tuple(d.label for d in chosen), moments=total, excitation=excitation))
+        fitted.append(
+            Combination(name=name, labels=tuple(d.label for d in chosen), moments=total, excitation=excitation)
+        )
     if not candidates:
         raise FitError(f"nothing can be fitted; {left_out[0] if left_out else 'no data set and no estimation type'}")
-    return Fits(candidates=tuple(candidates), combinations=tuple(made), left_out=tuple(left_out))
+    return Fits(candidates=tuple(candidates), combinations=tuple(fitted), left_out=tuple(left_out))
 
 
 def _require_labels(

@@ -165,11 +165,11 @@ def _configuration(row: FloatArray, is_slide: list[bool]) -> list[str]:
 
 def _support_lines(start_s: float, end_s: float, use: Use, intervals: tuple[SceneInterval, ...]) -> list[str]:
     """The support of an interval of the experiment that holds a span; a comment that asks for it if none does."""
-    if not all(each.states_support for each in intervals):
+    if not all(interval.states_support for interval in intervals):
         return []
-    for each in intervals:
-        if each.support is not None and each.start_s <= start_s and end_s <= each.end_s + _NANOSECOND:
-            return [f"support = {_quoted(each.support)}"]
+    for interval in intervals:
+        if interval.support is not None and interval.start_s <= start_s and end_s <= interval.end_s + _NANOSECOND:
+            return [f"support = {_quoted(interval.support)}"]
     return [] if use is Use.IGNORE else ['# support = "..."  # state the link that stands still']
 
 
@@ -177,12 +177,18 @@ def _overlap_lines(start_s: float, end_s: float, use: Use, intervals: tuple[Scen
     """A comment that names the intervals of the experiment in which samples would be used twice."""
     if use is Use.IGNORE:
         return []
-    found = [
-        _quoted(each.label)
-        for each in intervals
-        if each.use != Use.IGNORE.value and each.start_s < end_s - _NANOSECOND and start_s < each.end_s - _NANOSECOND
+    overlapping = [
+        _quoted(interval.label)
+        for interval in intervals
+        if interval.use != Use.IGNORE.value
+        and interval.start_s < end_s - _NANOSECOND
+        and start_s < interval.end_s - _NANOSECOND
     ]
-    return [f"# overlaps {', '.join(found)}: shorten those, as a sample is fitted or judged once"] if found else []
+    return (
+        [f"# overlaps {', '.join(overlapping)}: shorten those, as a sample is fitted or judged once"]
+        if overlapping
+        else []
+    )
 
 
 def _seconds(value: float) -> str:

@@ -66,14 +66,14 @@ def scene_contacts(
         for text in span.left_out
         if text.startswith("sub-model")  # torques and expected readings are not shown from here
     )
-    found: dict[str, FloatArray] = {}
+    wrenches: dict[str, FloatArray] = {}
     for span in spans:
         # its instants are those of the experiment's first sensor, which need not be shown
         at = np.searchsorted(span.stamp_ns, posture.stamp_ns, side="right") - 1
         inside = span.interval.holds(posture.stamp_ns) & (at >= 0)
         inside &= posture.stamp_ns - span.stamp_ns[at] <= gap_limit_ns(span.stamp_ns)  # a gap stays a gap
         for name in span.estimates.layout.contacts:
-            values = found.setdefault(name, np.full((len(posture.stamp_ns), 6), np.nan))
+            values = wrenches.setdefault(name, np.full((len(posture.stamp_ns), 6), np.nan))
             values[inside] = span.estimates.contact(name)[at[inside]]
     places = _places(experiment, spans)
     return tuple(
@@ -83,7 +83,7 @@ def scene_contacts(
             link_H_contact=flat(places[name].link_H_contact),
             values=block.add(values, "float32"),
         )
-        for name, values in found.items()
+        for name, values in wrenches.items()
     )
 
 
@@ -93,8 +93,8 @@ def _first_corrections(
     """How every sensor is read where one way is needed: by its first calibration, else its prior."""
     first = dict(next(iter(group.items())) for group in groups.values())
     calibrated = replace(experiment, sensors=tuple(s for s in experiment.sensors if s.name in groups))
-    found = corrections_of(calibrated, first)
-    return {sensor.name: found.get(sensor.name) or priors.of(sensor) for sensor in experiment.sensors}
+    corrections = corrections_of(calibrated, first)
+    return {sensor.name: corrections.get(sensor.name) or priors.of(sensor) for sensor in experiment.sensors}
 
 
 def _places(experiment: Experiment, spans: Sequence[IntervalEstimates]) -> dict[str, Contact]:

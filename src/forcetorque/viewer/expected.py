@@ -36,7 +36,7 @@ def expected_readings(
         Expected readings by sensor, NaN where there is none, of shape (n, 6) in N, N m; and what is missing.
     """
     n = len(posture.stamp_ns)
-    found = {sensor: np.full((n, 6), np.nan) for sensor in sensors}
+    expected = {sensor: np.full((n, 6), np.nan) for sensor in sensors}
     notes: dict[str, None] = {}
     left = np.ones(n, dtype=bool)
     spans: dict[int, tuple[Support | MovingSupport, np.ndarray]] = {}
@@ -77,12 +77,12 @@ def expected_readings(
             notes[f"no expected wrenches on {support.frame!r}: {error}"] = None
             continue
         for sensor, values in readings.items():
-            found[sensor][chosen] = values
-    for sensor, values in found.items():
+            expected[sensor][chosen] = values
+    for sensor, values in expected.items():
         notes.update(dict.fromkeys(_without_touched(SensorRun(experiment, sensor), values, shown)))
     if not spans:
         notes["no expected wrenches: no interval states a support"] = None
-    return found, list(notes)
+    return expected, list(notes)
 
 
 def _without_touched(run: SensorRun, values: FloatArray, shown: Sequence[tuple[Interval, BoolArray]]) -> Iterator[str]:

@@ -98,11 +98,11 @@ class _Library:
 
     def notes(self) -> list[str]:
         """Say what could not be drawn."""
-        found = []
+        lines = []
         if self._missing:
             looked = ", ".join(map(str, self.folders))
-            found.append(f"{len(self._missing)} mesh(es) not found ({_some(self._missing)}); looked in {looked}")
-        return [*found, *(f"{len(files)} mesh(es) not read: {reason}" for reason, files in self._unread.items())]
+            lines.append(f"{len(self._missing)} mesh(es) not found ({_some(self._missing)}); looked in {looked}")
+        return [*lines, *(f"{len(files)} mesh(es) not read: {reason}" for reason, files in self._unread.items())]
 
     def _open(self, name: str, scale: tuple[float, ...], urdf: Path) -> Triangles | None:
         file = find_mesh(name, urdf, self.folders, packages=self.given)

@@ -125,7 +125,7 @@ def _load(file: Path) -> tuple[FloatArray, npt.NDArray[np.int64]]:
 
 def _icub_models() -> list[Path]:
     """Share folder of the package icub-models, without importing it."""
-    found = importlib.util.find_spec("icub_models")
-    places = [Path(place) for place in (found.submodule_search_locations or ())] if found else []
+    package = importlib.util.find_spec("icub_models")
+    places = [Path(place) for place in (package.submodule_search_locations or ())] if package else []
     candidates = [place / "share" for place in places] + [place.parent / "share" for place in places]
-    return [*candidates, *([Path(sys.prefix) / "share"] if found else [])]
+    return [*candidates, *([Path(sys.prefix) / "share"] if package else [])]

@@ -58,12 +58,12 @@ def differentiated(experiment: Experiment) -> Experiment:
     if experiment.processing.logged_derivatives or logged:
         return experiment
     try:
-        made = {name: _with_derivatives(stream, experiment) for name, stream in streams.items()}
+        with_derivatives = {name: _with_derivatives(stream, experiment) for name, stream in streams.items()}
     except ForceTorqueError:
         return experiment  # whoever needs them says why there are none
     return replace(
         experiment,
-        recording=replace(experiment.recording, streams=made),
+        recording=replace(experiment.recording, streams=with_derivatives),
         processing=replace(experiment.processing, logged_derivatives=True),
     )
 

@@ -143,15 +143,15 @@ def _standing(
 
     tree = build_tree(model, frame)
     joints = joints_between(tree, model.root_link)
-    found = np.empty((len(chosen), 7))
+    poses = np.empty((len(chosen), 7))
     for start in range(0, len(chosen), _BLOCK):
         block = slice(start, start + _BLOCK)
         support_H_root = link_pose(tree, _joints(posture, joints, chosen[block]), model.root_link)
         turn = world_R_support if world_R_support.ndim == 2 else world_R_support[block]
         rotation, position = split_pose(make_pose(turn, np.zeros(3)) @ support_H_root)
         quat_xyzw = Rotation.from_matrix(rotation).as_quat(canonical=True)
-        found[block] = np.hstack([position, quat_xyzw[:, 3:], quat_xyzw[:, :3]])
-    return found
+        poses[block] = np.hstack([position, quat_xyzw[:, 3:], quat_xyzw[:, :3]])
+    return poses
 
 
 def _without_jumps(values: FloatArray, turn: IntArray) -> FloatArray:

@@ -223,10 +223,10 @@ def byte_range(text: str, total: int) -> tuple[int, int] | None:
     Returns:
         First byte, and first byte after the range; None if it is not one range that begins inside.
     """
-    found = re.fullmatch(r"bytes=(\d{0,18})-(\d{0,18})", text.strip())
-    if found is None or found.groups() == ("", ""):
+    match = re.fullmatch(r"bytes=(\d{0,18})-(\d{0,18})", text.strip())
+    if match is None or match.groups() == ("", ""):
         return None
-    first, last = found.groups()
+    first, last = match.groups()
     if not first:
         return (max(total - int(last), 0), total) if int(last) and total else None
     start, end = int(first), min(int(last) + 1 if last else total, total)

@@ -23,19 +23,18 @@ _MOST_NUMBERS = 9e18
 """Largest whole number of 64 bits."""
 
 
-def simplified(meshes: Sequence[Triangles], *, most: int = MOST_TRIANGLES) -> tuple[Triangles, ...]:
+def simplified(meshes: Sequence[Triangles]) -> tuple[Triangles, ...]:
     """Reduce meshes together, with one size of cell, until they have few enough triangles.
 
     Args:
         meshes: Meshes in m.
-        most: Largest number of triangles of all together.
 
     Returns:
         Meshes in the same order; the same ones where they have few enough.
     """
-    cell = max(_FIRST * float(np.sqrt(2.0 * sum(_area(mesh) for mesh in meshes) / most)), _SMALLEST_M)
+    cell = max(_FIRST * float(np.sqrt(2.0 * sum(_area(mesh) for mesh in meshes) / MOST_TRIANGLES)), _SMALLEST_M)
     reduced = tuple(meshes)
-    while sum(len(mesh.faces) for mesh in reduced) > most:
+    while sum(len(mesh.faces) for mesh in reduced) > MOST_TRIANGLES:
         reduced = tuple(clustered(mesh, cell) for mesh in meshes)
         cell *= _GROWTH
     return reduced

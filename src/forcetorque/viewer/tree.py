@@ -25,10 +25,10 @@ def scene_joints(model: RobotModel, coordinates: Sequence[str]) -> tuple[scene.J
     tree = build_tree(model, model.root_link)
     leaders = {body.joint: body.coordinate for body in tree.bodies if body.joint is not None}
     columns = {name: k for k, name in enumerate(coordinates)}
-    found = []
+    joints = []
     for joint in _outwards(model):
         source = leaders.get(joint.name)
-        found.append(
+        joints.append(
             scene.Joint(
                 name=joint.name,
                 type=_kind(joint.type),
@@ -41,7 +41,7 @@ def scene_joints(model: RobotModel, coordinates: Sequence[str]) -> tuple[scene.J
                 offset=0.0 if source is None else source.offset,
             )
         )
-    return tuple(found)
+    return tuple(joints)
 
 
 def _outwards(model: RobotModel) -> list[Joint]:

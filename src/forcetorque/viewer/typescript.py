@@ -27,15 +27,20 @@ def scene_types() -> str:
     Returns:
         Text of the module.
     """
-    classes = [item for item in vars(scene).values() if inspect.isclass(item) and dataclasses.is_dataclass(item)]
+    classes = [
+        member for member in vars(scene).values() if inspect.isclass(member) and dataclasses.is_dataclass(member)
+    ]
     return "\n\n".join(["\n".join(_HEAD), *map(_interface, classes)]) + "\n"
 
 
 def _interface(cls: type) -> str:
-    hints, told = get_type_hints(cls), _field_docstrings(cls)
+    hints, comments = get_type_hints(cls), _field_docstrings(cls)
     lines = [*_comment(inspect.getdoc(cls) or "", ""), f"export interface {cls.__name__} {{"]
     for field in dataclasses.fields(cls):
-        lines += [*_comment(told[field.name], "  "), f"  readonly {field.name}: {typescript_of(hints[field.name])};"]
+        lines += [
+            *_comment(comments[field.name], "  "),
+            f"  readonly {field.name}: {typescript_of(hints[field.name])};",
+        ]
     return "\n".join([*lines, "}"])
 
 
@@ -69,11 +74,11 @@ def _field_docstrings(cls: type) -> dict[str, str]:
     """Docstrings that stand below the fields."""
     (definition,) = ast.parse(inspect.getsource(cls)).body
     statements = definition.body if isinstance(definition, ast.ClassDef) else []
-    told = {}
+    docstrings = {}
     for field, text in zip(statements, statements[1:], strict=False):
         if isinstance(field, ast.AnnAssign) and isinstance(text, ast.Expr) and isinstance(text.value, ast.Constant):
-            told[ast.unparse(field.target)] = str(text.value.value)
-    return told
+            docstrings[ast.unparse(field.target)] = str(text.value.value)
+    return docstrings
 
 
 def _comment(text: str, indent: str) -> list[str]:

@@ -68,9 +68,9 @@ def find_browser(given: Path | None = None) -> Path:
             return given
         raise MissingFileError(f"--browser {given}: expected a program, there is none")
     for name in BROWSERS:
-        found = shutil.which(name)
-        if found is not None:
-            return Path(found)
+        executable = shutil.which(name)
+        if executable is not None:
+            return Path(executable)
     raise MissingFileError(
         f"--video: expected a browser ({', '.join(BROWSERS)}), there is none; install chromium or name one by --browser"
     )

@@ -61,13 +61,13 @@ def read_visuals(path: Path) -> tuple[Visual, ...]:
         colour = _stated_colour(place.inside(f"<material name={name!r}>"), material)
         if colour is not None:
             materials[name] = colour
-    found = []
+    visuals = []
     for link in robot.findall("link"):
         name = required(place.inside("<link>"), link, "name")
         for visual in link.findall("visual"):
             read = _visual(place.inside(f"<link name={name!r}>: <visual>"), name, visual, materials)
-            found += [] if read is None else [read]
-    return tuple(found)
+            visuals += [] if read is None else [read]
+    return tuple(visuals)
 
 
 def _visual(place: UrdfPlace, link: str, visual: Element, materials: dict[str, Colour]) -> Visual | None:

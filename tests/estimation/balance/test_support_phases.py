@@ -111,8 +111,3 @@ def test_a_robot_may_hang_but_not_all_the_time() -> None:
             require_support(phases[k : k + 1], forces[k : k + 1], THRESHOLDS)
     with pytest.raises(EstimationError, match="left 30 N"):
         require_support(phases[:3], forces[:3], THRESHOLDS)
-
-
-def test_thresholds_as_shares_of_the_weight() -> None:
-    """The defaults are 15 and 6 percent."""
-    assert ContactThresholds.of_weight(300.0) == ContactThresholds(touch_N=45.0, release_N=18.0)

@@ -143,7 +143,7 @@ def test_units_are_those_of_the_quantity(file: Path) -> None:
     wrong = {"quantity": "pressure", "columns": [1, 1], "unit": "N"}
     with pytest.raises(UnitError, match="expected a unit of pressure that converts to Pa, got 'N'"):
         _read(file, COUNTS, PRESSURE | {"signal": [wrong]})
-    with pytest.raises(FormatError, match="pressure: expected 1 columns, got 2"):
+    with pytest.raises(FormatError, match="pressure: expected 1 columns \\(pressure\\), got 2"):
         _read(file, COUNTS | {"signal": [{"quantity": "pressure", "columns": [1, 2], "unit": "bar"}]})
     with pytest.raises(FormatError, match='estimated": expected a pressure'):
         _read(file, COUNTS, COUNTS | {"name": "b", "time": None, "rows_of": "counts", "shift_rows": "estimated"})

@@ -217,6 +217,6 @@ def _warnings(
 ) -> tuple[str, ...]:
     warnings: list[str] = []
     for file, calibration in calibrations.items():
-        said = partial(doubts_about_choice, run, names[file], calibration)
-        warnings += tried.attempt(f"doubts about {names[file]}", lambda said=said: [*said()]) or []  # type: ignore[misc]
+        doubts = partial(doubts_about_choice, run, names[file], calibration)
+        warnings += tried.attempt(f"doubts about {names[file]}", doubts) or ()
     return tuple(warnings)

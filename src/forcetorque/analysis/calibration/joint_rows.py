@@ -11,6 +11,7 @@ from forcetorque.calibration import Posterior
 from forcetorque.calibration.joint import ErrorTerm, PartResidual, Touch
 from forcetorque.constants import STANDARD_GRAVITY
 from forcetorque.result import Row, Shown
+from forcetorque.spatial import FORCE_AND_MOMENT
 
 _GAIN_PERCENT = 3.0
 """Error of a gain from which it counts as not determined: as large as that of the masses that tell it."""
@@ -132,7 +133,7 @@ class PartRow(Row):
         kept, with_moments = residual.kept, bool(residual.rows.all())
         sizes = [
             float(np.sqrt((values[kept][:, part] ** 2).sum(axis=1).mean()))
-            for part in (slice(3), slice(3, 6))
+            for part in FORCE_AND_MOMENT
             for values in (residual.before, residual.after)
         ]
         return cls(
@@ -172,8 +173,10 @@ class ModelErrorRow(Row):
     @property
     def is_far(self) -> bool:
         """Whether it is farther from what the model says than it would be by chance, and the recordings tell it."""
-        told = self.prior_deviation**2 - self.deviation**2  # variance of what is found, if the tolerance is right
-        return told > _TOLD * self.prior_deviation**2 and self.value**2 > _FAR**2 * told
+        found_variance = (
+            self.prior_deviation**2 - self.deviation**2
+        )  # variance of what is found, if the tolerance is right
+        return found_variance > _TOLD * self.prior_deviation**2 and self.value**2 > _FAR**2 * found_variance
 
     @classmethod
     def of(cls, term: ErrorTerm, value: float, deviation: float) -> Self:

@@ -10,7 +10,7 @@ import numpy as np
 
 from forcetorque.calibration import Calibration
 from forcetorque.result import Row, Shown
-from forcetorque.spatial import WRENCH_COMPONENTS
+from forcetorque.spatial import FORCE_AND_MOMENT, WRENCH_COMPONENTS
 
 LITTLE_LEARNT = 0.5
 """Share below which more should be recorded along a direction."""
@@ -49,7 +49,7 @@ def learnt_directions(calibration: Calibration) -> tuple[LearntDirection, ...] |
         return None
     after = posterior.error_covariance(np.eye(6))
     sizes = [
-        [np.sqrt(np.trace(covariance[k][part, part])) for part in (slice(3), slice(3, 6))]
+        [np.sqrt(np.trace(covariance[k][part, part])) for part in FORCE_AND_MOMENT]
         for covariance in (before, after)
         for k in range(6)
     ]

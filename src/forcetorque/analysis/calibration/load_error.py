@@ -7,9 +7,8 @@ import numpy as np
 
 from forcetorque.calibration.load_error import LoadError
 from forcetorque.loads import LoadSolution
-from forcetorque.loads.unknowns import Kind, places
+from forcetorque.loads.unknowns import OF_LOAD, Kind, places
 
-_OF_LOAD = (Kind.MASS, Kind.FIRST_MOMENT, Kind.INERTIA)
 _ROUNDING = 1e-12
 """Share of the largest variance below which a combination of loads is known exactly."""
 
@@ -24,7 +23,7 @@ def load_error_of(solution: LoadSolution) -> LoadError | None:
         The errors; None where no load was estimated, or the matrix was taken as exact.
     """
     listed = solution.guess.parameters
-    loads = [k for k, one in enumerate(listed) if one.kind in _OF_LOAD]
+    loads = [k for k, one in enumerate(listed) if one.kind in OF_LOAD]
     loads = [k for k in loads if np.isfinite(solution.covariance[k, k])]
     if not loads or not places(listed, Kind.MATRIX):
         return None
@@ -32,9 +31,9 @@ def load_error_of(solution: LoadSolution) -> LoadError | None:
     size = np.sqrt(np.diag(own))
     size[size == 0.0] = 1.0
     variance, directions = np.linalg.eigh(own / np.outer(size, size))
-    told = variance > _ROUNDING * variance.max(initial=0.0)
+    uncertain = variance > _ROUNDING * variance.max(initial=0.0)
     # S^-1/2, in the directions in which loads are uncertain
-    root = directions[:, told] / np.sqrt(variance[told]) / size[:, None]
+    root = directions[:, uncertain] / np.sqrt(variance[uncertain]) / size[:, None]
     sessions = [name.name for name in solution.sessions]
     factor = np.zeros((6, 6 + len(sessions), root.shape[1]))
     for row in range(6):

@@ -18,13 +18,11 @@ from forcetorque.experiment.full_scale import full_scale_of
 from forcetorque.recording import Use
 
 
-def recording_moments(runs: Runs, *, with_variables: bool | None = None) -> list[RecordingMoments]:
+def recording_moments(runs: Runs) -> list[RecordingMoments]:
     """Reduce the calibration intervals of a sensor.
 
     Args:
         runs: The sensor, in one experiment or several.
-        with_variables: Whether its linear variables are wanted; None for what the experiment says, else where it has
-            any.
 
     Returns:
         Moments and means of every recording.
@@ -33,9 +31,9 @@ def recording_moments(runs: Runs, *, with_variables: bool | None = None) -> list
         ExperimentError: If there is no calibration interval, or the full scale of the sensor is not known.
     """
     campaign = Campaign.of(runs)
-    stated = campaign.runs[0].experiment.fit_options.with_variables if with_variables is None else with_variables
     sensor = campaign.sensor
-    variables = [v.linear for v in sensor.variables] if stated is not False else []
+    without_variables = campaign.runs[0].experiment.fit_options.with_variables is False
+    variables = [] if without_variables else [v.linear for v in sensor.variables]
     intervals = campaign.samples(Use.CALIBRATION, variables=[variable.name for variable in variables])
     doubts = gate.examine([interval.data_set for interval in intervals], sensor.prior, sensor.full_scale)
     results = []

@@ -9,23 +9,19 @@ contacts switch, that of their matrices changes with the load.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
+from forcetorque.analysis.coherence.doubts import contact_doubts, leans, reading_doubts
 from forcetorque.analysis.coherence.net_contact import NetContact
+from forcetorque.analysis.coherence.reader import Reader, readers_of
 from forcetorque.analysis.coherence.rows import (
     Coherence,
     CoherenceSummary,
     OffsetOfSensor,
     PhaseForce,
-    policy_words,
 )
-from forcetorque.analysis.runs.applicability import one_per_sensor, overlapping
-from forcetorque.analysis.runs.candidate import PRIOR
-from forcetorque.analysis.runs.offsets import SensorOffset, offset_policies, with_policy
-from forcetorque.analysis.runs.reading import Correction
-from forcetorque.analysis.runs.sensor_run import SensorRun
+from forcetorque.analysis.runs.offsets import offset_policies
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration import Calibration
 from forcetorque.errors import ExperimentError
@@ -34,40 +30,6 @@ from forcetorque.experiment import Experiment
 from forcetorque.experiment.contacts import contacts_in
 from forcetorque.noise import mean_error
 from forcetorque.recording import Interval, MovingSupport, Use
-from forcetorque.robot import Wrenches
-
-FREE_SHARE, DOUBT_SHARE, BEARING_SHARE = 0.06, 0.15, 1.0 / 3.0
-"""Share of the weight below which a link that is said to touch is in the air; and of force that nothing explains, from
-which a link that is not said to touch may bear the robot, or a matrix err as much, and from which it does bear it."""
-
-
-LEAN_DEG = 0.5
-"""Angle from which it is said that the joints have a link lean that stands on level ground; of half the weight of a
-robot of 30 kg it makes 1.3 N."""
-
-
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
-class _Reader:
-    """All sensors as one candidate reads them with one offset."""
-
-    candidate: str
-    calibrations: Mapping[str, Calibration]
-    policy: OffsetPolicy
-    corrections: Mapping[str, Correction]
-    offsets: Mapping[str, SensorOffset]
-    by_prior: tuple[str, ...]
-    """Sensors that no calibration of the candidate reads."""
-    fitted_on: tuple[Interval, ...]
-    """Calibration intervals of the experiment."""
-
-    def evidence(self, experiment: Experiment, interval: Interval) -> bool:
-        """Whether neither offset nor matrix come from a phase."""
-        gave = [offset.interval for offset in self.offsets.values()]
-        gave += self.fitted_on if self.by_prior and self.policy.offset is Offset.FITTED else ()
-        return not any(one.start_ns < interval.end_ns and interval.start_ns < one.end_ns for one in gave) and not any(
-            list(overlapping(experiment, [interval], calibration, calibration.provenance.intervals))
-            for calibration in self.calibrations.values()
-        )
 
 
 def coherence(
@@ -103,9 +65,9 @@ def coherence(
                 f"offset {policy}: it comes from every judged phase itself, also from one on two feet, in which nobody "
                 "knows what a sensor must read; take one from an interval, such as one-link-imu:LABEL"
             )
-    readers = [reader for policy in policies for reader in _readers(experiment, candidates or {}, policy)]
+    readers = [reader for policy in policies for reader in readers_of(experiment, candidates or {}, policy)]
     rows = [row for reader in readers for row in _rows(experiment, reader, phases, weight)]
-    doubts = _contact_doubts(phases, [reader for reader in readers if reader.policy.offset is not Offset.NONE], weight)
+    doubts = contact_doubts(phases, [reader for reader in readers if reader.policy.offset is not Offset.NONE], weight)
     summary = tuple(_summary(rows))
     return Coherence(
         experiment=experiment.name,
@@ -114,7 +76,7 @@ def coherence(
         rows=tuple(sorted(rows, key=lambda row: _order(row, policies, phases))),
         offsets=tuple(row for reader in readers for row in _offset_rows(reader)),
         summary=summary,
-        warnings=(*doubts, *_leans(phases), *_doubts(readers, summary)),
+        warnings=(*doubts, *leans(phases), *reading_doubts(readers, summary)),
     )
 
 
@@ -157,48 +119,7 @@ def _default_policy(experiment: Experiment) -> OffsetPolicy:
     )
 
 
-def _readers(
-    experiment: Experiment, candidates: Mapping[str, Mapping[str, Calibration]], policy: OffsetPolicy
-) -> Iterator[_Reader]:
-    fitted_on = tuple(one for one in experiment.recording.intervals if one.use is Use.CALIBRATION)
-    every = {name: one for group in candidates.values() for name, one in group.items()}
-    for candidate, calibrations in {PRIOR: {}, **candidates}.items():
-        chosen = one_per_sensor(experiment, calibrations)
-        corrections: dict[str, Correction] = {}
-        offsets: dict[str, SensorOffset] = {}
-        by_prior: list[str] = []
-        for sensor in experiment.sensors:
-            run = SensorRun(experiment, sensor)
-            if sensor.name in chosen:
-                name, calibration = chosen[sensor.name]
-                run.require_fit(name, calibration)
-                correction = Correction.of(name, calibration)
-            else:
-                correction = _of_prior(run, every, policy)
-                by_prior.append(sensor.name)
-            corrections[sensor.name], gave = with_policy(run, correction, policy)
-            offsets.update((offset.sensor, offset) for offset in gave)
-        yield _Reader(
-            candidate=candidate,
-            calibrations=calibrations,
-            policy=policy,
-            corrections=corrections,
-            offsets=offsets,
-            by_prior=tuple(by_prior),
-            fitted_on=fitted_on,
-        )
-
-
-def _of_prior(run: SensorRun, calibrations: Mapping[str, Calibration], policy: OffsetPolicy) -> Correction:
-    """Read a sensor by the prior of the experiment, else by that of one of its calibrations."""
-    if run.sensor.quantity == "raw" and run.sensor.prior is None:
-        for name, calibration in calibrations.items():
-            if calibration.prior is not None and calibration.sensor.serial == run.sensor.serial:
-                return Correction.of_prior(name, calibration.prior, calibration.sessions)
-    return run.uncalibrated() if policy.offset is Offset.FITTED else Correction.without_offset(run.sensor)
-
-
-def _rows(experiment: Experiment, reader: _Reader, phases: Sequence[NetContact], weight: float) -> Iterator[PhaseForce]:
+def _rows(experiment: Experiment, reader: Reader, phases: Sequence[NetContact], weight: float) -> Iterator[PhaseForce]:
     moments_known = not any(offset.not_logged for offset in reader.offsets.values())
     for phase in phases:
         wrench = phase.wrench(phase.asked.measured(reader.corrections))
@@ -240,7 +161,7 @@ def _moment_error(phase: NetContact, wrench: FloatArray) -> FloatArray:
     return about
 
 
-def _offset_half_width(experiment: Experiment, reader: _Reader, phase: NetContact, row: int) -> FloatArray:
+def _offset_half_width(experiment: Experiment, reader: Reader, phase: NetContact, row: int) -> FloatArray:
     """What the intervals of the offsets make of the net wrench at one instant; shape (6,)."""
     if not reader.offsets:
         return np.zeros(6)
@@ -263,7 +184,7 @@ def _finite(values: FloatArray) -> FloatArray | None:
     return values if np.isfinite(values).all() else None
 
 
-def _offset_rows(reader: _Reader) -> Iterator[OffsetOfSensor]:
+def _offset_rows(reader: Reader) -> Iterator[OffsetOfSensor]:
     for sensor, offset in reader.offsets.items():
         support = offset.interval.support
         yield OffsetOfSensor(
@@ -294,74 +215,6 @@ def _summary(rows: Sequence[PhaseForce]) -> Iterator[CoherenceSummary]:
             force_error_mean_N=float(np.mean(norms)) if norms else None,
             force_error_largest_N=max(norms, default=None),
         )
-
-
-def _contact_doubts(phases: Sequence[NetContact], readers: Sequence[_Reader], weight: float) -> list[str]:
-    """Refuse links that are said to touch and do not, or the other way round, whatever reads them; name doubts."""
-    doubts = []
-    for phase in phases:
-        measured: list[Wrenches] = [phase.asked.measured(reader.corrections) for reader in readers]
-        label = phase.asked.interval.label
-        borne = [phase.forces(one) for one in measured]
-        for name in borne[0] if borne else ():
-            most = max(abs(forces[name]) for forces in borne)
-            if most < FREE_SHARE * weight:
-                raise ExperimentError(
-                    f"interval {label!r}: {name!r} is in the air: expected a link that touches to bear at least "
-                    f"{FREE_SHARE:.0%} of {weight:.1f} N, got {most:.2f} N; leave it out of touched, [[contact]] or "
-                    "support, or state the intervals of the contact"
-                )
-        left = [phase.unexplained(one) for one in measured]
-        for name in left[0] if left else ():
-            least = min(forces[name] for forces in left)
-            words = (
-                f"interval {label!r}: only {', '.join(phase.touching)} may touch, but {least:.1f} of {weight:.1f} N "
-                f"act on the robot beyond {name!r}"
-            )
-            if least > BEARING_SHARE * weight:
-                raise ExperimentError(f"{words}; name both feet in touched, or the other in [[contact]]")
-            if least > DOUBT_SHARE * weight:
-                doubts.append(f"{words}: a sensor errs by as much, or another link touches")
-    return doubts
-
-
-def _leans(phases: Sequence[NetContact]) -> Iterator[str]:
-    for phase in phases:
-        for name, angle in phase.leans_deg().items():
-            if angle > LEAN_DEG:
-                yield (
-                    f"interval {phase.asked.interval.label!r}: by the joints {name} leans by {angle:.1f} deg against "
-                    "the level ground that [[support]] states; its force is taken upright by what is stated"
-                )
-
-
-def _doubts(readers: Sequence[_Reader], summary: Sequence[CoherenceSummary]) -> Iterator[str]:
-    uncalibrated = {reader.candidate: reader.by_prior for reader in readers if reader.candidate != PRIOR}
-    for candidate, sensors in uncalibrated.items():
-        if sensors:
-            yield f"{candidate}: has no calibration of {', '.join(sensors)}, which the prior reads here too"
-    for reader in readers:
-        if reader.policy.offset is Offset.NONE and reader.candidate == PRIOR:
-            yield "offset none: no offset removed, so that the errors hold whatever offsets the sensors have"
-        if reader.policy.offset is Offset.FITTED:
-            for sensor, correction in reader.corrections.items():
-                if not correction.removes_offset:
-                    yield f"{reader.candidate}, {sensor}: no offset removed, as no calibration interval gives one"
-        for sensor, offset in reader.offsets.items():
-            if offset.not_logged and reader.candidate == PRIOR:
-                yield (
-                    f"offset {reader.policy}, {sensor}: {', '.join(offset.not_logged)} are in no stream and are taken "
-                    "to be at rest: the offset of forces is known, that of moments is not"
-                )
-    priors = {(one.offset, one.offset_interval): one.force_error_mean_N for one in summary if one.candidate == PRIOR}
-    for one in summary:
-        prior = priors.get((one.offset, one.offset_interval))
-        mean = one.force_error_mean_N
-        if one.candidate != PRIOR and prior is not None and mean is not None and mean > prior:
-            yield (
-                f"{one.candidate}, offset {policy_words(one.offset, one.offset_interval)}: error {mean:.2f} N, more "
-                f"than the {prior:.2f} N of the prior"
-            )
 
 
 def _order(row: PhaseForce, policies: Sequence[OffsetPolicy], phases: Sequence[NetContact]) -> tuple[int, int]:

@@ -127,12 +127,11 @@ class DeviceDemands(Row):
         yield table_of(self.grades, f"largest errors {place}", leave_out=("rms",))
 
 
-def device_demands(file: DeviceFile, *, tolerances: Mapping[str, Tolerance] = TOLERANCES) -> DeviceDemands:
+def device_demands(file: DeviceFile) -> DeviceDemands:
     """Check what is demanded of a device, with three sensors in its stack.
 
     Args:
         file: The device, and what it does; missing sensors are stacked like its first.
-        tolerances: What quantities of the reference are off by.
 
     Returns:
         What it does.
@@ -146,7 +145,7 @@ def device_demands(file: DeviceFile, *, tolerances: Mapping[str, Tolerance] = TO
     trajectory = DeviceTrajectory(device=full, load=load, sequence=sequence, hold_s=full.motion.hold_s)
     motors = _motor_rows(trajectory)
     silhouettes = envelope(full, load, sequence.still_poses(full, load, spacing_deg=_SPACING_DEG))
-    errors = {sensor: load_errors(full, sensor, sequence, tolerances) for sensor in full.sensor_names}
+    errors = {sensor: load_errors(full, sensor, sequence, TOLERANCES) for sensor in full.sensor_names}
     return DeviceDemands(
         sensors=full.sensor_names,
         load=load.name,

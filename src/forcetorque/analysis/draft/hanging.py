@@ -14,6 +14,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from forcetorque.arrays import BoolArray, FloatArray, IntArray
+from forcetorque.constants import MAD_TO_DEVIATION
 from forcetorque.recording import Recording, SavitzkyGolay, Stream
 from forcetorque.recording.alignment import interpolate, usable_samples
 from forcetorque.recording.joints import joint_motion_at
@@ -42,8 +43,6 @@ _FEWEST = 20
 _ROUNDS = 20
 _MOST_WINDOWS = 20_000
 _DEVIATIONS = 5.0
-_MAD = 1.4826
-"""Standard deviation of normal errors over their median magnitude."""
 _MEDIAN_OF_NORM = 1.538
 """Median of the norm of three normal errors of deviation 1."""
 _SURE = 5.0
@@ -211,7 +210,7 @@ def _fitted(at_ns: IntArray, wrench: FloatArray, link_R_support: FloatArray, mov
     exact = _robust(ideal, force.reshape(-1))
     load = (ideal[:, :4] @ exact[:4]).reshape(n, 3)
     design = np.hstack([ideal, _spread(load), _spread(moment - np.median(moment, axis=0))])
-    noise = _MAD * float(np.median(np.abs(force.reshape(-1) - ideal @ exact)))
+    noise = MAD_TO_DEVIATION * float(np.median(np.abs(force.reshape(-1) - ideal @ exact)))
     # rows that say how near one the matrix is expected to be: else its errors look like mass and direction
     expected = np.repeat([np.inf, CROSS_TALK, CROSS_TALK / LEVER_M], [7, 9, 9])
     for _ in range(2):  # the noise is what the expected errors of the matrix do not explain
@@ -255,7 +254,7 @@ def _robust(design: FloatArray, reading: FloatArray, prior: FloatArray | None = 
         rows = np.vstack([weights[:, None] * scaled, beliefs])
         coefficients = np.linalg.lstsq(rows, np.append(weights, np.ones(len(beliefs))) * target, rcond=None)[0]
         rest = scaled @ coefficients - reading
-        noise = max(_MAD * float(np.median(np.abs(rest))), 1e-9)
+        noise = max(MAD_TO_DEVIATION * float(np.median(np.abs(rest))), 1e-9)
         weights = 1.0 / np.sqrt(1.0 + (rest / noise) ** 2)
     unscaled: FloatArray = coefficients / scale
     return unscaled

@@ -88,8 +88,8 @@ def estimate_experiment(
     skinned = frames_of_patches(experiment) if patches is None else patches
     recording, smoothing = experiment.recording, experiment.processing.smoothing
     taken = [
-        padded_samples(recording, source, each, smoothing, apart=touched_otherwise(each, recording, named))
-        for each in intervals
+        padded_samples(recording, source, span, smoothing, apart=touched_otherwise(span, recording, named))
+        for span in intervals
     ]
     total, done = sum(len(samples.rows) for samples in taken), 0
     results = []

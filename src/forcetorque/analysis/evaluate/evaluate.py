@@ -218,9 +218,11 @@ def judge_errors(runs: Runs, calibrations: Mapping[str, Calibration]) -> Evaluat
             for name, calibration in calibrations.items():
                 require_unseen(name, calibration, run)
             wrenches[campaign.recording(run)] = run.judged(calibrations)
-        said = [words for name, one in calibrations.items() for words in doubts_about_choice(run, name, one)]
-        said += circular_loads(run)
-        warnings += [f"{campaign.recording(run)}: {sentence}" for sentence in said] if len(campaign.runs) > 1 else said
+        doubts = [words for name, one in calibrations.items() for words in doubts_about_choice(run, name, one)]
+        doubts += circular_loads(run)
+        warnings += (
+            [f"{campaign.recording(run)}: {sentence}" for sentence in doubts] if len(campaign.runs) > 1 else doubts
+        )
     validity = readings_outside(campaign, calibrations)
     judged = {recording: list(_judged(wrenches[recording])) for recording in wrenches}
     apart = (

@@ -129,8 +129,8 @@ def select_gains(
         frozen=counts.frozen,
         recovered=counts.recovered,
         limit_counts=run.sensor.limit_counts,
-        repeat=counts.frozen > 0 or any(seen.saturated_samples for seen in ranges),
-        channels=tuple(_channel_row(seen, advised) for seen, advised in zip(ranges, advice, strict=True)),
+        repeat=counts.frozen > 0 or any(channel.saturated_samples for channel in ranges),
+        channels=tuple(_channel_row(channel, advised) for channel, advised in zip(ranges, advice, strict=True)),
         matrix=source,
         resolution=() if matrix is None else _resolution_rows(matrix, advice),
         strongest=strongest_rows(run.experiment.recording, counts),
@@ -190,14 +190,14 @@ def _matrix(run: SensorRun, calibration: tuple[str, Calibration] | None) -> tupl
     return run.sensor.prior, run.sensor.prior_source
 
 
-def _channel_row(seen: ChannelRange, advice: GainAdvice) -> ChannelRow:
+def _channel_row(channel: ChannelRange, advice: GainAdvice) -> ChannelRow:
     return ChannelRow(
-        channel=seen.channel,
-        smallest_counts=seen.smallest_counts,
-        largest_counts=seen.largest_counts,
-        headroom_below=seen.headroom_below,
-        headroom_above=seen.headroom_above,
-        saturated_share=seen.saturated_share,
+        channel=channel.channel,
+        smallest_counts=channel.smallest_counts,
+        largest_counts=channel.largest_counts,
+        headroom_below=channel.headroom_below,
+        headroom_above=channel.headroom_above,
+        saturated_share=channel.saturated_share,
         present_gain=advice.present,
         recommended_gain=advice.recommended,
         largest_factor=advice.largest_factor,

@@ -47,16 +47,16 @@ def inspect_experiment(experiment: Experiment, *, by_model: bool = True) -> tupl
     Returns:
         Findings in the order of time, those without a time first.
     """
-    found = list(inspect_recording(experiment.recording))
+    findings = list(inspect_recording(experiment.recording))
     for sensor in experiment.sensors:
         try:
-            found += _saturation(experiment, sensor)
+            findings += _saturation(experiment, sensor)
         except ForceTorqueError as error:
             text = f"no look for saturation: {error}"
-            found.append(Finding(stream=sensor.stream, kind="not_compared", message=text, count=0))
+            findings.append(Finding(stream=sensor.stream, kind="not_compared", message=text, count=0))
         if by_model:
-            found += _model_findings(SensorRun(experiment, sensor))
-    return tuple(sorted(found, key=lambda finding: finding.start_ns or 0))
+            findings += _model_findings(SensorRun(experiment, sensor))
+    return tuple(sorted(findings, key=lambda finding: finding.start_ns or 0))
 
 
 def doubtful_spans(experiment: Experiment, use: Use, *, by_model: bool = True) -> tuple[tuple[Interval, Finding], ...]:

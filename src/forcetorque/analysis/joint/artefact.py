@@ -18,6 +18,7 @@ from forcetorque.calibration import (
     Calibration,
     FittedInterval,
     Moments,
+    Posterior,
     Prior,
     Provenance,
     Selection,
@@ -25,7 +26,7 @@ from forcetorque.calibration import (
     excitation_of,
     pooled,
 )
-from forcetorque.calibration.joint import JointResult, PartResidual, sensor_posterior
+from forcetorque.calibration.joint import JointFit, JointResult, PartResidual, sensor_posterior
 
 _RULE = "parts of the robot between sensors that nothing touches; sizes of changes by evidence"
 
@@ -88,15 +89,7 @@ def sensor_artefact(
         mean_loads=np.stack([moments[name].reference_mean for name in names]),
     )
     prior_offsets = {name: moments[name].reference_mean - prior @ moments[name].raw_mean for name in names}
-    sessions = tuple(
-        SessionOffset(
-            name=name,
-            offset=fit.offset(sensor, name),
-            standard_error=posterior.offset_error(fit.offset(sensor, name), name),
-            prior_offset=prior_offset,
-        )
-        for name, prior_offset in prior_offsets.items()
-    )
+    sessions = tuple(_session(sensor, fit, posterior, name, offset) for name, offset in prior_offsets.items())
     last = sessions[-1]
     raw = [one.raw[sensor] for one in own]
     return Calibration(
@@ -130,6 +123,13 @@ def sensor_artefact(
             inputs_sha256=campaign.inputs_sha256,
             added=campaign.added,
         ),
+    )
+
+
+def _session(sensor: str, fit: JointFit, posterior: Posterior, name: str, prior_offset: FloatArray) -> SessionOffset:
+    offset = fit.offset(sensor, name)
+    return SessionOffset(
+        name=name, offset=offset, standard_error=posterior.offset_error(offset, name), prior_offset=prior_offset
     )
 
 

@@ -16,12 +16,11 @@ from forcetorque.analysis.joint.plan_rows import JointPlanStep, SensorForecast
 from forcetorque.analysis.use.loads_of_use import loads_of_use
 from forcetorque.calibration import Calibration
 from forcetorque.errors import ExperimentError, FitError
+from forcetorque.evaluation.planning import HELPS
 from forcetorque.evaluation.use import LoadCase, predict, predict_prior
 from forcetorque.experiment import Experiment
 from forcetorque.result import Result, Table, table_of
 
-HELPS = 0.05
-"""Part by which a recording lowers the errors at least, to be called a help."""
 _PROVISIONAL = "planned"
 """What stands for version and date in calibrations that are compared and thrown away."""
 

@@ -10,13 +10,11 @@ import numpy as np
 from forcetorque.analysis.plan.rows import PlannedPosture, PlannedRecording
 from forcetorque.analysis.plan.workplace import NOTHING, Workplace
 from forcetorque.calibration.posterior import Posterior
-from forcetorque.evaluation.planning import ASSUMED_NOISE, Criterion
+from forcetorque.evaluation.planning import ASSUMED_NOISE, HELPS, Criterion
 from forcetorque.result import Table, number, table_of
 from forcetorque.robot import JointMotion
-from forcetorque.spatial import WRENCH_COMPONENTS
+from forcetorque.spatial import FORCE_AND_MOMENT, WRENCH_COMPONENTS
 
-HELPS = 0.05
-"""Part by which a recording lowers an error at least, to be called a help."""
 _STAYS = 0.7
 """Share of the prior's uncertainty of a load direction from which it counts as not taught."""
 _MATTERS = 0.1
@@ -187,6 +185,6 @@ def _rank(places: Sequence[Workplace]) -> int:
         loads = place.loads(JointMotion.at_rest(place.stand.joints, drawn))
         moved.append(loads - loads.mean(axis=0))
     changes = np.concatenate(moved)
-    sizes = np.repeat([np.sqrt((changes[:, part] ** 2).mean()) for part in (slice(3), slice(3, 6))], 3)
+    sizes = np.repeat([np.sqrt((changes[:, part] ** 2).mean()) for part in FORCE_AND_MOMENT], 3)
     strengths = np.linalg.svd(changes / sizes, compute_uv=False)
     return int((strengths > _SPAN * strengths[0]).sum())

@@ -42,7 +42,7 @@ def saying_what_was_added(offered: Any) -> Any:
 
     @wraps(question)
     def asked(*args: Any, **options: Any) -> Any:
-        from forcetorque.result import Result
+        from forcetorque.result import Result  # here because the door opens before any question is asked
 
         answer = question(*args, **options)
         if not isinstance(answer, Result):
@@ -65,7 +65,7 @@ def _untold(arguments: Iterable[Any], told: Iterable[str]) -> Iterator[str]:
 
 def _recordings(argument: Any) -> Iterator[tuple[str, Recording]]:
     """The recordings of experiments, of sensors in them, and of many of these."""
-    from forcetorque.recording import Recording
+    from forcetorque.recording import Recording  # here because the door opens before any question is asked
 
     if isinstance(getattr(argument, "recording", None), Recording):
         yield argument.name, argument.recording

@@ -45,11 +45,20 @@ def corrections_of(
     corrections = {}
     for sensor in experiment.sensors:
         run = SensorRun(experiment, sensor)
-        if sensor.name in chosen:
-            name, calibration = chosen[sensor.name]
-            run.require_fit(name, calibration)
-            correction = Correction.of(name, calibration)
-        else:
-            correction = run.uncalibrated() if policy == FITTED else Correction.without_offset(sensor)
+        calibrated = sensor.name in chosen
+        correction = run.read_by(*chosen[sensor.name]) if calibrated else without_calibration(run, policy)
         corrections[sensor.name], _ = with_policy(run, correction, policy)
     return corrections
+
+
+def without_calibration(run: SensorRun, policy: OffsetPolicy) -> Correction:
+    """Read a sensor by the prior of the experiment, or as logged.
+
+    Args:
+        run: The sensor.
+        policy: Where the offset is to come from; the model is asked for one only where the fitted offset is wanted.
+
+    Returns:
+        The correction, before the policy gives it another offset.
+    """
+    return run.uncalibrated() if policy.offset is Offset.FITTED else Correction.without_offset(run.sensor)

@@ -41,7 +41,7 @@ class JudgedWrenches:
     @property
     def priors(self) -> dict[str, str]:
         """Name of the prior that each calibration is to be compared with, also one that it shares with others."""
-        return {each.name: each.prior for each in self.candidates if each.prior is not None}
+        return {candidate.name: candidate.prior for candidate in self.candidates if candidate.prior is not None}
 
     def with_either_offset(self) -> Iterator[tuple[JudgedCandidate, Offset, FloatArray]]:
         """Give what every candidate measures, with its own offset and with that of the judged samples.

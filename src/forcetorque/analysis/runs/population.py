@@ -26,17 +26,17 @@ def read_population(paths: Iterable[Path]) -> dict[str, FloatArray]:
         MissingFileError: If there is no such file or folder, or nothing in the folder.
         FormatError: If a matrix file does not tell whose it is, or two files are of one sensor.
     """
-    found: dict[str, FloatArray] = {}
+    matrices: dict[str, FloatArray] = {}
     source: dict[str, Path] = {}
     for path in paths:
         for file in _files(path):
             serial, matrix = _read(file)
-            if serial in found:
+            if serial in matrices:
                 raise FormatError(
                     f"{file}: expected one matrix per sensor, {source[serial]} is of {serial!r} too; give one of them"
                 )
-            found[serial], source[serial] = matrix, file
-    return found
+            matrices[serial], source[serial] = matrix, file
+    return matrices
 
 
 def _files(path: Path) -> list[Path]:

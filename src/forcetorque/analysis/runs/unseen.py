@@ -46,7 +46,7 @@ def require_unseen_if_judged(name: str, calibration: Calibration, run: SensorRun
         run.require_fit(name, calibration)
 
 
-def doubts_about_choice(run: SensorRun, name: str, calibration: Calibration) -> Iterator[str]:
+def doubts_about_choice(run: SensorRun, name: str, calibration: Calibration) -> tuple[str, ...]:
     """Say where a calibration is judged on what it was chosen on.
 
     Args:
@@ -54,11 +54,11 @@ def doubts_about_choice(run: SensorRun, name: str, calibration: Calibration) -> 
         name: Name of the calibration.
         calibration: The calibration.
 
-    Yields:
+    Returns:
         A sentence per validation interval on which it was chosen among others.
     """
-    for label in dict.fromkeys(judged for judged, _ in _overlaps(run, calibration, calibration.selection.chosen_on)):
-        yield f"{name} was chosen among others on {label!r} too, so the verdict on it flatters"
+    labels = dict.fromkeys(judged for judged, _ in _overlaps(run, calibration, calibration.selection.chosen_on))
+    return tuple(f"{name} was chosen among others on {label!r} too, so the verdict on it flatters" for label in labels)
 
 
 def _overlaps(run: SensorRun, calibration: Calibration, used: Iterable[FittedInterval]) -> Iterator[tuple[str, str]]:

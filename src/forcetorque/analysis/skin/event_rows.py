@@ -57,15 +57,15 @@ def skin_event_rows(recording: Recording) -> tuple[tuple[SkinEventRow, ...], tup
     """
     others = [stream.clock for stream in recording.streams.values() if "skin_event" not in stream.signals]
     clocks = others or [stream.clock for stream in recording.streams.values()]
-    told = [
-        _told(stream, recording.start_ns)
+    summaries = [
+        _summary(stream, recording.start_ns)
         for stream in recording.streams.values()
         if "skin_event" in stream.signals and stream.clock in clocks
     ]
-    return tuple(row for row, _ in told), tuple(picture for _, picture in told)
+    return tuple(row for row, _ in summaries), tuple(picture for _, picture in summaries)
 
 
-def _told(stream: Stream, start_ns: int) -> tuple[SkinEventRow, SkinEventPicture]:
+def _summary(stream: Stream, start_ns: int) -> tuple[SkinEventRow, SkinEventPicture]:
     signal, rows = stream.signal("skin_event"), usable_samples(stream.stamp_ns)
     columns = [k for k, name in enumerate(signal.columns) if ".heuristic_" in name]
     vectors = signal.values[rows][:, columns].reshape(len(rows), -1, 3)

@@ -228,8 +228,8 @@ def _picture(
     forces = {f"{skin.method}: norm of the force": force, f"{skin.method}: integral of the pressure": normal_force}
     if chosen.taxel_area_mm2 is not None and skin.method is not WrenchMethod.SIMPLE:
         simple = SkinPatch.of(skin.layout, WrenchMethod.SIMPLE, taxel_area_m2=1e-6 * chosen.taxel_area_mm2)
-        told = [find_contacts(simple, frame).wrench[:, :3].sum(axis=0) for _, frame, _ in looked]
-        forces[f"simple, {chosen.taxel_area_mm2:g} mm2: norm of the force"] = np.linalg.norm(told, axis=1)
+        simple_force = [find_contacts(simple, frame).wrench[:, :3].sum(axis=0) for _, frame, _ in looked]
+        forces[f"simple, {chosen.taxel_area_mm2:g} mm2: norm of the force"] = np.linalg.norm(simple_force, axis=1)
     return SkinWrenchPicture(
         patch=name,
         seconds=seconds,

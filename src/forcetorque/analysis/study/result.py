@@ -201,9 +201,9 @@ def study_warnings(study: SensorStudy) -> tuple[str, ...]:
         that makes the sensor worse, or may, at loads that were not fitted, and what experiment files add to their logs.
     """
     fitted = {interval.session for interval in study.data.calibration}
-    both = sorted({interval.session for interval in study.data.validation} & fitted)
+    shared = sorted({interval.session for interval in study.data.validation} & fitted)
     return (
-        *(f"session {name!r} is fitted and judged: its score is not what another session gives" for name in both),
+        *(f"session {name!r} is fitted and judged: its score is not what another session gives" for name in shared),
         *(f"left out: {sentence}" for sentence in study.left_out),
         *unfitted_warnings(study),
         *study.data.added,

@@ -19,15 +19,12 @@ from forcetorque.calibration import Calibration
 from forcetorque.errors import ExperimentError, known_names
 from forcetorque.estimation.picked import padded_samples
 from forcetorque.evaluation.thermal import Cycles, DriftFit, LoadStep, cycles_of, find_load_step, fit_drift
-from forcetorque.evaluation.thermal.drift import MIXED_WITH_TIME
+from forcetorque.evaluation.thermal.drift import LEAST_RANGE_DEGC, MIXED_WITH_TIME
 from forcetorque.experiment.content import SensorVariable
 from forcetorque.recording import Interval
 from forcetorque.recording.alignment import seconds_since
 from forcetorque.result import Result, Table
 from forcetorque.spatial import WRENCH_COMPONENTS, WRENCH_UNITS
-
-LEAST_RANGE_DEGC = 5.0
-"""degC; a smaller range tells little of what a day or a motor that warms up does."""
 
 
 class Thermal(Result):

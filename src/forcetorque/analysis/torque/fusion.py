@@ -203,10 +203,10 @@ def summarise_fusion(
 
 
 def _torques(one: IntervalFusion, model: RobotModel) -> Iterator[JointTorqueRow]:
-    said = {source.name: (source.torque, source.covariance) for source in one.sources}
-    said[FUSED] = (one.fusion.torque, one.fusion.covariance)
+    torques = {source.name: (source.torque, source.covariance) for source in one.sources}
+    torques[FUSED] = (one.fusion.torque, one.fusion.covariance)
     for k, joint in enumerate(one.fusion.joints):
-        for name, (torque, covariance) in said.items():
+        for name, (torque, covariance) in torques.items():
             known = np.isfinite(torque[:, k])
             apart = torque[:, k] - one.fusion.torque[:, k]
             yield JointTorqueRow(

@@ -98,12 +98,12 @@ class TorqueSources:
             ExperimentError: If there are fewer, or one does not say how far off it may be.
         """
         motion = self._motion(interval)
-        told = (
+        kinds = (
             (self._ft, self.experiment.sensors),
             (self._skin, self._feels(interval)),
             (self._motors, self.frictions),
         )
-        sources = [source(motion) for source, there in told if there]
+        sources = [source(motion) for source, there in kinds if there]
         if len(sources) < 2:
             raise ExperimentError(
                 f"interval {interval.label!r}: expected two sources of joint torques at least, got "

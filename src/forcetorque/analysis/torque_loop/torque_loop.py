@@ -138,9 +138,9 @@ class _Case:
         largest = _LARGEST * max(self.file.errors.values())
         weight_N = self.biped.mass * STANDARD_GRAVITY
         for words, robot in robots.items():
-            found = [robot.onset(matrix, largest=largest) for matrix in unit]
-            sizes = np.array([np.inf if one is None else one.scale for one in found])
-            frequencies = [one.frequency_hz for one in found if one is not None]
+            onsets = [robot.onset(matrix, largest=largest) for matrix in unit]
+            sizes = np.array([np.inf if one is None else one.scale for one in onsets])
+            frequencies = [one.frequency_hz for one in onsets if one is not None]
             for errors, size in self.file.errors.items():
                 scales = sizes / size
                 median = float(np.median(scales))

@@ -33,6 +33,7 @@ from forcetorque.evaluation.use import (
     predict_prior,
 )
 from forcetorque.evaluation.use.evidence import Evidence, MeasuredError
+from forcetorque.spatial import FORCE, MOMENT
 
 HOPELESS: Final = 0.1
 """Predicted probability of an error within what is allowed up to which the verdict is `do not use`."""
@@ -41,8 +42,8 @@ FEWEST_S: Final = 5
 CONSTANT_SHARE: Final = 0.01
 """Constant error that is allowed where nobody states an error, as a share of the loads."""
 _QUANTITIES: Final[tuple[tuple[Literal["force", "moment"], Literal["N", "N m"], slice], ...]] = (
-    ("force", "N", slice(0, 3)),
-    ("moment", "N m", slice(3, 6)),
+    ("force", "N", FORCE),
+    ("moment", "N m", MOMENT),
 )
 
 
@@ -131,15 +132,15 @@ class UseJudge:
 
     def _predicted_words(self) -> str:
         """Such as `it errs by some 4.1 N, at most 6.3 N, where 16 N are allowed, and by some 0.1 N m, ...`."""
-        said, prior = [], []
+        parts, prior = [], []
         for (quantity, unit, _), allowed in zip(_QUANTITIES, self.case.requirement, strict=True):
             size: ErrorSize = getattr(self.after, quantity)
             limit = "" if np.isinf(allowed) else f" ({amount(allowed, unit)} allowed)"
-            said.append(f"by some {amount(size.typical, unit)}, at most {amount(size.at_most, unit)}{limit}")
+            parts.append(f"by some {amount(size.typical, unit)}, at most {amount(size.at_most, unit)}{limit}")
             if self.before is not None:
                 prior.append(amount(getattr(self.before, quantity).typical, unit))
         before = f"; the prior by some {' and '.join(prior)}" if prior else ""
-        return f"it errs {' and '.join(said)}{before}"
+        return f"it errs {' and '.join(parts)}{before}"
 
     def errors(self) -> Iterator[UseError]:
         """Predict the errors.

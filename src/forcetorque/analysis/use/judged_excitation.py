@@ -17,6 +17,7 @@ import numpy as np
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration import Calibration
 from forcetorque.evaluation import autocorrelation
+from forcetorque.spatial import FORCE_AND_MOMENT
 
 HARDLY = 0.05
 """Share of the load below which it hardly moved."""
@@ -54,7 +55,7 @@ class JudgedExcitation:
         fitted = [calibration.validity.reference_deviation for calibration in calibrations]
         force, moment = (
             (float(np.linalg.norm(moving[part])), max(float(np.linalg.norm(one[part])) for one in (load, *fitted)))
-            for part in (slice(3), slice(3, 6))
+            for part in FORCE_AND_MOMENT
         )
         return cls(force=force[0], moment=moment[0], load_force=force[1], load_moment=moment[1])
 

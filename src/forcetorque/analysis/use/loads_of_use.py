@@ -70,8 +70,8 @@ def loads_of_use(
     place = _Place(runs[0])
     tables: dict[str, LoadCaseTable] = {}
     for table in (*(table for run in runs for table in run.experiment.load_cases), *more):
-        same = tables.setdefault(table.name, table)
-        if same.model_dump_json() != table.model_dump_json():
+        earlier = tables.setdefault(table.name, table)
+        if earlier.model_dump_json() != table.model_dump_json():
             raise ExperimentError(
                 f"two different load cases are called {table.name!r} in these files; expected one of each name"
             )

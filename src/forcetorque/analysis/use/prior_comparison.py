@@ -15,6 +15,7 @@ from forcetorque.calibration import Calibration
 from forcetorque.evaluation import ErrorRatio, Offset, PairedErrors, autocorrelation, compare_errors
 from forcetorque.recording import Use
 from forcetorque.result import Row, Shown, ShownWrench, finite_or_none
+from forcetorque.spatial import FORCE, MOMENT
 
 
 class Independence(Row):
@@ -130,8 +131,8 @@ def _compared(names: Mapping[str, Any], pairs: Sequence[PairedErrors]) -> Iterat
     comparison = compare_errors(pairs)
     new, old = (np.concatenate(errors) for errors in zip(*((pair.first, pair.second) for pair in pairs), strict=True))
     quantities: tuple[tuple[Quantity, Literal["N", "N m"], slice, ErrorRatio], ...] = (
-        ("force", "N", slice(0, 3), comparison.force),
-        ("moment", "N m", slice(3, 6), comparison.moment),
+        ("force", "N", FORCE, comparison.force),
+        ("moment", "N m", MOMENT, comparison.moment),
     )
     for quantity, unit, axes, ratio in quantities:
         mean, prior_mean = (float(np.linalg.norm(error[:, axes], axis=1).mean()) for error in (new, old))

@@ -92,8 +92,8 @@ def examine(benches: Sequence[Bench], matrices: Sequence[FloatArray | None] | No
     Returns:
         Every sensor with its faults.
     """
-    given = matrices or [None] * len(benches)
-    read = [_read(bench, matrix) for bench, matrix in zip(benches, given, strict=True)]
+    matrix_of_each = matrices or [None] * len(benches)
+    read = [_read(bench, matrix) for bench, matrix in zip(benches, matrix_of_each, strict=True)]
     common = _common_scatter(benches, read)
     examined = []
     for bench, wrench in zip(benches, read, strict=True):
@@ -130,8 +130,8 @@ def _common_scatter(benches: Sequence[Bench], read: Sequence[FloatArray]) -> Sca
     loads = benches[0].loads
     if any(bench.loads.names != loads.names for bench in benches):
         return None
-    each = [_single_scatter(bench, wrench).covariance for bench, wrench in zip(benches, read, strict=True)]
-    return scatter_of_sensors(loads.wrench, np.array(read) - loads.wrench, np.median(each, axis=0))
+    covariances = [_single_scatter(bench, wrench).covariance for bench, wrench in zip(benches, read, strict=True)]
+    return scatter_of_sensors(loads.wrench, np.array(read) - loads.wrench, np.median(covariances, axis=0))
 
 
 def fault_row(suspect: Suspect, loads: BenchLoads, serial: str) -> FaultRow:

@@ -15,7 +15,7 @@ from forcetorque.calibration import Moments, excitation_of
 from forcetorque.calibration.generative import unmoved_directions
 from forcetorque.errors import ExperimentError, FitError
 from forcetorque.exsitu import Bench, BenchFit, fit_bench, in_folds, one_by_one, rms, whole_series
-from forcetorque.spatial import WRENCH_COMPONENTS
+from forcetorque.spatial import FORCE_AND_MOMENT, WRENCH_COMPONENTS
 
 _SWAPPED = 0.5
 """Error with forces and moments exchanged, over that as stated, below which they were exchanged."""
@@ -124,7 +124,7 @@ def _require_halves(bench: Bench, file: str) -> None:
     if bench.prior is None:
         return
     read, known = bench.read_by(bench.prior), bench.loads.wrench
-    sizes = np.repeat([max(float(np.abs(read[:, part]).max()), 1e-12) for part in (slice(3), slice(3, 6))], 3)
+    sizes = np.repeat([max(float(np.abs(read[:, part]).max()), 1e-12) for part in FORCE_AND_MOMENT], 3)
     stated, exchanged = (float((((read - loads) / sizes) ** 2).sum()) for loads in (known, np.roll(known, 3, axis=1)))
     if exchanged < _SWAPPED**2 * stated:
         raise ExperimentError(

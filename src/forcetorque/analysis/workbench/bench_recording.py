@@ -17,12 +17,10 @@ from forcetorque.calibration import read_calibration
 from forcetorque.errors import ExperimentError, known_names
 from forcetorque.exchange.icub import read_matrix_file
 from forcetorque.experiment.inputs import Inputs, stated_in
+from forcetorque.experiment.prior import IDENTITY
 from forcetorque.exsitu import THESIS_TABLE, Bench, BenchLoads, Placement, read_loads
 from forcetorque.spatial import MeasureDirection
 from forcetorque.toml_table import read_toml
-
-IDENTITY = "identity"
-"""Prior of readings that are wrenches already."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

@@ -12,6 +12,7 @@ import numpy as np
 from forcetorque.analysis.workbench.bench_faults import Examined
 from forcetorque.analysis.workbench.bench_recording import BenchRecording
 from forcetorque.arrays import FloatArray
+from forcetorque.constants import MAD_TO_DEVIATION
 from forcetorque.exsitu import block_findings
 from forcetorque.result import FloatOrNull, Row, Shown, ShownWrench, WrenchValues
 
@@ -184,7 +185,7 @@ def position_rows(examined: Sequence[Examined]) -> tuple[PositionRow, ...]:
     loads = examined[0].bench.loads
     errors = np.array([one.error for one in examined])
     median = np.median(errors, axis=0)
-    spread = 1.4826 * np.median(np.abs(errors - median), axis=0)
+    spread = MAD_TO_DEVIATION * np.median(np.abs(errors - median), axis=0)
     kilograms = None if loads.weights is None else loads.weights.total_kg
     return tuple(
         PositionRow(
@@ -223,7 +224,7 @@ def sphere_rows(examined: Sequence[Examined]) -> tuple[SphereRow, ...]:
                 positions=len(places),
                 radius_N=radius,
                 read_N=median,
-                spread_N=1.4826 * float(np.median(np.abs(lengths[:, places] - median))),
+                spread_N=MAD_TO_DEVIATION * float(np.median(np.abs(lengths[:, places] - median))),
                 farthest=loads.names[places[int(np.argmax(beside))]],
             )
         )

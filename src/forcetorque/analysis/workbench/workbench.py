@@ -167,10 +167,10 @@ def _warnings(fits: Sequence[FittedBench], examined: Sequence[Examined]) -> Iter
             yield f"{row.serial}: {row.reason}"
         for series in fit.series:
             if series.reason or series.ratio > _FORETOLD:
-                told = series.reason or (
+                why = series.reason or (
                     f"errors up to {series.largest_force_N:.2f} N, {series.ratio:.1f} times those of single positions"
                 )
-                yield f"{row.serial}: series {series.series!r} is not foretold by the others: {told}"
+                yield f"{row.serial}: series {series.series!r} is not foretold by the others: {why}"
     for one in examined:
         if one.suspects:
             yield f"{one.bench.serial}: {len(one.suspects)} fault(s) of the bench are seen; mend them and record anew"

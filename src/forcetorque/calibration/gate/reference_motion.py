@@ -7,6 +7,7 @@ import numpy as np
 
 from forcetorque.calibration.moments import Moments
 from forcetorque.errors import FitError
+from forcetorque.spatial import FORCE_AND_MOMENT
 
 NO_LOAD_N = 1e-3
 """Root mean square of the force below which nothing hangs on the sensor, whatever its moment is.
@@ -37,8 +38,8 @@ def require_moving_load(moments: Moments) -> None:
     """
     change = np.maximum(np.diag(moments.reference_reference), 0.0)
     size = change + moments.reference_mean**2
-    force_change, moment_change = (float(np.sqrt(change[part].sum())) for part in (slice(3), slice(3, 6)))
-    force, moment = (float(np.sqrt(size[part].sum())) for part in (slice(3), slice(3, 6)))
+    force_change, moment_change = (float(np.sqrt(change[part].sum())) for part in FORCE_AND_MOMENT)
+    force, moment = (float(np.sqrt(size[part].sum())) for part in FORCE_AND_MOMENT)
     if force < NO_LOAD_N:
         raise FitError(
             f"the reference is {force:.2g} N and {moment:.2g} N m, so the model has no mass beyond the sensor; "

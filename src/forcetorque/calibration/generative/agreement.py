@@ -12,6 +12,7 @@ from forcetorque.arrays import FloatArray
 from forcetorque.calibration.generative.assumptions import FLATTENED
 from forcetorque.calibration.generative.means import WindowMeans
 from forcetorque.calibration.wrench_model import WrenchModel
+from forcetorque.spatial import FORCE_AND_MOMENT
 
 DISAGREEMENT = 5.0
 """Residual of one matrix for all over that of a line through the recording's own data, from which it is said."""
@@ -50,13 +51,13 @@ def disagreements(
         recordings.setdefault(stretch.recording, []).append(stretch)
     if len(recordings) < 2:
         return ()
-    found = []
-    floor = np.array([np.linalg.norm(accuracy[part]) for part in (slice(3), slice(3, 6))])
+    ranked = []
+    floor = np.array([np.linalg.norm(accuracy[part]) for part in FORCE_AND_MOMENT])
     for name, parts in recordings.items():
         residual, own, ratio = _compared(parts, model, floor)
         if ratio > DISAGREEMENT:
-            found.append((ratio, Disagreement(recording=name, residual=residual, own=own)))
-    return tuple(one for _, one in sorted(found, key=lambda pair: -pair[0]))
+            ranked.append((ratio, Disagreement(recording=name, residual=residual, own=own)))
+    return tuple(one for _, one in sorted(ranked, key=lambda pair: -pair[0]))
 
 
 def _compared(
@@ -83,4 +84,4 @@ def _compared(
 
 def _sizes(error: FloatArray, freedom: int) -> FloatArray:
     """Root mean square of force and moment; shape (2,)."""
-    return np.sqrt([(error[:, part] ** 2).sum() / freedom for part in (slice(3), slice(3, 6))])
+    return np.sqrt([(error[:, part] ** 2).sum() / freedom for part in FORCE_AND_MOMENT])

@@ -9,7 +9,7 @@ import numpy as np
 
 from forcetorque.arrays import FloatArray
 from forcetorque.errors import FitError
-from forcetorque.spatial import WRENCH_COMPONENTS
+from forcetorque.spatial import FORCE_AND_MOMENT, WRENCH_COMPONENTS
 
 _RANK = 1e-6
 """Share of the largest change of load below which a direction does not move."""
@@ -98,7 +98,7 @@ def require_sensor(response: FloatArray) -> None:
 def _load_sizes(wrench: FloatArray) -> FloatArray:
     """Spread of forces and of moments, to compare both; shape (6,); N, N m."""
     moved = wrench - wrench.mean(axis=0)
-    return np.repeat([max(float(moved[:, part].std()), 1e-12) for part in (slice(3), slice(3, 6))], 3)
+    return np.repeat([max(float(moved[:, part].std()), 1e-12) for part in FORCE_AND_MOMENT], 3)
 
 
 def direction_words(load: FloatArray) -> str:

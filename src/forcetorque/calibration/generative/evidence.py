@@ -78,8 +78,8 @@ class _Row:
             left = self.response[picked] - (along**2 * weight * (2.0 - values * weight)).sum(axis=1)
             left = np.maximum(left, _TINY)
             if step < rounds:
-                told = (values * weight).sum(axis=1)
-                variance = np.maximum(left / np.maximum(freedom - told, 1.0), self.least[picked])
+                determined = (values * weight).sum(axis=1)
+                variance = np.maximum(left / np.maximum(freedom - determined, 1.0), self.least[picked])
         self.variance[picked] = variance
         deviance = (
             freedom * np.log(variance)
@@ -154,13 +154,13 @@ def _sizes(
     rows: Sequence[Unknowns], kinds: IntArray, group: IntArray, expected: FloatArray, weight: FloatArray
 ) -> FloatArray:
     """Sizes of the deviations of every group and kind."""
-    told = np.zeros((int(group.max()) + 1, len(expected)))
-    size = np.zeros_like(told)
+    determined = np.zeros((int(group.max()) + 1, len(expected)))
+    size = np.zeros_like(determined)
     for number, row in zip(group, rows, strict=True):
         np.add.at(size[number], kinds, row.coefficients**2)
-        np.add.at(told[number], kinds, 1.0 - np.diag(row.covariance) / row.deviations**2)
+        np.add.at(determined[number], kinds, 1.0 - np.diag(row.covariance) / row.deviations**2)
     fixed = np.isinf(weight)
     finite = np.where(fixed, 1.0, weight)
-    squares = (size + finite * expected**2) / (told + finite)
+    squares = (size + finite * expected**2) / (determined + finite)
     sizes: FloatArray = np.where(fixed, expected, np.clip(np.sqrt(squares), _LEAST, _LARGEST))
     return sizes

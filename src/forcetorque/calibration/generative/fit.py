@@ -212,14 +212,7 @@ class _Result:
         mean = np.stack([row[0] for row in known]) * unit[:, None]
         covariance = np.stack([row[1] for row in known]) * unit[:, None, None] ** 2
         learnt = covariance[:, :LOADS, :LOADS].copy()
-        noise = tuple(
-            RowNoise(
-                white=float(np.sqrt(u.variance) * unit[k]),
-                time_constant_s=u.data.noise.time_constant_s,
-                ratio=u.data.noise.ratio,
-            )
-            for k, u in enumerate(self.unknowns)
-        )
+        noise = self._noise()
         matrix, to_wrench = self._matrix(mean[:, :LOADS], noise)
         if rows.space == "channel":
             mean[:, :LOADS] += rows.from_load * unit[:, None]
@@ -250,22 +243,39 @@ class _Result:
             reference_values=centre,
         )
         error = raw @ matrix.T + (values - centre) @ model.coefficients.T - wrench
-        weight, member = self.design.timeline.share, self.design.free[:, :sessions].argmax(axis=1)
         drifts = -(to_wrench @ mean[:, LOADS + v + sessions :]).T if posterior.drift else None
-        left = error + offsets[member]
-        if drifts is not None:
-            left = left + drifts[member] * self.design.free[:, sessions:].sum(axis=1)[:, None]
         return GenerativeFit(
             model=model,
             offsets=offsets,
             drifts=drifts,
             session_time_s=self.design.session_time_s,
             posterior=posterior,
-            residual=np.sqrt(np.average(left**2, axis=0, weights=weight)),
+            residual=self._residual(error, offsets, drifts),
             quadratic=np.stack([self._quadratic(k) for k in range(len(unit))]) * unit[:, None],
             load_to_full_scale=rows.load_to_full_scale,
             means=len(raw),
         )
+
+    def _noise(self) -> tuple[RowNoise, ...]:
+        """Noise of every row, in its unit of readings."""
+        return tuple(
+            RowNoise(
+                white=float(np.sqrt(unknown.variance) * unit),
+                time_constant_s=unknown.data.noise.time_constant_s,
+                ratio=unknown.data.noise.ratio,
+            )
+            for unknown, unit in zip(self.unknowns, self.rows.unit, strict=True)
+        )
+
+    def _residual(self, error: FloatArray, offsets: FloatArray, drifts: FloatArray | None) -> FloatArray:
+        """Root mean square of errors without an offset, less offset and drift of each session; shape (6,); N, N m."""
+        sessions = len(self.design.sessions)
+        member = self.design.free[:, :sessions].argmax(axis=1)
+        left = error + offsets[member]
+        if drifts is not None:
+            left = left + drifts[member] * self.design.free[:, sessions:].sum(axis=1)[:, None]
+        residual: FloatArray = np.sqrt(np.average(left**2, axis=0, weights=self.design.timeline.share))
+        return residual
 
     def _row(self, k: int) -> tuple[FloatArray, FloatArray]:
         """Mean and covariance of [six coefficients, variables, offsets, drifts] of a row, in its unit."""

@@ -28,8 +28,8 @@ from forcetorque.calibration.quadratic_correction import (
 )
 from forcetorque.calibration.wrench_model import WrenchModel
 from forcetorque.errors import FitError
+from forcetorque.spatial import FORCE_AND_MOMENT
 
-_PARTS = (slice(3), slice(3, 6))
 _REACH = 0.999
 """Share of the steepest correction that limits are drawn in to, so that rounding leaves it valid."""
 
@@ -50,7 +50,7 @@ def corrected_fit(fit: GenerativeFit, stretches: Sequence[WindowMeans], halves: 
     shares = loads @ fit.load_to_full_scale.T
     about = shares - shares.mean(axis=0)
     coefficients = fit.posterior.to_wrench @ fit.quadratic
-    for half, rows in zip(HALVES, _PARTS, strict=True):
+    for half, rows in zip(HALVES, FORCE_AND_MOMENT, strict=True):
         if half not in halves:
             coefficients[rows] = 0.0
     correction = _within(coefficients, fit.load_to_full_scale, shares)

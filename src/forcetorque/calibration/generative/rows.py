@@ -16,6 +16,7 @@ from forcetorque.arrays import FloatArray, IntArray
 from forcetorque.calibration.generative.assumptions import ACCURACY_SHARE, FRAME_ROOTS, Assumptions
 
 LOADS = 6
+"""Coefficients of a row of the matrix, one for each component of a load; and components of a wrench."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

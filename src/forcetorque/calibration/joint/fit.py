@@ -231,17 +231,17 @@ def _sizes(
     places: Places, spreads: Sequence[ChangeSpread], mean: FloatArray, covariance: FloatArray, size: FloatArray
 ) -> FloatArray:
     """Sizes of both kinds of changes of every sensor, by what the data tell of them; shape (sensors, 2)."""
-    told, square, rows = np.empty_like(size), np.empty_like(size), np.arange(6)
+    determined, square, rows = np.empty_like(size), np.empty_like(size), np.arange(6)
     for number, (sensor, spread) in enumerate(zip(places.sensors, spreads, strict=True)):
         own, before = places.changes(sensor), spread.covariance(size[number])
         narrowed = before - covariance[own, own].reshape(6, 6, 6, 6)[rows, :, rows, :]
         # what of a change is of each kind, in its own size
         shares = size[number, :, None, None, None] * np.linalg.solve(before, spread.roots).transpose(0, 1, 3, 2)
-        told[number] = np.einsum("crij,rjk,crik->c", shares, narrowed, shares)
+        determined[number] = np.einsum("crij,rjk,crik->c", shares, narrowed, shares)
         square[number] = size[number] ** 2 * ((shares @ mean[own].reshape(6, 6, 1)) ** 2).sum(axis=(1, 2, 3))
     # every sensor has its own size of the first kind; frames of one robot are off alike
-    told[:, 1], square[:, 1] = told[:, 1].sum(), square[:, 1].sum()
+    determined[:, 1], square[:, 1] = determined[:, 1].sum(), square[:, 1].sum()
     expected, weight = (np.array([getattr(kind, name) for kind in KINDS]) for name in ("expected", "weight"))
-    sizes = np.sqrt((square + weight * expected**2) / (np.maximum(told, 0.0) + weight))
+    sizes = np.sqrt((square + weight * expected**2) / (np.maximum(determined, 0.0) + weight))
     limited: FloatArray = np.clip(sizes, _SMALLEST * expected, _LARGEST * expected)
     return limited

@@ -8,10 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from forcetorque.arrays import BoolArray, FloatArray
+from forcetorque.calibration.generative.rows import LOADS
 from forcetorque.calibration.joint.touch import residuals
 from forcetorque.calibration.joint.windows import UNITS, PartWindows
-
-_LOADS = 6
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -59,9 +58,9 @@ class PartResidual:
             The same in N and N m.
         """
         count = len(windows.sensors)
-        carried = np.full((len(windows), count, _LOADS), np.nan)
+        carried = np.full((len(windows), count, LOADS), np.nan)
         if windows.rows.all():
-            transmission = windows.offsets.reshape(-1, _LOADS, count, _LOADS).transpose(0, 2, 1, 3)
+            transmission = windows.offsets.reshape(-1, LOADS, count, LOADS).transpose(0, 2, 1, 3)
             carried = np.linalg.solve(transmission, np.repeat(after[:, None, :, None], count, axis=1))[..., 0]
         stretch = windows.stretch
         return cls(

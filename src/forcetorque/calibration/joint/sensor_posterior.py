@@ -13,11 +13,10 @@ from collections.abc import Sequence
 import numpy as np
 
 from forcetorque.arrays import FloatArray
+from forcetorque.calibration.generative.rows import LOADS
 from forcetorque.calibration.joint.fit import JointFit
 from forcetorque.calibration.joint.windows import UNITS
 from forcetorque.calibration.posterior import Posterior, RowNoise
-
-_LOADS = 6
 
 
 def sensor_posterior(
@@ -51,22 +50,22 @@ def sensor_posterior(
     size = np.outer(UNITS, 1.0 / UNITS).ravel()
     units = np.concatenate([size, np.tile(UNITS, len(sessions))])
     joint = jacobian @ (fit.covariance[np.ix_(own, own)] * np.outer(units, units)) @ jacobian.T
-    rows = [_places_of_row(row, len(sessions)) for row in range(_LOADS)]
+    rows = [_places_of_row(row, len(sessions)) for row in range(LOADS)]
     covariance = np.stack([joint[np.ix_(row, row)] for row in rows])
-    learnt = covariance[:, :_LOADS, :_LOADS].copy()
+    learnt = covariance[:, :LOADS, :LOADS].copy()
     before = fit.prior_covariance(sensor) * np.outer(size, size)
     return Posterior(
         space="wrench",
         variables=(),
         sessions=tuple(sessions),
         drift=False,
-        mean=np.c_[factor - np.eye(_LOADS), -factor @ offsets.T],
+        mean=np.c_[factor - np.eye(LOADS), -factor @ offsets.T],
         covariance=covariance + _repeatability(repeatability, mean_loads),
         learnt_covariance=learnt,
-        prior_covariance=np.stack([before[np.ix_(row[:_LOADS], row[:_LOADS])] for row in rows]),
+        prior_covariance=np.stack([before[np.ix_(row[:LOADS], row[:LOADS])] for row in rows]),
         to_wrench=fit.change(sensor),
         noise=tuple(RowNoise(white=float(one), time_constant_s=0.0, ratio=0.0) for one in noise),
-        accuracy=np.zeros(_LOADS),
+        accuracy=np.zeros(LOADS),
         repeatability=repeatability,
         load_centre=mean_loads.mean(axis=0),
     )
@@ -74,23 +73,23 @@ def sensor_posterior(
 
 def _jacobian(factor: FloatArray, offsets: FloatArray) -> FloatArray:
     """Derivative of [E row by row, e of every session] by [D row by row, o of every session]."""
-    changes, sessions = _LOADS * _LOADS, len(offsets)
-    jacobian = np.zeros((changes + _LOADS * sessions,) * 2)
+    changes, sessions = LOADS * LOADS, len(offsets)
+    jacobian = np.zeros((changes + LOADS * sessions,) * 2)
     jacobian[:changes, :changes] = -np.kron(factor, factor.T)
     for number, offset in enumerate(offsets):
-        own = slice(changes + _LOADS * number, changes + _LOADS * (number + 1))
+        own = slice(changes + LOADS * number, changes + LOADS * (number + 1))
         # e = -(1 + E) o
-        jacobian[own, :changes] = -np.kron(np.eye(_LOADS), offset) @ jacobian[:changes, :changes]
+        jacobian[own, :changes] = -np.kron(np.eye(LOADS), offset) @ jacobian[:changes, :changes]
         jacobian[own, own] = -factor
     return jacobian
 
 
 def _places_of_row(row: int, sessions: int) -> list[int]:
-    changes = _LOADS * _LOADS
-    return [*range(_LOADS * row, _LOADS * (row + 1)), *(changes + _LOADS * k + row for k in range(sessions))]
+    changes = LOADS * LOADS
+    return [*range(LOADS * row, LOADS * (row + 1)), *(changes + LOADS * k + row for k in range(sessions))]
 
 
 def _repeatability(share: float, mean_loads: FloatArray) -> FloatArray:
     """Covariance by motions in which the sensor answers otherwise, about the mean load of each session."""
-    jacobian = np.r_[np.eye(_LOADS), -mean_loads]
+    jacobian = np.r_[np.eye(LOADS), -mean_loads]
     return np.stack([jacobian @ np.diag(row**2) @ jacobian.T for row in share * np.outer(UNITS, 1.0 / UNITS)])

@@ -9,10 +9,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from forcetorque.arrays import FloatArray, IntArray
+from forcetorque.calibration.generative.rows import LOADS
 from forcetorque.calibration.joint.model_error import ErrorTerm
 from forcetorque.calibration.joint.windows import UNITS, PartWindows
 
-_LOADS, _CHANGES = 6, 36
+_CHANGES = 36
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -70,20 +71,20 @@ def part_sums(windows: Iterable[PartWindows]) -> list[PartSums]:
 
 def _summed(windows: PartWindows) -> PartSums:
     stretch = windows.stretch
-    k, p = len(windows.sensors), _LOADS * len(windows.sensors) + _CHANGES * len(windows.sensors) + len(windows.terms)
-    products, shared = np.zeros((_LOADS, p, p)), np.zeros((_LOADS, p))
-    spread = np.zeros((k, _LOADS, _LOADS, _LOADS))
+    k, p = len(windows.sensors), LOADS * len(windows.sensors) + _CHANGES * len(windows.sensors) + len(windows.terms)
+    products, shared = np.zeros((LOADS, p, p)), np.zeros((LOADS, p))
+    spread = np.zeros((k, LOADS, LOADS, LOADS))
     for block in windows.blocks():
         columns = block.columns.transpose(1, 2, 0)  # a row, a coefficient, a window
         products += columns @ columns.transpose(0, 2, 1)
         shared += (columns @ block.right.T[:, :, None])[..., 0]
         spread += block.spread.sum(axis=0)
-    noise = np.zeros((_LOADS, _CHANGES * k, _CHANGES * k))
+    noise = np.zeros((LOADS, _CHANGES * k, _CHANGES * k))
     for number, name in enumerate(windows.sensors):
         covariance = noise_covariance(stretch.readings[name] / UNITS)
         own = slice(_CHANGES * number, _CHANGES * (number + 1))
         by_row = np.einsum("iab,cd->iacbd", spread[number], covariance)
-        noise[:, own, own] = by_row.reshape(_LOADS, _CHANGES, _CHANGES)
+        noise[:, own, own] = by_row.reshape(LOADS, _CHANGES, _CHANGES)
     return PartSums(
         part=windows.part,
         recording=stretch.recording,
@@ -101,9 +102,9 @@ def _summed(windows: PartWindows) -> PartSums:
 
 def _common(windows: PartWindows) -> FloatArray:
     """Share of every coefficient in the common scale: gains of sensors by their loads, masses by what they demand."""
-    gains = np.concatenate([share * np.eye(_LOADS).ravel() / _LOADS for share in windows.load_shares[:-1]])
+    gains = np.concatenate([share * np.eye(LOADS).ravel() / LOADS for share in windows.load_shares[:-1]])
     masses = windows.load_shares[-1] * windows.mass_shares
-    return np.concatenate([gains, np.zeros(_LOADS * len(windows.sensors)), masses])
+    return np.concatenate([gains, np.zeros(LOADS * len(windows.sensors)), masses])
 
 
 def noise_covariance(readings: FloatArray) -> FloatArray:
@@ -118,7 +119,7 @@ def noise_covariance(readings: FloatArray) -> FloatArray:
     bends = np.diff(readings, n=2, axis=0)
     bends = bends[np.isfinite(bends).all(axis=1)]
     if len(bends) < 10:
-        return np.zeros((_LOADS, _LOADS))
+        return np.zeros((LOADS, LOADS))
     # samples that are held, or quantised, bend by nothing, and knocks by much
     kept = (np.abs(bends) <= 3.0 * np.quantile(np.abs(bends), 0.7, axis=0) + 1e-12).all(axis=1)
     bends = bends[kept]
@@ -156,7 +157,7 @@ class Places:
         )
 
     def __len__(self) -> int:
-        return _CHANGES * len(self.sensors) + _LOADS * len(self.offsets) + len(self.terms)
+        return _CHANGES * len(self.sensors) + LOADS * len(self.offsets) + len(self.terms)
 
     def changes(self, sensor: str) -> slice:
         """Give the places of the changes of a sensor, row by row.
@@ -180,8 +181,8 @@ class Places:
         Returns:
             Six places.
         """
-        start = _CHANGES * len(self.sensors) + _LOADS * self.offsets[sensor, session]
-        return slice(start, start + _LOADS)
+        start = _CHANGES * len(self.sensors) + LOADS * self.offsets[sensor, session]
+        return slice(start, start + LOADS)
 
     @property
     def errors(self) -> slice:

@@ -10,18 +10,17 @@ from typing import Final
 import numpy as np
 
 from forcetorque.arrays import BoolArray, FloatArray
+from forcetorque.calibration.generative.rows import LOADS
 from forcetorque.calibration.joint.fit import JointFit
 from forcetorque.calibration.joint.windows import UNITS, WINDOW_S, PartWindows
+from forcetorque.constants import MAD_TO_DEVIATION
 
-_LOADS = 6
 FAR: Final = 4.0
 """Robust standard deviations of the residual from which a window disagrees."""
 _NEIGHBOURS = 2
 """Windows to either side that leave with it: a touch begins and ends gently."""
 _FEWEST = 20
 """Windows below which nobody can tell which disagree."""
-_NORMAL = 1.4826
-"""Standard deviation over median absolute deviation of a normal distribution."""
 _LEAST = 1e-3
 """Smallest scale of a residual, in `UNITS`: below that it is rounding."""
 
@@ -51,7 +50,7 @@ def residuals(windows: PartWindows, fit: JointFit | None) -> FloatArray:
         Left side less right side; shape (w, 6); in `UNITS`.
     """
     if fit is None:
-        return residuals_by(windows, {name: np.eye(_LOADS) for name in windows.sensors}, None)
+        return residuals_by(windows, {name: np.eye(LOADS) for name in windows.sensors}, None)
     unknowns = fit.mean[fit.places.of_part(windows.sensors, windows.stretch.session, windows.terms)]
     return np.concatenate([block.columns @ unknowns - block.right for block in windows.blocks()])
 
@@ -69,7 +68,7 @@ def residuals_by(
     Returns:
         Left side less right side; shape (w, 6); in `UNITS`.
     """
-    changes = [(factors[name] * (UNITS / UNITS[:, None]) - np.eye(_LOADS)).ravel() for name in windows.sensors]
+    changes = [(factors[name] * (UNITS / UNITS[:, None]) - np.eye(LOADS)).ravel() for name in windows.sensors]
     left = np.concatenate([block.changes @ np.concatenate(changes) - block.right for block in windows.blocks()])
     of_offsets = windows.offsets
     if offsets is None:
@@ -94,7 +93,7 @@ def untouched(windows: PartWindows, fit: JointFit | None) -> BoolArray:
         return np.ones(len(windows), dtype=bool)
     left = residuals(windows, fit)[:, windows.rows > 0.0]
     left = left - np.median(left, axis=0)
-    scale = np.maximum(_NORMAL * np.median(np.abs(left), axis=0), _LEAST)
+    scale = np.maximum(MAD_TO_DEVIATION * np.median(np.abs(left), axis=0), _LEAST)
     far = np.sqrt(((left / scale) ** 2).mean(axis=1)) > FAR
     spread = np.convolve(far, np.ones(2 * _NEIGHBOURS + 1), mode="full")[_NEIGHBOURS : _NEIGHBOURS + len(far)]
     agree = np.asarray(spread < 0.5)

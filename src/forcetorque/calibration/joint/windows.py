@@ -17,6 +17,7 @@ from typing import TYPE_CHECKING, Any, Final
 import numpy as np
 
 from forcetorque.arrays import BoolArray, FloatArray, IntArray
+from forcetorque.calibration.generative.rows import LOADS
 from forcetorque.calibration.joint.model_error import DELAY, ZERO, ErrorTerm, body_columns, demand_columns, mass_shares
 from forcetorque.calibration.joint.nodes import NODES, WEIGHTS, WindowNodes
 from forcetorque.calibration.joint.stretch import Stretch
@@ -36,7 +37,6 @@ PIECE_S: Final = 500 * WINDOW_S
 """Length of what is worked on at a time; s: samples take more room than what is kept of them."""
 STILL_RAD_S: Final = 0.1
 """Speed of joints and root below which a robot is at rest; rad/s."""
-_LOADS = 6
 _CHANGES = 36
 _BLOCK = 500
 """Windows whose coefficients are written out at a time."""
@@ -89,14 +89,14 @@ class PartWindows:
         """Coefficients of D, row by row, of every sensor; shape (w, 6, 36 k)."""
         weighted = WEIGHTS[:, None, None] * self.readings
         products = np.einsum("wnkia,wnkb->wikab", self.transmission, weighted, optimize=True)
-        changes: FloatArray = products.reshape(len(self), _LOADS, _CHANGES * len(self.sensors))
+        changes: FloatArray = products.reshape(len(self), LOADS, _CHANGES * len(self.sensors))
         return changes
 
     @property
     def offsets(self) -> FloatArray:
         """Coefficients of the offsets; shape (w, 6, 6 k)."""
         means = np.einsum("n,wnkia->wika", WEIGHTS, self.transmission)
-        offsets: FloatArray = means.reshape(len(self), _LOADS, _LOADS * len(self.sensors))
+        offsets: FloatArray = means.reshape(len(self), LOADS, LOADS * len(self.sensors))
         return offsets
 
     @property
@@ -211,13 +211,13 @@ def _piece_windows(
     moving = zip(part_equations(tree, parts, joints, nodes.root), of_zeros, strict=True)
     # where the bodies of what is weighed are does not matter, nor does how joints turn them
     resting = (
-        (equation, {f"{ZERO}{joint}": np.zeros(_LOADS) for joint in joints_of_cuts(tree, equation.part)})
+        (equation, {f"{ZERO}{joint}": np.zeros(LOADS) for joint in joints_of_cuts(tree, equation.part)})
         for equation in weight_equations(tree, weighed, joints, nodes.root)
     )
     for equation, demanded in chain(moving, resting):
         columns = _error_columns(stretch, equation, windows, nodes, demanded, about) if terms else {}
         own = [term for term in terms if term.name in columns]
-        errors = np.empty((len(windows), _LOADS, len(own)))
+        errors = np.empty((len(windows), LOADS, len(own)))
         for k, term in enumerate(own):
             errors[:, :, k] = columns[term.name] / UNITS
         logged = np.stack([nodes.readings[name] for name in equation.sensors], axis=1)
@@ -278,8 +278,8 @@ def _averaged(
         terms=tuple(term.name for term in terms),
         time_s=windows.time_s,
         counts=windows.counts,
-        transmission=transmission.reshape(w, NODES, k, _LOADS, _LOADS),
-        readings=readings.reshape(w, NODES, k, _LOADS),
+        transmission=transmission.reshape(w, NODES, k, LOADS, LOADS),
+        readings=readings.reshape(w, NODES, k, LOADS),
         errors=errors,
         # unknown is the whole error of a zero, some of which the equation has already
         right=windows.node_means(right) + errors @ known,

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Any, Final, Self
+from typing import Any, Final
 
 import numpy as np
 
@@ -43,23 +43,6 @@ class ContactThresholds:
             )
         if not 0.0 <= self.dwell_s < np.inf:
             raise EstimationError(f"thresholds: expected a dwell time of at least 0 s, got {self.dwell_s:g} s")
-
-    @classmethod
-    def of_weight(
-        cls, weight_N: float, *, touch: float = TOUCH_SHARE, release: float = RELEASE_SHARE, dwell_s: float = 0.0
-    ) -> Self:
-        """State thresholds as shares of the body weight.
-
-        Args:
-            weight_N: Weight of the robot; N.
-            touch: Share that a contact reaches.
-            release: Share above which it lasts.
-            dwell_s: As of the class; s.
-
-        Returns:
-            The thresholds.
-        """
-        return cls(touch_N=touch * weight_N, release_N=release * weight_N, dwell_s=dwell_s)
 
 
 def contact_state(force_N: Any, time_s: Any, thresholds: ContactThresholds) -> BoolArray:

@@ -42,7 +42,7 @@ def driver() -> Callable[..., bool]:
 
     @njit(cache=True, **DRIVER)
     def drive(plan, joint_columns, motion, root, measured_columns, measured, known_columns, known, active, out):
-        source  # noqa: B018
+        source  # noqa: B018 - closed over: a change in any of the files compiles it anew
         gap = False
         solving = len(plan.parts.base) > 0 or len(plan.torques.body) > 0
         bodies = len(plan.bodies.parent)

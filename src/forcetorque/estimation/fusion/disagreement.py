@@ -108,10 +108,10 @@ def disagreement(sources: Sequence[WindowMeans]) -> Disagreement:
     square -= np.einsum("wji,wjk->ik", together, covariance @ together, optimize=True)
     values, vectors = np.linalg.eigh(square[1:, 1:])
     gradient = vectors.T @ square[1:, 0]
-    told = values > 1.0
-    lasting = gradient[told] ** 2 / (values[told] * (values[told] + 1.0))
-    explained = np.sum(gradient[told] ** 2 / values[told]) + np.sum(gradient[~told] ** 2 / (values[~told] + 1.0))
-    number = int(np.count_nonzero(told))
+    sure = values > 1.0
+    lasting = gradient[sure] ** 2 / (values[sure] * (values[sure] + 1.0))
+    explained = np.sum(gradient[sure] ** 2 / values[sure]) + np.sum(gradient[~sure] ** 2 / (values[~sure] + 1.0))
+    number = int(np.count_nonzero(sure))
     return Disagreement(
         lasting=Innovation(chi2=float(lasting.sum()), degrees_of_freedom=number),
         passing=Innovation(chi2=float(square[0, 0] - explained), degrees_of_freedom=count - number),

@@ -70,8 +70,8 @@ class Friction:
         Returns:
             Torque that the motor gives and the joint does not get; shape (n,); N m.
         """
-        taken: FloatArray = friction_terms(velocity, acceleration) @ self.coefficients
-        return taken
+        torques: FloatArray = friction_terms(velocity, acceleration) @ self.coefficients
+        return torques
 
 
 def friction_terms(velocity: FloatArray, acceleration: FloatArray) -> FloatArray:

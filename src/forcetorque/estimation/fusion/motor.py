@@ -76,8 +76,8 @@ def motor_source(
     torque, lasting = np.full((n, j), np.nan), np.zeros((n, j, j * 4))
     for k, friction in enumerate(frictions):
         moving = friction.moves(velocity[:, k])
-        taken = friction.torque(velocity[:, k], acceleration[:, k])
-        torque[moving, k] = (drive_torque[:, k] - taken)[moving]
+        lost = friction.torque(velocity[:, k], acceleration[:, k])
+        torque[moving, k] = (drive_torque[:, k] - lost)[moving]
         terms = friction_terms(velocity[:, k], acceleration[:, k])
         lasting[:, k, 4 * k : 4 * k + 4] = terms @ square_root(friction.covariance)
     noise = np.diag([friction.variance for friction in frictions])

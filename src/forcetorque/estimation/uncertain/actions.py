@@ -43,7 +43,8 @@ class Action:
     body: int
     """The body."""
     root_X_actor: FloatArray
-    """Its wrench as what is done to the body, along the axes of the root link and about its origin; (n, 6, 6)."""
+    """Its wrench as what is done to the body, along the axes of the root link and about its origin; shape
+    (n, 6, 6)."""
 
 
 def actors_of(

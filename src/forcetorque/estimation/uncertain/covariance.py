@@ -29,21 +29,21 @@ def wrench_covariances(values: Any, *, name: str, samples: int) -> FloatArray:
     Raises:
         EstimationError: If one is infinite, not symmetric, or has a negative eigenvalue: then no error has it.
     """
-    given = np.asarray(values, dtype=np.float64)
-    if given.ndim == 2:
-        given = given[None]
-    if len(given) == 1:
-        given = np.broadcast_to(given, (samples, *given.shape[1:]))
-    require_shape(given, name=f"covariance of {name!r}", shape=(samples, 6, 6))
-    largest = np.abs(given).max(axis=(1, 2), initial=0.0)
+    covariances = np.asarray(values, dtype=np.float64)
+    if covariances.ndim == 2:
+        covariances = covariances[None]
+    if len(covariances) == 1:
+        covariances = np.broadcast_to(covariances, (samples, *covariances.shape[1:]))
+    require_shape(covariances, name=f"covariance of {name!r}", shape=(samples, 6, 6))
+    largest = np.abs(covariances).max(axis=(1, 2), initial=0.0)
     _refuse(np.isinf(largest), name, "finite numbers, or NaN for a gap", largest)
-    whole: BoolArray = np.all(np.isfinite(given), axis=(1, 2))
-    safe = np.where(whole[:, None, None], given, 0.0)
+    whole: BoolArray = np.all(np.isfinite(covariances), axis=(1, 2))
+    safe = np.where(whole[:, None, None], covariances, 0.0)
     asymmetry = np.abs(safe - safe.transpose(0, 2, 1)).max(axis=(1, 2))
     _refuse(asymmetry > _ROUNDING * largest, name, "a symmetric matrix", asymmetry)
     smallest = np.linalg.eigvalsh(safe)[:, 0]
     _refuse(smallest < -_ROUNDING * largest, name, "no negative eigenvalue", smallest)
-    return given
+    return covariances
 
 
 def square_root(covariance: FloatArray) -> FloatArray:

@@ -197,11 +197,11 @@ def _checked(question: Question, uncertainty: Uncertainty, n: int) -> Uncertaint
 
 def _lasting(values: FloatArray, *, name: str, samples: int) -> FloatArray:
     """Columns of lasting errors, for each sample."""
-    given = np.asarray(values, dtype=np.float64)
-    if given.ndim == 2:
-        given = np.broadcast_to(given, (samples, *given.shape))
-    require_shape(given, name=f"lasting errors of {name!r}", shape=(samples, 6, None))
-    return given
+    errors = np.asarray(values, dtype=np.float64)
+    if errors.ndim == 2:
+        errors = np.broadcast_to(errors, (samples, *errors.shape))
+    require_shape(errors, name=f"lasting errors of {name!r}", shape=(samples, 6, None))
+    return errors
 
 
 def _cut(uncertainty: Uncertainty, block: slice) -> Uncertainty:

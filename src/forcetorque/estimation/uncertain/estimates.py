@@ -9,7 +9,7 @@ from typing import Any, Final
 import numpy as np
 
 from forcetorque.arrays import BoolArray, FloatArray, IntArray
-from forcetorque.errors import EstimationError, known_names
+from forcetorque.estimation.estimates import column_of
 from forcetorque.estimation.uncertain.undetermined import Undetermined
 
 BY_SAMPLE: Final = (
@@ -94,7 +94,7 @@ class UncertainEstimates:
         Returns:
             Wrenches in the contact frame; shape (n, 6); N, N m.
         """
-        return self.contact_wrenches[:, _index(name, self.contacts, "contact")]
+        return self.contact_wrenches[:, column_of(name, self.contacts, "contact")]
 
     def contact_sd(self, name: str) -> FloatArray:
         """Give the standard deviations of the wrench of a contact.
@@ -116,7 +116,7 @@ class UncertainEstimates:
         Returns:
             Covariances; shape (n, 6, 6).
         """
-        return self.contact_covariance[:, _index(name, self.contacts, "contact")]
+        return self.contact_covariance[:, column_of(name, self.contacts, "contact")]
 
     def torque(self, joint: str) -> FloatArray:
         """Give the torques of a joint.
@@ -127,16 +127,10 @@ class UncertainEstimates:
         Returns:
             Torques; shape (n,); N m, N where prismatic.
         """
-        return self.torques[:, _index(joint, self.joints, "torque")]
+        return self.torques[:, column_of(joint, self.joints, "torque")]
 
 
 def _deviations(covariance: FloatArray) -> FloatArray:
     variance = np.einsum("...ii->...i", covariance)
     deviations: FloatArray = np.sqrt(np.maximum(variance, 0.0))
     return deviations
-
-
-def _index(name: str, names: tuple[str, ...], what: str) -> int:
-    if name not in names:
-        raise EstimationError(f"no {what} of {name!r} was asked for; {known_names(name, names)}")
-    return names.index(name)

@@ -3,8 +3,9 @@
 
 from forcetorque.evaluation.contest.pairs import FAMILY_ERROR, Parts, RatedPair, Standing, rated_pairs, rms_intervals
 from forcetorque.evaluation.contest.path import MotionPath, require_same_motion
-from forcetorque.evaluation.contest.scores import LEAST_RANGE_DEGC, Change, changes, repeatability
+from forcetorque.evaluation.contest.scores import Change, changes, repeatability
 from forcetorque.evaluation.contest.trial import Trial, by_load, common_phases, trial_of
+from forcetorque.evaluation.thermal.drift import LEAST_RANGE_DEGC
 
 __all__ = [
     "FAMILY_ERROR",

@@ -66,8 +66,8 @@ class Parts:
             By load and phase; shape (loads, q); N2, N2 m2, or 1.
         """
         force, moment = self.squares[..., :3].sum(axis=-1), self.squares[..., 3:].sum(axis=-1)
-        both: FloatArray = force / scale[0] ** 2 + moment / scale[1] ** 2
-        norms: FloatArray = {"wrench": both, "force": force, "moment": moment}[quantity]
+        wrench: FloatArray = force / scale[0] ** 2 + moment / scale[1] ** 2
+        norms: FloatArray = {"wrench": wrench, "force": force, "moment": moment}[quantity]
         return norms
 
 

@@ -11,9 +11,7 @@ import numpy as np
 
 from forcetorque.arrays import BoolArray, FloatArray
 from forcetorque.evaluation.contest.trial import Trial
-
-LEAST_RANGE_DEGC = 5.0
-"""Range of mean temperatures of runs from which a coefficient is told; `forcetorque thermal` warns below it; degC."""
+from forcetorque.evaluation.thermal.drift import LEAST_RANGE_DEGC
 
 _HOUR_S = 3600.0
 

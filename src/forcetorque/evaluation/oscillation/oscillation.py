@@ -112,12 +112,12 @@ def fit_oscillation(values: FloatArray, rate_hz: float, candidate: Candidate) ->
     ]
     jacobian = np.column_stack([columns, *moved])
     covariance = noise * np.linalg.pinv(jacobian.T @ jacobian, hermitian=True)
-    told = _told(parameters, n / rate_hz)
+    stated = _told(parameters, n / rate_hz)
     gradient = _gradient(parameters, n / rate_hz)
     return Oscillation(
-        frequency_hz=float(told[0]),
-        amplitude=float(told[1]),
-        damping=float(told[2]),
+        frequency_hz=float(stated[0]),
+        amplitude=float(stated[1]),
+        damping=float(stated[2]),
         standard_error=np.sqrt(np.einsum("ip,pq,iq->i", gradient, covariance, gradient)),
         degrees_of_freedom=degrees,
         coherence_s=n / rate_hz,

@@ -40,32 +40,12 @@ def fit_wandering(values: FloatArray, rate_hz: float, candidate: Candidate) -> O
     Returns:
         The oscillation, without damping.
     """
-    from scipy.optimize import minimize_scalar  # here because importing it takes longer than most commands
-
-    cut = pieces(values, candidate.parts)
-    parts, length = cut.shape
-    tapers = candidate.family.tapers(length)
-    place = (np.arange(length) - 0.5 * (length - 1)) / length
-    steady = growth_pattern(tapers, 0.0)
-    size = float(steady @ steady)
-
-    def numbers(cycles: float) -> np.ndarray[tuple[int, int], np.dtype[np.complex128]]:
-        return np.asarray(cut @ (tapers * np.exp(-2j * np.pi * cycles * place)).T)
-
-    def explained(cycles: float) -> FloatArray:
-        """Of each part; shape (parts,)."""
-        square: FloatArray = np.abs(numbers(cycles) @ steady) ** 2 / size
-        return square
-
-    about = candidate.cycles / parts
-    cycles = float(
-        minimize_scalar(
-            lambda cycles: -explained(cycles).sum(), bounds=(about - _REACH, about + _REACH), method="bounded"
-        ).x
-    )
-    before, here, after = (explained(cycles + step) for step in (-_STEP, 0.0, _STEP))
-    seen = numbers(cycles)
-    noise = float(((np.abs(seen) ** 2).sum() - here.sum()) / (parts * (candidate.family.count - 1)))
+    record = _Parts(values, candidate)
+    parts, length, size = len(record.pieces), len(record.place), record.size
+    cycles = record.strongest(candidate.cycles / parts)
+    before, here, after = (record.explained(cycles + step) for step in (-_STEP, 0.0, _STEP))
+    transform = record.numbers(cycles)
+    noise = float(((np.abs(transform) ** 2).sum() - here.sum()) / (parts * (candidate.family.count - 1)))
     slope, bend = 0.5 * (after - before) / _STEP, (2.0 * here - after - before) / _STEP**2
     curvature = float(bend.sum())
     # a part that weighs much draws the frequency to itself: its slope would be more without it
@@ -73,7 +53,7 @@ def fit_wandering(values: FloatArray, rate_hz: float, candidate: Candidate) -> O
     scatter = float(apart @ apart) / curvature**2
     squares = 4.0 * (here - noise) / size
     amplitude = math.sqrt(max(float(squares.mean()), 0.0))
-    most = math.sqrt(4.0 * float((np.abs(seen) ** 2).sum()) / parts / size)
+    most = math.sqrt(4.0 * float((np.abs(transform) ** 2).sum()) / parts / size)
     uneven = float(squares.std(ddof=1)) / math.sqrt(parts) / (2.0 * amplitude) if amplitude else math.inf
     quantile = float(half_width(np.ones(1), np.array([parts - 1.0]))[0])
     errors = np.array(
@@ -83,9 +63,6 @@ def fit_wandering(values: FloatArray, rate_hz: float, candidate: Candidate) -> O
             math.nan,
         ]
     )
-    swing = 2.0 * (seen @ steady / size)[:, None] * np.exp(2j * np.pi * cycles * place)
-    fitted = np.zeros_like(values)
-    fitted[: swing.size] = swing.real.ravel()
     return Oscillation(
         frequency_hz=cycles * rate_hz / length,
         amplitude=amplitude,
@@ -94,5 +71,41 @@ def fit_wandering(values: FloatArray, rate_hz: float, candidate: Candidate) -> O
         degrees_of_freedom=parts - 1,
         coherence_s=length / rate_hz,
         chance=candidate.chance,
-        fitted=fitted,
+        fitted=record.swing(cycles, samples=len(values)),
     )
+
+
+class _Parts:
+    """A record in parts, as tapers see it at a number of cycles per part."""
+
+    def __init__(self, values: FloatArray, candidate: Candidate) -> None:
+        self.pieces = pieces(values, candidate.parts)
+        length = self.pieces.shape[1]
+        self.tapers = candidate.family.tapers(length)
+        self.place = (np.arange(length) - 0.5 * (length - 1)) / length
+        self.steady = growth_pattern(self.tapers, 0.0)
+        self.size = float(self.steady @ self.steady)
+
+    def numbers(self, cycles: float) -> np.ndarray[tuple[int, int], np.dtype[np.complex128]]:
+        """One per part and taper; shape (parts, k)."""
+        return np.asarray(self.pieces @ (self.tapers * np.exp(-2j * np.pi * cycles * self.place)).T)
+
+    def explained(self, cycles: float) -> FloatArray:
+        """Power of each part that a swing which keeps its phase within it explains; shape (parts,)."""
+        square: FloatArray = np.abs(self.numbers(cycles) @ self.steady) ** 2 / self.size
+        return square
+
+    def strongest(self, about: float) -> float:
+        """Cycles per part near some that explain most over all parts."""
+        from scipy.optimize import minimize_scalar  # here because importing it takes longer than most commands
+
+        bounds = (about - _REACH, about + _REACH)
+        return float(minimize_scalar(lambda cycles: -self.explained(cycles).sum(), bounds=bounds, method="bounded").x)
+
+    def swing(self, cycles: float, *, samples: int) -> FloatArray:
+        """The swing itself, zero behind the last part; shape (samples,)."""
+        amplitude = self.numbers(cycles) @ self.steady / self.size
+        swing = 2.0 * amplitude[:, None] * np.exp(2j * np.pi * cycles * self.place)
+        fitted = np.zeros(samples)
+        fitted[: swing.size] = swing.real.ravel()
+        return fitted

@@ -7,7 +7,7 @@ from forcetorque.evaluation.planning.before import (
     blank_posterior,
     unfitted_posterior,
 )
-from forcetorque.evaluation.planning.criterion import Aim, Criterion, Volume
+from forcetorque.evaluation.planning.criterion import HELPS, Aim, Criterion, Volume
 from forcetorque.evaluation.planning.lesson import Knowledge, Lesson, Nuisance
 from forcetorque.evaluation.planning.picking import Choices, pick
 from forcetorque.evaluation.planning.search import picked_orders, search
@@ -15,6 +15,7 @@ from forcetorque.evaluation.planning.search import picked_orders, search
 __all__ = [
     "ASSUMED_DRIFT",
     "ASSUMED_NOISE",
+    "HELPS",
     "Aim",
     "Choices",
     "Criterion",

@@ -25,6 +25,10 @@ class Readings:
     """That of its noise alone; shape (rows, 1)."""
 
 
+HELPS = 0.05
+"""Part by which a recording lowers an error at least, to be called a help."""
+
+
 class Aim(Protocol):
     """What postures are picked for."""
 

@@ -97,7 +97,7 @@ class Knowledge:
     nuisance: Nuisance | None
     """Quadratic terms; None for a sensor that is known to have none."""
     centre: FloatArray | None
-    """Load about which they are taken; None for the mean of the first recording."""
+    """Load about which they are taken; shape (6,); N, N m; None for the mean of the first recording."""
 
     @classmethod
     def of(cls, posterior: Posterior, *, seconds: float = 0.0, nuisance: Nuisance | None = None) -> Knowledge:

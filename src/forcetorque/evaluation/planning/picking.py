@@ -44,7 +44,7 @@ def pick(posterior: Posterior, aim: Aim, choices: Choices, *, haste: float) -> I
             per posture.
 
     Returns:
-        Numbers of the postures in turn, the start first and last.
+        Numbers of the postures in turn, the start first and last; shape (k,).
     """
     n, size = choices.columns.shape
     step_s = float(np.median(choices.travel_s(0)))

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from forcetorque.arrays import FloatArray
+from forcetorque.constants import MAD_TO_DEVIATION
 from forcetorque.errors import RecordingError
 from forcetorque.evaluation.response.even import EvenRecord
 
@@ -21,9 +22,6 @@ APART_S = 0.25
 
 QUIET_SHARE = 0.3
 """Last part of the stretch before an event that is taken for quiet: before it, weights may be hung up again."""
-
-_ROBUST = 1.4826
-"""From the median magnitude to the standard deviation of normal numbers."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -114,7 +112,7 @@ def outstanding(record: EvenRecord) -> FloatArray:
 
     width = 2 * int(0.5 * SLOW_S * record.rate_hz) + 1
     fast = np.abs(record.signals - median_filter(record.signals, size=(width, 1), mode="nearest"))
-    scale = _ROBUST * np.median(fast, axis=0)
+    scale = MAD_TO_DEVIATION * np.median(fast, axis=0)
     standing: FloatArray = fast / np.maximum(scale, _resolution(record.signals))
     return standing
 

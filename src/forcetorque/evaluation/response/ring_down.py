@@ -165,10 +165,10 @@ def error_of_mean(count: int, noise: FloatArray) -> float:
 
     Args:
         count: How many.
-        noise: Autocovariance from lag 0 on.
+        noise: Autocovariance from lag 0 on; shape (lags,); square of the unit of the signal.
 
     Returns:
-        The error.
+        The error, in that unit.
     """
     return math.sqrt(max(float(_covariance(np.ones((count, 1)), noise)[0, 0]), 0.0))
 
@@ -300,8 +300,8 @@ def _covariance(jacobian: FloatArray, autocovariance: FloatArray) -> FloatArray:
 
     scale = np.sqrt((jacobian**2).sum(axis=0))
     columns = jacobian / scale
-    both = np.concatenate([autocovariance[:0:-1], autocovariance])
-    noisy = fftconvolve(columns, both[:, None], mode="full", axes=0)[len(autocovariance) - 1 :][: len(columns)]
+    symmetric = np.concatenate([autocovariance[:0:-1], autocovariance])
+    noisy = fftconvolve(columns, symmetric[:, None], mode="full", axes=0)[len(autocovariance) - 1 :][: len(columns)]
     spread = np.linalg.pinv(columns.T @ columns, hermitian=True)
     covariance: FloatArray = spread @ (columns.T @ noisy) @ spread / np.outer(scale, scale)
     return covariance

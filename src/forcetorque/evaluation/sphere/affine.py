@@ -233,9 +233,9 @@ def _against(count: int, margin: float, tolerance: float) -> tuple[str, ...]:
 
 def _sums(reference: FloatArray, measured: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Sums of products of [reference, measured, 1] per block, about the means; and these means."""
-    both = np.hstack([reference, measured])
-    shift = both.mean(axis=0)
-    return sums_of_products(both, lambda rows: np.column_stack([rows - shift, np.ones(len(rows))])), shift
+    pairs = np.hstack([reference, measured])
+    shift = pairs.mean(axis=0)
+    return sums_of_products(pairs, lambda rows: np.column_stack([rows - shift, np.ones(len(rows))])), shift
 
 
 def _reference_extent(mean: FloatArray) -> FloatArray:

@@ -90,9 +90,9 @@ def direct_fit(mean: FloatArray, moments: QuadricMoments) -> Quadrics:
     coefficients = np.full((len(mean), 6), np.nan)
     wanting = np.arange(len(mean))
     for k in _K:
-        found = _constrained(reduced[wanting], k)
-        good = _definite(found)
-        coefficients[wanting[good]] = found[good]
+        ellipsoids = _constrained(reduced[wanting], k)
+        good = _definite(ellipsoids)
+        coefficients[wanting[good]] = ellipsoids[good]
         wanting = wanting[~good]
     linear = -np.einsum("mij,mj->mi", rest, coefficients)
     return _quadrics(np.concatenate([coefficients, linear], axis=1), moments)
@@ -128,11 +128,11 @@ def direct_shape_with_own_centres(sums: FloatArray) -> tuple[FloatArray, FloatAr
     reduced, rest = _without_linear_part(sums)
     total = reduced.sum(axis=0, keepdims=True)
     tried = (_constrained(total, k) for k in _K)
-    found = next((coefficients for coefficients in tried if _definite(coefficients)[0]), None)
-    if found is None:
+    ellipsoid = next((coefficients for coefficients in tried if _definite(coefficients)[0]), None)
+    if ellipsoid is None:
         return None
-    (matrix,) = _matrices(found)
-    linear = -rest @ found[0]  # (t, 4): 2x, 2y, 2z and 1 of each cloud
+    (matrix,) = _matrices(ellipsoid)
+    linear = -rest @ ellipsoid[0]  # (t, 4): 2x, 2y, 2z and 1 of each cloud
     centres = -np.linalg.solve(matrix, linear[:, :3].T).T
     level = float(np.average(-(linear[:, :3] * centres).sum(axis=1) - linear[:, 3], weights=sums[:, 9, 9]))
     shape = matrix / level if level else np.full((3, 3), np.nan)
@@ -180,8 +180,8 @@ def _constrained(reduced: FloatArray, k: float) -> FloatArray:
     # of the six eigenvalues of constraint^-1 reduced one is positive, since the constraint has one positive direction
     values, vectors = np.linalg.eig(np.linalg.solve(constraint[None], reduced))
     best = np.argmax(values.real, axis=1)
-    found: FloatArray = np.take_along_axis(vectors.real, best[:, None, None], axis=2)[:, :, 0]
-    return found
+    coefficients: FloatArray = np.take_along_axis(vectors.real, best[:, None, None], axis=2)[:, :, 0]
+    return coefficients
 
 
 def _definite(coefficients: FloatArray) -> BoolArray:

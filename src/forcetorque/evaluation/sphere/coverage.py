@@ -30,10 +30,10 @@ def share_of_directions(cloud: FloatArray, centre: FloatArray) -> float:
     """
     away = cloud - centre
     length = np.linalg.norm(away, axis=1)
-    seen = away[length > 0.0] / length[length > 0.0, None]
-    if not len(seen):
+    directions = away[length > 0.0] / length[length > 0.0, None]
+    if not len(directions):
         return 0.0
-    _, nearest = _cells().query(seen)
+    _, nearest = _cells().query(directions)
     return len(np.unique(nearest)) / CELLS
 
 

@@ -265,9 +265,11 @@ def index_ends(estimates: Sequence[Resampled], *, jackknifed: bool) -> tuple[flo
         Its ends over the methods, not below 0; infinite where a part is open.
     """
     if jackknifed:
-        ends = [each.mapped(lambda inverse: indices_of(inverse)[:, None]).jackknifed for each in estimates]
+        ends = [estimate.mapped(lambda inverse: indices_of(inverse)[:, None]).jackknifed for estimate in estimates]
         return max(0.0, min(float(low[0]) for low, _ in ends)), max(float(high[0]) for _, high in ends)
-    parts = [np.vstack([each.whole, each.without_one, each.halves, each.windows]) for each in estimates]
+    parts = [
+        np.vstack([estimate.whole, estimate.without_one, estimate.halves, estimate.windows]) for estimate in estimates
+    ]
     indices = indices_of(np.concatenate(parts))
     return float(indices.min()), float(indices.max())
 

@@ -81,8 +81,8 @@ def sums_of_products(values: FloatArray, columns: Callable[[FloatArray], FloatAr
     """
     sums = []
     for block in split(values):
-        made = [columns(block[start : start + _ROWS]) for start in range(0, len(block), _ROWS)]
-        sums.append(sum(rows.T @ rows for rows in made))
+        pieces = [columns(block[start : start + _ROWS]) for start in range(0, len(block), _ROWS)]
+        sums.append(sum(rows.T @ rows for rows in pieces))
     return np.array(sums)
 
 
@@ -96,9 +96,9 @@ def monomials(points: FloatArray) -> FloatArray:
         x2, y2, z2, 2yz, 2xz, 2xy, 2x, 2y, 2z, 1 of each; shape (n, 10).
     """
     x, y, z = points.T
-    made = np.empty((len(points), 10))
+    rows = np.empty((len(points), 10))
     for column, values in enumerate((x * x, y * y, z * z, 2.0 * y * z, 2.0 * x * z, 2.0 * x * y)):
-        made[:, column] = values
-    made[:, 6:9] = 2.0 * points
-    made[:, 9] = 1.0
-    return made
+        rows[:, column] = values
+    rows[:, 6:9] = 2.0 * points
+    rows[:, 9] = 1.0
+    return rows

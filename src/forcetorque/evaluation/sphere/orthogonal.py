@@ -97,8 +97,8 @@ def ellipsoid_equations(cloud: FloatArray, parameters: FloatArray) -> NormalEqua
     total = np.zeros((10, 10))
     for rows in _passes(cloud):
         distance, normal, unit = _feet(rows - parameters[:3], factor)
-        made = np.concatenate([-normal, -normal[_LOWER[0]] * unit[_LOWER[1]], distance[None]])
-        total += made @ made.T
+        equations = np.concatenate([-normal, -normal[_LOWER[0]] * unit[_LOWER[1]], distance[None]])
+        total += equations @ equations.T
     return _equations(total)
 
 
@@ -120,8 +120,8 @@ def sphere_equations(cloud: FloatArray, parameters: FloatArray) -> NormalEquatio
         length = np.sqrt((away**2).sum(axis=1))
         # a point in the very centre has no direction; any does
         normal = away / np.maximum(length, np.finfo(float).tiny)[:, None]
-        made = np.column_stack([-normal, np.full(len(rows), -1.0), length - parameters[3]])
-        total += made.T @ made
+        equations = np.column_stack([-normal, np.full(len(rows), -1.0), length - parameters[3]])
+        total += equations.T @ equations
     return _equations(total)
 
 

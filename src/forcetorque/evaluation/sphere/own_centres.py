@@ -64,10 +64,10 @@ def fit_with_own_centres(clouds: Sequence[FloatArray], start: OwnCentres | None 
     moved = [cloud - mean for cloud, mean in zip(clouds, means, strict=True)]
     size = max(float(np.ptp(cloud, axis=0).max()) for cloud in clouds)
     offset = np.append(means.ravel(), np.zeros(6))
-    found = descend(
+    descent = descend(
         lambda parameters: _equations(moved, parameters), begun.parameters - offset, size, sum(map(len, clouds))
     )
-    return OwnCentres(parameters=found.parameters + offset) if found.converged else None
+    return OwnCentres(parameters=descent.parameters + offset) if descent.converged else None
 
 
 def _equations(clouds: Sequence[FloatArray], parameters: FloatArray) -> NormalEquations | None:
@@ -90,11 +90,11 @@ def _direct(clouds: Sequence[FloatArray]) -> OwnCentres | None:
     scale = max(float(np.sqrt(((cloud - s) ** 2).sum(axis=1).mean())) for cloud, s in zip(clouds, shifts, strict=True))
     if scale == 0.0:
         return None
-    made = [monomials((cloud - shift) / scale) for cloud, shift in zip(clouds, shifts, strict=True)]
-    found = direct_shape_with_own_centres(np.array([rows.T @ rows for rows in made]))
-    if found is None:
+    monomial_rows = [monomials((cloud - shift) / scale) for cloud, shift in zip(clouds, shifts, strict=True)]
+    solution = direct_shape_with_own_centres(np.array([rows.T @ rows for rows in monomial_rows]))
+    if solution is None:
         return None
-    shape, centres = found
+    shape, centres = solution
     common = Ellipsoid(centre=np.zeros(3), shape=shape / scale**2)
     return OwnCentres(
         parameters=np.append((np.array(shifts) + scale * centres).ravel(), ellipsoid_parameters(common)[3:])

@@ -24,6 +24,8 @@ SAME_AS_TIME = 0.98
 MIXED_WITH_TIME = 0.5
 """Share of heating against cooling that offset, time and temperature explain, from which on they are hard to tell
 apart: 0.75 for one even cycle, 0.19 for two."""
+LEAST_RANGE_DEGC = 5.0
+"""Range of temperatures below which little is told of what a day, or a motor that warms up, does; degC."""
 
 _HOUR_S = 3600.0
 
@@ -98,8 +100,8 @@ def fit_drift(cycles: Cycles) -> DriftFit:
     branch = 0.5 * cycles.heating[:, None]
     warmth = (temperature - reference)[:, None]
     time_share = _explained(warmth, np.hstack([offsets, times]))
-    told = time_share < SAME_AS_TIME
-    columns = [warmth, *([branch] if both else []), *([times] if told else []), offsets]
+    apart = time_share < SAME_AS_TIME
+    columns = [warmth, *([branch] if both else []), *([times] if apart else []), offsets]
     design = np.hstack(columns)
     if len(design) <= 2 * design.shape[1]:
         raise FitError(f"expected more than {2 * design.shape[1]} means of {cycles.window_s:.3g} s, got {len(design)}")
@@ -107,16 +109,16 @@ def fit_drift(cycles: Cycles) -> DriftFit:
     values, half = fit.coefficients, fit.half_width
     first = 2 if both else 1
     slopes = slice(first, first + sessions)
-    rest = np.hstack([times, offsets]) if told else offsets
+    rest = np.hstack([times, offsets]) if apart else offsets
     return DriftFit(
         reference_degC=reference,
         coefficient=values[:, 0],
-        coefficient_error=fit.standard_error[:, 0] if told else np.full(len(values), np.inf),
-        coefficient_half_width=half[:, 0] if told else np.full(len(values), np.inf),
+        coefficient_error=fit.standard_error[:, 0] if apart else np.full(len(values), np.inf),
+        coefficient_half_width=half[:, 0] if apart else np.full(len(values), np.inf),
         hysteresis=values[:, 1] if both else None,
         hysteresis_half_width=half[:, 1] if both else None,
-        drift_per_hour=values[:, slopes].mean(axis=1) if told else None,
-        drift_half_width=half[:, slopes].max(axis=1) if told else None,
+        drift_per_hour=values[:, slopes].mean(axis=1) if apart else None,
+        drift_half_width=half[:, slopes].max(axis=1) if apart else None,
         time_share=time_share,
         hysteresis_share=_explained(branch, np.hstack([offsets, times, warmth])) if both else 1.0,
         residual=cycles.signals - design @ values.T,

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from forcetorque.arrays import FloatArray
+from forcetorque.constants import MAD_TO_DEVIATION
 from forcetorque.evaluation.thermal.cycles import Cycles
 
 BESIDE = 5
@@ -15,9 +16,6 @@ BESIDE = 5
 STEP_DEVIATIONS = 8.0
 """Robust deviations of such differences from which on one is a step, not noise: by simulation of white and slow noise
 no record of 200 had one."""
-
-_ROBUST = 1.4826
-"""From the median magnitude to the standard deviation of normal numbers."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -51,7 +49,7 @@ def find_load_step(cycles: Cycles, residual: FloatArray) -> LoadStep | None:
     difference[number[BESIDE:][: len(difference)] != number[: len(difference)]] = (
         0.0  # a new power-up has its own offset
     )
-    scale = _ROBUST * np.median(np.abs(difference), axis=0)
+    scale = MAD_TO_DEVIATION * np.median(np.abs(difference), axis=0)
     outstanding = np.abs(difference) / np.where(scale > 0.0, scale, np.inf)
     at, signal = np.unravel_index(int(outstanding.argmax()), outstanding.shape)
     if outstanding[at, signal] < STEP_DEVIATIONS:

@@ -15,8 +15,7 @@ import numpy as np
 
 from forcetorque.arrays import FloatArray
 from forcetorque.noise import mean_error, means_over, one_after_another
-
-_PARTS = (slice(0, 3), slice(3, 6))
+from forcetorque.spatial import FORCE_AND_MOMENT
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -81,7 +80,7 @@ def evidence(stretches: Sequence[JudgedStretch]) -> Evidence:
         references.append(columns[:, 6:])
     line = one_after_another(instants)
     left, moved = (np.concatenate([own - own.mean(axis=0) for own in parts]) for parts in (errors, references))
-    squares = np.column_stack([(left[:, part] ** 2).sum(axis=1) for part in _PARTS])
+    squares = np.column_stack([(left[:, part] ** 2).sum(axis=1) for part in FORCE_AND_MOMENT])
     widths = mean_error(squares, line).half_width
     constants = [
         (own.mean(axis=0), mean_error(own, time).half_width) for time, own in zip(instants, errors, strict=True)
@@ -92,7 +91,7 @@ def evidence(stretches: Sequence[JudgedStretch]) -> Evidence:
             squares[:, k],
             float(widths[k]),
         )
-        for k, part in enumerate(_PARTS)
+        for k, part in enumerate(FORCE_AND_MOMENT)
     )
     return Evidence(
         force=force,

@@ -19,6 +19,7 @@ from forcetorque.calibration import Calibration
 from forcetorque.calibration.posterior import Posterior
 from forcetorque.errors import FitError
 from forcetorque.evaluation.use.load_case import LoadCase, UseOffset
+from forcetorque.spatial import FORCE_AND_MOMENT
 
 CONFIDENCE: Final = 0.95
 """Probability with which force and moment errors are both at most the upper ends that are stated.
@@ -28,7 +29,6 @@ Each end is therefore exceeded with half of the rest, which also makes the two e
 _TAIL: Final = 0.5 * (1.0 - CONFIDENCE)
 _DRAWS: Final = 4000
 _SEED: Final = 16
-_FORCE, _MOMENT = slice(0, 3), slice(3, 6)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -210,7 +210,7 @@ def _error(unknowns: FloatArray, posterior: Posterior, to_wrench: FloatArray, mo
         np.einsum("mij,jk,mik->i", unknowns[..., at], moment[at, at], unknowns[..., at], optimize=True) / len(unknowns)
         for at in (slice(6), slice(6 + v, None), slice(6, 6 + v))
     ]
-    sizes = [_size(square[:, part], [share[part].sum() for share in (*shares, noise)]) for part in (_FORCE, _MOMENT)]
+    sizes = [_size(square[:, part], [share[part].sum() for share in (*shares, noise)]) for part in FORCE_AND_MOMENT]
     return PredictedError(force=sizes[0], moment=sizes[1])
 
 

@@ -47,7 +47,7 @@ def rows_of_another(
 
 
 def _estimated(name: str, signals: Mapping[str, Signal], other: Stream) -> tuple[IntArray, Finding]:
-    from forcetorque.skin import match_pressure
+    from forcetorque.skin import match_pressure  # here because most logs have no skin
 
     if set(signals) != {"pressure"} or "taxel_counts" not in other.signals:
         raise FormatError(

@@ -10,12 +10,12 @@ from pathlib import Path
 import numpy as np
 
 from forcetorque.arrays import FloatArray, IntArray
-from forcetorque.errors import FormatError, UnitError, known_names
+from forcetorque.errors import FormatError, known_names
 from forcetorque.exchange.array_file.row_times import rows_of_another
 from forcetorque.exchange.array_file.statement import ArraySignal, ArrayStream
 from forcetorque.exchange.stated_rate import even_stamps
-from forcetorque.recording import QUANTITIES, Finding, Labels, Signal, Stream, orientation_signals
-from forcetorque.spatial import si_factor
+from forcetorque.exchange.stated_units import stated_quantity, units_in_si
+from forcetorque.recording import Finding, Signal, Stream, orientation_signals
 
 _SECONDS = {"s": 1.0, "ms": 1e-3, "us": 1e-6, "ns": 1e-9}
 
@@ -114,31 +114,18 @@ def _signals(
 
 
 def _signal(place: str, stated: ArraySignal, values: FloatArray) -> Signal:
-    quantity = QUANTITIES.get(stated.quantity)
-    if quantity is None:
-        raise FormatError(f"{place}: {known_names(stated.quantity, QUANTITIES)}; got {stated.quantity!r}")
     first, last = stated.columns
     count = last - first + 1
+    quantity = stated_quantity(stated.quantity, where=place, columns=count)
     _column(place, values, last)
-    fixed = quantity.labels is Labels.FIXED
-    if fixed and count != len(quantity.columns):
-        raise FormatError(f"{place}: {stated.quantity}: expected {len(quantity.columns)} columns, got {count}")
     labels = (stated.unit,) * count if isinstance(stated.unit, str) else stated.unit
-    free = not fixed and not quantity.units
-    factors = [(unit, 1.0) if free else si_factor(unit) for unit in labels]
-    for k, (unit, _) in enumerate(factors):
-        allowed = (quantity.units[k],) if fixed else quantity.units
-        if not free and unit not in allowed:
-            raise UnitError(
-                f"{place}: column {first + k}: expected a unit of {stated.quantity} that converts to "
-                f"{' or '.join(allowed)}, got {labels[k]!r}"
-            )
+    factors = units_in_si(quantity, labels, where=place, columns=range(first, last + 1))
     with np.errstate(invalid="ignore", over="ignore"):  # damaged files hold signalling NaN
         scaled = values[:, first - 1 : last] * [factor for _, factor in factors]
     return Signal(
         quantity=stated.quantity,
         values=scaled,
-        columns=quantity.columns if fixed else stated.names or tuple(str(k) for k in range(count)),
+        columns=quantity.columns or stated.names or tuple(str(k) for k in range(count)),
         units=tuple(unit for unit, _ in factors),
         frame=stated.frame,
     )

@@ -14,7 +14,7 @@ import numpy as np
 
 from forcetorque.arrays import FloatArray, IntArray, require_shape
 from forcetorque.atomic import write_bytes_atomically
-from forcetorque.errors import FormatError, MissingFileError, ShapeError
+from forcetorque.errors import FormatError, MissingFileError, ShapeError, quoted
 
 Q15_ONE = 1 << 15
 """Code that would mean 1 in Q1.15; codes run from -Q15_ONE to Q15_ONE - 1."""
@@ -28,7 +28,6 @@ _LINES = _COEFFICIENTS + 1 + 6
 _HEX = re.compile("[0-9A-F]{1,4}|[0-9a-f]{1,4}")
 _FULL_SCALE = re.compile("[1-9][0-9]{0,4}")
 _FACTORY_NAME = re.compile(r"matrix_(SN[0-9]+)\.txt")
-_LONGEST_QUOTE = 40
 _FULL_SCALE_RULE = f"an integer from 1 to {LARGEST_FULL_SCALE}"
 
 
@@ -200,12 +199,12 @@ def _parsed(data: bytes, *, where: str) -> MatrixFile:
     for line, text in enumerate(hex_texts, start=1):
         if not _HEX.fullmatch(text):
             raise FormatError(
-                f"{where}:{line}: expected 1 to 4 hex digits, all upper-case or all lower-case, got {_quoted(text)}; "
+                f"{where}:{line}: expected 1 to 4 hex digits, all upper-case or all lower-case, got {quoted(text)}; "
                 f"the first {_COEFFICIENTS} lines are 16-bit coefficients"
             )
     _require_line_count(numbers, where=where)
     if numbers[_COEFFICIENTS] != "1":
-        raise FormatError(f"{where}:{_COEFFICIENTS + 1}: {_wrong_gain(_quoted(numbers[_COEFFICIENTS]))}")
+        raise FormatError(f"{where}:{_COEFFICIENTS + 1}: {_wrong_gain(quoted(numbers[_COEFFICIENTS]))}")
     return MatrixFile(
         codes=np.array([_signed(text) for text in hex_texts], dtype=np.int64).reshape(6, 6),
         full_scale=_parsed_full_scale(numbers, where=where),
@@ -248,7 +247,7 @@ def _require_line_count(numbers: list[str], *, where: str) -> None:
     if len(numbers) > _LINES:
         raise FormatError(
             f"{where}:{_LINES + 1}: expected the end of the file after {_LINES} lines, "
-            f"got {_quoted(numbers[_LINES])}; remove what follows the six full scales"
+            f"got {quoted(numbers[_LINES])}; remove what follows the six full scales"
         )
 
 
@@ -257,11 +256,7 @@ def _parsed_full_scale(numbers: list[str], *, where: str) -> tuple[int, ...]:
     for line, text in enumerate(numbers[first:], start=first + 1):
         if not _FULL_SCALE.fullmatch(text) or int(text) > LARGEST_FULL_SCALE:
             raise FormatError(
-                f"{where}:{line}: expected a full scale, {_FULL_SCALE_RULE} in decimal, got {_quoted(text)}; "
+                f"{where}:{line}: expected a full scale, {_FULL_SCALE_RULE} in decimal, got {quoted(text)}; "
                 f"the last 6 lines are the full scales of fx, fy, fz, tx, ty, tz in N and N m"
             )
     return tuple(int(text) for text in numbers[first:])
-
-
-def _quoted(text: str) -> str:
-    return repr(text if len(text) <= _LONGEST_QUOTE else f"{text[:_LONGEST_QUOTE]}...")

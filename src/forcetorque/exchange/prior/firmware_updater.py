@@ -14,7 +14,7 @@ import numpy as np
 
 from forcetorque.arrays import IntArray
 from forcetorque.atomic import write_bytes_atomically
-from forcetorque.errors import FormatError, MissingFileError, ShapeError
+from forcetorque.errors import FormatError, MissingFileError, ShapeError, quoted
 from forcetorque.exchange.icub import MatrixFile
 from forcetorque.exchange.prior.prior_file import PriorFile, RawUnit, StatedUnits
 
@@ -31,7 +31,6 @@ _CODES = 36
 _HEX = re.compile("(?:ffff)?[0-9a-fA-F]{1,4}")
 _WHOLE = re.compile("-?[0-9]{1,9}")
 _LINE = re.compile("0x[0-9a-f]{2}(?: 0x[0-9a-f]{2}){5}")
-_LONGEST_QUOTE = 40
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -139,8 +138,7 @@ class _Lines:
         text = self.lines[self.next] if self.next < len(self.lines) else "the end of the file"
         self.next += 1
         if not pattern.fullmatch(text):
-            shown = text if len(text) <= _LONGEST_QUOTE else f"{text[:_LONGEST_QUOTE]}..."
-            raise FormatError(f"{self.path}:{self.next}: expected {what}, got {shown!r}")
+            raise FormatError(f"{self.path}:{self.next}: expected {what}, got {quoted(text)}")
         return text
 
     def label(self, label: str) -> None:

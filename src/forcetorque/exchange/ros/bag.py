@@ -56,7 +56,7 @@ class Bag:
             topic: The topic.
 
         Yields:
-            When some messages were received, in ns, and their bytes.
+            When some messages were received, shape (k,), ns, and their bytes.
 
         Raises:
             FormatError: If a message is too large.

@@ -23,16 +23,24 @@ _RATES = {"position": "", "velocity": "/s", "torque": ""}
 
 @dataclass(kw_only=True)
 class Samples:
-    """What was read of a topic, in pieces."""
+    """What was read of a topic, in pieces of k messages that have one layout."""
 
     stamps: list[IntArray] = field(default_factory=list)
+    """Stamps of the sender; shape (k,) each; ns."""
     received: list[IntArray] = field(default_factory=list)
+    """When the recorder had them; shape (k,) each; ns."""
     counters: list[IntArray] = field(default_factory=list)
+    """Counters of the sender, where messages have one; shape (k,) each."""
     numbers: list[dict[str, FloatArray]] = field(default_factory=list)
+    """Numbers by quantity; shape (k, columns) each."""
     frames: dict[str, None] = field(default_factory=dict)
+    """Frames that messages name, each once."""
     names: dict[str, None] = field(default_factory=dict)
+    """Joints or channels that messages name, each once."""
     piece_names: list[tuple[str, ...]] = field(default_factory=list)
+    """Those of every piece, in its order of columns."""
     order: list[IntArray] = field(default_factory=list)
+    """Places of the messages among all of the topic; shape (k,) each."""
 
     def joined(self, name: str) -> FloatArray:
         """Put the pieces of some numbers one behind the other; shape (n, k)."""

@@ -23,11 +23,10 @@ class LayoutFormat(Protocol):
     def sign(self) -> str:
         """What it is recognised by, for the message where nothing is."""
 
-    def recognises(self, path: Path, text: str) -> bool:
+    def recognises(self, text: str) -> bool:
         """Tell whether a file is one.
 
         Args:
-            path: File.
             text: Its content.
 
         Returns:
@@ -76,7 +75,7 @@ def describe_patch(path: Path | str) -> PatchDescription:
         text = file.read_text(encoding="utf-8")
     except UnicodeDecodeError as error:
         raise FormatError(f"{file}: expected a text, got bytes that are none ({error})") from error
-    known = [form for form in LAYOUT_FORMATS if form.recognises(file, text)]
+    known = [form for form in LAYOUT_FORMATS if form.recognises(text)]
     if len(known) != 1:
         signs = "; or ".join(form.sign for form in (known or LAYOUT_FORMATS))
         raise FormatError(f"{file}: expected {signs}; got {'several' if known else 'none of them'}")

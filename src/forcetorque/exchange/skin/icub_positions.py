@@ -28,16 +28,8 @@ class IcubPositions:
     sign = "a text with the line [calibration]"
     """What it is recognised by."""
 
-    def recognises(self, path: Path, text: str) -> bool:
-        """Tell whether a file is one.
-
-        Args:
-            path: File.
-            text: Its content.
-
-        Returns:
-            Whether it is.
-        """
+    def recognises(self, text: str) -> bool:
+        """Look for its line."""
         return _SIGN in text
 
     def read(self, path: Path, text: str) -> PatchDescription:

@@ -32,16 +32,8 @@ class LayoutTable:
     sign = "a table with a header that begins with `column,module`"
     """What it is recognised by."""
 
-    def recognises(self, path: Path, text: str) -> bool:
-        """Tell whether a file is one.
-
-        Args:
-            path: File.
-            text: Its content.
-
-        Returns:
-            Whether it is.
-        """
+    def recognises(self, text: str) -> bool:
+        """Look for the header."""
         return re.search(r"^column,\s*module\b", text, re.MULTILINE) is not None
 
     def read(self, path: Path, text: str) -> PatchDescription:

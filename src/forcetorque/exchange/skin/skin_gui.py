@@ -34,16 +34,8 @@ class SkinGuiPlan:
     sign = f"a plan with lines {_MODULE}"
     """What it is recognised by."""
 
-    def recognises(self, path: Path, text: str) -> bool:
-        """Tell whether a file is one.
-
-        Args:
-            path: File.
-            text: Its content.
-
-        Returns:
-            Whether it is.
-        """
+    def recognises(self, text: str) -> bool:
+        """Look for a line of a module."""
         return re.search(rf"^{_MODULE}\s", text, re.MULTILINE) is not None
 
     def read(self, path: Path, text: str) -> PatchDescription:

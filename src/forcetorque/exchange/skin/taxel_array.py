@@ -27,16 +27,8 @@ class TaxelArrayMessage:
     sign = f"a TaxelArray with {_SIGN}"
     """What it is recognised by."""
 
-    def recognises(self, path: Path, text: str) -> bool:
-        """Tell whether a file is one.
-
-        Args:
-            path: File.
-            text: Its content.
-
-        Returns:
-            Whether it is.
-        """
+    def recognises(self, text: str) -> bool:
+        """Look for a field of the message."""
         return re.search(rf'^\s*\{{?\s*"?{_SIGN}"?\s*:', text, re.MULTILINE) is not None or f'"{_SIGN}"' in text
 
     def read(self, path: Path, text: str) -> PatchDescription:

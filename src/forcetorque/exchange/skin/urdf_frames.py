@@ -59,16 +59,8 @@ class UrdfFrames:
     sign = f'a file of schema "{_SCHEMA}"'
     """What it is recognised by."""
 
-    def recognises(self, path: Path, text: str) -> bool:
-        """Tell whether a file is one.
-
-        Args:
-            path: File.
-            text: Its content.
-
-        Returns:
-            Whether it is.
-        """
+    def recognises(self, text: str) -> bool:
+        """Look for the schema."""
         return re.search(rf'^schema\s*=\s*"{_SCHEMA}"', text, re.MULTILINE) is not None
 
     def read(self, path: Path, text: str) -> PatchDescription:

@@ -29,7 +29,7 @@ def column_floats(column: Any, name: str, place: Callable[[int], str]) -> FloatA
         place: Says where its rows are.
 
     Returns:
-        Its numbers; NaN where one is missing.
+        Its numbers, NaN where one is missing; shape (n,).
 
     Raises:
         FormatError: If it holds something else, or an infinite number.
@@ -54,7 +54,7 @@ def column_stamps(column: Any, stamp: StampColumn, place: Callable[[int], str]) 
         place: Says where its rows are.
 
     Returns:
-        Nanoseconds, exactly where the column is.
+        Nanoseconds, exactly where the column is; shape (n,).
 
     Raises:
         FormatError: If a time is missing or none.

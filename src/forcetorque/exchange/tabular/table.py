@@ -14,16 +14,16 @@ from typing import Any
 import numpy as np
 
 from forcetorque.arrays import FloatArray, IntArray
-from forcetorque.errors import FormatError, MissingFileError, UnitError, known_names
+from forcetorque.errors import FormatError, MissingFileError
 from forcetorque.exchange.log_format import LogReading
 from forcetorque.exchange.stated_rate import even_stamps
+from forcetorque.exchange.stated_units import stated_quantity, units_in_si
 from forcetorque.exchange.tabular.columnar import frame_rows, is_parquet_file, parquet_columns, parquet_rows
 from forcetorque.exchange.tabular.layout import EvenRows, StampColumn, TableLayout, TableSignal
 from forcetorque.exchange.tabular.numbers import column_floats, column_stamps
 from forcetorque.exchange.tabular.rows import LARGEST_TABLE, Rows
 from forcetorque.exchange.tabular.text import text_columns, text_rows
-from forcetorque.recording import QUANTITIES, Finding, Labels, OrientationLayout, Signal, Stream, orientation_signals
-from forcetorque.spatial import si_factor
+from forcetorque.recording import QUANTITIES, Finding, OrientationLayout, Signal, Stream, orientation_signals
 
 ROW_CLOCK = "row"
 """Clock of a table without times: row k is stamped k seconds."""
@@ -153,37 +153,18 @@ def _factors(name: str, declared: TableSignal) -> Sequence[tuple[str, float]]:
                 f"{', '.join(declared.units)}"
             )
         return ()
-    quantity = QUANTITIES.get(declared.quantity)
-    if quantity is None:
-        raise FormatError(f"{name}: {known_names(declared.quantity, QUANTITIES)}; got {declared.quantity!r}")
-    fixed = quantity.labels is Labels.FIXED
-    if fixed and len(declared.columns) != len(quantity.columns):
-        raise FormatError(
-            f"{name}: {declared.quantity}: expected {len(quantity.columns)} columns "
-            f"({', '.join(quantity.columns)}), got {len(declared.columns)}"
-        )
-    # a scalar of any unit is taken as it stands
-    free = not fixed and not quantity.units
-    factors = [(unit, 1.0) if free else si_factor(unit) for unit in declared.units]
-    for k, (unit, _) in enumerate(factors):
-        allowed = (quantity.units[k],) if fixed else quantity.units
-        if not free and unit not in allowed:
-            raise UnitError(
-                f"{name}: column {declared.columns[k]!r}: expected a unit of {declared.quantity} that converts to "
-                f"{' or '.join(allowed)}, got {declared.units[k]!r}"
-            )
-    return factors
+    quantity = stated_quantity(declared.quantity, where=name, columns=len(declared.columns))
+    return units_in_si(quantity, declared.units, where=name, columns=declared.columns)
 
 
 def _signal(declared: TableSignal, factors: Sequence[tuple[str, float]], values: FloatArray) -> Signal:
-    quantity = QUANTITIES[declared.quantity]
     with np.errstate(invalid="ignore", over="ignore"):  # damaged files hold signalling NaN
         values *= [factor for _, factor in factors]
     values.setflags(write=False)  # so it is not copied
     return Signal(
         quantity=declared.quantity,
         values=values,
-        columns=quantity.columns if quantity.labels is Labels.FIXED else declared.names or declared.columns,
+        columns=QUANTITIES[declared.quantity].columns or declared.names or declared.columns,
         units=tuple(unit for unit, _ in factors),
         frame=declared.frame,
     )

@@ -119,13 +119,13 @@ def from_calibration(
         SerialNumberError: If the stream is of another sensor.
     """
     where = f"sensor {calibration.sensor.name!r} ({calibration.sensor.serial!r})"
-    made = _made_with(calibration, stream, where)
-    if made.matrix.shape != (6, 6) or calibration.matrix.shape != (6, 6):
+    of_stream = _made_with(calibration, stream, where)
+    if of_stream.matrix.shape != (6, 6) or calibration.matrix.shape != (6, 6):
         raise FormatError(
             f"{where}: expected a matrix and a prior matrix of shape (6, 6), got {calibration.matrix.shape} and "
-            f"{made.matrix.shape}; calibrated readings can be corrected only if the matrix that made them is known"
+            f"{of_stream.matrix.shape}; calibrated readings can be corrected only if the matrix that made them is known"
         )
-    if not is_invertible(made.matrix):
+    if not is_invertible(of_stream.matrix):
         raise FitError(f"{where}: expected a prior matrix that can be inverted, got a singular one")
     variables = [(variable.name, variable.unit) for variable in calibration.variables]
     if variables not in ([], [_TEMPERATURE]):
@@ -135,7 +135,7 @@ def from_calibration(
         )
     if stream is not None and stream.variables and [(v.name, v.unit) for v in stream.variables] != variables:
         raise FormatError(f"{where}: the stream depends on variables that the calibration does not have; fit with them")
-    correction = secondary_model(calibration.model, made)
+    correction = secondary_model(calibration.model, of_stream)
     return SensorCorrection(
         sensor=calibration.sensor.name if sensor_name is None else sensor_name,
         secondary_matrix=correction.matrix,

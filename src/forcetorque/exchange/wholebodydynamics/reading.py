@@ -11,7 +11,7 @@ from xml.etree.ElementTree import Element
 import numpy as np
 
 from forcetorque.arrays import FloatArray
-from forcetorque.errors import FormatError, MissingFileError
+from forcetorque.errors import FormatError, MissingFileError, quoted
 from forcetorque.exchange.wholebodydynamics.correction import SensorCorrection
 from forcetorque.exchange.wholebodydynamics.group import Group
 from forcetorque.xml_file import read_xml
@@ -19,7 +19,6 @@ from forcetorque.xml_file import read_xml
 _LIST = re.compile(r"\(([^()]*)\)")
 _SEPARATOR = re.compile(r"[\s,]+")
 _NUMBER = re.compile(r"[+-]?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][+-]?[0-9]+)?")
-_LONGEST_QUOTE = 40
 
 _Lists = dict[Group, dict[str, FloatArray]]
 
@@ -73,30 +72,30 @@ def _add_params(params: dict[str, FloatArray], group: Group, element: Element) -
         name = child.get("name")
         if child.tag != "param" or name is None:
             raise FormatError(
-                f"{group}: expected <param name=...>, got the element {_quoted(child.tag)} with the name {name!r}"
+                f"{group}: expected <param name=...>, got the element {quoted(child.tag)} with the name {name!r}"
             )
-        where = f"{group}: {_quoted(name)}"
+        where = f"{group}: {quoted(name)}"
         if name in params:  # groups of the same name are one to the device, so this holds over all of them
             raise FormatError(f"{where}: expected every sensor once, got it twice; the device would take the last")
         if len(child) > 0:
-            raise FormatError(f"{where}: expected numbers in parentheses, got the element {_quoted(child[0].tag)}")
+            raise FormatError(f"{where}: expected numbers in parentheses, got the element {quoted(child[0].tag)}")
         params[name] = _numbers(child.text or "", count=group.length, where=where)
 
 
 def _numbers(text: str, *, count: int, where: str) -> FloatArray:
     content = _LIST.fullmatch(text.strip())
     if content is None:
-        raise FormatError(f"{where}: expected {count} numbers in parentheses, got {_quoted(text.strip())}")
+        raise FormatError(f"{where}: expected {count} numbers in parentheses, got {quoted(text.strip())}")
     words = [word for word in _SEPARATOR.split(content[1]) if word]
     for word in words:
         if not _NUMBER.fullmatch(word):
-            raise FormatError(f"{where}: expected {count} finite numbers such as -0.5, got {_quoted(word)}")
+            raise FormatError(f"{where}: expected {count} finite numbers such as -0.5, got {quoted(word)}")
     if len(words) != count:
         raise FormatError(f"{where}: expected {count} numbers, got {len(words)}; the device refuses to start with that")
     values = [float(word) for word in words]
     for word, value in zip(words, values, strict=True):
         if not math.isfinite(value):
-            raise FormatError(f"{where}: expected {count} finite numbers, got {_quoted(word)}, which is too large")
+            raise FormatError(f"{where}: expected {count} finite numbers, got {quoted(word)}, which is too large")
     return np.array(values)
 
 
@@ -110,7 +109,3 @@ def _correction(name: str, lists: _Lists) -> SensorCorrection:
         temperature_coefficients=None if temperature is None else temperature[:6],
         reference_temperature=None if temperature is None else float(temperature[6]),
     )
-
-
-def _quoted(text: str) -> str:
-    return repr(text if len(text) <= _LONGEST_QUOTE else f"{text[:_LONGEST_QUOTE]}...")

@@ -84,7 +84,7 @@ def find_port(port_dir: str | Path) -> PortFolder:
     info = folder / "info.log"
     try:
         is_file, is_folder, has_info = folder.is_file(), folder.is_dir(), info.is_file()
-        found = [folder / name for name in LOG_NAMES if (folder / name).is_file()]
+        logs = [folder / name for name in LOG_NAMES if (folder / name).is_file()]
         header = _first_bytes(info) if has_info else ""
     except OSError as error:
         raise FormatError(f"{folder}: expected a readable port folder, got: {error.strerror}") from error
@@ -92,11 +92,11 @@ def find_port(port_dir: str | Path) -> PortFolder:
         raise FormatError(f"{folder}: expected a port folder, got a file; give the folder that holds it")
     if not is_folder:
         raise MissingFileError(f"{folder}: expected a port folder with data.log and info.log, got nothing there")
-    if not found:
+    if not logs:
         raise MissingFileError(f"{folder}: expected data.log or data.log.gz in the port folder, got neither")
-    if len(found) > 1:
+    if len(logs) > 1:
         raise FormatError(f"{folder}: expected data.log or data.log.gz, got both; delete the one that is not wanted")
-    return PortFolder(data=found[0], stamps=_stamps(info, header) if has_info else _UNKNOWN, has_info=has_info)
+    return PortFolder(data=logs[0], stamps=_stamps(info, header) if has_info else _UNKNOWN, has_info=has_info)
 
 
 def read_blocks(path: Path) -> Iterator[bytes]:

@@ -79,15 +79,15 @@ def _skeletons(text: bytes, wanted: Sequence[range]) -> tuple[bytes, list[IntArr
     characters = np.frombuffer(text, dtype=np.uint8)
     for start in range(0, len(text), _PIECE_SIZE):
         piece = characters[start : start + _PIECE_SIZE]
-        found = np.flatnonzero(_is_structure(piece))
-        if len(found):
-            follows_number = np.empty(len(found), dtype=np.bool_)
-            follows_number[0] = start + found[0] > last + 1
-            np.greater(found[1:] - found[:-1], 1, out=follows_number[1:])
-            skeletons.append((piece[found] | (follows_number * _NUMBER_BEFORE)).tobytes())
+        structure = np.flatnonzero(_is_structure(piece))
+        if len(structure):
+            follows_number = np.empty(len(structure), dtype=np.bool_)
+            follows_number[0] = start + structure[0] > last + 1
+            np.greater(structure[1:] - structure[:-1], 1, out=follows_number[1:])
+            skeletons.append((piece[structure] | (follows_number * _NUMBER_BEFORE)).tobytes())
             for kept, which in zip(places, wanted, strict=True):
-                kept.append(found[(which.start - n_before) % which.step :: which.step] + start)
-            last, n_before = start + int(found[-1]), n_before + len(found)
+                kept.append(structure[(which.start - n_before) % which.step :: which.step] + start)
+            last, n_before = start + int(structure[-1]), n_before + len(structure)
     return b"".join(skeletons), [np.concatenate(kept) for kept in places]
 
 

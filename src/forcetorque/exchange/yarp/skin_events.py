@@ -152,22 +152,24 @@ def _values(events: Sequence[Sequence[SkinEvent]], width: int) -> FloatArray:
 
 def _findings(part: SkinPart, port: PortFolder, log: SkinEventLog) -> list[Finding]:
     count, first, last = len(log.stamp_ns), int(log.stamp_ns[0]), int(log.stamp_ns[-1])
-    told: list[tuple[str, str, int, float | None]] = []
+    statements: list[tuple[str, str, int, float | None]] = []
     if not port.has_info:
         text = "there is no info.log; the sender or the dumper may have stamped the messages"
-        told.append(("unknown_stamp", text, count, None))
+        statements.append(("unknown_stamp", text, count, None))
     if log.by_dumper and port.stamps != ("rx",):
-        told.append(("dumper_stamp", "no message has a stamp of the sender; the dumper's are used", count, None))
+        statements.append(("dumper_stamp", "no message has a stamp of the sender; the dumper's are used", count, None))
     if log.left_out:
         text = f"{log.left_out} messages have no stamp of the sender; the dumper's clock is another: they are left out"
-        told.append(("left_out", text, log.left_out, None))
+        statements.append(("left_out", text, log.left_out, None))
     if log.two_clocks and log.dumper_ahead_s is not None:
         text = (
             f"the dumper's clock is {log.dumper_ahead_s:+.0f} s from the one that stamped the contacts; only streams "
             "of the same sender may be laid beside them"
         )
-        told.append(("two_clocks", text, count, log.dumper_ahead_s))
-    told.append(("heuristic", "the force of these contacts is the skinManager's heuristic, not newtons", count, None))
+        statements.append(("two_clocks", text, count, log.dumper_ahead_s))
+    statements.append(
+        ("heuristic", "the force of these contacts is the skinManager's heuristic, not newtons", count, None)
+    )
     return [
         Finding(
             stream=part.stream,
@@ -179,5 +181,5 @@ def _findings(part: SkinPart, port: PortFolder, log: SkinEventLog) -> list[Findi
             size=size,
             unit=None if size is None else "s",
         )
-        for kind, message, samples, size in told
+        for kind, message, samples, size in statements
     ]

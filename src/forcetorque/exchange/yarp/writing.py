@@ -127,19 +127,19 @@ def _move(fresh: Path, target: Path, ports: Sequence[WrittenPort]) -> None:
     if not target.exists():
         fresh.rename(target)
         return
-    made: list[Path] = []
+    new_folders: list[Path] = []
     placed: list[Path] = []
     try:
         for port in ports:
             place = target / port.path
             for parent in reversed([above for above in place.parents if not above.exists()]):
                 parent.mkdir()
-                made.append(parent)
+                new_folders.append(parent)
             (fresh / port.path).rename(place)
             placed.append(place)
     except BaseException:
         for path in placed:
             shutil.rmtree(path)
-        for path in reversed(made):
+        for path in reversed(new_folders):
             path.rmdir()
         raise

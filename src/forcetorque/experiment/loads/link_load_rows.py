@@ -18,17 +18,15 @@ from forcetorque.errors import ExperimentError
 from forcetorque.estimation import Processing, Question, estimate, required_joints_of
 from forcetorque.estimation.samples import robot_motion_at
 from forcetorque.experiment.content import Experiment, ExperimentSensor
+from forcetorque.experiment.loads.weighing import weighing_means, weighing_readings
 from forcetorque.loads import Load, LoadProblem, LoadRows
 from forcetorque.loads.unknowns import inertia_of
-from forcetorque.noise import means_over, window_for
-from forcetorque.recording import Interval, Use
+from forcetorque.recording import Interval
 from forcetorque.recording.alignment import seconds_since
 from forcetorque.robot import RobotModel, build_tree
 from forcetorque.spatial import Inertia, reading_sign
 
 _PARAMETERS = 10
-_MOST_ROWS = 3600
-"""Rows of an interval, at most."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -117,27 +115,13 @@ class _Span:
 
 def _span(experiment: Experiment, sensor: ExperimentSensor, hung: HungInterval) -> _Span:
     recording = experiment.recording
-    stream = recording.stream(sensor.stream)
-    inside = hung.interval.holds(stream.stamp_ns) & ~stream.held
-    for other in recording.intervals:
-        if other.use is Use.IGNORE:
-            inside &= ~other.holds(stream.stamp_ns)
-    at_ns = stream.stamp_ns[inside]
-    reading = stream.signal(sensor.quantity).values[inside]
-    if sensor.quantity == "raw":
-        if sensor.prior is None:
-            raise ExperimentError(
-                f"sensor {sensor.name!r}: expected prior, a matrix that reads it roughly, without which nobody tells "
-                "loads and matrix apart; or state mass_kg and centre_of_mass_m of every [[load]]"
-            )
-        reading = reading @ sensor.prior.T
+    at_ns, reading = weighing_readings(experiment, sensor, hung.interval)
     columns, known = _expected(experiment, sensor, hung, at_ns)
     variables = [one.source.at(recording, at_ns)[:, None] for one in sensor.variables]
     values = np.hstack([reading, columns.reshape(len(at_ns), -1), known, *variables])
     complete = np.isfinite(values).all(axis=1)
     time = seconds_since(at_ns[complete], recording.start_ns)
-    length = float(time[-1] - time[0]) if len(time) else 0.0
-    middle, means, counts = means_over(time, values[complete], max(window_for(time), length / _MOST_ROWS))
+    middle, means, counts = weighing_means(time, values[complete])
     return _Span(time_s=middle, means=means, counts=counts, left_out=int((~complete).sum()))
 
 

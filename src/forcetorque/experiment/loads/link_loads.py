@@ -6,33 +6,25 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING
 
-import numpy as np
-
-from forcetorque.calibration.generative import Assumptions
 from forcetorque.errors import ExperimentError, known_names
 from forcetorque.experiment.content import ExperimentSensor
-from forcetorque.experiment.full_scale import full_scale_of
 from forcetorque.experiment.inputs import Inputs, stated_in
+from forcetorque.experiment.loads.link_load_rows import HungInterval, link_load_problem
 from forcetorque.experiment.loads.load_inertia import inertia_of_estimated, inertia_of_stated
+from forcetorque.experiment.loads.loads_together import joined_problem
+from forcetorque.experiment.loads.matrix_in_part import spread_of, with_matrix_in_part
 from forcetorque.experiment.loads.weighed_load import WeighedLoad, read_weighed
 from forcetorque.experiment.tables.link_load import LinkLoad
-from forcetorque.loads import Load, LoadEstimate, LoadProblem, LoadSolution, MatrixSpread, settled, solve
-from forcetorque.loads.fit import fit
-from forcetorque.loads.load import INERTIAL
-from forcetorque.loads.solve import load_estimates
+from forcetorque.loads import Load, LoadProblem, LoadSolution, solve
 from forcetorque.recording import Interval, MovingSupport, Support, Use
 from forcetorque.robot import RobotModel, build_tree
 from forcetorque.robot.sub_model import path_to_root
-from forcetorque.spatial import Inertia, skew
+from forcetorque.spatial import Inertia
 
 if TYPE_CHECKING:
     from forcetorque.experiment.content import Experiment
-    from forcetorque.experiment.loads.link_load_rows import HungInterval
-
-GYRATION_M: Final = 0.1
-"""Radius of gyration about its centre of mass that an unknown load is expected to stay below (one s.d.); m."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -81,8 +73,6 @@ class LinkLoads:
         Returns:
             The same with link and number of the load.
         """
-        from forcetorque.experiment.loads.link_load_rows import HungInterval
-
         numbers = [self.number_of(interval.support) or 0 for interval in intervals]
         return [
             HungInterval(interval=interval, number=number, link=self.links[number])
@@ -117,8 +107,6 @@ class LinkLoads:
         return self._problem_and_left_out(experiment, use)[1]
 
     def _problem_and_left_out(self, experiment: Experiment, use: Use) -> tuple[LoadProblem, int]:
-        from forcetorque.experiment.loads.link_load_rows import link_load_problem
-
         if use in self._problems:
             return self._problems[use]
         if self.sensor is None:
@@ -145,8 +133,6 @@ class LinkLoads:
         Returns:
             Loads and offsets.
         """
-        from forcetorque.experiment.loads.loads_together import joined_problem
-
         if "solution" not in self._known:
             problem = joined_problem(self.beside or {experiment.name: experiment})
             self._known["solution"] = solve(with_matrix_in_part(problem, spread_of(experiment, self.weigher)))
@@ -307,60 +293,3 @@ def carrying(model: RobotModel, link: str, load: Inertia) -> RobotModel:
         The robot with it.
     """
     return replace(model, links={**model.links, link: model.links[link] + load})
-
-
-def spread_of(experiment: Experiment, sensor: ExperimentSensor) -> MatrixSpread:
-    """Say how far the matrix of a sensor may be off, as the generative calibration takes it.
-
-    Args:
-        experiment: The experiment.
-        sensor: One of its sensors, with a prior.
-
-    Returns:
-        The spread.
-
-    Raises:
-        ExperimentError: If it has no prior, or its full scale is not known.
-    """
-    if sensor.prior is None:
-        raise ExperimentError(f"sensor {sensor.name!r}: expected prior, the matrix that is known in part, got none")
-    accuracy = experiment.fit_options.accuracy
-    full_scale = full_scale_of(sensor, accuracy, channels=sensor.prior.shape[1])
-    return MatrixSpread.of(sensor.prior, Assumptions(full_scale=full_scale, accuracy=accuracy))
-
-
-def with_matrix_in_part(problem: LoadProblem, spread: MatrixSpread) -> LoadProblem:
-    """Let the matrix be known in part, and unknown inertias be those of loads of a usual size.
-
-    Args:
-        problem: Rows and loads.
-        spread: How far the matrix may be off.
-
-    Returns:
-        The problem to solve.
-    """
-    free = [isinstance(load.inertia, str) and load.expected is None for load in problem.loads]
-    if not any(free):
-        return settled(problem, spread)
-    points = tuple(
-        replace(load, inertia=None) if unknown else load for load, unknown in zip(problem.loads, free, strict=True)
-    )
-    # only their places are wanted of it: sizes of the matrix would run after what the inertias do
-    expected = replace(problem, loads=points, matrix_prior=spread.covariance(spread.expected))
-    first = fit(expected, drift=bool(problem.drift))
-    sized = tuple(
-        _of_usual_size(load, estimate) if unknown and estimate.is_determined else load
-        for load, estimate, unknown in zip(problem.loads, load_estimates(first), free, strict=True)
-    )
-    return settled(replace(problem, loads=sized), spread)
-
-
-def _of_usual_size(load: Load, point: LoadEstimate) -> Load:
-    """A load whose inertia about its centre of mass is that of a body of usual size."""
-    from forcetorque.loads.unknowns import six_of
-
-    hat = skew(point.centre_of_mass)
-    expected, precision = np.zeros(INERTIAL), np.zeros((INERTIAL, INERTIAL))
-    expected[4:] = six_of(-point.mass * hat @ hat)
-    precision[4:, 4:] = np.eye(6) / (abs(point.mass) * GYRATION_M**2) ** 2
-    return replace(load, expected=expected, precision=precision)

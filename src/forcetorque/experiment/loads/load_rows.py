@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -12,15 +13,14 @@ from forcetorque.arrays import FloatArray, IntArray
 from forcetorque.errors import ExperimentError
 from forcetorque.estimation import support_motion_at
 from forcetorque.experiment.content import Experiment, ExperimentSensor
-from forcetorque.experiment.loads.wrist_load import WristLoads
+from forcetorque.experiment.loads.weighing import weighing_means, weighing_readings
 from forcetorque.loads import LoadProblem, LoadRows
-from forcetorque.noise import means_over, window_for
 from forcetorque.recording import Interval, Recording, Use
 from forcetorque.recording.alignment import interpolate, seconds_since
 from forcetorque.robot import JointMotion
 
-_MOST_ROWS = 3600
-"""Rows of an interval, at most: an hour has means of 1 s, a day of half a minute."""
+if TYPE_CHECKING:
+    from forcetorque.experiment.loads.wrist_load import WristLoads
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -89,20 +89,19 @@ def load_problem(experiment: Experiment, wrist: WristLoads, *, use: Use = Use.CA
     )
 
 
-def samples_left_out(experiment: Experiment, wrist: WristLoads, *, use: Use = Use.CALIBRATION) -> int:
-    """Count samples of intervals that lack a finite reading or motion.
+def samples_left_out(experiment: Experiment, wrist: WristLoads) -> int:
+    """Count samples of the calibration intervals that lack a finite reading or motion.
 
     Args:
         experiment: The experiment.
         wrist: Loads and sensor.
-        use: Use of the intervals.
 
     Returns:
         Their number.
     """
     return sum(
         int((~np.isfinite(_columns(experiment, wrist.sensor, interval)[1][:, :15]).all(axis=1)).sum())
-        for interval in experiment.intervals(use)
+        for interval in experiment.intervals(Use.CALIBRATION)
     )
 
 
@@ -112,9 +111,7 @@ def _span(experiment: Experiment, sensor: ExperimentSensor, interval: Interval) 
     needed = np.r_[0:15, 24 : columns.shape[1]]
     complete = np.isfinite(columns[:, needed]).all(axis=1)
     time = seconds_since(stamps[complete], experiment.recording.start_ns)
-    length = float(time[-1] - time[0]) if len(time) else 0.0
-    window = max(window_for(time), length / _MOST_ROWS)
-    middle, means, counts = means_over(time, np.nan_to_num(columns[complete]), window)
+    middle, means, counts = weighing_means(time, np.nan_to_num(columns[complete]))
     if not np.isfinite(columns[complete]).all():
         means[:, 15:24] = np.nan
     single = counts.max(initial=1) == 1
@@ -129,17 +126,7 @@ def _span(experiment: Experiment, sensor: ExperimentSensor, interval: Interval) 
 def _columns(experiment: Experiment, sensor: ExperimentSensor, interval: Interval) -> tuple[IntArray, FloatArray]:
     """Instants of the samples of an interval, and all that is needed at them; shape (n,), (n, 24 + variables)."""
     recording = experiment.recording
-    stream = recording.stream(sensor.stream)
-    inside = interval.holds(stream.stamp_ns) & ~stream.held
-    for other in recording.intervals:
-        if other.use is Use.IGNORE:
-            inside &= ~other.holds(stream.stamp_ns)
-    at_ns = stream.stamp_ns[inside]
-    reading = stream.signal(sensor.quantity).values[inside]
-    if sensor.quantity == "raw":
-        if sensor.prior is None:
-            raise ExperimentError(f"sensor {sensor.name!r}: estimating its load from raw counts needs a prior matrix")
-        reading = reading @ sensor.prior.T
+    at_ns, reading = weighing_readings(experiment, sensor, interval)
     if interval.support is None:
         raise ExperimentError(f"interval {interval.label!r}: expected a load")
     motion = support_motion_at(

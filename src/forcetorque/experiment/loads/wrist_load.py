@@ -14,6 +14,7 @@ from forcetorque.errors import ExperimentError
 from forcetorque.experiment.content import ExperimentSensor
 from forcetorque.experiment.inputs import stated_in
 from forcetorque.experiment.loads.load_inertia import inertia_of_estimated, inertia_of_stated
+from forcetorque.experiment.loads.load_rows import load_problem, samples_left_out
 from forcetorque.experiment.tables.wrist import Load as LoadTable
 from forcetorque.loads import Load, LoadProblem, LoadSolution, solve
 from forcetorque.recording import MovingSupport, Support, Use
@@ -83,8 +84,6 @@ class WristLoads:
         Returns:
             The problem.
         """
-        from forcetorque.experiment.loads.load_rows import load_problem
-
         return load_problem(experiment, self, use=use)
 
     def left_out(self, experiment: Experiment) -> int:
@@ -96,8 +95,6 @@ class WristLoads:
         Returns:
             Their number.
         """
-        from forcetorque.experiment.loads.load_rows import samples_left_out
-
         return samples_left_out(experiment, self)
 
     def solution(self, experiment: Experiment) -> LoadSolution:

@@ -178,7 +178,7 @@ def skin_of_robot(
 
 def _on_link(file: Path, patch: ExperimentPatch, model: RobotModel) -> ExperimentPatch:
     """The patch with its link, that of the layout where the file does not say."""
-    from forcetorque.exchange.skin import describe_patch
+    from forcetorque.exchange.skin import describe_patch  # here because most experiments have no skin
 
     link = patch.link
     if link is None and patch.layout is not None:
@@ -201,7 +201,7 @@ def _patch(where: str, entry: schema.Patch, recording: Recording, inputs: Inputs
             require_overlap(stream, chamber)
         taxels = np.arange(columns)
         if entry.layout is not None:
-            from forcetorque.exchange.skin import describe_patch
+            from forcetorque.exchange.skin import describe_patch  # here because most experiments have no skin
 
             layout = describe_patch(inputs.file(entry.layout))
             if layout.columns != columns:

@@ -35,7 +35,7 @@ def skin_frames_of(parsed: schema.ExperimentFile, recording: Recording, inputs: 
 
 
 def _of_patches(patches: Iterable[schema.Patch], inputs: Inputs) -> Iterator[str]:
-    from forcetorque.exchange.skin import describe_patch
+    from forcetorque.exchange.skin import describe_patch  # here because most experiments have no skin
 
     for patch in patches:
         link = patch.link

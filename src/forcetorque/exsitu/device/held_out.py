@@ -16,6 +16,7 @@ from forcetorque.exsitu.loads import BenchLoads
 from forcetorque.exsitu.span import RANK_TOLERANCE, load_sizes
 from forcetorque.exsitu.specimens import simulate_specimen
 from forcetorque.simulation import FAMILIES
+from forcetorque.spatial import FORCE_AND_MOMENT
 
 HELD_OUT_FORCE_N: Final = 100.0
 """Standard deviation of every component of a held-out force; N."""
@@ -133,5 +134,5 @@ def fitted_matrix(wrench: FloatArray, readings: FloatArray, count: FloatArray) -
 def _judged(matrix: FloatArray, response: FloatArray, seed: int) -> HeldOutError:
     loads = held_out_loads(seed)
     error = loads @ (matrix @ response).T - loads
-    force, moment = (float(np.sqrt((error[:, half] ** 2).mean())) for half in (slice(3), slice(3, 6)))
+    force, moment = (float(np.sqrt((error[:, half] ** 2).mean())) for half in FORCE_AND_MOMENT)
     return HeldOutError(force_N=force, moment_Nm=moment)

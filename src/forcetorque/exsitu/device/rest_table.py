@@ -28,7 +28,7 @@ class RestTable:
     wrench: Mapping[float, FloatArray]
     """What pitch and yaw make of the load, by lock in deg; shapes (9, 6); N, N m."""
     lasting: Mapping[float, Mapping[str, FloatArray]]
-    """The same of every error that stays."""
+    """The same of every error that stays, by lock in deg and name; shapes (9, 6); N, N m."""
 
     @classmethod
     def of(cls, device: Device, load: HungLoad, sensor: str, tolerances: Tolerances) -> RestTable:

@@ -109,12 +109,12 @@ def _layouts(page: FPDF, table: Table, font: str) -> list[_Layout]:
             widths = _shared(natural, least, page.epw - _GAP_MM * (len(columns) - 1))
             if widths is not None:
                 return [_Layout(columns=columns, widths_mm=widths, points=points)]
-    made = []
+    layouts = []
     for group in _groups(least, page.epw):
         room = page.epw - _GAP_MM * (len(group) - 1)
         widths = _shared([natural[k] for k in group], [least[k] for k in group], room)
-        made.append(_Layout(columns=group, widths_mm=widths or (room,), points=points))
-    return made
+        layouts.append(_Layout(columns=group, widths_mm=widths or (room,), points=points))
+    return layouts
 
 
 def _needs(

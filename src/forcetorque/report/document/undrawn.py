@@ -28,7 +28,7 @@ def _section(section: Section) -> Section:
 def _block(block: Block) -> Block:
     if isinstance(block, Figure):
         try:
-            block.picture.png  # noqa: B018
+            block.picture.png  # noqa: B018 - drawn here, where its error becomes a sentence
         except ForceTorqueError as error:
             return Text(text=f"A figure could not be drawn: {error}")
     return block

@@ -36,6 +36,11 @@ TITLE_POINTS = 10.0
 SMALL_POINTS = 9.0
 """Size of legends and of the numbers along axes; points."""
 
+PLANES = ((0, 1), (1, 2), (0, 2))
+"""Axes along and up a panel in the three views of what lies in space."""
+SMALL_PANEL_POINTS = 8.0
+"""Size of the numbers along axes of panels that share a row with others; points."""
+
 LONGEST_NAME = 60
 """Characters of a name that are shown; of a longer one both ends."""
 

@@ -20,7 +20,7 @@ from forcetorque.report.figures.canvas import (
 from forcetorque.report.figures.inputs import drawable, drawable_each, instants
 from forcetorque.report.figures.thinning import thinned_line
 from forcetorque.report.figures.time_lines import draw_over_time
-from forcetorque.spatial.wrench import WRENCH_COMPONENTS
+from forcetorque.spatial.wrench import FORCE_AND_MOMENT, WRENCH_COMPONENTS
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -53,7 +53,7 @@ def comparison_figure(time_s: FloatArray, reference: FloatArray, candidates: Map
     """
     time = instants(time_s)
     known = drawable(reference, name="reference", shape=(len(time), 6))
-    given = drawable_each(candidates, name="candidates", shape=(len(time), 6))
+    by_name = drawable_each(candidates, name="candidates", shape=(len(time), 6))
     figure = new_figure(3 * _ROW_HEIGHT)
     panels = figure.subplots(3, 2, sharex=True).T.ravel()
     at, lines = thinned_line(time, known)
@@ -64,10 +64,10 @@ def comparison_figure(time_s: FloatArray, reference: FloatArray, candidates: Map
         panel.set_axisbelow(True)
         panel.margins(x=0.01)
     keys = [("reference", _REFERENCE)]
-    for k, (name, values) in enumerate(given.items()):
+    for k, (name, values) in enumerate(by_name.items()):
         at, lines = thinned_line(time, values)
         for panel, line in zip(panels, lines.T, strict=True):
-            draw_over_time(panel, at, line, look(k), turn=k, count=len(given))
+            draw_over_time(panel, at, line, look(k), turn=k, count=len(by_name))
         text = f"{shown_name(name)}: {_difference(values - known)}"
         keys.append((text, look(k).key | {"linestyle": "-"}))
     for panel in panels[2::3]:
@@ -81,5 +81,5 @@ def _difference(error: FloatArray) -> str:
     error = error[np.isfinite(error).all(axis=1)]
     if not len(error):
         return "no samples"
-    force, torque = (np.sqrt((error[:, part] ** 2).sum(axis=1).mean()) for part in (slice(0, 3), slice(3, 6)))
+    force, torque = (np.sqrt((error[:, part] ** 2).sum(axis=1).mean()) for part in FORCE_AND_MOMENT)
     return f"rms difference {force:.3g} N, {torque:.3g} N m"

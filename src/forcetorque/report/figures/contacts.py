@@ -72,17 +72,17 @@ def contact_figure(
     if unit not in _AXES:
         raise UnitError(f"unit: no contact force or torque is in {unit!r}; {known_names(unit, _AXES)}")
     time = drawable(time_s, name="time_s", shape=(None,))
-    given = drawable_each(candidates, name="candidates", shape=(len(time), 3))
+    by_name = drawable_each(candidates, name="candidates", shape=(len(time), 3))
     sessions = _end_to_end(time, spans or [("", 0, len(time))])
     figure = new_figure(4 * _ROW_HEIGHT)
     panels = figure.subplots(4, 1, sharex=True, height_ratios=(1.6, 1.0, 1.0, 1.0))
     keys = []
-    for k, (name, values) in enumerate(given.items()):
+    for k, (name, values) in enumerate(by_name.items()):
         columns = np.column_stack([np.linalg.norm(values, axis=1), values])
         at, lines = _thinned(sessions, columns)
         for row, panel in enumerate(panels):
-            draw_over_time(panel, at, lines[:, row], look(k), turn=k, count=len(given))
-        magnitudes = np.concatenate([columns[each.samples, 0] for each in sessions])
+            draw_over_time(panel, at, lines[:, row], look(k), turn=k, count=len(by_name))
+        magnitudes = np.concatenate([columns[session.samples, 0] for session in sessions])
         keys.append((f"{shown_name(name)}: {_mean(magnitudes, unit)}", look(k).key | {"linestyle": "-"}))
     for panel, label in zip(panels, _AXES[unit], strict=True):
         _dress(panel, f"{label}, {unit}", sessions)
@@ -119,10 +119,10 @@ def _end_to_end(time_s: FloatArray, spans: Sequence[Span]) -> list[_Session]:
 
 
 def _thinned(sessions: list[_Session], columns: FloatArray) -> tuple[FloatArray, FloatArray]:
-    total = sum(len(each.time_s) for each in sessions)
+    total = sum(len(session.time_s) for session in sessions)
     parts = [
-        thinned_line(each.time_s, columns[each.samples], max(2, DRAWN_SAMPLES * len(each.time_s) // total))
-        for each in sessions
+        thinned_line(session.time_s, columns[session.samples], max(2, DRAWN_SAMPLES * len(session.time_s) // total))
+        for session in sessions
     ]
     return np.concatenate([time for time, _ in parts]), np.concatenate([lines for _, lines in parts])
 

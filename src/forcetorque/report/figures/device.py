@@ -51,10 +51,10 @@ def device_figure(time_s: FloatArray, motion: JointMotion, torques: Mapping[str,
     figure = new_figure(1.4 * ROW_INCHES[1])
     panels = figure.subplots(len(rows), 1, sharex=True)
     for panel, (label, lines) in zip(panels, rows.items(), strict=True):
-        given = drawable_each(lines, name=label, shape=(len(time),))
-        for number, values in enumerate(given.values()):
+        drawable_lines = drawable_each(lines, name=label, shape=(len(time),))
+        for number, values in enumerate(drawable_lines.values()):
             at, drawn = thinned_line(time, values[:, None])
-            draw_over_time(panel, at, drawn[:, 0], look(number), turn=number, count=len(given))
+            draw_over_time(panel, at, drawn[:, 0], look(number), turn=number, count=len(drawable_lines))
         panel.set_ylabel(label, fontsize=TITLE_POINTS)
         panel.tick_params(labelsize=SMALL_POINTS)
     panels[-1].set_xlabel("time, s", fontsize=TITLE_POINTS)

@@ -54,11 +54,11 @@ def difference_figure(names: Sequence[str], differences: FloatArray, *, unit: st
     """
     if not names:
         raise ShapeError("names: expected at least one matrix to compare, got none")
-    given = drawable(differences, name="differences", shape=(len(names), len(names)))
-    if (given < 0.0).any():
-        raise ShapeError(f"differences: expected none below zero, got {np.nanmin(given):g}; give absolute values")
-    largest = float(np.nanmax(given, initial=0.0))
-    texts = [[_cell(value, largest) for value in row] for row in given]
+    matrix = drawable(differences, name="differences", shape=(len(names), len(names)))
+    if (matrix < 0.0).any():
+        raise ShapeError(f"differences: expected none below zero, got {np.nanmin(matrix):g}; give absolute values")
+    largest = float(np.nanmax(matrix, initial=0.0))
+    texts = [[_cell(value, largest) for value in row] for row in matrix]
     points = _letters_that_fit(texts)
     cell = _CELL_INCHES if points else _LINE_INCHES
     shown = [shown_name(name) for name in names]
@@ -69,11 +69,11 @@ def difference_figure(names: Sequence[str], differences: FloatArray, *, unit: st
         figure.set_figheight(figure.get_figheight() + widest * math.sin(math.radians(_SLANT)))
     panel = figure.add_subplot()
     # cividis: its lightness rises evenly, for the colour-blind and in grey too
-    image = panel.imshow(given, cmap="cividis", vmin=0.0, vmax=largest or 1.0, aspect="auto")
+    image = panel.imshow(matrix, cmap="cividis", vmin=0.0, vmax=largest or 1.0, aspect="auto")
     image.set_cmap(image.get_cmap().with_extremes(bad=_NOT_A_NUMBER))
     _name_cells(panel, shown, room, level=level)
     if points:
-        _write_cells(panel, texts, _luminance(image.to_rgba(given)) < _MIDDLE_LUMINANCE, points)
+        _write_cells(panel, texts, _luminance(image.to_rgba(matrix)) < _MIDDLE_LUMINANCE, points)
     figure.colorbar(image, ax=panel, label=f"mean absolute difference, {shown_name(unit)}", pad=0.01)
     return figure
 

@@ -91,16 +91,16 @@ def excitation_figure(
         ShapeError: If there are no sensors, the lengths or shapes differ, or a value is not finite or out of its range.
     """
     sensors = _checked(names, variance, explained, excited, directions)
-    heights = [_ROW_INCHES + _DIRECTION_INCHES * len(each.deviation) for each in sensors]
+    heights = [_ROW_INCHES + _DIRECTION_INCHES * len(sensor.deviation) for sensor in sensors]
     figure = new_figure(sum(heights))
     grid = figure.subplots(
         len(sensors), 3, squeeze=False, gridspec_kw={"height_ratios": heights, "width_ratios": (1.0, 0.8, 1.2)}
     )
-    for (strength, share, parts), each in zip(grid, sensors, strict=True):
-        _draw_deviation(strength, each)
-        _draw_explained(share, each)
-        _draw_directions(parts, each)
-        strength.set_title(shown_name(each.name), loc="left", fontsize=TITLE_POINTS)
+    for (strength, share, parts), sensor in zip(grid, sensors, strict=True):
+        _draw_deviation(strength, sensor)
+        _draw_explained(share, sensor)
+        _draw_directions(parts, sensor)
+        strength.set_title(shown_name(sensor.name), loc="left", fontsize=TITLE_POINTS)
     keys = [("excited by the loads", {**_EXCITED, "markersize": 8.0, "linewidth": 1.2})]
     keys.append(("not excited", {**_NOT_EXCITED, "markersize": 9.0, "linewidth": 1.2, "linestyle": ":"}))
     keys.append((f"least share of an excited direction, {100 * EXPLAINED_SHARE:.0f} %", _LIMIT))
@@ -108,13 +108,13 @@ def excitation_figure(
     return figure
 
 
-def _checked(names: Sequence[str], *given: Sequence[Any]) -> list[_Sensor]:
+def _checked(names: Sequence[str], *columns: Sequence[Any]) -> list[_Sensor]:
     if not names:
         raise ShapeError("names: expected at least one sensor to draw, got none")
-    for argument, values in zip(("variance", "explained", "excited", "directions"), given, strict=True):
+    for argument, values in zip(("variance", "explained", "excited", "directions"), columns, strict=True):
         if len(values) != len(names):
             raise ShapeError(f"{argument}: expected one array for each of {len(names)} sensors, got {len(values)}")
-    return [_sensor(name, *values) for name, *values in zip(names, *given, strict=True)]
+    return [_sensor(name, *values) for name, *values in zip(names, *columns, strict=True)]
 
 
 def _sensor(name: str, variance: Any, explained: Any, excited: Any, directions: Any) -> _Sensor:

@@ -11,6 +11,7 @@ import numpy as np
 from forcetorque.arrays import FloatArray
 from forcetorque.errors import ShapeError
 from forcetorque.report.figures.canvas import (
+    PLANES,
     ROW_INCHES,
     TITLE_POINTS,
     Look,
@@ -35,7 +36,6 @@ _LABELS: Final[dict[Quantity, list[str]]] = {
     "force": [f"{name}, N" for name in WRENCH_COMPONENTS[:3]],
     "moment": [f"{name}, N m" for name in WRENCH_COMPONENTS[3:]],
 }
-_PLANES = ((0, 1), (1, 2), (0, 2))
 
 
 def force_space_figure(
@@ -68,12 +68,12 @@ def force_space_figure(
     grid = figure.subplots(len(rows), 3, squeeze=False)
     labels = _LABELS[quantity]
     for panels, (title, named) in zip(grid, rows.items(), strict=True):
-        for panel, plane in zip(panels, _PLANES, strict=True):
+        for panel, plane in zip(panels, PLANES, strict=True):
             _draw_plane(panel, [(looks[name], points[:, plane]) for name, points in named])
             panel.set_xlabel(labels[plane[0]])
             panel.set_ylabel(labels[plane[1]])
         panels[0].set_title(shown_name(title), fontsize=TITLE_POINTS, loc="left")
-    legend_below(figure, [(shown_name(name), each.key) for name, each in looks.items()])
+    legend_below(figure, [(shown_name(name), style.key) for name, style in looks.items()])
     return figure
 
 
@@ -85,10 +85,10 @@ def _checked(clouds: Mapping[str, Sequence[tuple[str, Any]]]) -> dict[str, list[
     for title, named in clouds.items():
         if not named:
             raise ShapeError(f"clouds[{title!r}]: expected at least one cloud to draw, got none")
-        given = [
+        drawables = [
             (name, drawable(points, name=f"clouds[{title!r}], {name!r}", shape=(None, 3))) for name, points in named
         ]
-        rows[title] = [(name, points[np.isfinite(points).all(axis=1)]) for name, points in given]
+        rows[title] = [(name, points[np.isfinite(points).all(axis=1)]) for name, points in drawables]
     return rows
 
 

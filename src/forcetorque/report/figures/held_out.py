@@ -87,24 +87,24 @@ def held_out_figure(
         ShapeError: If there are no curves or no lambdas, the shapes differ, a lambda is negative or not a number, what
             was chosen is not among the lambdas, or ratios have a name that no curve has.
     """
-    given = _checked(curves, worst_ratios or {})
-    with_ratio = any(each.ratio is not None for each in given.values())
+    checked = _checked(curves, worst_ratios or {})
+    with_ratio = any(curve.ratio is not None for curve in checked.values())
     figure = new_figure((2.2 if with_ratio else 1.4) * ROW_INCHES[1])
     panels = figure.subplots(1 + with_ratio, squeeze=False, sharex=True, height_ratios=(3, 2)[: 1 + with_ratio])[:, 0]
-    finite = np.unique(np.concatenate([each.finite for each in given.values()]))
+    finite = np.unique(np.concatenate([curve.finite for curve in checked.values()]))
     infinite = infinite_place(finite)
-    _draw(panels[0], {k: (each, each.rmse) for k, each in enumerate(given.values())}, infinite)
+    _draw(panels[0], {k: (curve, curve.rmse) for k, curve in enumerate(checked.values())}, infinite)
     panels[0].set_ylabel("held-out rms error, 1 N counted like 1 N m")
     if with_ratio:
-        ratios = {k: (each, each.ratio) for k, each in enumerate(given.values()) if each.ratio is not None}
+        ratios = {k: (curve, curve.ratio) for k, curve in enumerate(checked.values()) if curve.ratio is not None}
         panels[1].axhline(1.0, **_AS_PRIOR)
         _draw(panels[1], ratios, infinite)
         panels[1].set_ylabel("worst block: error² over prior's")
-    has_infinite = any(len(each.finite) < len(each.lambdas) for each in given.values())
+    has_infinite = any(len(curve.finite) < len(curve.lambdas) for curve in checked.values())
     for panel in panels:
         set_lambda_axis(panel, finite, infinite=infinite if has_infinite else None)
     panels[-1].set_xlabel(f"{LAMBDA_LABEL} ({_PRIOR})" if has_infinite else LAMBDA_LABEL)
-    legend_below(figure, _keys(given, with_ratio=with_ratio), title=_MEANING)
+    legend_below(figure, _keys(checked, with_ratio=with_ratio), title=_MEANING)
     return figure
 
 
@@ -114,24 +114,24 @@ def _checked(curves: Mapping[str, tuple[Any, Any, float | None]], ratios: Mappin
     for name in ratios:
         if name not in curves:
             raise ShapeError(f"worst_ratios: no curve is called {name!r}; {known_names(name, curves)}")
-    return {name: _curve(name, *each, ratios.get(name)) for name, each in curves.items()}
+    return {name: _curve(name, *columns, ratios.get(name)) for name, columns in curves.items()}
 
 
 def _curve(name: str, lambdas: Any, rmse: Any, chosen: float | None, ratio: Any) -> _Curve:
     where = f"curves[{name!r}]"
-    given = np.array(lambdas, dtype=np.float64)
-    infinite = given == np.inf
-    if given.ndim != 1 or infinite.sum() > 1:
+    unsorted = np.array(lambdas, dtype=np.float64)
+    infinite = unsorted == np.inf
+    if unsorted.ndim != 1 or infinite.sum() > 1:
         raise ShapeError(f"{where}: expected lambdas of shape (n,), at most one infinite, got {lambdas!r}")
     try:
         # infinity, which has its own place, stands at the end where sorting puts it
-        finite = rising_lambdas(given[~infinite])[0] if (~infinite).any() else given[:0]
+        finite = rising_lambdas(unsorted[~infinite])[0] if (~infinite).any() else unsorted[:0]
     except ShapeError as error:
         raise ShapeError(f"{where}: {error}") from error
-    order = np.argsort(given, kind="stable")
-    rising = np.append(finite, given[infinite])
-    heights = drawable(rmse, name=f"{where}: rmse", shape=given.shape)[order]
-    worst = None if ratio is None else drawable(ratio, name=f"worst_ratios[{name!r}]", shape=given.shape)[order]
+    order = np.argsort(unsorted, kind="stable")
+    rising = np.append(finite, unsorted[infinite])
+    heights = drawable(rmse, name=f"{where}: rmse", shape=unsorted.shape)[order]
+    worst = None if ratio is None else drawable(ratio, name=f"worst_ratios[{name!r}]", shape=unsorted.shape)[order]
     if chosen is not None and chosen not in rising:
         raise ShapeError(f"{where}: chosen: expected one of the lambdas {rising.tolist()}, got {chosen!r}")
     place = None if chosen is None else int(np.flatnonzero(rising == chosen)[0])
@@ -154,8 +154,8 @@ def _draw(panel: Axes, curves: Mapping[int, tuple[_Curve, FloatArray]], infinite
 
 
 def _keys(curves: Mapping[str, _Curve], *, with_ratio: bool) -> list[tuple[str, dict[str, Any]]]:
-    keys = [(f"{shown_name(name)}: {_choice(each)}", look(k).key) for k, (name, each) in enumerate(curves.items())]
-    if any(each.chosen is not None for each in curves.values()):
+    keys = [(f"{shown_name(name)}: {_choice(curve)}", look(k).key) for k, (name, curve) in enumerate(curves.items())]
+    if any(curve.chosen is not None for curve in curves.values()):
         keys.append(("chosen", MARKED))
     if with_ratio:
         keys.append(("as good as the prior", _AS_PRIOR))

@@ -20,6 +20,7 @@ from forcetorque.report.figures.canvas import (
     new_figure,
     shown_name,
 )
+from forcetorque.spatial import FORCE, MOMENT
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -30,7 +31,7 @@ _BEFORE: dict[str, Any] = {"color": REFERENCE_COLOUR, "linestyle": (0, (4, 1.5))
 _AFTER: dict[str, Any] = {"color": COLOURS[0], "linestyle": "-", "linewidth": 1.4}
 _LEFT_OUT: dict[str, Any] = {"color": COLOURS[1], "linestyle": "none", "marker": "X", "markersize": 5.0}
 _BORDER: dict[str, Any] = {"color": "0.6", "linestyle": ":", "linewidth": 1.0}
-_QUANTITIES = (("force", "N", slice(3)), ("moment", "N m", slice(3, 6)))
+_QUANTITIES = (("force", "N", FORCE), ("moment", "N m", MOMENT))
 
 
 def joint_figure(residuals: Sequence[PartResidual]) -> Figure:

@@ -58,15 +58,15 @@ def rising_lambdas(lambdas: Any) -> tuple[FloatArray, IntArray]:
     Raises:
         ShapeError: If the shape differs, there are none, or one is negative or not finite.
     """
-    given = drawable(lambdas, name="lambdas", shape=(None,))
-    if not (given >= 0.0).all():
+    unsorted = drawable(lambdas, name="lambdas", shape=(None,))
+    if not (unsorted >= 0.0).all():
         # NaN is not at least 0 either
-        at = int(np.argmin(given >= 0.0))
+        at = int(np.argmin(unsorted >= 0.0))
         raise ShapeError(
             f"lambdas: expected finite numbers of at least 0 counts2, got {np.asarray(lambdas)[at]} at index {at}"
         )
-    order = np.argsort(given, kind="stable").astype(np.int64)
-    return given[order], order
+    order = np.argsort(unsorted, kind="stable").astype(np.int64)
+    return unsorted[order], order
 
 
 def infinite_place(lambdas: FloatArray) -> float:
@@ -212,11 +212,11 @@ def _coinciding(logarithmic: bool, curves: Sequence[FloatArray]) -> list[list[in
     near = _SAME * (np.nanmax(every) - np.nanmin(every)) if np.isfinite(every).any() else 0.0
     groups: list[list[int]] = []
     for k, values in enumerate(heights):
-        found = next((group for group in groups if _is_near(values, heights[group[0]], near)), None)
-        if found is None:
+        group_near = next((group for group in groups if _is_near(values, heights[group[0]], near)), None)
+        if group_near is None:
             groups.append([k])
         else:
-            found.append(k)
+            group_near.append(k)
     return groups
 
 

@@ -43,16 +43,16 @@ def lambda_difference_figure(lambdas: FloatArray, curves: Mapping[str, FloatArra
         [1] F. J. Andrade Chavez, Force-torque sensing in robotics, thesis (2019), figure 5.4.
     """
     rising, order = rising_lambdas(lambdas)
-    given = drawable_each(curves, name="curves", shape=(len(rising),))
+    lines = drawable_each(curves, name="curves", shape=(len(rising),))
     figure = new_figure(1.4 * ROW_INCHES[1])
     panel = figure.add_subplot()
-    looks = [look(k) for k in range(len(given))]
-    draw_curves(panel, rising, [values[order] for values in given.values()], looks)
+    looks = [look(k) for k in range(len(lines))]
+    draw_curves(panel, rising, [values[order] for values in lines.values()], looks)
     set_lambda_axis(panel, rising)
     panel.set_xlabel(LAMBDA_LABEL)
     panel.set_ylabel(f"difference to the Workbench matrix, {shown_name(unit)}")
     panel.set_ylim(bottom=min(0.0, panel.get_ylim()[0]))
     legend_below(
-        figure, [(shown_name(name), each.key) for name, each in zip(given, looks, strict=True)], title=LAMBDA_MEANING
+        figure, [(shown_name(name), style.key) for name, style in zip(lines, looks, strict=True)], title=LAMBDA_MEANING
     )
     return figure

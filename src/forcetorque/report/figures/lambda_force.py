@@ -83,14 +83,14 @@ def lambda_force_figure(
         [1] F. J. Andrade Chavez, Force-torque sensing in robotics, thesis (2019), figure 5.5 and tables 5.5, 5.6.
     """
     rising, order = rising_lambdas(lambdas)
-    given = _sorted(curves, order)
-    best = math.nan if chosen is None else _force_at(chosen, rising, given)
+    lines = _sorted(curves, order)
+    best = math.nan if chosen is None else _force_at(chosen, rising, lines)
     levels = _levels(workbench, generative)
-    shared = len(given) <= MOST_HUES and sum(map(len, given.values())) <= MOST_CURVES
-    groups = [given] if shared else [{name: types} for name, types in given.items()]
-    kinds = list(dict.fromkeys(kind for types in given.values() for kind in types))
+    shared = len(lines) <= MOST_HUES and sum(map(len, lines.values())) <= MOST_CURVES
+    groups = [lines] if shared else [{name: types} for name, types in lines.items()]
+    kinds = list(dict.fromkeys(kind for types in lines.values() for kind in types))
     figure, panels = _panels(len(groups))
-    set_height_axis(panels[0], _heights(given, levels))
+    set_height_axis(panels[0], _heights(lines, levels))
     for panel, group in zip(panels, groups, strict=True):
         _draw(panel, rising, group, kinds, levels)
         if len(group) == 1:
@@ -116,16 +116,16 @@ def _sorted(curves: Mapping[str, Mapping[str, FloatArray]], order: IntArray) -> 
     return {name: {kind: values[order] for kind, values in types.items()} for name, types in checked.items()}
 
 
-def _force_at(chosen: tuple[str, str, float], rising: FloatArray, given: _Curves) -> float:
+def _force_at(chosen: tuple[str, str, float], rising: FloatArray, lines: _Curves) -> float:
     name, kind, value = chosen
-    if name not in given:
-        raise ShapeError(f"chosen: no data set is called {name!r}; {known_names(name, given)}")
-    if kind not in given[name]:
-        raise ShapeError(f"chosen: {name!r} has no estimation type {kind!r}; {known_names(kind, given[name])}")
+    if name not in lines:
+        raise ShapeError(f"chosen: no data set is called {name!r}; {known_names(name, lines)}")
+    if kind not in lines[name]:
+        raise ShapeError(f"chosen: {name!r} has no estimation type {kind!r}; {known_names(kind, lines[name])}")
     (places,) = np.nonzero(rising == value)
     if not len(places):
         raise ShapeError(f"chosen: expected one of the lambdas {rising.tolist()}, got {value!r}")
-    return float(given[name][kind][places[0]])
+    return float(lines[name][kind][places[0]])
 
 
 def _levels(workbench: float | None, generative: float | None) -> list[_Level]:
@@ -139,8 +139,8 @@ def _levels(workbench: float | None, generative: float | None) -> list[_Level]:
     return levels
 
 
-def _heights(given: _Curves, levels: list[_Level]) -> FloatArray:
-    forces = [values for types in given.values() for values in types.values()]
+def _heights(lines: _Curves, levels: list[_Level]) -> FloatArray:
+    forces = [values for types in lines.values() for values in types.values()]
     return np.concatenate([*forces, [force for _, force, _ in levels]])
 
 

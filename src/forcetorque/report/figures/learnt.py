@@ -21,7 +21,7 @@ from forcetorque.report.figures.canvas import (
     shown_name,
     two_digits,
 )
-from forcetorque.spatial import WRENCH_COMPONENTS
+from forcetorque.spatial import FORCE_AND_MOMENT, WRENCH_COMPONENTS
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -71,7 +71,7 @@ def learnt_figure(learnt: Mapping[str, Sequence[LearntDirection]]) -> Figure:
     grid = figure.subplots(2 * len(learnt), 3, squeeze=False, gridspec_kw={"width_ratios": (0.8, 1.0, 1.0)})
     for place, (name, rows) in enumerate(learnt.items()):
         little = [row.learnt < LITTLE_LEARNT for row in rows]
-        for half, loads in enumerate((slice(3), slice(3, 6))):
+        for half, loads in enumerate(FORCE_AND_MOMENT):
             share, *panels = grid[2 * place + half]
             _draw_shares(share, [row.learnt for row in rows[loads]])
             for quantity, panel in enumerate(panels):

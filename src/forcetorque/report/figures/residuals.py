@@ -22,7 +22,7 @@ from forcetorque.report.figures.canvas import (
     shown_name,
 )
 from forcetorque.report.figures.inputs import drawable_each, instants
-from forcetorque.spatial.wrench import WRENCH_COMPONENTS
+from forcetorque.spatial.wrench import FORCE_AND_MOMENT, WRENCH_COMPONENTS
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -68,18 +68,18 @@ def residual_figure(time_s: FloatArray, residuals: Mapping[str, FloatArray]) -> 
             component of a candidate has no finite residual.
     """
     time = instants(time_s)
-    given = drawable_each(residuals, name="residuals", shape=(len(time), 6))
-    found = {name: _correlations(name, values, time) for name, values in given.items()}
+    by_name = drawable_each(residuals, name="residuals", shape=(len(time), 6))
+    correlations = {name: _correlations(name, values, time) for name, values in by_name.items()}
     figure = new_figure(3 * _ROW_HEIGHT)
     grid = _panels(figure)
     for k, component in enumerate(WRENCH_COMPONENTS):
         counted, correlated = grid[k % 3, 2 * (k // 3)], grid[k % 3, 2 * (k // 3) + 1]
-        _draw_histogram(counted, [values[:, k] for values in given.values()], component)
-        _draw_correlation(correlated, [each[k] for each in found.values()], component)
+        _draw_histogram(counted, [values[:, k] for values in by_name.values()], component)
+        _draw_correlation(correlated, [components[k] for components in correlations.values()], component)
     _share_correlation_axes(grid[:, 1::2].ravel().tolist())
     keys = [
-        (f"{shown_name(name)}: {_size(values)}, {_effective(found[name])}", look(j).key)
-        for j, (name, values) in enumerate(given.items())
+        (f"{shown_name(name)}: {_size(values)}, {_effective(correlations[name])}", look(j).key)
+        for j, (name, values) in enumerate(by_name.items())
     ]
     legend_below(figure, [*keys, ("ρ of white noise: 95 % lie within", _BAND)], title=_MEANING)
     return figure
@@ -121,8 +121,8 @@ def _draw_histogram(panel: Axes, columns: list[FloatArray], component: str) -> N
     panel.set_ylim(bottom=0.0)
     panel.margins(y=0.1)
     panel.set_xlabel(f"{component}, {'N' if component.startswith('f') else 'N m'}", fontsize=SMALL_POINTS, labelpad=1.0)
-    said = f"{beyond} of {sum(map(len, known))} beyond the edges" if beyond else "none beyond the edges"
-    panel.set_title(said, fontsize=SMALL_POINTS)
+    title = f"{beyond} of {sum(map(len, known))} beyond the edges" if beyond else "none beyond the edges"
+    panel.set_title(title, fontsize=SMALL_POINTS)
 
 
 def bin_edges(columns: list[FloatArray]) -> FloatArray:
@@ -150,18 +150,18 @@ def bin_edges(columns: list[FloatArray]) -> FloatArray:
     return edges
 
 
-def _draw_correlation(panel: Axes, found: list[Autocorrelation], component: str) -> None:
+def _draw_correlation(panel: Axes, correlations: list[Autocorrelation], component: str) -> None:
     panel.set_xscale("log")
-    longest = max(found, key=lambda each: len(each.lag_s))
+    longest = max(correlations, key=lambda correlation: len(correlation.lag_s))
     if len(longest.lag_s) > 1:
         lag, band = thinned_lags(longest.lag_s, longest.white_band)
         panel.fill_between(lag, -band, band, color=_BAND["color"], linewidth=0.0)
     panel.axhline(0.0, **_ZERO)
-    for j, each in enumerate(found):
-        if np.isfinite(each.integrated_time):
+    for j, correlation in enumerate(correlations):
+        if np.isfinite(correlation.integrated_time):
             style = look(j)
-            at, drawn = thinned_lags(each.lag_s, each.rho)
-            turn = (j + 0.5) / len(found) / _MARKS
+            at, drawn = thinned_lags(correlation.lag_s, correlation.rho)
+            turn = (j + 0.5) / len(correlations) / _MARKS
             panel.plot(
                 at,
                 drawn,
@@ -207,13 +207,16 @@ def _size(values: FloatArray) -> str:
     whole = values[np.isfinite(values).all(axis=1)]
     if not len(whole):
         return "no whole samples"
-    force, torque = (np.sqrt((whole[:, part] ** 2).sum(axis=1).mean()) for part in (slice(0, 3), slice(3, 6)))
+    force, torque = (np.sqrt((whole[:, part] ** 2).sum(axis=1).mean()) for part in FORCE_AND_MOMENT)
     return f"rms {force:.3g} N, {torque:.3g} N m"
 
 
-def _effective(found: list[Autocorrelation]) -> str:
-    count = max(each.count for each in found)
-    numbers = [f"{name} {_rounded(each.effective_count)}" for name, each in zip(WRENCH_COMPONENTS, found, strict=True)]
+def _effective(correlations: list[Autocorrelation]) -> str:
+    count = max(correlation.count for correlation in correlations)
+    numbers = [
+        f"{name} {_rounded(correlation.effective_count)}"
+        for name, correlation in zip(WRENCH_COMPONENTS, correlations, strict=True)
+    ]
     return f"n {count}, n_eff {', '.join(numbers)}"
 
 

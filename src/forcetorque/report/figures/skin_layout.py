@@ -10,16 +10,23 @@ import numpy as np
 
 from forcetorque.arrays import FloatArray, require_shape
 from forcetorque.errors import ShapeError
-from forcetorque.report.figures.canvas import ROW_INCHES, TITLE_POINTS, legend_below, look, new_figure, shown_name
+from forcetorque.report.figures.canvas import (
+    PLANES,
+    ROW_INCHES,
+    SMALL_PANEL_POINTS,
+    TITLE_POINTS,
+    legend_below,
+    look,
+    new_figure,
+    shown_name,
+)
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-_PLANES = ((0, 1), (1, 2), (0, 2))
 _TAXEL, _NORMAL = look(1), look(0)
 _ARROW_MM = 10.0
-_SMALL_PANEL_POINTS = 8.0
 
 
 def skin_layout_figure(positions: FloatArray, normals: Mapping[str, FloatArray]) -> Figure:
@@ -51,7 +58,7 @@ def skin_layout_figure(positions: FloatArray, normals: Mapping[str, FloatArray])
         require_shape(vectors, name=f"normals {name}", shape=(len(positions), 3))
         arrows = _ARROW_MM * vectors
         _draw_space(figure.add_subplot(grid[row, 0], projection="3d"), places, arrows, title=name)
-        for column, plane in enumerate(_PLANES):
+        for column, plane in enumerate(PLANES):
             _draw_plane(figure.add_subplot(grid[row, column + 2]), places[:, plane], arrows[:, plane], plane)
     normal_key = {"color": _NORMAL.colour, "linestyle": "-"}
     taxel_key = {"color": _TAXEL.colour, "linestyle": "none", "marker": "o", "markerfacecolor": "none"}
@@ -68,7 +75,7 @@ def _draw_space(panel: Any, places: FloatArray, arrows: FloatArray, *, title: st
     panel.locator_params(nbins=4)
     for axis in "xyz":
         getattr(panel, f"set_{axis}label")(f"{axis}, mm")
-        panel.tick_params(axis=axis, labelsize=_SMALL_PANEL_POINTS)
+        panel.tick_params(axis=axis, labelsize=SMALL_PANEL_POINTS)
 
 
 def _draw_plane(panel: Axes, places: FloatArray, arrows: FloatArray, plane: tuple[int, int]) -> None:
@@ -82,6 +89,6 @@ def _draw_plane(panel: Axes, places: FloatArray, arrows: FloatArray, plane: tupl
     panel.set_xlabel(f"{'xyz'[plane[0]]}, mm")
     panel.set_ylabel(f"{'xyz'[plane[1]]}, mm", labelpad=0.0)
     panel.set_aspect("equal", adjustable="datalim")
-    panel.tick_params(labelsize=_SMALL_PANEL_POINTS)
+    panel.tick_params(labelsize=SMALL_PANEL_POINTS)
     panel.grid(visible=True, color="0.9", linewidth=0.6)
     panel.set_axisbelow(True)

@@ -13,6 +13,7 @@ from forcetorque.arrays import FloatArray
 from forcetorque.errors import ShapeError
 from forcetorque.evaluation.sphere import Ellipsoid
 from forcetorque.report.figures.canvas import (
+    PLANES,
     REFERENCE_COLOUR,
     ROW_INCHES,
     TITLE_POINTS,
@@ -29,7 +30,6 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-_PLANES = ((0, 1), (1, 2), (0, 2))
 _OUTLINE_POINTS = 181
 _MAPPED, _FREE = look(1), look(2)
 _FEW = 300
@@ -67,7 +67,7 @@ def sphere_figure(spheres: Sequence[SensorSphere]) -> Figure:
     rows = figure.subplots(len(spheres), 3, squeeze=False)
     for panels, sphere in zip(rows, spheres, strict=True):
         centre = _centre(sphere)
-        for panel, plane in zip(panels, _PLANES, strict=True):
+        for panel, plane in zip(panels, PLANES, strict=True):
             _draw_plane(panel, sphere, centre, plane)
         panels[0].set_title(
             shown_name(f"{sphere.sensor} ({sphere.serial}), {names[sphere.candidate]}"),

@@ -69,17 +69,17 @@ def torque_figure(
     shape = (len(time), len(joints))
     if not joints:
         raise ShapeError("joints: expected at least one to draw, got none")
-    given = drawable_each(estimates, name="estimates", shape=shape)
+    torques = drawable_each(estimates, name="estimates", shape=shape)
     spread = drawable_each(deviations, name="deviations", shape=shape) if deviations else {}
-    if unknown := sorted(set(spread) - set(given)):
-        raise ShapeError(f"deviations: expected those of {', '.join(given)}, got one of {unknown[0]!r}")
+    if unknown := sorted(set(spread) - set(torques)):
+        raise ShapeError(f"deviations: expected those of {', '.join(torques)}, got one of {unknown[0]!r}")
     truth = None if reference is None else drawable(reference[1], name="reference", shape=shape)
     figure = new_figure(0.6 * ROW_INCHES[1] * len(joints))
     panels = figure.subplots(len(joints), 1, sharex=True, squeeze=False)[:, 0]
     for column, (panel, joint) in enumerate(zip(panels, joints, strict=True)):
-        for k, (name, torque) in enumerate(given.items()):
+        for k, (name, torque) in enumerate(torques.items()):
             sd = spread[name][:, column] if name in spread else None
-            _draw(panel, time, torque[:, column], sd, look(k), turn=k, count=len(given))
+            _draw(panel, time, torque[:, column], sd, look(k), turn=k, count=len(torques))
         if truth is not None:
             at, lines = thinned_line(time, truth[:, column, None])
             panel.plot(at, lines[:, 0], **_REFERENCE)
@@ -89,7 +89,7 @@ def torque_figure(
     panels[-1].set_xlabel("time, s", fontsize=TITLE_POINTS)
     keys = [
         (_named(name, torque, truth), look(k).key | {"linestyle": "-"})
-        for k, (name, torque) in enumerate(given.items())
+        for k, (name, torque) in enumerate(torques.items())
     ]
     legend_below(figure, [*keys, *([] if reference is None else [(shown_name(reference[0]), _REFERENCE)])])
     return figure

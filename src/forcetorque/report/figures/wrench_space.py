@@ -11,7 +11,9 @@ from scipy.spatial import ConvexHull, QhullError
 
 from forcetorque.arrays import FloatArray
 from forcetorque.report.figures.canvas import (
+    PLANES,
     ROW_INCHES,
+    SMALL_PANEL_POINTS,
     TITLE_POINTS,
     legend_below,
     look,
@@ -20,15 +22,13 @@ from forcetorque.report.figures.canvas import (
 )
 from forcetorque.report.figures.inputs import drawable_each
 from forcetorque.report.figures.thinning import thinned_cloud
-from forcetorque.spatial.wrench import WRENCH_COMPONENTS
+from forcetorque.spatial.wrench import FORCE, MOMENT, WRENCH_COMPONENTS
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-_ROWS = (("force space", "N", slice(0, 3)), ("torque space", "N m", slice(3, 6)))
-_PLANES = ((0, 1), (1, 2), (0, 2))
-_SMALL_PANEL_POINTS = 8.0
+_ROWS = (("force space", "N", FORCE), ("torque space", "N m", MOMENT))
 
 
 def space_figure(clouds: Mapping[str, FloatArray]) -> Figure:
@@ -51,20 +51,20 @@ def space_figure(clouds: Mapping[str, FloatArray]) -> Figure:
     References:
         [1] F. J. Andrade Chavez, Force-torque sensing in robotics, thesis (2019), figure 5.2.
     """
-    given = drawable_each(clouds, name="clouds", shape=(None, 6))
+    wrenches_by_name = drawable_each(clouds, name="clouds", shape=(None, 6))
     figure = new_figure(2 * ROW_INCHES[1])
     # the narrow column keeps the label of the third axis clear of the next panel
     grid = figure.add_gridspec(2, 5, width_ratios=(1.5, 0.1, 1.0, 1.0, 1.0))
     for row, (title, unit, part) in enumerate(_ROWS):
-        parts = [wrenches[np.isfinite(wrenches).all(axis=1), part] for wrenches in given.values()]
+        parts = [wrenches[np.isfinite(wrenches).all(axis=1), part] for wrenches in wrenches_by_name.values()]
         labels = [f"{name}, {unit}" for name in WRENCH_COMPONENTS[part]]
         _draw_space(figure.add_subplot(grid[row, 0], projection="3d"), parts, labels, title=title)
-        for column, plane in enumerate(_PLANES):
+        for column, plane in enumerate(PLANES):
             panel = figure.add_subplot(grid[row, column + 2])
             _draw_plane(panel, [points[:, plane] for points in parts])
             panel.set_xlabel(labels[plane[0]])
             panel.set_ylabel(labels[plane[1]], labelpad=0.0)
-    legend_below(figure, [(shown_name(name), look(k).key) for k, name in enumerate(given)])
+    legend_below(figure, [(shown_name(name), look(k).key) for k, name in enumerate(wrenches_by_name)])
     return figure
 
 
@@ -76,7 +76,7 @@ def _draw_space(panel: Any, parts: list[FloatArray], labels: list[str], *, title
     panel.locator_params(nbins=5)
     for axis, label in zip("xyz", labels, strict=True):
         getattr(panel, f"set_{axis}label")(label)
-        panel.tick_params(axis=axis, labelsize=_SMALL_PANEL_POINTS)
+        panel.tick_params(axis=axis, labelsize=SMALL_PANEL_POINTS)
 
 
 def _draw_plane(panel: Axes, parts: list[FloatArray]) -> None:
@@ -87,7 +87,7 @@ def _draw_plane(panel: Axes, parts: list[FloatArray]) -> None:
         # above all points
         panel.plot(*outline(points).T, color=look(k).colour, linestyle=look(k).dashes, linewidth=1.2, zorder=3.0)
     panel.set_aspect("equal", adjustable="datalim")
-    panel.tick_params(labelsize=_SMALL_PANEL_POINTS)
+    panel.tick_params(labelsize=SMALL_PANEL_POINTS)
     panel.grid(visible=True, color="0.9", linewidth=0.6)
     panel.set_axisbelow(True)
 

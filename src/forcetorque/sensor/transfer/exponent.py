@@ -53,7 +53,7 @@ def fit_exponent(
             "the points do not bend as this function does, fit another kind"
         )
     free = np.full(len(starts[best]) - 1, np.inf)
-    found = optimize.least_squares(
+    optimum = optimize.least_squares(
         residual,
         starts[best],
         bounds=([candidates[best - 1], *-free], [candidates[best + 1], *free]),
@@ -62,4 +62,4 @@ def fit_exponent(
         xtol=_TOLERANCE,
         gtol=_TOLERANCE,
     )
-    return float(found.x[0]), np.asarray(found.x[1:], dtype=np.float64)
+    return float(optimum.x[0]), np.asarray(optimum.x[1:], dtype=np.float64)

@@ -65,18 +65,18 @@ def grid_movement(
 
 
 def _two_joints(stand: Stand, limb: Limb) -> tuple[str, str]:
-    found: list[tuple[str, FloatArray]] = []
+    pair: list[tuple[str, FloatArray]] = []
     for joint in limb.own:
         axis = _axis(stand, joint)
-        others = [stand.gravity_direction, *(other for _, other in found)]
+        others = [stand.gravity_direction, *(other for _, other in pair)]
         turns = stand.model.joints[joint].type is not JointType.PRISMATIC
         if turns and all(abs(axis @ other) < _ALONG for other in others):
-            found.append((joint, axis))
-        if len(found) == 2:
-            return found[0][0], found[1][0]
+            pair.append((joint, axis))
+        if len(pair) == 2:
+            return pair[0][0], pair[1][0]
     raise RobotError(
         f"grid of sensor {limb.sensor!r} from {stand.support!r}: expected two joints of its limb that turn about axes "
-        f"of their own, away from gravity, got {_listed(joint for joint, _ in found)} out of {_listed(limb.own)}; name "
+        f"of their own, away from gravity, got {_listed(joint for joint, _ in pair)} out of {_listed(limb.own)}; name "
         f"two of {_listed(limb.between)} as joints, or choose another support"
     )
 

@@ -207,8 +207,8 @@ class Movement:
         question = Question(
             tree=self.tree, contacts=tuple(touch.contact for touch in self.external), expected=wanted, equations=()
         )
-        found = estimate(question, self.joints(seconds), self.root(seconds), known=self.external_wrenches(seconds))
-        return Wrenches(names=wanted, values=found.expected)
+        estimates = estimate(question, self.joints(seconds), self.root(seconds), known=self.external_wrenches(seconds))
+        return Wrenches(names=wanted, values=estimates.expected)
 
     def support_wrench(self, seconds: Any) -> FloatArray:
         """Compute what the ground does to the robot at the support.

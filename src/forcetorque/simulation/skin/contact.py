@@ -176,27 +176,27 @@ _Pressure = Callable[[FloatArray, SurfacePoints], FloatArray]
 
 def _pressure(surface: TrueSurface, grid: SkinGrid, contact: SkinContact) -> _Pressure:
     """Pressure at points of the surface, such that the object's weight is carried."""
-    thing = contact.thing
+    body = contact.thing
     carried = grid.areas * (grid.points.normals @ surface.at(contact.place).normals)
     weight = contact.mass_kg * STANDARD_GRAVITY
-    if isinstance(thing, ClothStrip):
-        cloth = _cloth(contact, thing)
+    if isinstance(body, ClothStrip):
+        cloth = _cloth(contact, body)
         tension = weight / float((cloth(grid.places, grid.points) * carried).sum())
         return lambda places, points: tension * cloth(places, points)
-    above = _rigid(surface, contact, thing)
-    depth = _depth(above(grid.places, grid.points), carried, weight / thing.stiffness)
-    return lambda places, points: thing.stiffness * np.maximum(above(places, points) + depth, 0.0)
+    above = _rigid(surface, contact, body)
+    depth = _depth(above(grid.places, grid.points), carried, weight / body.stiffness)
+    return lambda places, points: body.stiffness * np.maximum(above(places, points) + depth, 0.0)
 
 
-def _cloth(contact: SkinContact, thing: ClothStrip) -> _Pressure:
+def _cloth(contact: SkinContact, strip: ClothStrip) -> _Pressure:
     def shape(places: FloatArray, points: SurfacePoints) -> FloatArray:
         offset = places - contact.place
-        return thing.pressure(offset[..., 1], offset[..., 0])
+        return strip.pressure(offset[..., 1], offset[..., 0])
 
     return shape
 
 
-def _rigid(surface: TrueSurface, contact: SkinContact, thing: RigidObject) -> _Pressure:
+def _rigid(surface: TrueSurface, contact: SkinContact, body: RigidObject) -> _Pressure:
     """How far the skin stands above the object's lower side, when its lowest point touches at the contact's place."""
     touch = surface.at(contact.place)
     axis = surface.link_R_axis[:, 2]
@@ -211,7 +211,7 @@ def _rigid(surface: TrueSurface, contact: SkinContact, thing: RigidObject) -> _P
         above: FloatArray = offset @ touch.normals
         # the far side of the limb lies below the object too, but nothing touches it
         facing = points.normals @ touch.normals > 0.0
-        return np.where(facing, above, -np.inf) - thing.height(cosine * a + sine * b, cosine * b - sine * a)
+        return np.where(facing, above, -np.inf) - body.height(cosine * a + sine * b, cosine * b - sine * a)
 
     return shape
 

@@ -83,7 +83,7 @@ class SkinContacts:
             number: Contact, from 0.
 
         Returns:
-            Indices of its taxels in the layout.
+            Indices of its taxels in the layout; shape (k,).
         """
         return np.flatnonzero(self.active & (self.contact == number))
 

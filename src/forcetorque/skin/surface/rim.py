@@ -31,12 +31,11 @@ class Rim:
     """Corners, counterclockwise seen from outside: a taxel below n, an outer point from n on; shape (m, 3)."""
 
 
-def rim_strip(surface: SkinSurface, width_m: float = HALF_PITCH_M) -> Rim:
-    """Lay a strip of facets around a surface, in the plane of the facets at its boundary.
+def rim_strip(surface: SkinSurface) -> Rim:
+    """Lay a strip of facets around a surface, in the plane of the facets at its boundary: as wide as half a pitch.
 
     Args:
         surface: Surface.
-        width_m: Width of the strip; m.
 
     Returns:
         The strip: two facets for every edge of the boundary.
@@ -54,7 +53,7 @@ def rim_strip(surface: SkinSurface, width_m: float = HALF_PITCH_M) -> Rim:
     second = np.empty_like(first)
     second[before] = first
     triangles = np.concatenate([np.stack([start, first, second], axis=1), np.stack([start, second, end], axis=1)])
-    return Rim(positions=surface.positions[start] + width_m * mitre, taxels=start, triangles=triangles)
+    return Rim(positions=surface.positions[start] + HALF_PITCH_M * mitre, taxels=start, triangles=triangles)
 
 
 def edge_taxels(surface: SkinSurface) -> BoolArray:

@@ -65,7 +65,7 @@ class SkinSurface:
 
     @property
     def isolated(self) -> IntArray:
-        """Taxels that no facet touches."""
+        """Numbers of taxels that no facet touches; shape (k,)."""
         return np.setdiff1d(np.arange(len(self)), self.triangles)
 
     def with_ring(self, taxels: BoolArray) -> BoolArray:

@@ -47,7 +47,8 @@ class TaxelCurve:
     kind: CurveKind
     """Form."""
     coefficients: FloatArray
-    """Numbers of the form; Pa for each of them, but the second of `capacitor`, which has no unit."""
+    """Numbers of the form; shape (k,), as many as it has; Pa for each of them, but the second of
+    `capacitor`, which has no unit."""
     range_counts: float
     """Fall at the highest pressure that was fitted: beyond, the curve is extrapolated; counts."""
 

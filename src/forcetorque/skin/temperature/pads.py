@@ -58,9 +58,9 @@ def followed_pads(layout: SkinLayout, alive: BoolArray) -> BoolArray:
     """
     modules = np.unique(layout.modules)
     centres = np.stack([layout.positions[layout.modules == module].mean(axis=0) for module in modules])
-    told = np.isin(modules, layout.thermal_modules[alive])
-    distance = np.linalg.norm(centres[:, None] - centres[told], axis=2)
-    source = modules[told][distance.argmin(axis=1)]
+    has_pad = np.isin(modules, layout.thermal_modules[alive])
+    distance = np.linalg.norm(centres[:, None] - centres[has_pad], axis=2)
+    source = modules[has_pad][distance.argmin(axis=1)]
     own = source[np.searchsorted(modules, layout.modules)]
     follows: BoolArray = (own[:, None] == layout.thermal_modules) & alive
     return follows
