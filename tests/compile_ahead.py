@@ -13,7 +13,7 @@ from forcetorque.estimation import Evaluator, Question, estimate
 from forcetorque.evaluation import candidate_errors
 from forcetorque.robot import RootMotion, build_tree, read_urdf
 from forcetorque.simulation import ARM_URDF
-from tests.robots import random_motion
+from tests.scenes.robots import random_motion
 
 if __name__ == "__main__":
     model = read_urdf(ARM_URDF)

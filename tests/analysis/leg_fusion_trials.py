@@ -18,7 +18,7 @@ import numpy as np
 
 from forcetorque.analysis import corrections_of, fuse_experiment
 from forcetorque.experiment import load_touched_robot
-from tests.moving_leg import DRIVEN, FILE, Faults, write_moving_leg
+from tests.scenes.moving_leg import DRIVEN, FILE, Faults, write_moving_leg
 
 FIRST, SEEDS = 20, 20
 """Seeds on which nothing was chosen; those of other tests are below."""

@@ -32,8 +32,8 @@ from forcetorque.evaluation import Offset
 from forcetorque.experiment import Experiment, load_experiment
 from forcetorque.recording import Use
 from forcetorque.spatial import WRENCH_COMPONENTS
-from tests.experiments import MOUNTED, PARQUET, TWO, YARP, edit, holed
-from tests.warm_experiments import TEMPERATURE, with_variables
+from tests.scenes.experiments import MOUNTED, PARQUET, TWO, YARP, edit, holed
+from tests.scenes.warm_experiments import TEMPERATURE, with_variables
 
 ANY = [1e9] * 6
 NONE = [0.0] * 6

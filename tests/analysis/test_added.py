@@ -35,7 +35,7 @@ from forcetorque.analysis.runs.added import added_to, saying_what_was_added
 from forcetorque.calibration import Calibration
 from forcetorque.experiment import load_experiment
 from forcetorque.result import Result
-from tests.experiments import PARQUET, add
+from tests.scenes.experiments import PARQUET, add
 
 CLOCK = '\n[[clock]]\nstream = "arm_ft"\nto = "joints"\ndelay_s = 0.0\n'
 ADDED = "arm_ft: stamped 0 ms later than 'joints', as stated"

@@ -28,7 +28,7 @@ from forcetorque.analysis.payload.load_doubts import circular_loads
 from forcetorque.analysis.payload.sense import reversed_sense
 from forcetorque.errors import FitError, ForceTorqueError
 from forcetorque.experiment import load_experiment
-from tests.robots import example_robot
+from tests.scenes.robots import example_robot
 
 EXAMPLE = Path(__file__).resolve().parents[2] / "examples" / "27_arm_and_tools.py"
 UR5 = "ur_description/urdf/ur5_robot.urdf"

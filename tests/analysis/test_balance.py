@@ -16,8 +16,8 @@ from forcetorque.estimation.balance import NO_FOOT, ContactThresholds, ForceLimi
 from forcetorque.experiment import load_experiment, load_foot_forces
 from forcetorque.robot import read_urdf
 from forcetorque.simulation import BIPED_URDF, Stand, balancing_movement
+from tests.analysis.standing import Standing, moving, switching
 from tests.page_scripts import unmarked
-from tests.standing import Standing, moving, switching
 
 EXACT_M = 1e-9
 ROOT = Path(__file__).resolve().parents[2]

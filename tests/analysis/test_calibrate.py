@@ -19,7 +19,7 @@ from forcetorque.calibration import GENERATIVE, Calibration
 from forcetorque.errors import ExperimentError, FitError
 from forcetorque.experiment import Experiment, load_experiment
 from forcetorque.recording import Use, read_recording, write_recording
-from tests.experiments import FACTORY, MOUNTED, PARQUET, TWO, YARP, add, edit
+from tests.scenes.experiments import FACTORY, MOUNTED, PARQUET, TWO, YARP, add, edit
 
 FORCE_ROWS = 0.02
 """Largest relative error of a force row: accelerations from 50 Hz leave 0.1 N; the prior is off by 3 % and more."""

@@ -15,8 +15,8 @@ from forcetorque.calibration import ESTIMATION_TYPES
 from forcetorque.errors import ExperimentError
 from forcetorque.experiment import load_experiment
 from forcetorque.recording import Use
-from tests.experiments import PARQUET, edit
-from tests.studies import CALIBRATION, FILES, SENSOR, VALIDATION
+from tests.scenes.experiments import PARQUET, edit
+from tests.scenes.studies import CALIBRATION, FILES, SENSOR, VALIDATION
 
 
 def _campaign(folder: Path, files: Sequence[str] = FILES) -> Campaign:

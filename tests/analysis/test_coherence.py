@@ -19,8 +19,8 @@ from forcetorque.experiment import Experiment, load_experiment
 from forcetorque.experiment.simulated.recordings import write_scenario
 from forcetorque.recording import Interval, Use
 from forcetorque.simulation.scenario import SimulatedRecording, build_scenario, simulate
-from tests.coherence_truth import net_force_errors, stamps_in
-from tests.switchings import short_switching
+from tests.analysis.coherence_truth import net_force_errors, stamps_in
+from tests.scenes.switchings import short_switching
 
 EXACT_N = 1e-6
 """Rounding of counts that stand for 500 N, and of wrenches over 40 bodies; no noise, no errors of the robot."""

@@ -13,7 +13,7 @@ from forcetorque.analysis import SensorRun, calibrate_sensor, coherence
 from forcetorque.experiment import Experiment, load_experiment
 from forcetorque.experiment.simulated.recordings import write_scenario
 from forcetorque.simulation.scenario import Scenario, SimulatedRecording, build_scenario, simulate, trace_recordings
-from tests.switchings import short_switching
+from tests.scenes.switchings import short_switching
 
 FEET = ("l_foot_ft", "r_foot_ft")
 OFFSETS = ("one-link-imu:hanging", "one-link-imu:l_sole", "one-link-fixed-frame:l_sole")

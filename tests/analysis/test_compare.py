@@ -24,8 +24,8 @@ from forcetorque.calibration import Calibration
 from forcetorque.errors import ExperimentError, FormatError, MissingFileError
 from forcetorque.experiment import load_experiment, parse_experiment
 from tests.evaluation.sphere.clouds import DEFORMED, WEIGHT, grid, map_of
-from tests.experiments import PARQUET, TWO, add, edit
 from tests.report.drawing import sphere_of
+from tests.scenes.experiments import PARQUET, TWO, add, edit
 
 GRAVITY = 9.81
 TRIAL = '\n[trial]\ncondition = "2 N m"\nnumber = {}\n'

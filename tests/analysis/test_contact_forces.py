@@ -28,7 +28,7 @@ from forcetorque.evaluation.offset import KNOWN_BEFORE, Offset
 from forcetorque.experiment import Experiment, load_experiment
 from forcetorque.recording import Use
 from forcetorque.recording.alignment import seconds_since
-from tests.experiments import PARQUET, TWO, add, edit, holed
+from tests.scenes.experiments import PARQUET, TWO, add, edit, holed
 
 EXACT = 1e-9
 """N, N m: wrenches of some 100 N through two evaluators of the same dynamics."""

@@ -16,7 +16,7 @@ from forcetorque.exsitu import THESIS_TABLE, Bench, read_loads
 from forcetorque.recording import Use
 from forcetorque.sensor.catalogue import find_sensor
 from forcetorque.spatial import MeasureDirection
-from tests.device_contest import DEVICE, NOISE, maker, planted, run_of
+from tests.analysis.device_contest import DEVICE, NOISE, maker, planted, run_of
 
 JUDGED, FITTED = (10.0, 20.0), (5.0, 25.0)
 BOUGHT, OURS, THIRD = DEVICE.sensor_names

@@ -14,7 +14,7 @@ import pytest
 from forcetorque import contest
 from forcetorque.analysis import Contest, Contestant, Entries, Method
 from forcetorque.recording import Use
-from tests.device_contest import DEVICE, maker, planted, run_of
+from tests.analysis.device_contest import DEVICE, maker, planted, run_of
 
 SEEDS = 50
 JUDGED, FITTED = (10.0, 15.0, 20.0, 30.0), (5.0, 25.0)

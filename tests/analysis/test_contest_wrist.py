@@ -10,7 +10,7 @@ import pytest
 from forcetorque import contest
 from forcetorque.analysis import read_entries
 from forcetorque.errors import ExperimentError, FormatError
-from tests.wrist_contest import write_contest, write_runs
+from tests.scenes.wrist_contest import write_contest, write_runs
 
 
 @pytest.fixture(scope="module")

@@ -21,8 +21,8 @@ from forcetorque.errors import EstimationError, ExperimentError, RecordingError
 from forcetorque.experiment import Experiment, load_experiment
 from forcetorque.experiment.contacts import contact_in_words
 from forcetorque.recording import Recording, Signal, Stream, Use, read_recording, write_recording
-from tests.experiments import MOUNTED, PARQUET, TWO, add, edit
 from tests.result.showing import require_shown
+from tests.scenes.experiments import MOUNTED, PARQUET, TWO, add, edit
 
 PUSH = np.array([5.0, -3.0, 8.0, 0.1, 0.2, -0.15])
 """What the environment does to the link beyond the sensor, in the sensor's frame; N, N m."""

@@ -16,7 +16,7 @@ from forcetorque.analysis.calibration.recording_moments import recording_moments
 from forcetorque.calibration import RecordingMoments, read_moments
 from forcetorque.errors import FitError
 from forcetorque.experiment import load_experiment
-from tests.robots import example_robot
+from tests.scenes.robots import example_robot
 
 EXAMPLE = Path(__file__).resolve().parents[2] / "examples" / "27_arm_and_tools.py"
 UR5 = "ur_description/urdf/ur5_robot.urdf"

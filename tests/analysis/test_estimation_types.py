@@ -16,8 +16,8 @@ from forcetorque.calibration import ESTIMATION_TYPES, Calibration, EstimationTyp
 from forcetorque.errors import ExperimentError, FitError, FormatError
 from forcetorque.experiment import Experiment, load_experiment
 from forcetorque.recording import Use
-from tests.experiments import PARQUET, add, edit
-from tests.warm_experiments import EXACT, TEMPERATURE, with_variables
+from tests.scenes.experiments import PARQUET, add, edit
+from tests.scenes.warm_experiments import EXACT, TEMPERATURE, with_variables
 
 LAMBDA = 6e4
 """counts2; enough to tell the types apart, which agree without a prior."""

@@ -19,7 +19,7 @@ from forcetorque.errors import ExperimentError, SerialNumberError, ShapeError
 from forcetorque.evaluation import autocorrelation
 from forcetorque.experiment import Experiment, load_experiment
 from forcetorque.recording import Use
-from tests.experiments import PARQUET, YARP, add, edit
+from tests.scenes.experiments import PARQUET, YARP, add, edit
 
 
 @pytest.fixture(scope="module")

@@ -17,8 +17,8 @@ from forcetorque.evaluation import MARGIN, GainChange
 from forcetorque.exchange.icub import read_matrix_file
 from forcetorque.experiment import Experiment, load_experiment
 from forcetorque.recording import Use
-from tests.experiments import JOINTS, PARQUET, TWO, YARP, add, edit
 from tests.result.showing import require_shown
+from tests.scenes.experiments import JOINTS, PARQUET, TWO, YARP, add, edit
 
 GAINS = "amplifier_gain = [24, 24, 24, 36, 36, 36]\nallowed_gains = [8, 16, 24, 36, 48]\n"
 SERIAL = 'serial = "SIM001"\n'

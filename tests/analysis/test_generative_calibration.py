@@ -23,8 +23,8 @@ from forcetorque.calibration import (
 from forcetorque.errors import ExperimentError, FitError, FormatError, MissingFileError
 from forcetorque.experiment import load_experiment
 from forcetorque.recording import Use
-from tests.experiments import PARQUET, edit
-from tests.studies import CALIBRATION, SENSOR, VALIDATION
+from tests.scenes.experiments import PARQUET, edit
+from tests.scenes.studies import CALIBRATION, SENSOR, VALIDATION
 
 
 def _runs(folder: Path, files: Sequence[str] = CALIBRATION) -> list[SensorRun]:

@@ -26,7 +26,7 @@ from forcetorque.simulation.robots import ARM_URDF, BIPED_URDF
 from forcetorque.spatial import MeasureDirection
 from forcetorque.toml_table import open_questions
 from tests.exchange.yarp.port_logs import write_port
-from tests.tutorial_log import FOLDER, PUSH_S, log_text, reading, robot_text
+from tests.scenes.tutorial_log import FOLDER, PUSH_S, log_text, reading, robot_text
 
 ANSWERS = {
     "serial": '"FT-28"',

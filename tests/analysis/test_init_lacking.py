@@ -16,7 +16,7 @@ from forcetorque.experiment import Experiment, load_experiment
 from forcetorque.recording import Recording, Signal, Stream, write_recording
 from forcetorque.simulation.robots import BIPED_URDF
 from forcetorque.toml_table import open_questions
-from tests.tutorial_log import FOLDER
+from tests.scenes.tutorial_log import FOLDER
 
 ANSWERS = {
     "serial": 'serial = "FT-28"',

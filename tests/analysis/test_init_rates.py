@@ -15,7 +15,7 @@ from forcetorque.constants import STANDARD_GRAVITY
 from forcetorque.recording import Recording, Signal, Stream
 from forcetorque.robot import JointMotion, RobotModel, RootMotion, build_tree, expected_wrenches, read_urdf
 from forcetorque.spatial import Inertia, MeasureDirection
-from tests.robots import example_robot
+from tests.scenes.robots import example_robot
 
 JOINT, OTHER = "ee_fixed_joint", "wrist_3_link-tool0_fixed_joint"
 FULL_SCALE = np.array([150.0, 150.0, 150.0, 10.0, 10.0, 10.0])

@@ -11,8 +11,8 @@ from forcetorque.analysis import finding_rows, finding_table, inspect_log
 from forcetorque.errors import FormatError, MissingFileError
 from forcetorque.exchange.yarp import read_log_folder
 from forcetorque.recording import Finding
-from tests.experiments import FT_LOG, YARP, edit_lines
 from tests.result.showing import require_shown
+from tests.scenes.experiments import FT_LOG, YARP, edit_lines
 
 
 def test_times_count_from_the_start_of_the_recording() -> None:

@@ -9,7 +9,7 @@ import numpy as np
 
 from forcetorque.analysis.study.calibrations import joined_by_axis
 from forcetorque.calibration import Calibration, SessionOffset
-from tests.calibrations import make_calibration
+from tests.scenes.calibrations import make_calibration
 
 
 def _rows(seed: int, values: Sequence[float | None]) -> list[Calibration]:

@@ -31,8 +31,8 @@ from forcetorque.evaluation.offset import KNOWN_BEFORE, Offset
 from forcetorque.experiment import Experiment, load_experiment
 from forcetorque.recording import Signal, Stream, Use
 from forcetorque.robot import build_tree
-from tests.experiments import JOINTS, PARQUET, TWO, edit
-from tests.robots import joint_xml, link_xml
+from tests.scenes.experiments import JOINTS, PARQUET, TWO, edit
+from tests.scenes.robots import joint_xml, link_xml
 
 EXACT = 1e-10
 """N m: torques of some 10 N m by two ways through the same dynamics."""

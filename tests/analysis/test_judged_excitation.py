@@ -15,7 +15,7 @@ from forcetorque.arrays import FloatArray
 from forcetorque.calibration import Calibration
 from forcetorque.experiment import load_experiment
 from forcetorque.recording import Recording, Use, read_recording, write_recording
-from tests.experiments import MOUNTED, OFFSET, PARQUET, add
+from tests.scenes.experiments import MOUNTED, OFFSET, PARQUET, add
 
 NAME = "turned.json"
 NOISE_COUNTS = 4.0

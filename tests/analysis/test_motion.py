@@ -13,7 +13,7 @@ from forcetorque.errors import ExperimentError, ForceTorqueError, RecordingError
 from forcetorque.experiment.recorded_log import load_recorded
 from forcetorque.recording.column import find_column
 from tests.page_scripts import unmarked
-from tests.swaying import OFFSET_NM, STEP_RAD, STEP_S, SWAY_HZ, SWAY_M, TORQUE_NM, write_swaying
+from tests.scenes.swaying import OFFSET_NM, STEP_RAD, STEP_S, SWAY_HZ, SWAY_M, TORQUE_NM, write_swaying
 
 ROOT = Path(__file__).resolve().parents[2]
 REAL = ROOT / "examples" / "24_icub_com_sinusoid.toml"

@@ -18,7 +18,7 @@ from forcetorque.evaluation import Offset, OffsetEstimate, OffsetPolicy, mean_of
 from forcetorque.experiment import Experiment, load_experiment
 from forcetorque.experiment.simulated.recordings import write_scenario
 from forcetorque.simulation.scenario import build_scenario, simulate
-from tests.switchings import short_switching
+from tests.scenes.switchings import short_switching
 
 BIAS_N = 1e-6
 """Rounding of counts that stand for 500 N."""

@@ -12,7 +12,7 @@ from scipy.spatial.transform import Rotation
 from forcetorque import load_experiment
 from forcetorque.analysis import SensorRun, WeighedLoad, weigh_load
 from forcetorque.experiment import load_experiment as read
-from tests.axia import EXAMPLES, write_axia
+from tests.scenes.axia import EXAMPLES, write_axia
 
 HALVES = """[[interval]]
 label = "first"

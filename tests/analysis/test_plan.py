@@ -17,7 +17,7 @@ from forcetorque.exchange.tabular import StampColumn, TableLayout, TableSignal, 
 from forcetorque.exchange.yarp import read_state
 from forcetorque.experiment import load_experiment
 from forcetorque.experiment.planned import load_planned
-from tests.experiments import JOINTS, PARQUET
+from tests.scenes.experiments import JOINTS, PARQUET
 
 CLEARANCE_DEG = 12.0
 PLAN = f"""

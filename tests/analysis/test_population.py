@@ -13,7 +13,7 @@ from forcetorque.calibration import write_calibration
 from forcetorque.errors import FormatError, MissingFileError
 from forcetorque.evaluation import position_in_population
 from forcetorque.exchange.icub import encode_matrix, read_matrix_file, write_matrix_file
-from tests.calibrations import FACTORY, MOUNTED, make_calibration
+from tests.scenes.calibrations import FACTORY, MOUNTED, make_calibration
 
 REAL_LARGEST, SWAPPED_SMALLEST = 20.0, 500.0
 """Robust z-scores of the most unusual feature: 17.7 among 32 real sensors of three families, 933 with channels

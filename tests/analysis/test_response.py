@@ -12,9 +12,9 @@ from forcetorque.analysis import Response, response
 from forcetorque.errors import ExperimentError, FitError, RecordingError
 from forcetorque.evaluation.response import SecondOrder
 from forcetorque.interactive import load_experiment
-from tests.excited_sensors import MASS_KG, Spring, released, swung, write_excited, write_taps
 from tests.page_scripts import unmarked
 from tests.result.showing import require_shown
+from tests.scenes.excited_sensors import MASS_KG, Spring, released, swung, write_excited, write_taps
 
 SPRING = Spring(rate_hz=500.0)
 ENOUGH = 3.0

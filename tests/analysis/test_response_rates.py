@@ -13,7 +13,7 @@ from forcetorque.arrays import FloatArray
 from forcetorque.constants import NORMAL_95
 from forcetorque.errors import FitError
 from forcetorque.evaluation.response import EvenRecord, ExcitationKind, SecondOrder, inverse_filter
-from tests.excited_sensors import GRAVITY, MASS_KG, Spring, released, swung, tapped
+from tests.scenes.excited_sensors import GRAVITY, MASS_KG, Spring, released, swung, tapped
 
 DRAWS = 200
 LEAST, MOST = 0.90, 0.98

@@ -18,10 +18,10 @@ from forcetorque.experiment import load_experiment
 from forcetorque.interactive import experiment_of_arrays
 from forcetorque.interactive import load_experiment as interactive_experiment
 from forcetorque.recording import Use
-from tests.experiments import FT_LOG, PARQUET, TWO, YARP, edit, edit_lines, snapshot
 from tests.interactive.arrays import arrays_of
 from tests.result.showing import require_shown
-from tests.warm_experiments import TEMPERATURE, with_variables
+from tests.scenes.experiments import FT_LOG, PARQUET, TWO, YARP, edit, edit_lines, snapshot
+from tests.scenes.warm_experiments import TEMPERATURE, with_variables
 
 
 def _calibrated(

@@ -18,7 +18,7 @@ from forcetorque.calibration import Calibration
 from forcetorque.errors import ExperimentError
 from forcetorque.experiment import load_experiment
 from forcetorque.recording import Use
-from tests.experiments import PARQUET
+from tests.scenes.experiments import PARQUET
 
 
 @pytest.fixture

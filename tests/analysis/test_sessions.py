@@ -26,7 +26,7 @@ from forcetorque.errors import ExperimentError
 from forcetorque.experiment import load_experiment
 from forcetorque.recording import Use
 from tests.calibration.quadratic_sensor import correction_of_steepness
-from tests.experiments import PARQUET, TWO, edit
+from tests.scenes.experiments import PARQUET, TWO, edit
 
 STEP = np.array([3.0, -2.0, 5.0, 0.2, -0.1, 0.05])
 """By how much the offset of the other session is another; N, N m."""

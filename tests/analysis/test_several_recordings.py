@@ -21,9 +21,9 @@ from forcetorque.calibration import Calibration
 from forcetorque.errors import ExperimentError
 from forcetorque.evaluation import Offset
 from forcetorque.recording import Use
-from tests.campaigns import FITTED, by_day, run_of, two_days
-from tests.experiments import edit
-from tests.studies import VALIDATION
+from tests.scenes.campaigns import FITTED, by_day, run_of, two_days
+from tests.scenes.experiments import edit
+from tests.scenes.studies import VALIDATION
 
 NAME = "arm.json"
 ROUNDING = 1e-9

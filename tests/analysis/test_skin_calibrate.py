@@ -13,7 +13,7 @@ from forcetorque.analysis import SkinCalibration, calibrate_skin
 from forcetorque.errors import ExperimentError, FitError, SkinError
 from forcetorque.simulation.skin import REFERENCE_PA
 from forcetorque.skin.taxels import Ailment
-from tests.chambers import BROKEN, HIGHEST_PA, LATER, TAXELS, chamber, responses, write_chamber, write_chambers
+from tests.scenes.chambers import BROKEN, HIGHEST_PA, LATER, TAXELS, chamber, responses, write_chamber, write_chambers
 
 DRAWS = 12
 """Patches of 60 taxels, of which six are broken: 648 sound ones and 72 broken ones."""

@@ -18,7 +18,7 @@ from forcetorque.skin.boards import outward_of_boards
 from forcetorque.skin.module import MODULE_TAXELS, placed_pads
 from forcetorque.skin.planes import module_planes
 from forcetorque.skin.surface import skin_surface
-from tests.patches import collapsed, cylinder_patch
+from tests.scenes.patches import collapsed, cylinder_patch
 
 
 def test_a_sound_patch_has_no_finding() -> None:

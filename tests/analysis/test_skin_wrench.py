@@ -13,7 +13,7 @@ from forcetorque import skin_wrench
 from forcetorque.analysis import SkinWrench
 from forcetorque.errors import SkinError
 from forcetorque.simulation.skin import ContactTruth, Loading
-from tests.touched import write_table, write_touched
+from tests.scenes.touched import write_table, write_touched
 
 HYSTERESIS = 0.1
 """Curves lie between loading and unloading: while an object rests they read that much too little at most."""

@@ -21,7 +21,7 @@ from forcetorque.errors import ExperimentError, SerialNumberError, UnitError
 from forcetorque.evaluation.sphere import analyse_sphere
 from forcetorque.experiment import Experiment, load_experiment
 from forcetorque.recording import Use
-from tests.experiments import PARQUET, YARP, edit
+from tests.scenes.experiments import PARQUET, YARP, edit
 
 ARM_MASS = 4.0
 """What the arm has beyond its sensor; kg."""

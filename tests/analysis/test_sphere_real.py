@@ -15,7 +15,7 @@ from forcetorque.analysis import SensorRun, SensorSphere, spheres
 from forcetorque.errors import FitError
 from forcetorque.evaluation.sphere import CloudForm
 from forcetorque.experiment import Experiment, load_experiment
-from tests.axia import write_axia
+from tests.scenes.axia import write_axia
 
 pytestmark = pytest.mark.real_data
 

@@ -15,8 +15,8 @@ from forcetorque.calibration import Calibration
 from forcetorque.errors import ExperimentError, SerialNumberError
 from forcetorque.experiment import Experiment, ExperimentSensor, load_experiment
 from forcetorque.recording import Use
-from tests.experiments import MOUNTED, OFFSET, PARQUET, TWO, YARP, edit
-from tests.warm_experiments import (
+from tests.scenes.experiments import MOUNTED, OFFSET, PARQUET, TWO, YARP, edit
+from tests.scenes.warm_experiments import (
     PER_DEGREE,
     SLOW_TEMPERATURE,
     TEMPERATURE,

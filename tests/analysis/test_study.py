@@ -37,9 +37,9 @@ from forcetorque.evaluation.offset import KNOWN_BEFORE, Offset
 from forcetorque.experiment import load_experiment
 from forcetorque.spatial import WRENCH_COMPONENTS
 from forcetorque.study import Candidate, GenerativeCandidate
-from tests.experiments import PARQUET, edit
 from tests.result.showing import require_shown
-from tests.studies import CALIBRATION, FILES, SERIAL, VALIDATION, scenario
+from tests.scenes.experiments import PARQUET, edit
+from tests.scenes.studies import CALIBRATION, FILES, SERIAL, VALIDATION, scenario
 
 SAME = 1e-8
 """Relative: rounding of double precision times the condition of the raw readings and of the temperature, some 1e6."""

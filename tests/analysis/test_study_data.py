@@ -20,8 +20,8 @@ from forcetorque.errors import ExperimentError, ForceTorqueError, MissingFileErr
 from forcetorque.exchange.icub import encode_matrix, write_matrix_file
 from forcetorque.experiment import load_experiment
 from forcetorque.recording import Use, read_recording, write_recording
-from tests.experiments import PARQUET, TWO, add, edit
-from tests.studies import CALIBRATION, FILES, SENSOR, SERIAL, VALIDATION, scenario
+from tests.scenes.experiments import PARQUET, TWO, add, edit
+from tests.scenes.studies import CALIBRATION, FILES, SENSOR, SERIAL, VALIDATION, scenario
 
 NANOSECOND = 1e-9 * 1.01
 """s; rounding of seconds."""

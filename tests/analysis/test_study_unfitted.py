@@ -20,8 +20,8 @@ from forcetorque.evaluation import Offset, push_error
 from forcetorque.experiment import load_experiment
 from forcetorque.experiment.simulated.truth import true_matrix
 from forcetorque.study import FAR_SD, Candidate, tables
-from tests.experiments import edit
-from tests.studies import CALIBRATION, FILES, SENSOR, SERIAL, VALIDATION, scenario
+from tests.scenes.experiments import edit
+from tests.scenes.studies import CALIBRATION, FILES, SENSOR, SERIAL, VALIDATION, scenario
 
 SAME = 1e-9
 """Relative rounding of double precision times the condition of the fit."""

@@ -18,7 +18,7 @@ from forcetorque.recording import Recording, read_recording
 from forcetorque.recording.alignment import interpolate
 from forcetorque.simulation import SimulatedSensor
 from forcetorque.simulation.scenario import build_scenario, simulate
-from tests.switchings import short_switching
+from tests.scenes.switchings import short_switching
 
 ROUNDING_N = 1e-6
 """Rounding of counts that stand for 500 N, and of wrenches over 40 bodies; truth is at the same instants."""

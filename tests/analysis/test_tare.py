@@ -14,10 +14,10 @@ from forcetorque.exchange.load import read_hrpsys
 from forcetorque.exchange.load_format import LoadFormat
 from forcetorque.experiment import load_experiment
 from forcetorque.interactive import load_experiment as interactive_experiment
-from tests.experiments import OFFSET, PARQUET
 from tests.page_scripts import unmarked
 from tests.result.showing import require_shown
-from tests.wrist_postures import BIAS, CENTRE, MASS, POSTURES, SLOW, weight, write_postures
+from tests.scenes.experiments import OFFSET, PARQUET
+from tests.scenes.wrist_postures import BIAS, CENTRE, MASS, POSTURES, SLOW, weight, write_postures
 
 ENOUGH = 5.0
 """Standard deviations of the mean of 60 s, of which the slow part has some ten independent values."""

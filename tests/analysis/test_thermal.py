@@ -15,11 +15,11 @@ from forcetorque.errors import ExperimentError
 from forcetorque.exchange.icub import encode_matrix, write_matrix_file
 from forcetorque.experiment import load_experiment
 from forcetorque.interactive import load_experiment as interactive_experiment
-from tests.experiments import PARQUET
 from tests.page_scripts import unmarked
 from tests.result.showing import require_shown
-from tests.thermal_cycles import HYSTERESIS, PER_DEGREE, TEXT, record, write_cycles
-from tests.warm_experiments import TEMPERATURE, with_variables
+from tests.scenes.experiments import PARQUET
+from tests.scenes.thermal_cycles import HYSTERESIS, PER_DEGREE, TEXT, record, write_cycles
+from tests.scenes.warm_experiments import TEMPERATURE, with_variables
 
 ENOUGH = 3.0
 """Half-widths of 95 % intervals within which all of some numbers lie, where the shape of the noise is misjudged too."""

@@ -23,8 +23,8 @@ from forcetorque.calibration import Calibration
 from forcetorque.errors import ExperimentError, FormatError, RecordingError
 from forcetorque.experiment import load_experiment
 from forcetorque.recording import Recording, Signal, Stream, read_recording, write_recording
-from tests.experiments import PARQUET, add, edit
-from tests.motors import DRIVEN, ERRORS, FUSION, MOTOR, motor_tables, with_motors
+from tests.scenes.experiments import PARQUET, add, edit
+from tests.scenes.motors import DRIVEN, ERRORS, FUSION, MOTOR, motor_tables, with_motors
 
 SKIN = """
 [[contact]]

@@ -15,7 +15,7 @@ from forcetorque.calibration import Calibration
 from forcetorque.errors import ExperimentError
 from forcetorque.experiment import load_experiment
 from forcetorque.recording import Recording, Stream, read_recording, write_recording
-from tests.experiments import PARQUET, edit
+from tests.scenes.experiments import PARQUET, edit
 
 FITTED = "was fitted on the interval 'fit', which overlaps the judged interval 'judge'"
 RNG = np.random.default_rng(5)

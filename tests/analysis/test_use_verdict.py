@@ -18,7 +18,7 @@ from forcetorque.calibration import Calibration
 from forcetorque.errors import ExperimentError, ForceTorqueError, FormatError
 from forcetorque.evaluation.use.evidence import Evidence, JudgedStretch, evidence
 from forcetorque.experiment import load_experiment
-from tests.experiments import PARQUET, edit
+from tests.scenes.experiments import PARQUET, edit
 
 PUSH = '\n[[load_case]]\nname = "push"\nforce_N = 20.0\nradius_m = 0.2\noffset = "tared"\n'
 

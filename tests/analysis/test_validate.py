@@ -20,7 +20,7 @@ from forcetorque.analysis.runs.validity import sentences
 from forcetorque.calibration import Calibration
 from forcetorque.estimation.samples import robot_motion_at
 from forcetorque.experiment import load_experiment
-from tests.experiments import PARQUET, TWO, add
+from tests.scenes.experiments import PARQUET, TWO, add
 
 SHORT = '\n[[interval]]\nlabel = "blink"\nstart_s = 23.6\nend_s = 23.9\nuse = "validation"\nsupport = "base"\n'
 """An interval that ends within its first second."""

@@ -29,7 +29,7 @@ from forcetorque.analysis.runs.validity import ReadingsOutside, sentences
 from forcetorque.calibration import Calibration, read_calibration, write_calibration
 from forcetorque.experiment import load_experiment
 from forcetorque.recording import Use, read_recording, write_recording
-from tests.experiments import PARQUET, edit
+from tests.scenes.experiments import PARQUET, edit
 
 NAME = "new.json"
 LIMITS = 'schema = "forcetorque/acceptance/1"\nname = "arm"\n\n[evaluate]\nforce_error_mean_N = 100.0\n'

@@ -25,8 +25,8 @@ from forcetorque.exchange.icub import read_matrix_file
 from forcetorque.experiment import Experiment, load_experiment
 from forcetorque.recording import Use, read_recording
 from forcetorque.simulation import calibrated_by_board
-from tests.experiments import FACTORY, PARQUET, edit
-from tests.warm_experiments import (
+from tests.scenes.experiments import FACTORY, PARQUET, edit
+from tests.scenes.warm_experiments import (
     PER_DEGREE,
     PERIOD_S,
     SLOW_TEMPERATURE,

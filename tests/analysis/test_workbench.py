@@ -15,8 +15,8 @@ from forcetorque.calibration import read_calibration
 from forcetorque.errors import ExperimentError, FitError, ForceTorqueError, FormatError, UnitError
 from forcetorque.exsitu import BenchFaults
 from forcetorque.spatial import MeasureDirection
-from tests.benches import write_bench
 from tests.exsitu.trials import specimens
+from tests.scenes.benches import write_bench
 
 PLATE = """schema = "forcetorque/bench/1"
 

@@ -23,7 +23,7 @@ from forcetorque.calibration import (
 from forcetorque.calibration.quadratic_correction import steepness
 from forcetorque.simulation import distorted_by_mounting
 from forcetorque.spatial import MeasureDirection
-from tests.calibrations import FACTORY
+from tests.scenes.calibrations import FACTORY
 
 LIMIT_COUNTS = 32767.0
 ASSUMPTIONS = Assumptions.of_counts(6, LIMIT_COUNTS, accuracy=np.zeros(6))

@@ -17,7 +17,7 @@ from pathlib import Path
 import pytest
 
 import forcetorque
-from tests.experiments import edit
+from tests.scenes.experiments import edit
 
 TYPE = ("forcetorque", "calibration", "estimation_type.py")
 MEMBER = '    ONE_SHOT = "one-shot"\n'

@@ -8,7 +8,7 @@ import pytest
 
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration import Calibration, FittedLoads, extrapolation, predicted_error
-from tests.calibrations import MOUNTED, OFFSET, make_calibration, make_variable
+from tests.scenes.calibrations import MOUNTED, OFFSET, make_calibration, make_variable
 
 NOISE_COUNTS = 4.0
 RNG = np.random.default_rng(5)

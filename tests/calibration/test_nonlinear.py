@@ -11,7 +11,7 @@ from forcetorque.arrays import FloatArray
 from forcetorque.calibration import Calibration, DataSet, corrected_fit, fit_generative, try_correction
 from forcetorque.errors import FitError
 from tests.calibration.quadratic_sensor import ASSUMPTIONS, Specimen, calibrated, means_of
-from tests.calibrations import FACTORY
+from tests.scenes.calibrations import FACTORY
 
 CROSSTALK_COUNTS = 2000.0
 """Cross-talk of a sensor that a matrix does not tell: at a quarter of full scale some 0.5 % of it."""

@@ -16,7 +16,7 @@ from forcetorque.calibration import QuadraticCorrection, WrenchModel, read_calib
 from forcetorque.calibration.quadratic_correction import STEEPEST, steepness
 from forcetorque.errors import FormatError
 from tests.calibration.quadratic_sensor import LIMIT_COUNTS, correction_of_steepness
-from tests.calibrations import FACTORY, MOUNTED, OFFSET, make_calibration
+from tests.scenes.calibrations import FACTORY, MOUNTED, OFFSET, make_calibration
 
 ROUND_TRIP = 1e-6
 """Relative to the load; what the iteration may leave, with rounding to spare."""

@@ -18,7 +18,7 @@ from forcetorque.robot import read_urdf
 from forcetorque.simulation import SimulatedSensor, Stand, Trace, random_movement, trace_movement, with_load
 from forcetorque.spatial import MeasureDirection
 from tests.calibration.push_error import LIMIT_COUNTS
-from tests.robots import example_robot
+from tests.scenes.robots import example_robot
 
 SENSOR, JOINT, FLANGE, BASE = "wrist_ft", "ee_fixed_joint", "ee_link", "base_link"
 PUSHES = pushes() / 5.0

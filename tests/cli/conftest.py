@@ -13,9 +13,9 @@ from forcetorque.analysis import SensorRun, calibrate_sensor
 from forcetorque.calibration import write_calibration
 from forcetorque.experiment import load_experiment
 from tests.cli.outcome import Run, typed
-from tests.experiments import PARQUET, write_experiments
-from tests.studies import write_days
-from tests.warm_experiments import TEMPERATURE, warm_up, with_variables
+from tests.scenes.experiments import PARQUET, write_experiments
+from tests.scenes.studies import write_days
+from tests.scenes.warm_experiments import TEMPERATURE, warm_up, with_variables
 
 
 @pytest.fixture(scope="session")

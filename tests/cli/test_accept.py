@@ -20,7 +20,7 @@ from forcetorque.recording import Use
 from forcetorque.simulation import distorted_by_mounting
 from tests.cli.json_schema import faults
 from tests.cli.outcome import Outcome, Run
-from tests.experiments import FACTORY, PARQUET, TWO, edit, snapshot
+from tests.scenes.experiments import FACTORY, PARQUET, TWO, edit, snapshot
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "11_acceptance.toml"
 YOGA = EXAMPLE.with_name("02_icub_yoga_forward.toml")

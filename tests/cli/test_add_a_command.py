@@ -17,8 +17,8 @@ from tests.cli import test_help_and_schema as every_command
 from tests.cli.added_command import GROUP, GROUP_COMMAND, NAME, added_command, added_group
 from tests.cli.json_schema import faults
 from tests.cli.outcome import Run
-from tests.experiments import TWO
-from tests.patches import cylinder_patch, position_text
+from tests.scenes.experiments import TWO
+from tests.scenes.patches import cylinder_patch, position_text
 
 
 @pytest.fixture

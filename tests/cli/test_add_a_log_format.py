@@ -19,7 +19,7 @@ from forcetorque.experiment import ExperimentFile, load_experiment
 from forcetorque.recording import read_recording
 from tests.cli.json_schema import faults
 from tests.cli.outcome import Run
-from tests.experiments import PARQUET, YARP, edit
+from tests.scenes.experiments import PARQUET, YARP, edit
 from tests.toy_log import FILE, ToyFormat, write_toy
 
 TOY = 'format = "toy"\npath = "toy"\nstream = ["arm_ft", "joints"]\n'

@@ -15,7 +15,7 @@ from forcetorque import analysis
 from forcetorque.experiment import load_experiment
 from tests.cli.added_command import NAME, TOY, added_command
 from tests.cli.outcome import Run
-from tests.experiments import PARQUET, edit
+from tests.scenes.experiments import PARQUET, edit
 
 FIELD = '    samples: Annotated[int, Shown("readings")]\n    """Number of its samples."""\n'
 VALUE = "        samples=len(stamps),\n"

@@ -12,7 +12,7 @@ import pyarrow.parquet as pq
 import pytest
 
 from tests.cli.outcome import Run
-from tests.experiments import ARM_LOG, FT_LOG, PARQUET, TWO, YARP, add, edit, edit_line, edit_lines, snapshot
+from tests.scenes.experiments import ARM_LOG, FT_LOG, PARQUET, TWO, YARP, add, edit, edit_line, edit_lines, snapshot
 
 KEPT = "kept.json"
 """An earlier result, of which an error must leave every byte."""

@@ -8,9 +8,9 @@ from pathlib import Path
 import pyarrow.parquet as pq
 import pytest
 
+from tests.cli.foot_forces import write_foot_forces
 from tests.cli.json_schema import faults
 from tests.cli.outcome import Run
-from tests.foot_forces import write_foot_forces
 
 
 @pytest.fixture

@@ -15,8 +15,8 @@ from forcetorque.calibration import ESTIMATION_TYPES, read_calibration
 from forcetorque.recording import read_recording
 from tests.cli.json_schema import faults
 from tests.cli.outcome import Run
-from tests.experiments import FT_LOG, MOUNTED, PARQUET, TWO, YARP, add, edit, edit_lines, snapshot
-from tests.warm_experiments import EXACT, PER_DEGREE, TEMPERATURE, fixed_signal, put, with_variables
+from tests.scenes.experiments import FT_LOG, MOUNTED, PARQUET, TWO, YARP, add, edit, edit_lines, snapshot
+from tests.scenes.warm_experiments import EXACT, PER_DEGREE, TEMPERATURE, fixed_signal, put, with_variables
 
 COMPONENTS = ("fx", "fy", "fz", "tx", "ty", "tz")
 

@@ -16,7 +16,7 @@ from forcetorque.calibration.joint import read_joint_posterior
 from forcetorque.errors import FormatError
 from tests.cli.json_schema import faults
 from tests.cli.outcome import Run
-from tests.experiments import PARQUET, TWO, edit, edit_lines, snapshot
+from tests.scenes.experiments import PARQUET, TWO, edit, edit_lines, snapshot
 
 
 def test_a_folder_holds_a_file_per_sensor_and_what_they_share(arm: Path, run: Run) -> None:

@@ -11,8 +11,8 @@ import numpy as np
 from forcetorque.calibration import read_calibration
 from tests.cli.json_schema import faults
 from tests.cli.outcome import Run
-from tests.experiments import edit, snapshot
-from tests.studies import CALIBRATION
+from tests.scenes.experiments import edit, snapshot
+from tests.scenes.studies import CALIBRATION
 
 
 def test_recordings_and_moments_come_to_one_calibration(days: Path, run: Run) -> None:

@@ -13,7 +13,7 @@ from forcetorque.calibration import read_calibration
 from forcetorque.experiment.simulated.recordings import write_scenario
 from forcetorque.simulation.scenario import build_scenario
 from tests.cli.outcome import Run
-from tests.switchings import short_switching
+from tests.scenes.switchings import short_switching
 
 LEGS = ("l_leg_ft", "r_leg_ft")
 DOUBLE = ["double_1", "double_2", "double_3"]

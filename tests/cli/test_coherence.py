@@ -13,7 +13,7 @@ from forcetorque.experiment.simulated.recordings import write_scenario
 from forcetorque.simulation.scenario import build_scenario
 from tests.cli.outcome import Run
 from tests.page_scripts import unmarked
-from tests.switchings import short_switching
+from tests.scenes.switchings import short_switching
 
 PAGE = Path(__file__).parents[2] / "docs" / "coherence.md"
 FEET = ("l_foot_ft", "r_foot_ft")

@@ -18,10 +18,10 @@ import pytest
 
 from forcetorque.evaluation.sphere import RULE, TOLERANCE
 from forcetorque.report import figures
-from tests.axia import write_axia
 from tests.cli.json_schema import faults
 from tests.cli.outcome import Outcome, Run
-from tests.experiments import PARQUET, TWO, add, edit, snapshot
+from tests.scenes.axia import write_axia
+from tests.scenes.experiments import PARQUET, TWO, add, edit, snapshot
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 FIRST, SECOND, LOOSE = "first.toml", "second.toml", "loose.toml"

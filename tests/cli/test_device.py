@@ -16,7 +16,7 @@ from forcetorque.exsitu.device import DEFAULT_DEVICE, read_device
 from forcetorque.interactive import design_device
 from forcetorque.robot import read_urdf
 from tests.cli.outcome import Run
-from tests.device_designs import hardly_optimise
+from tests.scenes.device_designs import hardly_optimise
 
 MATRIX = 0.02
 """Largest error of a coefficient over the largest of its row: white noise of 3 counts on two recordings of 2 minutes

@@ -18,8 +18,8 @@ from forcetorque.experiment import load_experiment
 from forcetorque.recording import read_recording, write_recording
 from tests.cli.json_schema import faults
 from tests.cli.outcome import Run
-from tests.experiments import PARQUET, TWO, YARP, add, edit, snapshot
-from tests.warm_experiments import TEMPERATURE
+from tests.scenes.experiments import PARQUET, TWO, YARP, add, edit, snapshot
+from tests.scenes.warm_experiments import TEMPERATURE
 
 
 def test_the_file_holds_every_sample_with_units(arm: Path, run: Run) -> None:

@@ -10,8 +10,8 @@ import pyarrow.parquet as pq
 
 from tests.cli.json_schema import faults
 from tests.cli.outcome import Run
-from tests.experiments import PARQUET
-from tests.motors import DRIVEN, FUSION, with_motors
+from tests.scenes.experiments import PARQUET
+from tests.scenes.motors import DRIVEN, FUSION, with_motors
 
 
 def test_torques_of_all_sources_are_in_the_file(arm: Path, run: Run) -> None:

@@ -18,7 +18,7 @@ from forcetorque.errors import ForceTorqueError
 from forcetorque.experiment import load_touched_robot
 from tests.cli.outcome import Run
 from tests.estimation.simulated import Simulation
-from tests.moving_leg import CURRENT, DRIVEN, FILE, FT, RATE_HZ, SKIN, Faults, changed, write_moving_leg
+from tests.scenes.moving_leg import CURRENT, DRIVEN, FILE, FT, RATE_HZ, SKIN, Faults, changed, write_moving_leg
 
 HOT_COUNTS = 5.0
 """What heat of some 4 degrees takes from the taxels of one side."""

@@ -13,7 +13,7 @@ import pytest
 from forcetorque.simulation.skin import ContactTruth, Loading
 from tests.cli.outcome import Run
 from tests.estimation.simulated import Simulation
-from tests.skinned_leg import FILE, write_leg
+from tests.scenes.skinned_leg import FILE, write_leg
 
 Leg = tuple[Sequence[ContactTruth], Simulation]
 START_S = 3.0

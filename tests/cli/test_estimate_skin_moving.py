@@ -15,7 +15,7 @@ from forcetorque.arrays import FloatArray
 from forcetorque.experiment import load_touched_robot
 from tests.cli.outcome import Run
 from tests.estimation.simulated import Simulation
-from tests.moving_leg import AT_REST, BY_IMU, CURRENT, FT, JOINTS, RATE_HZ, changed, write_moving_leg
+from tests.scenes.moving_leg import AT_REST, BY_IMU, CURRENT, FT, JOINTS, RATE_HZ, changed, write_moving_leg
 
 ALONE = ((FT, ""), (CURRENT, ""))
 ERROR_NM = {"hip_roll": 0.3, "hip_pitch": 0.3, "ankle": 1e-3}

@@ -20,8 +20,8 @@ from forcetorque.experiment import load_experiment
 from forcetorque.recording import Use
 from tests.cli.json_schema import faults
 from tests.cli.outcome import Run
-from tests.experiments import PARQUET, TWO, YARP, edit, snapshot
-from tests.warm_experiments import TEMPERATURE
+from tests.scenes.experiments import PARQUET, TWO, YARP, edit, snapshot
+from tests.scenes.warm_experiments import TEMPERATURE
 
 ROUNDING = 1e-9
 """N, N m: sums of 1e3 products of counts up to 2e4 and coefficients up to 0.03, in another order."""

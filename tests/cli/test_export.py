@@ -23,8 +23,8 @@ from forcetorque.calibration import Calibration, SessionOffset, write_calibratio
 from forcetorque.cli import main
 from forcetorque.exchange.icub import read_matrix_file
 from forcetorque.exchange.wholebodydynamics import corrected, read_groups
-from tests.calibrations import COEFFICIENTS, FACTORY, MOUNTED, OFFSET, make_calibration, make_variable
 from tests.result.showing import require_shown
+from tests.scenes.calibrations import COEFFICIENTS, FACTORY, MOUNTED, OFFSET, make_calibration, make_variable
 
 SOLVE_ROUNDING = 1e-10
 """Relative to the largest wrench: eps times the condition number of the prior, about 1e4 with rows in N and N m."""

@@ -16,8 +16,8 @@ from forcetorque.calibration import read_calibration
 from forcetorque.recording import read_recording, write_recording
 from tests.cli.json_schema import faults
 from tests.cli.outcome import Run
-from tests.experiments import PARQUET, TWO, YARP, edit, snapshot
-from tests.warm_experiments import TEMPERATURE
+from tests.scenes.experiments import PARQUET, TWO, YARP, edit, snapshot
+from tests.scenes.warm_experiments import TEMPERATURE
 
 SERIAL = 'serial = "SIM001"\n'
 GAINS = "amplifier_gain = [24, 24, 24, 36, 36, 36]\nallowed_gains = [8, 16, 24, 36, 48]\n"

@@ -15,7 +15,7 @@ import pytest
 from forcetorque.calibration import read_calibration
 from forcetorque.recording import Recording, read_recording, write_recording
 from tests.cli.outcome import Run
-from tests.experiments import PARQUET, edit, snapshot
+from tests.scenes.experiments import PARQUET, edit, snapshot
 
 Damage = Callable[[Path], object]
 

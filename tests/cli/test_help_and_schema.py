@@ -16,7 +16,7 @@ from forcetorque.recording import QUANTITIES
 from tests.cli.commands import question_of, typed_commands
 from tests.cli.json_schema import faults
 from tests.cli.outcome import Run
-from tests.experiments import TEXTS
+from tests.scenes.experiments import TEXTS
 
 COMMANDS = typed_commands(app)
 GROUPS = sorted(str(group.typer_instance.info.name) for group in app.registered_groups if group.typer_instance)

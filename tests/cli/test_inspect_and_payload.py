@@ -17,8 +17,8 @@ from forcetorque.experiment import load_experiment
 from forcetorque.recording import read_recording, write_recording
 from tests.cli.json_schema import faults
 from tests.cli.outcome import Run
-from tests.experiments import FT_LOG, MOUNTED, PARQUET, RATE_HZ, YARP, edit_lines
 from tests.result.showing import require_shown
+from tests.scenes.experiments import FT_LOG, MOUNTED, PARQUET, RATE_HZ, YARP, edit_lines
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 

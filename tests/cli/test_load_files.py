@@ -16,7 +16,7 @@ from forcetorque.errors import ExperimentError
 from forcetorque.exchange.load import read_ft_tools, read_mc_rtc
 from forcetorque.exchange.load_format import LoadFormat
 from tests.cli.outcome import Run
-from tests.wrist_postures import BIAS, CENTRE, MASS, SLOW, write_postures
+from tests.scenes.wrist_postures import BIAS, CENTRE, MASS, SLOW, write_postures
 
 POSTURES = Rotation.random(8, random_state=4)
 POSE = ("0.0", "0.0", "0.05", "0.0", "0.0", "0.0")

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from tests.cli.outcome import Run
-from tests.swaying import SWAY_HZ, write_swaying
+from tests.scenes.swaying import SWAY_HZ, write_swaying
 
 
 @pytest.fixture(scope="module")

@@ -11,11 +11,11 @@ import pytest
 from forcetorque.calibration import QuadraticCorrection, read_calibration, write_calibration
 from forcetorque.exchange.export_format import ExportFormat
 from tests.calibration.quadratic_sensor import correction_of_steepness
-from tests.calibrations import make_calibration, make_variable
 from tests.cli.json_schema import faults
 from tests.cli.outcome import Run
-from tests.experiments import PARQUET, add, edit
-from tests.studies import CALIBRATION
+from tests.scenes.calibrations import make_calibration, make_variable
+from tests.scenes.experiments import PARQUET, add, edit
+from tests.scenes.studies import CALIBRATION
 
 REFUSED = "WARNING: arm_ft: the quadratic correction of the {half} is refused: on recordings that were not "
 

@@ -10,7 +10,7 @@ import pytest
 
 from forcetorque.exchange.export_format import ExportFormat
 from tests.cli.outcome import Outcome, Run
-from tests.experiments import PARQUET, YARP
+from tests.scenes.experiments import PARQUET, YARP
 
 OLD, NEW = "forcetorque/calibration/1", "forcetorque/calibration/3"
 ADDED = ("variables", "estimation_type", "raw_offset_counts")

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from tests.cli.outcome import Run
-from tests.experiments import PARQUET, snapshot
+from tests.scenes.experiments import PARQUET, snapshot
 
 
 def test_an_export_goes_to_standard_output_alone(arm: Path, run: Run) -> None:

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from tests.cli.outcome import Run
-from tests.experiments import PARQUET
+from tests.scenes.experiments import PARQUET
 
 LIMITS = "\n[plan]\nclearance_deg = 20\n"
 NEW = """schema = "forcetorque/experiment/1"

@@ -15,7 +15,7 @@ import pytest
 from forcetorque.cli.output import Format, show
 from forcetorque.result import Result
 from tests.cli.outcome import Outcome, Run
-from tests.experiments import PARQUET, YARP, edit, snapshot
+from tests.scenes.experiments import PARQUET, YARP, edit, snapshot
 
 _PATHS = {name: os.environ[name] for name in ("PYTHONPATH", "HOME") if name in os.environ}
 """Where an interpreter finds the library and its compiled code."""

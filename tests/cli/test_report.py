@@ -15,7 +15,7 @@ import pytest
 
 from tests.cli.json_schema import faults
 from tests.cli.outcome import Run
-from tests.experiments import PARQUET, TWO, add, edit, snapshot
+from tests.scenes.experiments import PARQUET, TWO, add, edit, snapshot
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 YOGA = EXAMPLES / "02_icub_yoga_forward.toml"

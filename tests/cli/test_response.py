@@ -11,7 +11,7 @@ from forcetorque.report.document import Figure as FigureBlock
 from forcetorque.report.document.small_png import small_png
 from forcetorque.report.sections import result_figures
 from tests.cli.outcome import Run
-from tests.excited_sensors import write_taps
+from tests.scenes.excited_sensors import write_taps
 
 
 @pytest.fixture(scope="module")

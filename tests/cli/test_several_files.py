@@ -10,11 +10,11 @@ import numpy as np
 import pytest
 
 from forcetorque.calibration import Calibration, write_calibration
-from tests.campaigns import by_day
 from tests.cli.json_schema import faults
 from tests.cli.outcome import Run
-from tests.experiments import edit
-from tests.studies import VALIDATION
+from tests.scenes.campaigns import by_day
+from tests.scenes.experiments import edit
+from tests.scenes.studies import VALIDATION
 
 LIMITS = 'schema = "forcetorque/acceptance/1"\nname = "leg"\n\n[evaluate]\nforce_error_mean_N = {limit}\n'
 COMMANDS = {

@@ -19,7 +19,7 @@ from forcetorque.simulation.robots import named_robot
 from forcetorque.simulation.scenario import bundled_scenario, load_scenario
 from tests.cli.json_schema import faults
 from tests.cli.outcome import Run
-from tests.experiments import edit, snapshot
+from tests.scenes.experiments import edit, snapshot
 
 SMALL = """
 schema = "forcetorque/scenario/1"

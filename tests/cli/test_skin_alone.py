@@ -14,8 +14,8 @@ from forcetorque.experiment import load_shown
 from forcetorque.viewer import BuiltScene, scene_of
 from forcetorque.viewer.scene import SkinEventSeries, read_array
 from tests.cli.outcome import Run
-from tests.skin_alone import EVENTS, HEURISTIC, MESSAGES, PERIOD_S, TOUCHED, write_events
-from tests.touched import write_table, write_touched
+from tests.scenes.skin_alone import EVENTS, HEURISTIC, MESSAGES, PERIOD_S, TOUCHED, write_events
+from tests.scenes.touched import write_table, write_touched
 
 REAL = {"left": (9, 597), "both": (384, 439), "right": (718, 0), "rightleftforearmshands": (924, 1045)}
 """Contacts of the right and the left forearm in the logs of a real robot, counted in their lines."""

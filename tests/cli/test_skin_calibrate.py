@@ -13,9 +13,9 @@ import pytest
 
 from forcetorque.recording import read_recording, write_recording
 from forcetorque.skin import read_patch_calibration
-from tests.chambers import BROKEN, TAXELS, write_chambers
 from tests.cli.outcome import Run
 from tests.report.drawing import size_of
+from tests.scenes.chambers import BROKEN, TAXELS, write_chambers
 
 
 @pytest.fixture

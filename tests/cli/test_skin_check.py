@@ -10,7 +10,7 @@ import pytest
 
 from tests.cli.json_schema import faults
 from tests.cli.outcome import Run
-from tests.patches import collapsed, cylinder_patch, position_text
+from tests.scenes.patches import collapsed, cylinder_patch, position_text
 
 
 @pytest.fixture

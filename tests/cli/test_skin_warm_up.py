@@ -11,7 +11,7 @@ import pytest
 
 from forcetorque.skin import read_patch_calibration
 from tests.cli.outcome import Outcome, Run
-from tests.warmed import MASS_KG, WARM_UP, WarmShank, counts_of, with_counts, write_log, write_warmed
+from tests.scenes.warmed import MASS_KG, WARM_UP, WarmShank, counts_of, with_counts, write_log, write_warmed
 
 CALIBRATE = ("skin", "calibrate", "bag.toml", "-o", "shank.json", "--warm-up")
 OPTIONS = ("--table", "shank.json", "--average", "40")

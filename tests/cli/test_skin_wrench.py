@@ -13,7 +13,7 @@ from forcetorque.recording import read_recording, write_recording
 from forcetorque.simulation.skin import ContactTruth, Loading
 from tests.cli.outcome import Run
 from tests.report.drawing import size_of
-from tests.touched import OBJECTS, write_table, write_touched
+from tests.scenes.touched import OBJECTS, write_table, write_touched
 
 BROKEN = 25
 WRENCH = ("skin", "wrench", "touched.toml", "--table", "shank.json")

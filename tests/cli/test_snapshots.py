@@ -20,20 +20,20 @@ import pytest
 from forcetorque.cli.main import app
 from forcetorque.exsitu import BenchFaults
 from forcetorque.result import Result
-from tests.benches import write_bench
-from tests.chambers import write_chambers
 from tests.cli.commands import question_of, typed_commands
+from tests.cli.foot_forces import write_foot_forces
 from tests.cli.outcome import Run
-from tests.device_designs import hardly_optimise
-from tests.excited_sensors import write_taps
-from tests.experiments import PARQUET, TWO
-from tests.foot_forces import write_foot_forces
-from tests.patches import collapsed, cylinder_patch, position_text
-from tests.swaying import write_swaying
-from tests.thermal_cycles import record, write_cycles
-from tests.touched import write_table, write_touched
-from tests.tutorial_log import FOLDER as FOLDER_OF_THE_TUTORIAL
-from tests.wrist_contest import write_contest, write_runs
+from tests.scenes.benches import write_bench
+from tests.scenes.chambers import write_chambers
+from tests.scenes.device_designs import hardly_optimise
+from tests.scenes.excited_sensors import write_taps
+from tests.scenes.experiments import PARQUET, TWO
+from tests.scenes.patches import collapsed, cylinder_patch, position_text
+from tests.scenes.swaying import write_swaying
+from tests.scenes.thermal_cycles import record, write_cycles
+from tests.scenes.touched import write_table, write_touched
+from tests.scenes.tutorial_log import FOLDER as FOLDER_OF_THE_TUTORIAL
+from tests.scenes.wrist_contest import write_contest, write_runs
 
 WIDTHS = (60, 80, 100, 120)
 FOLDER = Path(__file__).parent / "snapshots"

@@ -19,7 +19,7 @@ from forcetorque.evaluation.sphere import RULE, TOLERANCE
 from forcetorque.experiment import load_experiment
 from tests.cli.json_schema import faults
 from tests.cli.outcome import Run
-from tests.experiments import PARQUET, TWO, edit, snapshot
+from tests.scenes.experiments import PARQUET, TWO, edit, snapshot
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 GRAVITY = 9.80665

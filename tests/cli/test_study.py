@@ -20,8 +20,8 @@ from forcetorque.report import study_figures
 from forcetorque.spatial import WRENCH_COMPONENTS
 from tests.cli.json_schema import faults
 from tests.cli.outcome import Outcome, Run
-from tests.experiments import TWO, edit, snapshot
-from tests.studies import CALIBRATION, FILES, SCENARIO, SERIAL, VALIDATION
+from tests.scenes.experiments import TWO, edit, snapshot
+from tests.scenes.studies import CALIBRATION, FILES, SCENARIO, SERIAL, VALIDATION
 
 FOLDER = Path("out") / f"arm_ft_{SERIAL}"
 TABLES = (

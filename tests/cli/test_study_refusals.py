@@ -10,8 +10,8 @@ import pytest
 from forcetorque.analysis import SensorStudy
 from forcetorque.errors import ForceTorqueError
 from tests.cli.outcome import Run
-from tests.experiments import PARQUET, edit, snapshot
-from tests.studies import CALIBRATION, FILES, SERIAL, VALIDATION
+from tests.scenes.experiments import PARQUET, edit, snapshot
+from tests.scenes.studies import CALIBRATION, FILES, SERIAL, VALIDATION
 
 QUICK = ("--type", "OnTdTO", "--type", "OwTrTO", "--lambda", "0", "--lambda", "100")
 TABLES_AND_CALIBRATIONS = 7 + 4

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from tests.cli.outcome import Run
-from tests.thermal_cycles import PER_DEGREE, record, write_cycles
+from tests.scenes.thermal_cycles import PER_DEGREE, record, write_cycles
 
 
 @pytest.fixture(scope="module")

@@ -17,7 +17,7 @@ from forcetorque.calibration import read_calibration
 from forcetorque.toml_table import open_questions
 from tests.cli.outcome import Run
 from tests.page_scripts import unmarked
-from tests.tutorial_log import FOLDER, FULL_SCALE, PUSH_S, distortion, log_text, robot_text
+from tests.scenes.tutorial_log import FOLDER, FULL_SCALE, PUSH_S, distortion, log_text, robot_text
 
 ROOT = Path(__file__).resolve().parents[2]
 PAGE = (ROOT / "docs" / "tutorial.md").read_text(encoding="utf-8")

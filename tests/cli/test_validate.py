@@ -14,7 +14,7 @@ from forcetorque.recording import write_recording
 from forcetorque.spatial import WRENCH_COMPONENTS, WRENCH_UNITS
 from tests.cli.json_schema import faults
 from tests.cli.outcome import Run
-from tests.experiments import PARQUET, TWO, add, edit, holed, snapshot
+from tests.scenes.experiments import PARQUET, TWO, add, edit, holed, snapshot
 
 AXES = [
     f"mean_absolute_{component}_{unit.replace(' ', '')}"

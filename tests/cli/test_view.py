@@ -19,7 +19,7 @@ from forcetorque.viewer import ViewerServer
 from forcetorque.viewer.page import ASSETS, BUNDLE
 from tests.cli.json_schema import faults
 from tests.cli.outcome import Run
-from tests.experiments import PARQUET, edit, snapshot
+from tests.scenes.experiments import PARQUET, edit, snapshot
 
 SAMPLE = {"sample": 5, "time_s": 0.1, "mark": "point", "label": "here", "use": "ignore"}
 

@@ -9,8 +9,8 @@ import pytest
 
 from forcetorque.calibration import read_calibration
 from forcetorque.exsitu import BenchFaults
-from tests.benches import write_bench
 from tests.cli.outcome import Run
+from tests.scenes.benches import write_bench
 
 
 @pytest.fixture

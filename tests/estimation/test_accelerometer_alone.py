@@ -13,7 +13,7 @@ from forcetorque.estimation import support_motion_at
 from forcetorque.estimation.root_motion import imu_streams
 from forcetorque.recording import MovingSupport, Recording, SavitzkyGolay, Signal, Stream
 from forcetorque.robot import JointMotion, RobotModel
-from tests.robots import joint_xml, link_xml, read_text, robot_xml
+from tests.scenes.robots import joint_xml, link_xml, read_text, robot_xml
 
 SAMPLES = 30
 UP = np.array([0.0, 3.0, 9.3])

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from forcetorque.robot import RootMotion, read_urdf
-from tests.robots import icub, random_motion
+from tests.scenes.robots import icub, random_motion
 
 DOCUMENT = Path(__file__).parents[2] / "docs" / "estimation.md"
 

@@ -16,7 +16,7 @@ from forcetorque.robot import BodyTree, RootMotion, Wrenches, build_tree, read_u
 from forcetorque.robot.sub_model import sub_models
 from tests.estimation.idyntree_oracle import IDynTree
 from tests.estimation.simulated import random_pose, random_root, to_root
-from tests.robots import example_robot, icub, random_motion
+from tests.scenes.robots import example_robot, icub, random_motion
 
 ROUNDING = 1e-12
 """Of the largest wrench: some 40 bodies of some 50 roundings each at eps = 2e-16 are 4e-13, added up on both sides.

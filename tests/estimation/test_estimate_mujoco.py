@@ -12,7 +12,7 @@ import pytest
 from forcetorque.constants import STANDARD_GRAVITY
 from forcetorque.estimation import Contact, Estimates, Evaluator, Question, estimate, moving_joints
 from forcetorque.robot import JointMotion, RobotModel, RootMotion, build_tree, read_urdf
-from tests.robots import icub, random_motion
+from tests.scenes.robots import icub, random_motion
 
 ROUNDING = 1e-12
 """Of the largest wrench: some 40 bodies of some 50 roundings each at eps = 2e-16 are 4e-13, added up on both sides."""

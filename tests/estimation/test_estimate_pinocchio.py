@@ -18,7 +18,7 @@ from forcetorque.robot import JointMotion, RobotModel, RootMotion, build_tree
 from forcetorque.spatial import MeasureDirection
 from tests.estimation.pinocchio_oracle import Pinocchio
 from tests.estimation.simulated import random_pose, random_root
-from tests.robots import example_robot, icub, random_motion, read_text
+from tests.scenes.robots import example_robot, icub, random_motion, read_text
 
 ROUNDING = 1e-12
 """Of the largest wrench: some 40 bodies of some 50 roundings each at eps = 2e-16 are 4e-13, added up on both sides.

@@ -25,7 +25,7 @@ from forcetorque.robot import JointMotion, Wrenches, build_tree, read_urdf
 from tests.estimation.random_robots import Problem, problems, random_unit
 from tests.estimation.simulated import random_pose, random_root
 from tests.fuzzing import examples
-from tests.robots import icub, random_motion
+from tests.scenes.robots import icub, random_motion
 
 EPS = float(np.finfo(np.float64).eps)
 

@@ -19,7 +19,7 @@ from forcetorque.estimation.part_equations import (
 from forcetorque.robot import JointMotion, RootMotion, build_tree, read_urdf
 from forcetorque.spatial import invert_pose, transform_wrench
 from tests.estimation.simulated import Simulation, random_root
-from tests.robots import icub, random_motion
+from tests.scenes.robots import icub, random_motion
 
 SENSORS = ("l_leg_ft", "r_leg_ft", "l_foot_ft", "r_foot_ft", "l_arm_ft")
 FEET = ("l_sole", "r_sole")

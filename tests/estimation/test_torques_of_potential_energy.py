@@ -15,7 +15,7 @@ from forcetorque.robot import JointMotion, RobotModel, RootMotion, Wrenches, bui
 from forcetorque.robot.sub_model import sub_models
 from tests.estimation.simulated import Simulation, random_pose
 from tests.robot.kinematics import link_poses
-from tests.robots import example_robot, icub, random_motion
+from tests.scenes.robots import example_robot, icub, random_motion
 
 STEP = 1e-3
 """s, rad or m: between the points of the difference quotients."""

@@ -14,7 +14,7 @@ from forcetorque.estimation import Contact
 from forcetorque.robot import BodyTree, JointMotion, RobotModel, RootMotion, Wrenches, build_tree, read_urdf
 from forcetorque.spatial import MeasureDirection
 from tests.estimation.simulated import Simulation, from_root, random_root, to_root
-from tests.robots import icub, random_motion
+from tests.scenes.robots import icub, random_motion
 
 
 @dataclass(frozen=True)

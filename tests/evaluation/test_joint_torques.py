@@ -20,7 +20,7 @@ from tests.estimation.idyntree_oracle import IDynTree
 from tests.estimation.random_robots import robots
 from tests.estimation.simulated import Simulation, random_root
 from tests.estimation.touched import humanoid
-from tests.robots import icub
+from tests.scenes.robots import icub
 
 ROUNDING = 1e-12
 """Of the largest wrench: some 40 bodies of some 50 roundings each at eps = 2e-16 are 4e-13."""

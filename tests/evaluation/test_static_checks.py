@@ -10,7 +10,7 @@ from forcetorque.errors import SensorError, ShapeError
 from forcetorque.evaluation import matrix_checks, offset_change
 from forcetorque.evaluation.static_checks import LEAST_TEMPERATURE_SPAN, matrix_condition
 from forcetorque.sensor import RawLimits, reachable_full_scale
-from tests.calibrations import MOUNTED, OFFSET
+from tests.scenes.calibrations import MOUNTED, OFFSET
 
 LIMIT = 32767.0
 EXACT = 1e-12

@@ -16,8 +16,8 @@ import pytest
 from forcetorque.calibration import read_calibration
 from forcetorque.exchange.icub import read_matrix_file
 from forcetorque.experiment import load_experiment, parse_experiment
-from tests.device_designs import hardly_optimise
 from tests.page_scripts import marked, printed
+from tests.scenes.device_designs import hardly_optimise
 
 ROOT = Path(__file__).resolve().parents[2]
 README = (ROOT / "README.md").read_text(encoding="utf-8")

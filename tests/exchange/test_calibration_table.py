@@ -11,7 +11,7 @@ import pytest
 
 from forcetorque.errors import FormatError
 from forcetorque.exchange.calibration_table import write_calibration_table
-from tests.calibrations import MOUNTED, OFFSET, make_calibration, make_variable
+from tests.scenes.calibrations import MOUNTED, OFFSET, make_calibration, make_variable
 
 
 def _rows(path: Path) -> list[dict[str, str]]:

@@ -12,7 +12,7 @@ import pytest
 from forcetorque.errors import FormatError
 from forcetorque.exchange.coefficient_table import write_coefficient_table
 from forcetorque.spatial import WRENCH_COMPONENTS
-from tests.calibrations import COEFFICIENTS, make_calibration, make_variable
+from tests.scenes.calibrations import COEFFICIENTS, make_calibration, make_variable
 
 
 def _rows(path: Path) -> list[dict[str, str]]:

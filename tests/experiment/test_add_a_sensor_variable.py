@@ -18,8 +18,8 @@ from forcetorque.exchange.tabular import TableLayout, TableSignal, read_table
 from forcetorque.experiment import load_experiment
 from forcetorque.recording import QUANTITIES, Labels, Quantity, Signal, read_recording, recording_schema
 from forcetorque.spatial.units import SI_FACTORS
-from tests.experiments import MOUNTED, PARQUET
-from tests.warm_experiments import EXACT, PER_DEGREE, fixed_signal, put, with_variables
+from tests.scenes.experiments import MOUNTED, PARQUET
+from tests.scenes.warm_experiments import EXACT, PER_DEGREE, fixed_signal, put, with_variables
 
 HUMIDITY = Quantity(
     name="humidity",

@@ -18,7 +18,7 @@ from forcetorque.experiment.simulated.recordings import write_scenario
 from forcetorque.recording import Interval, MovingSupport, Recording, SavitzkyGolay, Signal, Use
 from forcetorque.recording.alignment import seconds_since
 from forcetorque.simulation.scenario import Scenario, ScenarioFile, build_scenario
-from tests.experiments import edit
+from tests.scenes.experiments import edit
 
 LIMITS_N = {"l_foot_ft": (1e-3, 0.1, 0.02), "l_leg_ft": (4e-3, 0.4, 0.1)}
 """RMS errors of forces. With exact derivatives in the log, lines between samples 10 ms apart err by 0.0003 and 0.002 N.

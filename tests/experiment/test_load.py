@@ -17,7 +17,7 @@ from forcetorque.experiment import load_experiment
 from forcetorque.recording import Use, read_recording, write_recording
 from forcetorque.robot import SensorFrame
 from forcetorque.spatial import MeasureDirection
-from tests.experiments import ARM_LOG, FT_LOG, JOINTS, PARQUET, TWO, YARP, add, edit, edit_line
+from tests.scenes.experiments import ARM_LOG, FT_LOG, JOINTS, PARQUET, TWO, YARP, add, edit, edit_line
 
 
 @pytest.mark.parametrize("form", [PARQUET, YARP])

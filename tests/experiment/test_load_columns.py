@@ -15,7 +15,7 @@ from forcetorque.experiment import Experiment, load_experiment
 from forcetorque.noise import means_over, window_for
 from forcetorque.recording import Use
 from forcetorque.robot import JointMotion, read_urdf
-from tests.robots import example_robot, random_motion
+from tests.scenes.robots import example_robot, random_motion
 
 UR5 = "ur_description/urdf/ur5_robot.urdf"
 SENSOR_LINK, LINK = "wrist_3_link", "tool0"

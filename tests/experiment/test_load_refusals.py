@@ -19,7 +19,7 @@ from forcetorque.errors import (
 )
 from forcetorque.experiment import load_experiment
 from forcetorque.recording import Recording, Signal, Stream, write_recording
-from tests.experiments import PARQUET, SECOND_SENSOR, TWO, YARP, add, edit
+from tests.scenes.experiments import PARQUET, SECOND_SENSOR, TWO, YARP, add, edit
 
 Damage = Callable[[Path], object]
 

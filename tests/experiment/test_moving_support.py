@@ -27,7 +27,7 @@ from forcetorque.recording import (
 from forcetorque.recording.joints import joint_motion_at
 from forcetorque.robot import RootMotion, build_tree, joints_between, motion_of_link, read_urdf
 from forcetorque.simulation import ARM_URDF
-from tests.experiments import JOINTS, PARQUET, edit
+from tests.scenes.experiments import JOINTS, PARQUET, edit
 
 IMU_LINK = "forearm"
 AGREEMENT = 0.05

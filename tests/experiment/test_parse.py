@@ -16,7 +16,7 @@ from forcetorque.exchange.yarp.log_tables import StateExtPort, YarpLog
 from forcetorque.experiment import ExperimentFile, parse_experiment
 from forcetorque.experiment.tables.processing import Smoothing
 from forcetorque.recording import Use
-from tests.experiments import JOINTS, PARQUET, TEXTS, TWO, YARP
+from tests.scenes.experiments import JOINTS, PARQUET, TEXTS, TWO, YARP
 
 OPTIONAL = """
 [processing]

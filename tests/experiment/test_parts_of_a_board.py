@@ -19,7 +19,7 @@ from forcetorque.recording import Recording, Signal, Stream, Use, read_recording
 from forcetorque.simulation import calibrated_by_board
 from tests.exchange.robometry.logger import Leaf, write_log
 from tests.exchange.ros.bags import Types, write_bag
-from tests.experiments import FACTORY, JOINTS, YARP, edit
+from tests.scenes.experiments import FACTORY, JOINTS, YARP, edit
 
 ROWS = 400
 BOARD = (*JOINTS[:2], "finger", *JOINTS[2:])

@@ -10,8 +10,8 @@ import pytest
 from forcetorque.errors import ExperimentError, ForceTorqueError, FormatError, RecordingError
 from forcetorque.experiment import load_experiment, load_patches
 from forcetorque.recording import Use
-from tests.chambers import TAXELS, TEXT, chamber, responses, write_chamber
-from tests.patches import cylinder_patch, position_text
+from tests.scenes.chambers import TAXELS, TEXT, chamber, responses, write_chamber
+from tests.scenes.patches import cylinder_patch, position_text
 
 
 @pytest.fixture

@@ -10,7 +10,7 @@ import pytest
 
 from forcetorque.errors import ForceTorqueError
 from forcetorque.experiment import load_experiment
-from tests.experiments import JOINTS, YARP, add, edit
+from tests.scenes.experiments import JOINTS, YARP, add, edit
 
 EXTRA = """
 [[recording.stream]]

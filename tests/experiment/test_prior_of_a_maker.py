@@ -20,7 +20,7 @@ from forcetorque.exchange.prior import (
     write_polynomial_model,
 )
 from forcetorque.experiment import load_experiment
-from tests.tutorial_log import distortion, motion, robot_text, truth
+from tests.scenes.tutorial_log import distortion, motion, robot_text, truth
 
 VOLTS_PER_COUNT = 20.0 / 65536.0
 """A converter of 16 bits over both signs of 10 V."""

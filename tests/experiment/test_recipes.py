@@ -18,7 +18,7 @@ from forcetorque.arrays import BoolArray
 from forcetorque.errors import ExperimentError, ForceTorqueError, FormatError, RecordingError, RobotError
 from forcetorque.experiment import load_experiment
 from forcetorque.recording import Recording, Stream, Use, read_recording, write_recording
-from tests.experiments import PARQUET, add, edit
+from tests.scenes.experiments import PARQUET, add, edit
 
 HEAD = """\
 schema = "forcetorque/experiment/1"

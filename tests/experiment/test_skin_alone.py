@@ -14,8 +14,8 @@ from forcetorque.experiment import load_experiment, load_shown
 from forcetorque.experiment.skin.skin_alone import BESIDE_M, ROOT, is_skin_alone, links_side_by_side
 from forcetorque.recording import Use
 from forcetorque.robot import JointMotion, build_tree, link_pose
-from tests.skin_alone import EVENTS, FRAMES, write_events
-from tests.touched import write_table, write_touched
+from tests.scenes.skin_alone import EVENTS, FRAMES, write_events
+from tests.scenes.touched import write_table, write_touched
 
 
 def test_contacts_of_a_skin_manager_need_nothing_else(tmp_path: Path) -> None:

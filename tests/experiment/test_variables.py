@@ -21,8 +21,8 @@ from forcetorque.errors import ExperimentError, FitError, ForceTorqueError, Form
 from forcetorque.experiment import Experiment, load_experiment
 from forcetorque.recording import SavitzkyGolay, Use, read_recording
 from forcetorque.recording.smoothing import EvenGrid, smooth
-from tests.experiments import MOUNTED, OFFSET, PARQUET, TWO, add, edit
-from tests.warm_experiments import (
+from tests.scenes.experiments import MOUNTED, OFFSET, PARQUET, TWO, add, edit
+from tests.scenes.warm_experiments import (
     EXACT,
     NOMINAL_V,
     PER_DEGREE,

@@ -20,7 +20,7 @@ from forcetorque.exchange.yarp import PortKind, StreamPort, write_ports
 from forcetorque.experiment import load_experiment
 from forcetorque.recording import Recording, read_recording
 from forcetorque.simulation import calibrated_by_board, fail_groups, lose_messages
-from tests.experiments import PARQUET, YARP, edit
+from tests.scenes.experiments import PARQUET, YARP, edit
 
 PORTS = (
     StreamPort(path="arm_ft/analog:o", kind=PortKind.ANALOG, stream="arm_ft"),

@@ -11,7 +11,7 @@ import pytest
 from forcetorque.arrays import FloatArray
 from forcetorque.errors import FormatError
 from forcetorque.exsitu import BIAS, Block, block_findings, simulate_specimen
-from tests.benches import PLACEMENT, thesis_loads
+from tests.scenes.benches import PLACEMENT, thesis_loads
 
 FULL_SCALE = np.full(6, 32767.0)
 

@@ -25,7 +25,7 @@ from forcetorque.exsitu import (
 )
 from forcetorque.exsitu.fit import fit_means
 from forcetorque.spatial import MeasureDirection
-from tests.benches import PLACEMENT, thesis_loads
+from tests.scenes.benches import PLACEMENT, thesis_loads
 
 NO_ERROR = Placement(angle_rad=0.0, position_m=0.0)
 SAME_SIZES = 0.05

@@ -11,7 +11,7 @@ import pytest
 from forcetorque.errors import FormatError, MissingFileError, SensorError, UnitError
 from forcetorque.exsitu import THESIS_TABLE, BenchLoads, Weights, read_loads
 from forcetorque.spatial import MeasureDirection
-from tests.benches import thesis_loads
+from tests.scenes.benches import thesis_loads
 
 PRINTED = """0.0000 0.0000 51.0120 -7.5243 0.0000 0.0000
 0.0000 0.0000 51.0120 0.0000 -7.5243 0.0000

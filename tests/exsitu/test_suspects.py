@@ -25,8 +25,8 @@ from forcetorque.exsitu import (
     suspects,
 )
 from forcetorque.exsitu.suspects import log_upper_tail
-from tests.benches import PLACEMENT, thesis_loads
 from tests.exsitu.trials import TRIALS, alarm_share, examined, named_share, plainly_named_share, specimens
+from tests.scenes.benches import PLACEMENT, thesis_loads
 
 FEW = 12
 """Sensors of the quick tests."""

@@ -11,7 +11,7 @@ import numpy as np
 
 from forcetorque.analysis.workbench.bench_faults import Examined, examine
 from forcetorque.exsitu import BenchFaults, Fault, Specimen, Suspect, simulate_specimen, stated_scatter, suspects
-from tests.benches import PLACEMENT, thesis_loads
+from tests.scenes.benches import PLACEMENT, thesis_loads
 
 _POSITIONS = 24
 

@@ -14,10 +14,10 @@ from forcetorque.analysis import draft_experiment, evaluate, inspect_log, read_a
 from forcetorque.cli.main import app
 from forcetorque.errors import ExperimentError, FitError, ForceTorqueError
 from forcetorque.interactive import experiment_of_arrays, simulate, study, workbench
-from tests.benches import write_bench
-from tests.experiment_folders import arm, intact
-from tests.experiments import PARQUET
 from tests.interactive.arrays import arrays_of
+from tests.scenes.benches import write_bench
+from tests.scenes.experiment_folders import arm, intact
+from tests.scenes.experiments import PARQUET
 
 __all__ = ["arm", "intact"]
 

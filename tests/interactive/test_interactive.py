@@ -30,9 +30,9 @@ from forcetorque.calibration import ESTIMATION_TYPES
 from forcetorque.errors import ExperimentError, FitError, RecordingError, ShapeError
 from forcetorque.interactive import Run
 from forcetorque.recording import Finding, Use
-from tests.experiment_folders import arm, intact
-from tests.experiments import PARQUET
 from tests.interactive.arrays import arrays_of
+from tests.scenes.experiment_folders import arm, intact
+from tests.scenes.experiments import PARQUET
 
 __all__ = ["arm", "intact"]
 

@@ -13,7 +13,7 @@ from forcetorque.loads.bias_test import bias_tests
 from forcetorque.loads.drift import choose_drift
 from forcetorque.loads.fit import fit
 from forcetorque.loads.solve import load_estimates, session_estimates
-from tests.payloads import CENTRE, MASS, SIZES, PowerUps, poses, problem_of, weight
+from tests.loads.payloads import CENTRE, MASS, SIZES, PowerUps, poses, problem_of, weight
 
 SEEDS = 200
 LEAST, MOST, MOST_OF_BIASES = 0.90, 0.98, 0.995

@@ -12,7 +12,7 @@ from scipy.spatial.transform import Rotation
 from forcetorque.loads import Load, LoadProblem, solve
 from forcetorque.loads.fit import fit
 from forcetorque.spatial import MeasureDirection
-from tests.payloads import CENTRE, MASS, SIZES, PowerUps, poses, problem_of, weight
+from tests.loads.payloads import CENTRE, MASS, SIZES, PowerUps, poses, problem_of, weight
 
 BIAS = np.array([5.0, -3.0, 12.0, 0.5, -0.2, 0.1])
 COUNT = 30

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from forcetorque.loads import Load, solve, spanned_directions
-from tests.payloads import CENTRE, GRAVITY, MASS, SIZES, poses, problem_of, weight
+from tests.loads.payloads import CENTRE, GRAVITY, MASS, SIZES, poses, problem_of, weight
 
 
 def _noise(count: int, seed: int) -> np.ndarray:

@@ -18,7 +18,7 @@ from forcetorque.loads.unknowns import Kind
 from forcetorque.robot import ForceTorqueSensor, JointMotion, RobotModel, RootMotion, build_tree, expected_wrenches
 from forcetorque.robot.model import Joint, JointType, SensorFrame
 from forcetorque.spatial import Inertia, MeasureDirection
-from tests.payloads import CENTRE, MASS, SIZES, poses, problem_of, weight
+from tests.loads.payloads import CENTRE, MASS, SIZES, poses, problem_of, weight
 
 BIAS = np.array([5.0, -3.0, 12.0, 0.5, -0.2, 0.1])
 EXACT = 1e-8

@@ -91,7 +91,7 @@ from forcetorque.report.figures.canvas import png_bytes
 from forcetorque.robot import JointMotion
 from forcetorque.skin.surface import skin_surface, unrolled
 from forcetorque.spatial import WRENCH_COMPONENTS
-from tests.patches import cylinder_patch
+from tests.scenes.patches import cylinder_patch
 from tests.skin.skins import cylinder
 
 LAMBDAS = np.array([0, 1, 5, 10, 50, 100, 1e3, 5e3, 1e4, 5e4, 1e5, 5e5, 1e6])

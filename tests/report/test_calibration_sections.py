@@ -14,7 +14,7 @@ from forcetorque.experiment import load_experiment
 from forcetorque.report.calibration_sections import excitation_blocks, lambda_blocks, learnt_blocks, uncertainty_blocks
 from forcetorque.report.document import Figure, Text
 from forcetorque.result import Table
-from tests.experiments import PARQUET, write_experiments
+from tests.scenes.experiments import PARQUET, write_experiments
 
 
 @pytest.fixture(scope="module")

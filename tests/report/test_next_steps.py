@@ -12,8 +12,8 @@ from forcetorque.analysis import Reason, SensorRun, UseVerdict
 from forcetorque.report.next_steps import next_steps
 from forcetorque.report.repeated import gathered, said_once
 from forcetorque.report.uses import Undecided
-from tests.calibrations import make_calibration
 from tests.report.drawing import use_of
+from tests.scenes.calibrations import make_calibration
 
 KEY = ("leg_ft", "SN1")
 MOVE = Reason(against="data", text="the load hardly moved; judge data that move")

@@ -20,9 +20,9 @@ from forcetorque.report.document import Figure, List, Section, Text
 from forcetorque.report.figures import skin_event_figure, torque_figure
 from forcetorque.report.skin_section import skin_section
 from forcetorque.result import Table
-from tests.arm_folder import intact
-from tests.experiments import PARQUET, edit
-from tests.skin_arm import EVENT, EVENT_S, EVENTS, PATCH, SKIN, write_skin_arm
+from tests.scenes.arm_folder import intact
+from tests.scenes.experiments import PARQUET, edit
+from tests.scenes.skin_arm import EVENT, EVENT_S, EVENTS, PATCH, SKIN, write_skin_arm
 
 __all__ = ["intact"]
 

@@ -12,7 +12,7 @@ from forcetorque.analysis import SensorStudy, read_study_data, study_sensor
 from forcetorque.calibration import ESTIMATION_TYPES
 from forcetorque.errors import FitError, ForceTorqueError
 from forcetorque.report import study_folder, write_study_folder
-from tests.experiments import PARQUET, write_experiments
+from tests.scenes.experiments import PARQUET, write_experiments
 
 
 @pytest.fixture(scope="module")

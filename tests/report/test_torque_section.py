@@ -22,11 +22,11 @@ from forcetorque.experiment import Experiment, load_experiment
 from forcetorque.report.document import Figure, List, Section
 from forcetorque.report.torque_section import torque_section
 from forcetorque.result import Table
-from tests.arm_folder import arm, intact
-from tests.experiments import PARQUET
-from tests.motors import DRIVEN, FUSION, with_motors
-from tests.skinned_leg import FILE, write_leg
-from tests.touched import write_table
+from tests.scenes.arm_folder import arm, intact
+from tests.scenes.experiments import PARQUET
+from tests.scenes.motors import DRIVEN, FUSION, with_motors
+from tests.scenes.skinned_leg import FILE, write_leg
+from tests.scenes.touched import write_table
 
 __all__ = ["arm", "intact"]
 

@@ -19,7 +19,16 @@ from forcetorque.robot import (
     read_urdf,
 )
 from forcetorque.spatial import rotation_from_rpy
-from tests.robots import PENDULUM_URDF, icub, joint_xml, link_xml, random_motion, read_text, robot_xml, sensor_xml
+from tests.scenes.robots import (
+    PENDULUM_URDF,
+    icub,
+    joint_xml,
+    link_xml,
+    random_motion,
+    read_text,
+    robot_xml,
+    sensor_xml,
+)
 
 ROUNDING = 1e-10
 """N, N m: some 40 bodies with wrenches of some 1e3 at eps = 2e-16, with a margin of 100."""

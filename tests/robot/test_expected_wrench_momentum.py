@@ -11,7 +11,7 @@ import pytest
 from forcetorque.arrays import FloatArray
 from forcetorque.robot import JointMotion, RobotModel, RootMotion, build_tree, expected_wrenches
 from tests.robot.kinematics import link_poses
-from tests.robots import joint_xml, link_xml, read_text, robot_xml, sensor_xml
+from tests.scenes.robots import joint_xml, link_xml, read_text, robot_xml, sensor_xml
 
 STEP = 1e-3
 """s: between the instants of the difference quotients."""

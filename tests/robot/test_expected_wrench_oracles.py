@@ -13,7 +13,7 @@ from forcetorque.constants import STANDARD_GRAVITY
 from forcetorque.robot import JointMotion, RootMotion, build_tree, expected_wrenches, read_urdf
 from forcetorque.robot.model import RobotModel, SensorFrame
 from forcetorque.spatial import MeasureDirection
-from tests.robots import example_robot, icub, random_motion
+from tests.scenes.robots import example_robot, icub, random_motion
 
 AGREEMENT = 1e-10
 """N, N m: rounding of some 40 bodies with wrenches of some 1e3 N at eps = 2e-16, with a margin of 100."""

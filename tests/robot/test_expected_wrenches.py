@@ -21,7 +21,16 @@ from forcetorque.robot import (
     read_urdf,
 )
 from tests.robot.kinematics import link_poses, links_below
-from tests.robots import PENDULUM_URDF, icub, joint_xml, link_xml, random_motion, read_text, robot_xml, sensor_xml
+from tests.scenes.robots import (
+    PENDULUM_URDF,
+    icub,
+    joint_xml,
+    link_xml,
+    random_motion,
+    read_text,
+    robot_xml,
+    sensor_xml,
+)
 
 ROUNDING = 1e-12
 """N, N m: a few dozen roundings of terms up to 100."""

@@ -20,7 +20,7 @@ from forcetorque.robot import (
     motion_of_link,
     read_urdf,
 )
-from tests.robots import PENDULUM_URDF, example_robot, icub, random_motion, read_text
+from tests.scenes.robots import PENDULUM_URDF, example_robot, icub, random_motion, read_text
 
 AGREEMENT = 1e-9
 """N, N m: rounding of some 40 bodies with wrenches of some 1e4 N at eps = 2e-16, with a margin of 100."""

@@ -10,7 +10,7 @@ from forcetorque.errors import RobotError
 from forcetorque.robot import Joint, JointType, build_tree, link_pose, read_urdf
 from forcetorque.spatial import invert_pose
 from tests.robot.kinematics import link_poses
-from tests.robots import example_robot, icub, random_motion
+from tests.scenes.robots import example_robot, icub, random_motion
 
 ROUNDING = 1e-13
 """Products of some 30 rotations with lengths of some metres, with a margin of 10."""

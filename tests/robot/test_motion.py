@@ -13,7 +13,7 @@ import pytest
 from forcetorque.constants import STANDARD_GRAVITY
 from forcetorque.errors import ShapeError
 from forcetorque.robot import JointMotion, RootMotion, build_tree, expected_wrenches
-from tests.robots import PENDULUM_URDF, read_text
+from tests.scenes.robots import PENDULUM_URDF, read_text
 
 
 def _joints(**changed: Any) -> JointMotion:

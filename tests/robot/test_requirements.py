@@ -18,7 +18,7 @@ from forcetorque.robot import (
     read_urdf,
     required_joints,
 )
-from tests.robots import icub, joint_xml, link_xml, random_motion, read_text, robot_xml, sensor_xml
+from tests.scenes.robots import icub, joint_xml, link_xml, random_motion, read_text, robot_xml, sensor_xml
 
 UPRIGHT = RootMotion.fixed([0.0, 0.0, -1.0])
 

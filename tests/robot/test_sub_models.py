@@ -10,7 +10,7 @@ import pytest
 from forcetorque.errors import RobotError
 from forcetorque.robot import BodyTree, build_tree, read_urdf
 from forcetorque.robot.sub_model import SubModel, cut_of, outboard_bodies, path_to_root, sub_models
-from tests.robots import icub, joint_xml, link_xml, read_text, robot_xml, sensor_xml
+from tests.scenes.robots import icub, joint_xml, link_xml, read_text, robot_xml, sensor_xml
 
 
 def _chain(folder: Path, root_link: str) -> BodyTree:

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from forcetorque.robot import JointType, Mimic, read_urdf
-from tests.robots import PENDULUM_URDF, icub, joint_xml, link_xml, read_text, robot_xml
+from tests.scenes.robots import PENDULUM_URDF, icub, joint_xml, link_xml, read_text, robot_xml
 
 ROUNDING = 1e-15
 """A few roundings of numbers up to 1."""

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from forcetorque.robot import JointLimit, JointType, read_urdf
-from tests.robots import example_robot, icub, joint_xml, link_xml, read_text, robot_xml
+from tests.scenes.robots import example_robot, icub, joint_xml, link_xml, read_text, robot_xml
 
 
 def _limit(kind: str, inside: str, folder: Path) -> JointLimit | None:

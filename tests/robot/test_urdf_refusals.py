@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from forcetorque.errors import ForceTorqueError, FormatError, MissingFileError, RobotError
 from forcetorque.robot import RobotModel, build_tree, read_urdf
-from tests.robots import PENDULUM_URDF, joint_xml, link_xml, read_text, robot_xml
+from tests.scenes.robots import PENDULUM_URDF, joint_xml, link_xml, read_text, robot_xml
 
 A_B = (link_xml("a"), link_xml("b"))
 

@@ -20,7 +20,7 @@ from forcetorque.robot import (
     expected_wrenches,
 )
 from forcetorque.spatial import MeasureDirection
-from tests.robots import PENDULUM_URDF, joint_xml, link_xml, read_text, robot_xml, sensor_xml
+from tests.scenes.robots import PENDULUM_URDF, joint_xml, link_xml, read_text, robot_xml, sensor_xml
 
 ROUNDING = 1e-12
 """N, N m: a few roundings of forces of some 20 N."""

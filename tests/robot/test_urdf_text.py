@@ -27,7 +27,7 @@ from forcetorque.robot import (
 )
 from forcetorque.simulation.robots import named_robot
 from forcetorque.spatial import Inertia, MeasureDirection, make_pose, rotation_from_rpy, rpy_from_rotation
-from tests.robots import example_robot, icub
+from tests.scenes.robots import example_robot, icub
 
 ROUNDING = 1e-14
 """Relative to the largest number that enters: some ten roundings at eps = 2e-16, with a margin of five."""

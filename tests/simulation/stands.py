@@ -13,7 +13,7 @@ import numpy as np
 from forcetorque.arrays import FloatArray
 from forcetorque.robot import JointMotion, RobotModel, read_urdf
 from forcetorque.simulation import ARM_URDF, BIPED_URDF, Movement, Stand
-from tests.robots import icub
+from tests.scenes.robots import icub
 
 ROBOTS: Mapping[str, Callable[[], Path]] = MappingProxyType(
     {

@@ -12,7 +12,7 @@ import pytest
 from forcetorque.errors import RobotError, ShapeError
 from forcetorque.robot import RobotModel
 from forcetorque.simulation import Stand
-from tests.robots import joint_xml, link_xml, read_text, robot_xml
+from tests.scenes.robots import joint_xml, link_xml, read_text, robot_xml
 from tests.simulation.stands import DOWN, arm, robot
 
 LIMITED = "<limit lower='{}' upper='{}' velocity='{}' effort='1'/>"

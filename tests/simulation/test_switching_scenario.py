@@ -20,7 +20,7 @@ from forcetorque.simulation.scenario import (
     trace_recordings,
 )
 from forcetorque.toml_table import read_toml
-from tests.switchings import short_switching
+from tests.scenes.switchings import short_switching
 
 READ_N = 1e-6
 """What the readings of perfect channels may differ from `(1 + E) w + bias`; biases are up to 1000 N."""

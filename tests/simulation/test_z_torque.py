@@ -10,7 +10,7 @@ import pytest
 
 from forcetorque.errors import RobotError, ShapeError
 from forcetorque.simulation import Stand, grid_movement, z_torque_movement
-from tests.robots import PENDULUM_URDF, read_text
+from tests.scenes.robots import PENDULUM_URDF, read_text
 from tests.simulation.stands import DOWN, ROBOTS, arm, on_foot, on_pole, times
 
 

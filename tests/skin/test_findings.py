@@ -12,7 +12,7 @@ import pytest
 from forcetorque.arrays import FloatArray
 from forcetorque.skin import Defect, LayoutFinding, PatchDescription, layout_findings, placed_pads
 from forcetorque.skin.module import MODULE_TAXELS
-from tests.patches import HEAD_LINES, collapsed, cylinder_patch, moved_module, without_modules
+from tests.scenes.patches import HEAD_LINES, collapsed, cylinder_patch, moved_module, without_modules
 
 SOUND = cylinder_patch()
 WIDE = cylinder_patch(across=9, along=5)

@@ -14,8 +14,8 @@ from forcetorque.skin import PressureTable
 from forcetorque.skin.contact import PatchFollower, PatchReader, SkinContacts
 from forcetorque.skin.temperature import HeatGains, fit_warm_up
 from forcetorque.skin.wrench import SkinPatch
+from tests.scenes.warmed import HAND, HELD, WARM_UP, WarmShank, counts_of
 from tests.skin.contact_trials import chamber_table
-from tests.warmed import HAND, HELD, WARM_UP, WarmShank, counts_of
 
 SHANK = WarmShank.drawn()
 PATCH = SkinPatch.of(SHANK.layout)

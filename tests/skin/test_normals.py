@@ -12,7 +12,7 @@ from forcetorque.arrays import FloatArray
 from forcetorque.errors import SkinError
 from forcetorque.skin import PatchDescription, patch_normals, rebuilt_normals
 from forcetorque.skin.surface import skin_surface
-from tests.patches import cylinder_patch, ellipsoid_patch
+from tests.scenes.patches import cylinder_patch, ellipsoid_patch
 
 CYLINDER = cylinder_patch(across=9, along=4)
 ELLIPSOID = ellipsoid_patch()

@@ -13,7 +13,7 @@ import pytest
 
 from forcetorque.simulation.skin import REFERENCE_PA, Loading
 from forcetorque.skin import SkinLayout
-from tests.patches import cylinder_patch
+from tests.scenes.patches import cylinder_patch
 from tests.skin.contact_trials import leg_layout
 from tests.skin.thesis_leg import LOADS, Load
 from tests.skin.thesis_trials import (

@@ -14,7 +14,7 @@ from forcetorque.errors import ShapeError, SkinError
 from forcetorque.skin import SkinLayout
 from forcetorque.skin.wrench import SkinPatch, WrenchMethod
 from forcetorque.spatial import make_pose, rotation_from_rpy, transform_wrench
-from tests.patches import cylinder_patch, ellipsoid_patch
+from tests.scenes.patches import cylinder_patch, ellipsoid_patch
 from tests.skin.outline import outline_wrench
 from tests.skin.skins import plane_layout
 

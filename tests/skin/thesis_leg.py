@@ -40,7 +40,7 @@ from forcetorque.simulation.skin import (
 from forcetorque.skin import SkinLayout
 from forcetorque.spatial import WRENCH_COMPONENTS, WRENCH_UNITS
 from tests.estimation.simulated import Simulation
-from tests.warmed import chamber_messages
+from tests.scenes.warmed import chamber_messages
 
 LINK: Final = "r_shin"
 KNEE: Final = "r_knee"

@@ -10,8 +10,8 @@ import pytest
 from forcetorque.experiment import load_experiment
 from forcetorque.viewer import BuiltScene, build_scene
 from forcetorque.viewer.page import ASSETS
-from tests.arm_folder import arm, intact
-from tests.experiments import PARQUET
+from tests.scenes.arm_folder import arm, intact
+from tests.scenes.experiments import PARQUET
 
 __all__ = ["arm", "intact"]
 

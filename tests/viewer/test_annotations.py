@@ -21,7 +21,7 @@ from forcetorque.viewer import BuiltScene, build_scene
 from forcetorque.viewer.annotations import Annotations, intervals_toml, samples_csv, save_annotations
 from forcetorque.viewer.scene import read_array
 from tests.experiment.test_wrist_load import _write as write_wrist
-from tests.experiments import JOINTS, PARQUET, add, edit
+from tests.scenes.experiments import JOINTS, PARQUET, add, edit
 
 
 def _sample(sample: int, **other: Any) -> dict[str, Any]:

@@ -25,7 +25,7 @@ from forcetorque.recording.alignment import interpolate
 from forcetorque.spatial import MeasureDirection
 from forcetorque.viewer import BuiltScene, build_scene
 from forcetorque.viewer.scene import ArrayRef, Sensor, WrenchSeries, read_array, scene_json
-from tests.experiments import DURATION_S, JOINTS, PARQUET, RATE_HZ, TWO, YARP, add, edit
+from tests.scenes.experiments import DURATION_S, JOINTS, PARQUET, RATE_HZ, TWO, YARP, add, edit
 
 FLOAT32 = 2e-7
 """Rounding to 24 bits, relative."""

@@ -18,7 +18,7 @@ from forcetorque.simulation.scenario import build_scenario, simulate
 from forcetorque.spatial import invert_pose, make_pose
 from forcetorque.viewer.instants import posture_at, shown_stream
 from forcetorque.viewer.root_pose import root_poses
-from tests.switchings import short_switching
+from tests.scenes.switchings import short_switching
 
 LEVEL_M = 1e-7
 """Soles are level to what inverse kinematics leaves, 1e-8 rad."""

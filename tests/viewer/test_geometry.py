@@ -16,7 +16,7 @@ from forcetorque.viewer.mesh_files import Triangles, find_mesh, package_folders,
 from forcetorque.viewer.scene import Block, read_array
 from forcetorque.viewer.simplify import MOST_TRIANGLES, clustered, simplified
 from forcetorque.viewer.visuals import GREY, read_visuals
-from tests.robots import PENDULUM_URDF, icub, joint_xml, robot_xml
+from tests.scenes.robots import PENDULUM_URDF, icub, joint_xml, robot_xml
 
 pytest.importorskip("trimesh")
 

@@ -18,8 +18,8 @@ from forcetorque.spatial import MeasureDirection, invert_pose
 from forcetorque.viewer import BuiltScene, build_scene
 from forcetorque.viewer.root_pose import upright
 from tests.estimation.random_robots import robots
-from tests.experiments import PARQUET
-from tests.robots import example_robot, icub
+from tests.scenes.experiments import PARQUET
+from tests.scenes.robots import example_robot, icub
 from tests.viewer.poses import link_poses
 
 FLOAT32 = 1e-6

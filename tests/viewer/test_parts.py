@@ -17,7 +17,7 @@ from forcetorque.experiment import Experiment, load_experiment
 from forcetorque.recording import Use
 from forcetorque.viewer import View, build_scene
 from forcetorque.viewer.scene import Sensor, read_array
-from tests.experiments import TWO
+from tests.scenes.experiments import TWO
 
 FLOAT32 = 1e-5
 """Rounding to 24 bits of some tens of newtons."""

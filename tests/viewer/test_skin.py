@@ -27,8 +27,8 @@ from forcetorque.viewer.scene import Block, SkinContactFrames, read_array
 from forcetorque.viewer.skin import scene_skin
 from forcetorque.viewer.skin_contacts import half_axes
 from forcetorque.viewer.skin_events import scene_skin_events
-from tests.experiments import edit
-from tests.skin_arm import EVENT, EVENT_S, EVENTS, LINK, PATCH, SKIN, write_skin_arm
+from tests.scenes.experiments import edit
+from tests.scenes.skin_arm import EVENT, EVENT_S, EVENTS, LINK, PATCH, SKIN, write_skin_arm
 
 FLOAT32 = 2e-7
 """Rounding to 24 bits, relative."""

@@ -16,7 +16,7 @@ from forcetorque.estimation import Contact
 from forcetorque.robot import JointMotion, RobotModel, RootMotion, build_tree, read_urdf
 from forcetorque.spatial import Inertia, invert_pose, transform_wrench
 from tests.estimation.simulated import Simulation
-from tests.robots import icub
+from tests.scenes.robots import icub
 
 SENSORS = ("l_leg_ft", "r_leg_ft", "l_foot_ft", "r_foot_ft", "l_arm_ft", "r_arm_ft")
 FEET = ("l_sole", "r_sole")

@@ -30,7 +30,7 @@ from forcetorque.skin.contact import PatchReader, SkinContacts, find_contacts
 from forcetorque.skin.wrench import SkinPatch
 from forcetorque.spatial import Inertia, MeasureDirection, make_pose
 from tests.estimation.simulated import Simulation
-from tests.patches import cylinder_patch
+from tests.scenes.patches import cylinder_patch
 from tests.skin.contact_trials import OFF_EDGE, chamber_table
 
 FRAMES: Final = 10

@@ -20,7 +20,7 @@ from forcetorque.evaluation.response import (
     step_direction,
 )
 from forcetorque.evaluation.response.even import flat_tops
-from tests.excited_sensors import GRAVITY, MASS_KG, RELEASES, Spring, released, tapped
+from tests.scenes.excited_sensors import GRAVITY, MASS_KG, RELEASES, Spring, released, tapped
 
 SPRING = Spring(rate_hz=500.0)
 ENOUGH = 4.0

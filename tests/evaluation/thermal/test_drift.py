@@ -13,7 +13,7 @@ from forcetorque.evaluation.thermal import Cycles, cycles_of, find_branches, fin
 from forcetorque.evaluation.thermal.drift import MIXED_WITH_TIME
 from forcetorque.noise import SHAPES, regress
 from forcetorque.simulation.effects.thermal import ThermalDrift
-from tests.thermal_cycles import HYSTERESIS, PER_DEGREE, PER_HOUR, UNIT, record
+from tests.scenes.thermal_cycles import HYSTERESIS, PER_DEGREE, PER_HOUR, UNIT, record
 
 ENOUGH = 3.0
 """Half-widths of 95 % intervals within which all of some numbers lie, where the shape of the noise is misjudged too."""

@@ -15,7 +15,7 @@ from forcetorque.exchange.skin import ModuleFrames, describe_patch, read_layout
 from forcetorque.skin.findings import FACETED_DEG, NEAREST_CENTRES_M, OBLIQUE_DEG
 from forcetorque.skin.findings.finding import Defect
 from tests.page_scripts import unmarked
-from tests.patches import cylinder_patch, position_text
+from tests.scenes.patches import cylinder_patch, position_text
 
 PAGE = (Path(__file__).resolve().parents[3] / "docs" / "skin_layout.md").read_text(encoding="utf-8")
 

@@ -12,7 +12,7 @@ import pytest
 from forcetorque.errors import FormatError, SkinError
 from forcetorque.exchange.skin import describe_patch, read_layout
 from forcetorque.skin import layout_findings
-from tests.patches import collapsed, cylinder_patch, position_text, without_modules
+from tests.scenes.patches import collapsed, cylinder_patch, position_text, without_modules
 
 PATCH = cylinder_patch()
 WRITTEN_M = 5e-7

@@ -12,7 +12,7 @@ import pytest
 from forcetorque.errors import FormatError, MissingFileError, UnitError
 from forcetorque.exchange.skin import describe_patch, read_layout, read_plan, write_layout_table
 from forcetorque.skin import MODULE_PADS, MODULE_TAXELS, layout_findings
-from tests.patches import cylinder_patch
+from tests.scenes.patches import cylinder_patch
 
 PATCH = cylinder_patch(across=3, along=2)
 PLAN = """cardid 8

@@ -13,8 +13,8 @@ from forcetorque.errors import FormatError, RobotError, SkinError
 from forcetorque.exchange.skin import describe_patch, read_plan
 from forcetorque.skin import MODULE_TAXELS, layout_findings, module_poses, placed_pads
 from forcetorque.spatial import rotation_from_rpy
-from tests.patches import cylinder_modules
-from tests.robots import robot_xml
+from tests.scenes.patches import cylinder_modules
+from tests.scenes.robots import robot_xml
 
 TURNED = rotation_from_rpy(np.array([0.3, -0.2, 1.0]))
 """Of the module's frame in the link."""

@@ -12,8 +12,8 @@ from forcetorque.arrays import FloatArray
 from forcetorque.calibration import Calibration
 from forcetorque.errors import FitError, FormatError, RecordingError, SerialNumberError, ShapeError
 from forcetorque.exchange.wholebodydynamics import SensorCorrection, corrected, from_calibration
-from tests.calibrations import FACTORY, MOUNTED, make_calibration, make_variable
 from tests.exchange.wholebodydynamics.device import bottle
+from tests.scenes.calibrations import FACTORY, MOUNTED, make_calibration, make_variable
 
 SOLVE_ROUNDING = 1e-10
 """Relative to the largest wrench: eps times the condition number of the prior, about 1e4 with rows in N and N m."""

@@ -20,9 +20,9 @@ from forcetorque.exchange.wholebodydynamics import (
     read_groups,
     write_groups,
 )
-from tests.calibrations import FACTORY, make_calibration
 from tests.exchange.wholebodydynamics.device import Processor, bottle, configured, use_pre_estimated_offset
 from tests.fuzzing import examples
+from tests.scenes.calibrations import FACTORY, make_calibration
 
 TOUCHES_FILES = settings(deadline=None)
 """A busy disk is no failure."""

@@ -29,8 +29,8 @@ from forcetorque.exchange.yarp import (
 )
 from forcetorque.recording import ROLL_PITCH_YAW, Recording, Signal, Stream
 from tests.exchange.yarp.port_logs import parse_nested, parse_slowly, read_text
-from tests.experiments import snapshot
 from tests.recording.recordings import jittered_stamps, recording, refused, signal, stream
+from tests.scenes.experiments import snapshot
 
 N = 40
 PRINTED = 1e-14

@@ -24,7 +24,7 @@ from forcetorque.exsitu.device import (
 from forcetorque.robot import JointMotion, RootMotion, read_urdf, urdf_text, write_urdf
 from tests.estimation.idyntree_oracle import IDynTree
 from tests.estimation.pinocchio_oracle import Pinocchio
-from tests.robots import random_motion
+from tests.scenes.robots import random_motion
 
 AGREEMENT = 1e-9
 """N, N m: some 350 N with ten bodies of some 50 roundings each at eps = 2e-16 are 4e-11, with a margin."""

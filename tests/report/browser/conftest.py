@@ -18,7 +18,7 @@ from forcetorque.calibration import write_calibration
 from forcetorque.experiment import load_experiment
 from tests.browser import _closed_at_the_end, chromium, close_after_folder, visit
 from tests.cli.outcome import typed
-from tests.experiments import PARQUET, write_experiments
+from tests.scenes.experiments import PARQUET, write_experiments
 
 __all__ = ["_closed_at_the_end", "chromium", "visit"]
 

@@ -16,8 +16,8 @@ from forcetorque.errors import MissingExtraError
 from forcetorque.experiment import load_experiment
 from forcetorque.report.figures import gain_figure
 from forcetorque.report.figures.canvas import COLOURS, png_bytes
-from tests.experiments import PARQUET, write_experiments
 from tests.report.drawing import count_of, pixels, size_of
+from tests.scenes.experiments import PARQUET, write_experiments
 
 
 @pytest.fixture(scope="module")

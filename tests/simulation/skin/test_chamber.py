@@ -8,7 +8,7 @@ import pytest
 
 from forcetorque.errors import SkinError
 from forcetorque.skin.taxels import Ailment
-from tests.chambers import HIGHEST_PA, TAXELS, chamber, responses
+from tests.scenes.chambers import HIGHEST_PA, TAXELS, chamber, responses
 
 
 def test_counts_are_those_of_the_responses() -> None:

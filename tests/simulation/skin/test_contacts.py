@@ -27,7 +27,7 @@ from forcetorque.simulation.skin import (
     contacts,
 )
 from forcetorque.skin import SkinLayout
-from tests.patches import cylinder_patch
+from tests.scenes.patches import cylinder_patch
 
 RADIUS_M: Final = 0.06
 LEG: Final = cylinder_patch(across=9, along=6, radius_m=RADIUS_M).layout()

@@ -10,7 +10,7 @@ import pytest
 
 from forcetorque.errors import SkinError
 from forcetorque.skin.temperature import HeatGains, TaxelHeat, ThermalGain, stuck_pads
-from tests.patches import cylinder_patch
+from tests.scenes.patches import cylinder_patch
 from tests.skin.skins import plane_layout
 
 LAYOUT = cylinder_patch(across=2, along=1).layout()

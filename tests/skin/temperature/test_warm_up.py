@@ -12,7 +12,7 @@ import pytest
 from forcetorque.arrays import FloatArray
 from forcetorque.errors import SkinError
 from forcetorque.skin.temperature import HeatGains, WarmUp, fit_warm_up
-from tests.warmed import WARM_UP, WarmShank, counts_of
+from tests.scenes.warmed import WARM_UP, WarmShank, counts_of
 
 SHANK = WarmShank.drawn()
 LAYOUT = SHANK.layout

@@ -16,7 +16,7 @@ from forcetorque.viewer import BuiltScene, scene_of
 from forcetorque.viewer.scene import Block, SkinEventSeries, SkinPatch, read_array
 from forcetorque.viewer.skin_contacts import contact_frames
 from tests.browser import Visit
-from tests.skin_alone import TOUCHED, write_events
+from tests.scenes.skin_alone import TOUCHED, write_events
 from tests.viewer.browser.arm_scene import Arm, arm_scene
 from tests.viewer.browser.opened import as_opened
 

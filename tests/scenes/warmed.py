@@ -25,8 +25,8 @@ from forcetorque.simulation.skin import (
     warm_recording,
 )
 from forcetorque.skin import SkinLayout
-from tests.patches import cylinder_patch
-from tests.touched import EXPERIMENT
+from tests.scenes.patches import cylinder_patch
+from tests.scenes.touched import EXPERIMENT
 
 MASS_KG: Final = 1.0
 WARM_UP: Final = Warmth(hold_s=600.0, inside_s=150.0)

@@ -12,7 +12,7 @@ from forcetorque.recording import Recording, SavitzkyGolay, Signal, Stream, read
 from forcetorque.recording.joints import joint_motion_at
 from forcetorque.robot import RootMotion, build_tree, read_urdf
 from forcetorque.simulation import SimulatedMotor
-from tests.experiments import PARQUET, RATE_HZ, add, edit
+from tests.scenes.experiments import PARQUET, RATE_HZ, add, edit
 
 DRIVEN = ("shoulder_yaw", "shoulder_pitch", "shoulder_roll")
 """Joints inboard of the arm's sensor."""

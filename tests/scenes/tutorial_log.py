@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The log of the tutorial: the demonstration's arm for a minute, its sensor 3 % off, and a hand that pushes it.
 
-`python -m tests.tutorial_log` writes the files that the tutorial has.
+`python -m tests.scenes.tutorial_log` writes the files that the tutorial has.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from forcetorque.constants import STANDARD_GRAVITY
 from forcetorque.robot import JointMotion, RobotModel, RootMotion, build_tree, expected_wrenches, read_urdf
 from forcetorque.simulation.robots import ARM_URDF
 
-FOLDER = Path(__file__).resolve().parents[1] / "docs" / "tutorial"
+FOLDER = Path(__file__).resolve().parents[2] / "docs" / "tutorial"
 SENSOR, JOINT = "arm_ft", "arm_ft_joint"
 RATE_HZ, SECONDS = 25.0, 64.0
 PUSH_S = (24.0, 31.0)

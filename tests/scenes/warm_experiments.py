@@ -17,7 +17,7 @@ from forcetorque.analysis.runs.samples import samples_over
 from forcetorque.arrays import FloatArray, IntArray
 from forcetorque.experiment import load_experiment
 from forcetorque.recording import QUANTITIES, Recording, Signal, Stream, read_recording, write_recording
-from tests.experiments import MOUNTED, OFFSET, PARQUET, edit
+from tests.scenes.experiments import MOUNTED, OFFSET, PARQUET, edit
 
 PER_DEGREE = np.array([-0.4, 0.3, -1.2, 0.02, 0.01, -0.015])
 """True coefficients of the temperature; N/degC, N m/degC."""

@@ -8,9 +8,9 @@ from pathlib import Path
 
 import pytest
 
-from tests.arm_folder import arm, intact
-from tests.studies import write_days
-from tests.warm_experiments import warm_up
+from tests.scenes.arm_folder import arm, intact
+from tests.scenes.studies import write_days
+from tests.scenes.warm_experiments import warm_up
 
 __all__ = ["arm", "days", "intact", "intact_warm", "recorded", "warm"]
 

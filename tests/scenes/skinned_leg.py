@@ -15,8 +15,8 @@ from forcetorque.robot import JointMotion, RootMotion, read_urdf
 from forcetorque.simulation.skin import ContactTruth, Loading
 from forcetorque.spatial import WRENCH_COMPONENTS, WRENCH_UNITS
 from tests.estimation.simulated import Simulation
-from tests.robots import joint_xml, link_xml, robot_xml, sensor_xml
-from tests.touched import write_touched
+from tests.scenes.robots import joint_xml, link_xml, robot_xml, sensor_xml
+from tests.scenes.touched import write_touched
 
 FILE = "leg.toml"
 HIP_RAD, ANKLE_RAD = 0.4, -0.2

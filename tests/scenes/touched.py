@@ -24,7 +24,7 @@ from forcetorque.simulation.skin import (
     contacts,
 )
 from forcetorque.skin import SkinLayout
-from tests.patches import cylinder_patch
+from tests.scenes.patches import cylinder_patch
 
 OBJECTS = 3
 EXPERIMENT = """schema = "forcetorque/experiment/1"

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.experiments import write_experiments
+from tests.scenes.experiments import write_experiments
 
 
 @pytest.fixture(scope="session")

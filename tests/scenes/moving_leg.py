@@ -17,8 +17,8 @@ from forcetorque.simulation import SimulatedMotor
 from forcetorque.simulation.skin import Loading
 from forcetorque.spatial import WRENCH_COMPONENTS, WRENCH_UNITS
 from tests.estimation.simulated import Simulation
-from tests.robots import joint_xml, link_xml, robot_xml, sensor_xml
-from tests.touched import shank_layout, write_table, write_touched
+from tests.scenes.robots import joint_xml, link_xml, robot_xml, sensor_xml
+from tests.scenes.touched import shank_layout, write_table, write_touched
 
 FILE = "leg.toml"
 RATE_HZ = 50.0

@@ -22,7 +22,7 @@ from forcetorque.simulation import (
     y_shaped_matrix,
 )
 from forcetorque.spatial import MeasureDirection
-from tests.robots import joint_xml, link_xml
+from tests.scenes.robots import joint_xml, link_xml
 
 DURATION_S, RATE_HZ = 24.0, 50.0
 JOINTS = ("shoulder_yaw", "shoulder_pitch", "shoulder_roll", "elbow", "wrist")

@@ -20,7 +20,7 @@ from forcetorque.recording import Interval, Recording, Signal, Stream, Support, 
 from forcetorque.recording.alignment import interpolate
 from forcetorque.simulation import Movement
 from forcetorque.simulation.scenario import build_scenario, simulate
-from tests.switchings import short_switching
+from tests.scenes.switchings import short_switching
 
 DAY = "switching_day1"
 OUTLINE_M = np.array([[-0.09, -0.045], [0.11, -0.045], [0.11, 0.045], [-0.09, 0.045]])

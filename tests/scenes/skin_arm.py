@@ -15,8 +15,8 @@ from forcetorque.arrays import FloatArray, IntArray
 from forcetorque.exchange.yarp.skin_event import COLUMNS, UNITS
 from forcetorque.recording import Recording, Signal, Stream, read_recording, write_recording
 from forcetorque.simulation.skin import ContactTruth
-from tests.experiments import PARQUET, add
-from tests.touched import write_touched
+from tests.scenes.experiments import PARQUET, add
+from tests.scenes.touched import write_touched
 
 SKIN = "skin.toml"
 PATCH, EVENTS, LINK = "shank", "hand_events", "forearm"

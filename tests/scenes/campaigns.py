@@ -13,7 +13,7 @@ from forcetorque.arrays import FloatArray
 from forcetorque.calibration import Calibration, SessionOffset
 from forcetorque.experiment import load_experiment
 from forcetorque.recording import Use
-from tests.studies import SENSOR, VALIDATION
+from tests.scenes.studies import SENSOR, VALIDATION
 
 FITTED = "move_cold.toml"
 
