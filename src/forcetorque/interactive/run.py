@@ -40,7 +40,7 @@ class Run(SensorRun):
             options: As of `calibrate_sensor`: kind, regularisation, nonlinear, moments.
 
         Returns:
-            The calibration.
+            The calibration; its `doubts` say why what was fitted may be wrong.
         """
         return analysis.calibrate_sensor(self, code_version=version("forcetorque"), created=_now(), **options)
 
