@@ -42,7 +42,7 @@ class Run(SensorRun):
             options: As of `calibrate_sensor`: kind, regularisation, nonlinear, moments.
 
         Returns:
-            The calibration.
+            The calibration; its `doubts` say why what was fitted may be wrong.
         """
         answer = analysis.calibrate_for_file(
             [self, *more], f"{self.sensor.name}.json", code_version=version("forcetorque"), created=_now(), **options
