@@ -182,16 +182,19 @@ def _minima(surprise: FloatArray, lags: IntArray) -> list[int]:
     return [int(lag) for lag in lags[least]]
 
 
-def _own_best(equation: DelayEquation, rival: float) -> float:
+def _own_best(equation: DelayEquation, rival: float, best: float) -> float:
     """A rival at its own best: on the grid alone, the one that happens to lie nearer to a step would win."""
     refined = float(equation.solved(rival, with_drift=False).values[0])
+    if abs(refined - rival) <= _NEAR_STEPS * equation.step:
+        return refined
     # steps that run away from it may end at the best of all, which is no rival of itself
-    return refined if abs(refined - rival) <= _NEAR_STEPS * equation.step else rival
+    near = rival + equation.step * np.linspace(-_NEAR_STEPS, _NEAR_STEPS, 17)
+    return float(min(near, key=lambda at: equation.advantage(best, at, blocks=BLOCKS)))
 
 
 def _require_one_answer(equation: DelayEquation, best: float, rivals: list[float], around_s: float) -> None:
     """Refuse a delay that others explain as well, or nothing does."""
-    for rival in (None, *(_own_best(equation, rival) for rival in rivals)):
+    for rival in (None, *(_own_best(equation, rival, best) for rival in rivals)):
         if equation.advantage(best, rival, blocks=BLOCKS) < _SURE:
             other = "none at all" if rival is None else f"one of {around_s + rival:.3g} s"
             raise RecordingError(
