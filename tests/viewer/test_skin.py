@@ -23,7 +23,8 @@ from forcetorque.simulation.skin import ContactTruth, Loading
 from forcetorque.viewer import BuiltScene, scene_of
 from forcetorque.viewer import skin as viewer_skin
 from forcetorque.viewer import skin_events as viewer_events
-from forcetorque.viewer.scene import Block, SkinContactFrames, read_array
+from forcetorque.viewer.block import Block, read_array
+from forcetorque.viewer.scene import SkinContactFrames
 from forcetorque.viewer.skin import scene_skin
 from forcetorque.viewer.skin_contacts import half_axes
 from forcetorque.viewer.skin_events import scene_skin_events

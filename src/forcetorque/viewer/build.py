@@ -17,6 +17,7 @@ from forcetorque.experiment.loads.wrist_load import is_wrist_load
 from forcetorque.experiment.skin.skin_alone import BESIDE_M, is_skin_alone
 from forcetorque.recording import Finding, Interval, Stream
 from forcetorque.recording.alignment import seconds_since
+from forcetorque.viewer.block import Block
 from forcetorque.viewer.contacts import scene_contacts
 from forcetorque.viewer.expected import expected_readings
 from forcetorque.viewer.geometry import robot_geometry
@@ -24,7 +25,7 @@ from forcetorque.viewer.instants import Posture, posture_at, shown_stream
 from forcetorque.viewer.once import Priors, differentiated
 from forcetorque.viewer.parts import scene_parts
 from forcetorque.viewer.root_pose import root_poses
-from forcetorque.viewer.scene import Block, Robot, Scene, SceneFinding, SceneInterval
+from forcetorque.viewer.scene import Robot, Scene, SceneFinding, SceneInterval
 from forcetorque.viewer.series import scene_sensor
 from forcetorque.viewer.skin import scene_skin
 from forcetorque.viewer.skin_events import scene_skin_events

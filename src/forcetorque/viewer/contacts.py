@@ -22,10 +22,11 @@ from forcetorque.experiment import Experiment
 from forcetorque.experiment.contacts import contacts_at_sensors
 from forcetorque.recording.alignment import gap_limit_ns
 from forcetorque.robot import build_tree
+from forcetorque.viewer.block import Block
 from forcetorque.viewer.geometry import flat
 from forcetorque.viewer.instants import Posture
 from forcetorque.viewer.once import Priors
-from forcetorque.viewer.scene import Block, ContactSeries
+from forcetorque.viewer.scene import ContactSeries
 
 
 def scene_contacts(

@@ -15,9 +15,10 @@ from forcetorque.calibration.joint.windows import WINDOW_S
 from forcetorque.experiment import Experiment
 from forcetorque.recording import Use
 from forcetorque.recording.alignment import seconds_since
+from forcetorque.viewer.block import Block
 from forcetorque.viewer.geometry import flat
 from forcetorque.viewer.instants import Posture
-from forcetorque.viewer.scene import Block, Sensor, WrenchSeries
+from forcetorque.viewer.scene import Sensor, WrenchSeries
 
 _BEFORE, _AFTER = "prior", "calibrations"
 """Names of the two series of a part."""

@@ -20,10 +20,11 @@ from forcetorque.experiment import Experiment, ExperimentSensor
 from forcetorque.recording.alignment import require_overlap
 from forcetorque.robot import SensorFrame
 from forcetorque.spatial import MeasureDirection
+from forcetorque.viewer.block import Block
 from forcetorque.viewer.geometry import flat
 from forcetorque.viewer.instants import Posture
 from forcetorque.viewer.once import Priors
-from forcetorque.viewer.scene import Block, Ellipsoid, Sensor, Sphere, WrenchSeries
+from forcetorque.viewer.scene import Ellipsoid, Sensor, Sphere, WrenchSeries
 
 _SPHERE_SAMPLES = 50_000
 """Samples of a log from which on ellipsoids are fitted to a part of them."""

@@ -14,7 +14,8 @@ from forcetorque.analysis.skin.wrench_choice import WrenchChoice
 from forcetorque.errors import ForceTorqueError
 from forcetorque.experiment import ExperimentPatch, PatchExperiment
 from forcetorque.recording.alignment import usable_samples
-from forcetorque.viewer.scene import Block, SkinPatch
+from forcetorque.viewer.block import Block
+from forcetorque.viewer.scene import SkinPatch
 from forcetorque.viewer.skin_contacts import contact_frames
 
 MOST_PRESSURES: Final = 2_000_000

@@ -12,7 +12,8 @@ from forcetorque.arrays import BoolArray, FloatArray
 from forcetorque.recording import Recording, Signal, Stream
 from forcetorque.recording.alignment import gap_limit_ns, seconds_since, usable_samples
 from forcetorque.skin.contact import followed_places
-from forcetorque.viewer.scene import Block, SkinEventSeries
+from forcetorque.viewer.block import Block
+from forcetorque.viewer.scene import SkinEventSeries
 from forcetorque.viewer.skin_contacts import contact_frames
 
 MOST_MESSAGES: Final = 50_000
