@@ -13,8 +13,9 @@ from dataclasses import replace
 import numpy as np
 
 from forcetorque.arrays import FloatArray
-from forcetorque.loads.expected import Guess, masses, turned_by
+from forcetorque.loads.expected import masses, turned_by
 from forcetorque.loads.fit import Fit, plain_fit
+from forcetorque.loads.guess import Guess
 from forcetorque.loads.jump import strongest_jump
 from forcetorque.loads.mounting import first_mount, quarter_turns, turn_words
 from forcetorque.loads.problem import LoadProblem
