@@ -173,6 +173,16 @@ def test_what_is_missing_is_no_reading(experiment: Experiment) -> None:
         np.testing.assert_array_equal(calibration.matrix, expected.matrix)
 
 
+def test_a_clock_among_the_counts_is_refused(experiment: Experiment) -> None:
+    """Without a prior nothing else says how many channels there are: seven columns were fitted without a word."""
+    arguments = arrays_of(experiment, prior=None, full_scale=[900.0] * 3 + [30.0] * 3)
+    run = experiment_of_arrays(**arguments)["arm_ft"]
+    assert run.calibrate().matrix.shape == (6, 6)
+    timed = np.column_stack([arguments["time_s"], arguments["reading"]])
+    with pytest.raises(FitError, match="channel ch0, column 1 of 7 of the raw reading, rises"):
+        experiment_of_arrays(**arguments | {"reading": timed})["arm_ft"].calibrate()
+
+
 def test_columns_of_a_wrench_in_another_order_are_refused(experiment: Experiment) -> None:
     """A frame whose columns are named says itself that moments come first; they were taken for forces."""
     arguments = arrays_of(experiment, quantity="wrench", prior=np.eye(6), full_scale=[900.0] * 3 + [30.0] * 3)

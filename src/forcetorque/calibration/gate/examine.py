@@ -9,6 +9,7 @@ import numpy as np
 
 from forcetorque.arrays import FloatArray, read_only
 from forcetorque.calibration.data_set import DataSet
+from forcetorque.calibration.gate.clock import require_gauges
 from forcetorque.calibration.gate.delay import delay_doubts
 from forcetorque.calibration.gate.doubt import Doubt
 from forcetorque.calibration.gate.full_scale import require_within_full_scale
@@ -43,8 +44,8 @@ def examine(
 
     Raises:
         FitError: If nothing may be fitted: the prior is singular, the model has no mass, its load stands still or is
-            beyond the sensor, or the reading does not follow it, or follows it the wrong way round or by a factor that
-            no sensor has, in all or in its moments.
+            beyond the sensor, a channel is a clock, or the reading does not follow the load, or follows it the wrong
+            way round or by a factor that no sensor has, in all or in its moments.
         ShapeError: If data sets, or data and prior, have different numbers of channels or variables.
     """
     if prior is not None and np.shape(prior) == (6, 6) and not is_invertible(prior):
@@ -55,6 +56,7 @@ def examine(
         return ()
     moments = pooled(Moments.of(data.raw, data.reference, data.variables) for data in usable)
     require_moving_load(moments)
+    require_gauges(usable, moments)
     if full_scale is not None:
         require_within_full_scale(usable, read_only(full_scale, name="full_scale", shape=(6,)))
     if prior is not None:

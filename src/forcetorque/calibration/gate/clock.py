@@ -1,0 +1,57 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Refusal of a channel that is a clock or a counter, which a matrix without a prior would take for a gauge."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from forcetorque.arrays import FloatArray
+from forcetorque.calibration.data_set import DataSet
+from forcetorque.calibration.moments import Moments, symmetric_pseudo_inverse
+from forcetorque.errors import FitError
+
+_FEWEST = 20
+"""Changes of a channel below which it may rise all the while by chance."""
+
+_ONE_WAY = 0.99
+"""Share of a channel's changes that go one way in a clock; the others are those of a counter that starts again.
+
+Of a gauge half do: its noise changes it at every sample. Only a load that rises steeply all the while hides that.
+"""
+
+_FOLLOWS = 0.9
+"""Share of a channel that such a load explains; of a clock swings explain some tenths."""
+
+
+def require_gauges(data_sets: Sequence[DataSet], moments: Moments) -> None:
+    """Refuse a channel that rises, or falls, whatever the load does.
+
+    Args:
+        data_sets: The data, of at least two samples each.
+        moments: Their moments.
+
+    Raises:
+        FitError: If there is one; the message names it.
+    """
+    steps = np.concatenate([np.diff(data.raw, axis=0) for data in data_sets])
+    up, down = np.count_nonzero(steps > 0.0, axis=0), np.count_nonzero(steps < 0.0, axis=0)
+    one_way = (up + down >= _FEWEST) & (np.maximum(up, down) >= _ONE_WAY * (up + down))
+    clocks = np.flatnonzero(one_way & (_explained(moments) < _FOLLOWS))
+    if len(clocks):
+        channel = int(clocks[0])
+        way = "rises" if up[channel] > down[channel] else "falls"
+        raise FitError(
+            f"channel ch{channel}, column {channel + 1} of {moments.channels} of the raw reading, {way} from sample to "
+            "sample whatever the load does, as a clock or a counter; leave it out of the reading's columns"
+        )
+
+
+def _explained(moments: Moments) -> FloatArray:
+    """Share of the movement of every channel that the reference explains; shape (c,)."""
+    to_raw = moments.reference_raw
+    square = np.einsum("ik,ij,jk->k", to_raw, symmetric_pseudo_inverse(moments.reference_reference), to_raw)
+    moved = np.diag(moments.raw_raw)
+    shares: FloatArray = np.divide(square, moved, out=np.ones(len(moved)), where=moved > 0.0)
+    return shares
