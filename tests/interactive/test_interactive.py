@@ -183,6 +183,19 @@ def test_a_clock_among_the_counts_is_refused(experiment: Experiment) -> None:
         experiment_of_arrays(**arguments | {"reading": timed})["arm_ft"].calibrate()
 
 
+def test_a_span_of_one_sample_is_refused_and_one_of_few_is_a_doubt(
+    experiment: Experiment, caplog: pytest.LogCaptureFixture
+) -> None:
+    """A prior fits them all the same, and only judging showed that nothing was learnt."""
+    arguments = arrays_of(experiment)
+    start, step = arguments["calibrate"][0], float(np.median(np.diff(arguments["time_s"])))
+    with pytest.raises(FitError, match="stands still"):
+        experiment_of_arrays(**arguments | {"calibrate": (start, start + 1.0 * step)})["arm_ft"].calibrate()
+    with caplog.at_level("WARNING", logger="forcetorque"):
+        experiment_of_arrays(**arguments | {"calibrate": (start, start + 12.0 * step)})["arm_ft"].calibrate()
+    assert "12 samples are fitted, which do not tell" in caplog.text
+
+
 def test_columns_of_a_wrench_in_another_order_are_refused(experiment: Experiment) -> None:
     """A frame whose columns are named says itself that moments come first; they were taken for forces."""
     arguments = arrays_of(experiment, quantity="wrench", prior=np.eye(6), full_scale=[900.0] * 3 + [30.0] * 3)

@@ -40,7 +40,8 @@ def examine(
         full_scale: Largest wrench that the sensor reads; shape (6,); N, N m; None if it is not known.
 
     Returns:
-        What is doubtful; nothing where all is well, or where too few samples say anything.
+        What is doubtful; nothing where all is well. Of few samples it is only asked whether their load moves, which
+        stays a doubt.
 
     Raises:
         FitError: If nothing may be fitted: the prior is singular, the model has no mass, its load stands still or is
@@ -50,11 +51,14 @@ def examine(
     """
     if prior is not None and np.shape(prior) == (6, 6) and not is_invertible(prior):
         raise FitError("the prior matrix is singular, so no matrix corrects what it made")
-    # one sample has no neighbour, and without any the fit itself says what is missing
-    usable = [data for data in data_sets if len(data.raw) > 1]
+    filled = [data for data in data_sets if len(data.raw)]
+    if not filled:
+        return ()  # the fit itself says what is missing
+    usable = [data for data in filled if len(data.raw) > 1]  # one sample has no neighbour
     if sum(len(data.raw) for data in usable) < _FEWEST:
-        return ()
-    moments = pooled(Moments.of(data.raw, data.reference, data.variables) for data in usable)
+        require_moving_load(_pooled(filled))
+        return (_too_few(sum(len(data.raw) for data in filled)),)
+    moments = _pooled(usable)
     require_moving_load(moments)
     require_gauges(usable, moments)
     if full_scale is not None:
@@ -68,3 +72,15 @@ def examine(
         require_moment_unit(movement)
         doubts += scale_doubts(movement, prior)
     return (*doubts, *delay_doubts(usable, prior))
+
+
+def _pooled(data_sets: Sequence[DataSet]) -> Moments:
+    return pooled(Moments.of(data.raw, data.reference, data.variables) for data in data_sets)
+
+
+def _too_few(samples: int) -> Doubt:
+    return Doubt(
+        kind="span",
+        message=f"{samples} samples are fitted, which do not tell whether the reading follows the load; fit a longer "
+        "span, in which it moves",
+    )
