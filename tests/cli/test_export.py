@@ -334,7 +334,10 @@ def test_exports_show_themselves(tmp_path: Path) -> None:
     require_shown(matrix)
     offset, coefficients = matrix.warnings
     assert offset.startswith("leg: offset (8, -5, 20) N, (0.3, -0.2, 0.1) N m: not stored")
-    assert coefficients == "leg: the coefficients of temperature are not in this file: --to coefficients"
+    assert coefficients == (
+        "leg: the coefficients of temperature are not in this file: --to coefficients, from Python "
+        "export_coefficients, has them"
+    )
     groups = export_wholebodydynamics({"leg": leg}, tmp_path / "ft.xml")
     require_shown(groups)
     assert groups.warnings == ()

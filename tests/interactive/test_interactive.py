@@ -32,7 +32,7 @@ from forcetorque.interactive import Run
 from forcetorque.recording import Finding, Use
 from tests.interactive.arrays import arrays_of
 from tests.scenes.experiment_folders import arm, intact
-from tests.scenes.experiments import PARQUET
+from tests.scenes.experiments import JOINTS, PARQUET
 
 __all__ = ["arm", "intact"]
 
@@ -194,6 +194,22 @@ def test_a_span_of_one_sample_is_refused_and_one_of_few_is_a_doubt(
     with caplog.at_level("WARNING", logger="forcetorque"):
         experiment_of_arrays(**arguments | {"calibrate": (start, start + 12.0 * step)})["arm_ft"].calibrate()
     assert "12 samples are fitted, which do not tell" in caplog.text
+
+
+def test_what_is_to_be_done_is_said_in_words_of_python(experiment: Experiment) -> None:
+    """Who has arrays has no table of a file to change, and who calls a method no option of a command."""
+    arguments = arrays_of(experiment)
+    joints = {name: values for name, values in arguments["joints"].items() if name != JOINTS[-1]}
+    with pytest.raises(RecordingError, match=f"joint '{JOINTS[-1]}'.*, among arrays repeat its position"):
+        experiment_of_arrays(**arguments | {"joints": joints})["arm_ft"].calibrate()
+    still = {name: np.zeros_like(values) for name, values in arguments["joints"].items()}
+    with pytest.raises(FitError, match="to where the limb moves, among arrays calibrate$"):
+        experiment_of_arrays(**arguments | {"joints": still})["arm_ft"].calibrate()
+    run = experiment_of_arrays(**arguments)["arm_ft"]
+    with pytest.raises(ExperimentError, match="by --clearance-deg, from Python clearance_deg$"):
+        run.plan()
+    with pytest.raises(ExperimentError, match="by --force, from Python force"):
+        run.response("impact", mass_kg=1.0)
 
 
 def test_columns_of_a_wrench_in_another_order_are_refused(experiment: Experiment) -> None:

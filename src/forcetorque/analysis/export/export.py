@@ -46,7 +46,7 @@ def export_icub_matrix(
         if calibration.prior is not None and calibration.prior.source == "identity":
             raise ExperimentError(
                 'its prior is "identity": the matrix corrects a calibrated stream and is not per count; '
-                "use --to wholebodydynamics"
+                "use --to wholebodydynamics, from Python export_wholebodydynamics"
             )
         file = encode_matrix(calibration.matrix, full_scale=full_scale)
         error = _largest_in_range(file.matrix - calibration.matrix, calibration)
@@ -133,7 +133,7 @@ def _require_linear(calibrations: Mapping[str, Calibration], form: ExportFormat)
         if calibration.quadratic is not None:
             raise FormatError(
                 f"{name}: expected a linear calibration for --to {form}, which has no place for quadratic terms; "
-                "fit again with `calibrate --linear`"
+                "fit again with `calibrate --linear`, from Python with nonlinear=False"
             )
 
 
@@ -188,6 +188,9 @@ def _doubts(form: ExportFormat, entry: ExportedCalibration) -> Iterator[str]:
         yield f"{entry.calibration}: its offset is of the last session, {entry.session!r}; others have their own"
     if entry.variables and not entry.variables_stored:
         names = ", ".join(entry.variables)
-        yield f"{entry.calibration}: the coefficients of {names} are not in this file: --to coefficients"
+        yield (
+            f"{entry.calibration}: the coefficients of {names} are not in this file: --to coefficients, from Python "
+            "export_coefficients, has them"
+        )
     if form is ExportFormat.WHOLEBODYDYNAMICS and not entry.offset.any():
         yield f"{entry.calibration}: the device ignores an FT_OFFSET of six zeros and keeps its own"
