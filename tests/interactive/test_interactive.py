@@ -327,6 +327,22 @@ def test_what_is_no_calibration_is_refused_in_a_line(experiment: Experiment, que
             ask({"mine": Path("arm.json")})
 
 
+def test_verdicts_show_themselves_as_a_table(experiment: Experiment) -> None:
+    """A row per calibration and load case; the tuple that they are stays one, and their records are flat."""
+    run = experiment["arm_ft"]
+    calibration = run.calibrate()
+    verdicts = run.verdicts({"mine": calibration, "theirs": calibration})
+    assert isinstance(verdicts, tuple)
+    assert len(verdicts) == len(verdicts.records()) == 2 * len(run.verdicts(calibration)) > 0
+    assert [record["decision"] for record in verdicts.records()] == [verdict.decision for verdict in verdicts]
+    page, text = verdicts._repr_html_(), " ".join(str(verdicts).split())
+    assert page.count("<tr>") == len(verdicts) + 1
+    for verdict in verdicts:
+        assert all(f">{cell}</td>" in page for cell in (verdict.candidate, verdict.load_case, verdict.decision))
+        assert f"{verdict.candidate} {verdict.load_case} {verdict.decision}" in text
+    assert "UseVerdict(" not in text
+
+
 def test_one_calibration_needs_no_name(experiment: Experiment) -> None:
     """The functions of `analysis` take it as the methods do."""
     run = experiment["arm_ft"]

@@ -16,6 +16,7 @@ from forcetorque.analysis.runs.named import Calibrations, named, one_named
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration import Calibration
 from forcetorque.errors import ExperimentError, known_names
+from forcetorque.interactive.verdicts import Verdicts
 from forcetorque.recording.alignment import seconds_since
 
 if TYPE_CHECKING:
@@ -144,16 +145,16 @@ class Run(SensorRun):
         name, reader = one_named(calibration)
         return analysis.response(self, excitation, name=name, calibration=reader, **options)
 
-    def verdicts(self, calibrations: Calibrations) -> tuple[analysis.UseVerdict, ...]:
+    def verdicts(self, calibrations: Calibrations) -> Verdicts:
         """Say whether calibrations may be used for the loads to come.
 
         Args:
             calibrations: Calibrations of the sensor.
 
         Returns:
-            A verdict for every calibration and load case.
+            A verdict for every calibration and load case; a tuple that shows itself as a table.
         """
-        return analysis.use_verdicts(self, named(calibrations))
+        return Verdicts(analysis.use_verdicts(self, named(calibrations)))
 
     def accept(
         self, spec: analysis.AcceptanceFile | Path | str, calibration: Calibration | None = None, **options: Any
