@@ -85,6 +85,30 @@ def test_arrays_may_come_in_frames_of_pandas(experiment: Experiment) -> None:
     np.testing.assert_array_equal(by_frames.matrix, experiment_of_arrays(**arguments)["arm_ft"].calibrate().matrix)
 
 
+def test_several_spans_are_fitted_and_judged(experiment: Experiment) -> None:
+    """Halves of a span hold its samples; intervals are numbered where there are several of a use."""
+    arguments = arrays_of(experiment)
+    start, end = arguments["calibrate"]
+    first, last = arguments["judge"]
+    halves = {
+        "calibrate": [(start, 0.5 * (start + end)), (0.5 * (start + end), end)],
+        "judge": np.array([(first, 0.4 * first + 0.6 * last), (0.7 * last + 0.3 * first, last)]),
+    }
+    several = experiment_of_arrays(**arguments | halves)
+    labels = [interval.label for interval in several.recording.intervals]
+    assert labels == ["calibrate 1", "calibrate 2", "judge 1", "judge 2"]
+    assert {role.kind for role in several.roles.values()} == {"calibrate", "judge"}
+    run, whole = several["arm_ft"], experiment_of_arrays(**arguments)["arm_ft"]
+    calibration = run.calibrate()
+    assert calibration.provenance.samples == whole.calibrate().provenance.samples
+    all_judged = whole.evaluate(calibration).verdicts[0].samples
+    assert 0.85 * all_judged < run.evaluate(calibration).verdicts[0].samples < 0.95 * all_judged
+    time_s, _ = run.expected_wrenches("judge 2")
+    assert time_s[0] >= halves["judge"][1, 0]
+    listed = experiment_of_arrays(**arguments | {"calibrate": [arguments["calibrate"]]})
+    assert [interval.label for interval in listed.recording.intervals] == ["calibrate", "judge"]
+
+
 def test_a_calibrated_wrench_needs_the_matrix_that_made_it(experiment: Experiment) -> None:
     """Or the identity with full scales; the calibration is then of the wrench."""
     prior = experiment.sensors[0].prior
@@ -112,7 +136,15 @@ def test_a_calibrated_wrench_needs_the_matrix_that_made_it(experiment: Experimen
         ({"limit_counts": 0.0}, ExperimentError, "limit_counts: expected a positive number of counts, got 0.0"),
         ({"calibrate": (9.0, 2.0)}, forcetorque.ForceTorqueError, "expected an end after its start"),
         ({"calibrate": (1.0, 2.0, 3.0)}, ExperimentError, r"calibrate: expected one span.*got \(1.0, 2.0, 3.0\)"),
-        ({"calibrate": [(1, 2), (3, 4)]}, ExperimentError, "calibrate: expected one span"),
+        ({"calibrate": [(1, 2), (3, 4, 5)]}, ExperimentError, "calibrate: expected one span.*or a list of them"),
+        ({"calibrate": []}, ExperimentError, "calibrate: expected one span"),
+        ({"calibrate": [[(1, 2), (3, 4)]]}, ExperimentError, "calibrate: expected one span"),
+        ({"calibrate": np.arange(999.0)}, ExperimentError, r"calibrate: .* got ndarray of shape \(999,\)"),
+        (
+            {"calibrate": [(3, 5), (1, 4)]},
+            ExperimentError,
+            "calibrate: expected spans that do not overlap, got 'calibrate 2' to 4 s and 'calibrate 1' from 3 s",
+        ),
         ({"calibrate": None}, ExperimentError, "calibrate: expected one span"),
         ({"judge": (np.nan, 2.0)}, ExperimentError, "judge: expected one span"),
         ({"judge": (0.0, np.inf)}, ExperimentError, "judge: expected one span"),
