@@ -4,7 +4,10 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Callable
+from inspect import signature
 from pathlib import Path
+from typing import Any
 
 import pytest
 from typer.testing import CliRunner
@@ -13,7 +16,8 @@ from forcetorque import Experiment, analysis, load_experiment, read_calibration
 from forcetorque.analysis import draft_experiment, evaluate, inspect_log, read_acceptance
 from forcetorque.cli.main import app
 from forcetorque.errors import ExperimentError, FitError, ForceTorqueError
-from forcetorque.interactive import experiment_of_arrays, simulate, study, workbench
+from forcetorque.interactive import Run, calibrate_skin, experiment_of_arrays, motion, simulate, study, workbench
+from forcetorque.report import report
 from tests.interactive.arrays import arrays_of
 from tests.scenes.benches import write_bench
 from tests.scenes.experiment_folders import arm, intact
@@ -40,6 +44,34 @@ def _said(*words: Path | str) -> str:
     answer = CliRunner().invoke(app, [*map(str, words), "--format", "json"])
     assert answer.exit_code in (0, 1), answer.output
     return answer.stdout
+
+
+@pytest.mark.parametrize(
+    ("door", "function"),
+    [
+        (Run.calibrate, analysis.calibrate_for_file),
+        (Run.validate, analysis.validate),
+        (Run.thermal, analysis.thermal),
+        (Run.response, analysis.response),
+        (Run.accept, analysis.accept),
+        (Run.plan, analysis.plan),
+        (Run.report, report),
+        (workbench, analysis.workbench),
+        (calibrate_skin, analysis.calibrate_skin),
+        (motion, analysis.motion_signals),
+    ],
+    ids=lambda function: function.__qualname__,
+)
+def test_options_are_named_where_they_are_completed(door: Callable[..., Any], function: Callable[..., Any]) -> None:
+    """All of the function behind, with its defaults; what a method knows by itself is not asked for."""
+    behind, named = signature(function).parameters, signature(door).parameters
+    own = {"code_version", "created", "name", "calibration", "viewer"}
+    options = {one.name: one.default for one in behind.values() if one.kind is one.KEYWORD_ONLY and one.name not in own}
+    assert options.keys() <= named.keys()
+    stated = options.keys() - {"progress"}  # silence is a function, or None
+    assert stated
+    assert all(named[option].default == options[option] for option in stated)
+    assert not any(one.kind is one.VAR_KEYWORD for one in named.values())
 
 
 def test_an_experiment_is_inspected_without_its_file(experiment: Experiment, arm: Path) -> None:
