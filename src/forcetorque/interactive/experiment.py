@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import fields
 from datetime import UTC, datetime
 from importlib.metadata import version
@@ -240,6 +240,7 @@ def calibrate_jointly(
     *,
     folder: Path | str = ".",
     tolerance: ModelTolerance | None = None,
+    progress: Callable[[str], None] = lambda _: None,
 ) -> SensorCalibrations:
     """Calibrate all sensors of a robot at once, from parts between them that nothing touches.
 
@@ -248,6 +249,7 @@ def calibrate_jointly(
         sensors: Sensors to calibrate; all of the first file if None.
         folder: Where `save` of the result writes a file per sensor, and what they share.
         tolerance: How far the robot model may be off; `ModelTolerance()` if None.
+        progress: Called with a line for people as work goes on, such as `print`.
 
     Returns:
         A calibration per sensor in `calibrations`, and in `joint` what they share: errors of the model, what is left of
@@ -255,5 +257,11 @@ def calibrate_jointly(
     """
     created = datetime.now(UTC).isoformat(timespec="seconds")
     return analysis.calibrate_jointly(
-        recordings, folder, sensors, code_version=version("forcetorque"), created=created, tolerance=tolerance
+        recordings,
+        folder,
+        sensors,
+        code_version=version("forcetorque"),
+        created=created,
+        tolerance=tolerance,
+        progress=progress,
     )
