@@ -11,6 +11,7 @@ from forcetorque.arrays import FloatArray
 from forcetorque.calibration.data_set import DataSet
 from forcetorque.calibration.moments import Moments, symmetric_pseudo_inverse
 from forcetorque.errors import FitError
+from forcetorque.spatial import FORCE_AND_MOMENT
 
 _FEWEST = 20
 """Changes of a channel below which it may rise all the while by chance."""
@@ -22,7 +23,11 @@ Of a gauge half do: its noise changes it at every sample. Only a load that rises
 """
 
 _FOLLOWS = 0.9
-"""Share of a channel that such a load explains; of a clock swings explain some tenths."""
+"""Share of a channel that such a load explains; of a clock swings explain some tenths, and a slow sweep nearly all."""
+
+_STRAIGHT, _BENT = 1e-4, 1e-2
+"""Shares of their movement that a channel lacks, and the load has, off a straight line in time, where the channel is a
+clock although the load explains it: no gauge is straighter than all that it measures."""
 
 
 def require_gauges(data_sets: Sequence[DataSet], moments: Moments) -> None:
@@ -38,7 +43,9 @@ def require_gauges(data_sets: Sequence[DataSet], moments: Moments) -> None:
     steps = np.concatenate([np.diff(data.raw, axis=0) for data in data_sets])
     up, down = np.count_nonzero(steps > 0.0, axis=0), np.count_nonzero(steps < 0.0, axis=0)
     one_way = (up + down >= _FEWEST) & (np.maximum(up, down) >= _ONE_WAY * (up + down))
-    clocks = np.flatnonzero(one_way & (_explained(moments) < _FOLLOWS))
+    channels, load = _off_line(data_sets)
+    straight = (channels < _STRAIGHT) & (load > _BENT)
+    clocks = np.flatnonzero(one_way & (straight | (_explained(moments) < _FOLLOWS)))
     if len(clocks):
         channel = int(clocks[0])
         way = "rises" if up[channel] > down[channel] else "falls"
@@ -48,10 +55,28 @@ def require_gauges(data_sets: Sequence[DataSet], moments: Moments) -> None:
         )
 
 
+def _off_line(data_sets: Sequence[DataSet]) -> tuple[FloatArray, float]:
+    """Share of their movement that channels, shape (c,), and the load have off a straight line in time."""
+    moved, left = np.zeros((2, data_sets[0].raw.shape[1] + 6))
+    for data in data_sets:
+        time = np.arange(float(len(data.raw))) if data.time_s is None else data.time_s
+        time = time - time.mean()
+        values = np.hstack([data.raw, data.reference])
+        values = values - values.mean(axis=0)
+        moved += (values**2).sum(axis=0)
+        left += ((values - np.outer(time, time @ values) / max(time @ time, np.finfo(float).tiny)) ** 2).sum(axis=0)
+    load = [_share(left[-6:][part].sum(), moved[-6:][part].sum()) for part in FORCE_AND_MOMENT]
+    return _share(left[:-6], moved[:-6]), float(min(load))
+
+
 def _explained(moments: Moments) -> FloatArray:
     """Share of the movement of every channel that the reference explains; shape (c,)."""
     to_raw = moments.reference_raw
     square = np.einsum("ik,ij,jk->k", to_raw, symmetric_pseudo_inverse(moments.reference_reference), to_raw)
-    moved = np.diag(moments.raw_raw)
-    shares: FloatArray = np.divide(square, moved, out=np.ones(len(moved)), where=moved > 0.0)
+    return _share(square, np.diag(moments.raw_raw))
+
+
+def _share(part: FloatArray, whole: FloatArray) -> FloatArray:
+    """Of what does not move it is all."""
+    shares: FloatArray = np.divide(part, whole, out=np.ones(np.shape(whole)), where=whole > 0.0)
     return shares
