@@ -21,7 +21,7 @@ from forcetorque.experiment.inputs import stated_in
 
 
 def export_icub_matrix(
-    name: str, calibration: Calibration, output: Path, *, full_scale: Sequence[int] | None = None
+    name: str, calibration: Calibration, output: Path | str, *, full_scale: Sequence[int] | None = None
 ) -> Export:
     """Write the matrix file of a sensor's DSP, which has no place for an offset.
 
@@ -58,7 +58,7 @@ def export_icub_matrix(
 
 def export_wholebodydynamics(
     calibrations: Mapping[str, Calibration],
-    output: Path,
+    output: Path | str,
     *,
     sensor_name: str | None = None,
     stream: Calibration | None = None,
@@ -92,7 +92,7 @@ def export_wholebodydynamics(
     return _export(ExportFormat.WHOLEBODYDYNAMICS, output, entries)
 
 
-def export_table(calibrations: Mapping[str, Calibration], output: Path) -> Export:
+def export_table(calibrations: Mapping[str, Calibration], output: Path | str) -> Export:
     """Write matrices, offsets and coefficients into a plain table.
 
     Args:
@@ -108,7 +108,7 @@ def export_table(calibrations: Mapping[str, Calibration], output: Path) -> Expor
     return _export(ExportFormat.CSV, output, entries)
 
 
-def export_coefficients(calibrations: Mapping[str, Calibration], output: Path) -> Export:
+def export_coefficients(calibrations: Mapping[str, Calibration], output: Path | str) -> Export:
     """Write the coefficients of temperature and other variables by themselves.
 
     Args:
@@ -170,7 +170,7 @@ def _entry(
     )
 
 
-def _export(form: ExportFormat, output: Path, entries: Sequence[ExportedCalibration]) -> Export:
+def _export(form: ExportFormat, output: Path | str, entries: Sequence[ExportedCalibration]) -> Export:
     return Export(
         format=form,
         file=str(output),
