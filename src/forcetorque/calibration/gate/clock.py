@@ -19,7 +19,7 @@ _FEWEST = 20
 _ONE_WAY = 0.99
 """Share of a channel's changes that go one way in a clock; the others are those of a counter that starts again.
 
-Of a gauge half do: its noise changes it at every sample. Only a load that rises steeply all the while hides that.
+Of a gauge half do: its noise changes it at every sample. Under a load that goes one way, or smoothed, more do.
 """
 
 _FOLLOWS = 0.9
