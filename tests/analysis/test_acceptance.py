@@ -330,7 +330,7 @@ def test_an_acceptance_shows_itself(drifting: Experiment) -> None:
         ("uncertainty", "offset", "judges a calibration"),
         ("excitation", "directions", "judges a calibration"),
         ("learnt", "fz", "judges a calibration"),
-        ("population", "robust_z", "no matrices of other sensors were given; name them with --population"),
+        ("population", "robust_z", "no matrices of other sensors were given; name them by --population"),
         ("recording", "lost_share", "stream 'arm_ft' has no sequence numbers"),
         ("offset", "per_degree", "expected a variable of the sensor in degC"),
     ],

@@ -14,6 +14,7 @@ from forcetorque.calibration import WrenchModel
 from forcetorque.errors import ExperimentError
 from forcetorque.estimation.balance import NO_FOOT, ContactThresholds, ForceLimit, support_phases
 from forcetorque.experiment import load_experiment, load_foot_forces
+from forcetorque.interactive import Experiment
 from forcetorque.robot import read_urdf
 from forcetorque.simulation import BIPED_URDF, Stand, balancing_movement
 from tests.analysis.standing import Standing, moving, switching
@@ -48,6 +49,16 @@ def tilted(standing: Standing) -> Standing:
     down = np.array([np.sin(tilt), 0.0, -np.cos(tilt)])
     stand = Stand(model=read_urdf(BIPED_URDF), support="l_sole", gravity_direction=down, speed=2.0)
     return moving(standing, balancing_movement(stand, "r_sole", rng=np.random.default_rng(4), postures=2))
+
+
+def test_a_script_writes_forces_as_the_command_does(standing: Standing) -> None:
+    """Touch, release and least load in newtons or shares; the other options are those of `BalanceOptions`."""
+    asked = BalanceOptions(
+        touch=ForceLimit.of("50N"), release=ForceLimit.of("5%"), least_load=ForceLimit.of("20N"), dwell_s=0.1
+    )
+    expected = balance([standing.experiment], [corrections_of(standing.experiment, {})], asked)
+    said = Experiment.of(standing.experiment).balance(touch="50N", release="5%", least_load="20N", dwell_s=0.1)
+    assert said.json_text() == expected.json_text()
 
 
 def test_points_are_those_of_the_ground_in_every_phase(standing: Standing) -> None:

@@ -124,3 +124,15 @@ def test_findings_of_one_kind_do_not_bury_the_others(arm: Path) -> None:
     told = [sentence for sentence in data_doubts(SensorRun(once, "arm_ft")) if "saturation" in sentence]
     assert len(told) == 1
     assert "more" not in told[0]
+
+
+def test_doubts_name_the_channel(arm: Path) -> None:
+    """That saturates, and that stays the same while others move."""
+    arrays = arrays_of(interactive_experiment(arm / PARQUET))
+    counts = arrays["reading"].copy()
+    start = len(counts) // 10
+    counts[start : start + 3, 4] = 32767.0
+    counts[start + 100 : start + 400, 2] = 12.0
+    doubts = list(data_doubts(SensorRun(experiment_of_arrays(**arrays | {"reading": counts}), "arm_ft")))
+    assert any("s: ch4 within 0.5 % of 32767 counts" in sentence for sentence in doubts)
+    assert any("s: ch2 stays at 12 counts" in sentence for sentence in doubts)

@@ -215,7 +215,7 @@ def test_counts_of_a_stream_that_is_called_a_wrench_are_refused(arm: Path) -> No
 def test_raw_counts_need_a_matrix(arm: Path, fitted: Calibration) -> None:
     """Without a prior a calibration is enough, and nothing is not."""
     experiment = load_experiment(edit(arm / PARQUET, 'prior = "matrix_SIM001.txt"\n', ""))
-    with pytest.raises(ExperimentError, match="raw counts become forces by --calibration or a prior matrix"):
+    with pytest.raises(ExperimentError, match="raw counts become forces by a calibration or a prior matrix"):
         _analysed(experiment, None)
     (sphere,) = _analysed(experiment, ["judge"], new=fitted)
     assert sphere.candidate == "new"

@@ -159,7 +159,7 @@ def test_a_limb_that_stands_still_is_refused(arm: Path, run: Run) -> None:
     assert error.startswith("error: parquet.toml: sensor 'arm_ft': the reference stays within ")
     assert error.endswith(
         "as of a limb that stands still; in the experiment file set start_s and end_s of every [[interval]] with "
-        'use = "calibration" to where the limb moves'
+        'use = "calibration" to where the limb moves, among arrays calibrate'
     )
     kept = run("calibrate", PARQUET, "-o", "a.json", "--lambda", "inf", "--format", "json").result()
     assert max(kept["calibrations"][0]["calibration"]["validity"]["reference_deviation"]) < 1e-9

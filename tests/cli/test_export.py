@@ -330,11 +330,14 @@ def test_the_result_has_three_forms(
 def test_exports_show_themselves(tmp_path: Path) -> None:
     """From Python too: what is not stored is a warning of the result, and both kinds of matrix keep their numbers."""
     leg = make_calibration(variables=(make_variable(),))
-    matrix = export_icub_matrix("leg", leg, tmp_path / "matrix.txt")
+    matrix = export_icub_matrix("leg", leg, str(tmp_path / "matrix.txt"))  # text is a path too
     require_shown(matrix)
     offset, coefficients = matrix.warnings
     assert offset.startswith("leg: offset (8, -5, 20) N, (0.3, -0.2, 0.1) N m: not stored")
-    assert coefficients == "leg: the coefficients of temperature are not in this file: --to coefficients"
+    assert coefficients == (
+        "leg: the coefficients of temperature are not in this file: --to coefficients, from Python "
+        "export_coefficients, has them"
+    )
     groups = export_wholebodydynamics({"leg": leg}, tmp_path / "ft.xml")
     require_shown(groups)
     assert groups.warnings == ()

@@ -86,7 +86,7 @@ def test_no_export_drops_the_terms(tmp_path: Path, run: Run, form: ExportFormat)
     output = tmp_path / "matrix_SN001.txt"
     error = run("export", tmp_path / "curved.json", "--to", form, "-o", output).error()
     assert f"curved.json: expected a linear calibration for --to {form}, which has no place for quadr" in error
-    assert error.endswith("fit again with `calibrate --linear`")
+    assert error.endswith("fit again with `calibrate --linear`, from Python with nonlinear=False")
     assert not output.exists()
     assert run("export", tmp_path / "linear.json", "--to", form, "-o", output).code == 0
 

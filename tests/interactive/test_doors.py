@@ -4,7 +4,10 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Callable
+from inspect import signature
 from pathlib import Path
+from typing import Any
 
 import pytest
 from typer.testing import CliRunner
@@ -13,7 +16,17 @@ from forcetorque import Experiment, analysis, load_experiment, read_calibration
 from forcetorque.analysis import draft_experiment, evaluate, inspect_log, read_acceptance
 from forcetorque.cli.main import app
 from forcetorque.errors import ExperimentError, FitError, ForceTorqueError
-from forcetorque.interactive import experiment_of_arrays, simulate, study, workbench
+from forcetorque.interactive import (
+    Run,
+    calibrate_jointly,
+    calibrate_skin,
+    experiment_of_arrays,
+    motion,
+    simulate,
+    study,
+    workbench,
+)
+from forcetorque.report import report
 from tests.interactive.arrays import arrays_of
 from tests.scenes.benches import write_bench
 from tests.scenes.experiment_folders import arm, intact
@@ -40,6 +53,35 @@ def _said(*words: Path | str) -> str:
     answer = CliRunner().invoke(app, [*map(str, words), "--format", "json"])
     assert answer.exit_code in (0, 1), answer.output
     return answer.stdout
+
+
+@pytest.mark.parametrize(
+    ("door", "function"),
+    [
+        (Run.calibrate, analysis.calibrate_for_file),
+        (Run.validate, analysis.validate),
+        (Run.thermal, analysis.thermal),
+        (Run.response, analysis.response),
+        (Run.accept, analysis.accept),
+        (Run.plan, analysis.plan),
+        (Run.report, report),
+        (workbench, analysis.workbench),
+        (calibrate_jointly, analysis.calibrate_jointly),
+        (calibrate_skin, analysis.calibrate_skin),
+        (motion, analysis.motion_signals),
+    ],
+    ids=lambda function: function.__qualname__,
+)
+def test_options_are_named_where_they_are_completed(door: Callable[..., Any], function: Callable[..., Any]) -> None:
+    """All of the function behind, with its defaults; what a method knows by itself is not asked for."""
+    behind, named = signature(function).parameters, signature(door).parameters
+    own = {"code_version", "created", "name", "calibration", "viewer"}
+    options = {one.name: one.default for one in behind.values() if one.kind is one.KEYWORD_ONLY and one.name not in own}
+    assert options.keys() <= named.keys()
+    stated = options.keys() - {"progress"}  # silence is a function, or None
+    assert stated
+    assert all(named[option].default == options[option] for option in stated)
+    assert not any(one.kind is one.VAR_KEYWORD for one in named.values())
 
 
 def test_an_experiment_is_inspected_without_its_file(experiment: Experiment, arm: Path) -> None:
@@ -94,14 +136,24 @@ def test_head_room_and_spheres_are_asked_of_a_run(experiment: Experiment, arm: P
     assert rows == command["rows"] != []
 
 
-def test_ways_to_fit_are_studied_without_a_folder(arm: Path, tmp_path: Path) -> None:
-    """Every candidate as the command has it; no file, and a type that there is not, are refused."""
+def test_ways_to_fit_are_studied_with_a_folder_or_without(arm: Path, tmp_path: Path) -> None:
+    """Every candidate as the command has it, and its files; no file, and a type that there is not, are refused."""
     mine = study(arm / PARQUET, kinds=["OnTdTO"], lambdas=[1000.0, 0.0, 1000.0])
     words = ("--type", "OnTdTO", "--lambda", "0", "--lambda", "1000", "-o", tmp_path / "study")
     command = json.loads(_said("study", arm / PARQUET, *words))
     (sensor,), (twin,) = json.loads(mine.json_text())["sensors"], command["sensors"]
     assert sensor | {"folder": twin["folder"], "files": twin["files"]} == twin
     assert mine.folder is None
+    said: list[str] = []
+    written = study(
+        arm / PARQUET, kinds=["OnTdTO"], lambdas=[0.0, 1000.0], folder=tmp_path / "mine", progress=said.append
+    )
+    assert said
+    assert (written.folder, written.records()) == (str(tmp_path / "mine"), mine.records())
+    (own,) = (tmp_path / "mine").iterdir()
+    assert {file.name for file in own.iterdir()} == {file.name for file in Path(twin["folder"]).iterdir()}
+    with pytest.raises(ForceTorqueError, match="mine"):
+        study(arm / "none.toml", folder=tmp_path / "mine")
     with pytest.raises(FitError, match="no estimation type is called 'On'"):
         study(arm / PARQUET, kinds=["On"])
     with pytest.raises(ExperimentError, match="expected at least one experiment file to study, got none"):
@@ -110,8 +162,9 @@ def test_ways_to_fit_are_studied_without_a_folder(arm: Path, tmp_path: Path) -> 
 
 def test_a_robot_is_simulated_and_its_sensor_fitted_over_recordings(tmp_path: Path) -> None:
     """A bundled scenario by name; runs of two experiments are fitted together, and a file is no run."""
-    written = simulate("wrist", tmp_path / "simulated")
-    assert len(written.records()) == 2
+    said: list[str] = []
+    written = simulate("wrist", tmp_path / "simulated", progress=said.append)
+    assert len(written.records()) == len(said) == 2
     with pytest.raises(ForceTorqueError, match="no scenario is called 'wrst'; did you mean \"wrist\""):
         simulate("wrst", tmp_path / "other")
     cold = load_experiment(tmp_path / "simulated" / "cold.toml")["arm_ft"]

@@ -32,7 +32,7 @@ from forcetorque.interactive import Run
 from forcetorque.recording import Finding, Use
 from tests.interactive.arrays import arrays_of
 from tests.scenes.experiment_folders import arm, intact
-from tests.scenes.experiments import PARQUET
+from tests.scenes.experiments import JOINTS, PARQUET
 
 __all__ = ["arm", "intact"]
 
@@ -85,6 +85,30 @@ def test_arrays_may_come_in_frames_of_pandas(experiment: Experiment) -> None:
     np.testing.assert_array_equal(by_frames.matrix, experiment_of_arrays(**arguments)["arm_ft"].calibrate().matrix)
 
 
+def test_several_spans_are_fitted_and_judged(experiment: Experiment) -> None:
+    """Halves of a span hold its samples; intervals are numbered where there are several of a use."""
+    arguments = arrays_of(experiment)
+    start, end = arguments["calibrate"]
+    first, last = arguments["judge"]
+    halves = {
+        "calibrate": [(start, 0.5 * (start + end)), (0.5 * (start + end), end)],
+        "judge": np.array([(first, 0.4 * first + 0.6 * last), (0.7 * last + 0.3 * first, last)]),
+    }
+    several = experiment_of_arrays(**arguments | halves)
+    labels = [interval.label for interval in several.recording.intervals]
+    assert labels == ["calibrate 1", "calibrate 2", "judge 1", "judge 2"]
+    assert {role.kind for role in several.roles.values()} == {"calibrate", "judge"}
+    run, whole = several["arm_ft"], experiment_of_arrays(**arguments)["arm_ft"]
+    calibration = run.calibrate()
+    assert calibration.provenance.samples == whole.calibrate().provenance.samples
+    all_judged = whole.evaluate(calibration).verdicts[0].samples
+    assert 0.85 * all_judged < run.evaluate(calibration).verdicts[0].samples < 0.95 * all_judged
+    time_s, _ = run.expected_wrenches("judge 2")
+    assert time_s[0] >= halves["judge"][1, 0]
+    listed = experiment_of_arrays(**arguments | {"calibrate": [arguments["calibrate"]]})
+    assert [interval.label for interval in listed.recording.intervals] == ["calibrate", "judge"]
+
+
 def test_a_calibrated_wrench_needs_the_matrix_that_made_it(experiment: Experiment) -> None:
     """Or the identity with full scales; the calibration is then of the wrench."""
     prior = experiment.sensors[0].prior
@@ -112,7 +136,15 @@ def test_a_calibrated_wrench_needs_the_matrix_that_made_it(experiment: Experimen
         ({"limit_counts": 0.0}, ExperimentError, "limit_counts: expected a positive number of counts, got 0.0"),
         ({"calibrate": (9.0, 2.0)}, forcetorque.ForceTorqueError, "expected an end after its start"),
         ({"calibrate": (1.0, 2.0, 3.0)}, ExperimentError, r"calibrate: expected one span.*got \(1.0, 2.0, 3.0\)"),
-        ({"calibrate": [(1, 2), (3, 4)]}, ExperimentError, "calibrate: expected one span"),
+        ({"calibrate": [(1, 2), (3, 4, 5)]}, ExperimentError, "calibrate: expected one span.*or a list of them"),
+        ({"calibrate": []}, ExperimentError, "calibrate: expected one span"),
+        ({"calibrate": [[(1, 2), (3, 4)]]}, ExperimentError, "calibrate: expected one span"),
+        ({"calibrate": np.arange(999.0)}, ExperimentError, r"calibrate: .* got ndarray of shape \(999,\)"),
+        (
+            {"calibrate": [(3, 5), (1, 4)]},
+            ExperimentError,
+            "calibrate: expected spans that do not overlap, got 'calibrate 2' to 4 s and 'calibrate 1' from 3 s",
+        ),
         ({"calibrate": None}, ExperimentError, "calibrate: expected one span"),
         ({"judge": (np.nan, 2.0)}, ExperimentError, "judge: expected one span"),
         ({"judge": (0.0, np.inf)}, ExperimentError, "judge: expected one span"),
@@ -171,6 +203,45 @@ def test_what_is_missing_is_no_reading(experiment: Experiment) -> None:
         calibration = experiment_of_arrays(**arguments | {"reading": reading})["arm_ft"].calibrate()
         assert calibration.provenance.samples == expected.provenance.samples
         np.testing.assert_array_equal(calibration.matrix, expected.matrix)
+
+
+def test_a_clock_among_the_counts_is_refused(experiment: Experiment) -> None:
+    """Without a prior nothing else says how many channels there are: seven columns were fitted without a word."""
+    arguments = arrays_of(experiment, prior=None, full_scale=[900.0] * 3 + [30.0] * 3)
+    run = experiment_of_arrays(**arguments)["arm_ft"]
+    assert run.calibrate().matrix.shape == (6, 6)
+    timed = np.column_stack([arguments["time_s"], arguments["reading"]])
+    with pytest.raises(FitError, match="channel ch0, column 1 of 7 of the raw reading, rises"):
+        experiment_of_arrays(**arguments | {"reading": timed})["arm_ft"].calibrate()
+
+
+def test_a_span_of_one_sample_is_refused_and_one_of_few_is_a_doubt(
+    experiment: Experiment, caplog: pytest.LogCaptureFixture
+) -> None:
+    """A prior fits them all the same, and only judging showed that nothing was learnt."""
+    arguments = arrays_of(experiment)
+    start, step = arguments["calibrate"][0], float(np.median(np.diff(arguments["time_s"])))
+    with pytest.raises(FitError, match="stands still"):
+        experiment_of_arrays(**arguments | {"calibrate": (start, start + 1.0 * step)})["arm_ft"].calibrate()
+    with caplog.at_level("WARNING", logger="forcetorque"):
+        experiment_of_arrays(**arguments | {"calibrate": (start, start + 12.0 * step)})["arm_ft"].calibrate()
+    assert "12 samples are fitted, which do not tell" in caplog.text
+
+
+def test_what_is_to_be_done_is_said_in_words_of_python(experiment: Experiment) -> None:
+    """Who has arrays has no table of a file to change, and who calls a method no option of a command."""
+    arguments = arrays_of(experiment)
+    joints = {name: values for name, values in arguments["joints"].items() if name != JOINTS[-1]}
+    with pytest.raises(RecordingError, match=f"joint '{JOINTS[-1]}'.*, among arrays repeat its position"):
+        experiment_of_arrays(**arguments | {"joints": joints})["arm_ft"].calibrate()
+    still = {name: np.zeros_like(values) for name, values in arguments["joints"].items()}
+    with pytest.raises(FitError, match="to where the limb moves, among arrays calibrate$"):
+        experiment_of_arrays(**arguments | {"joints": still})["arm_ft"].calibrate()
+    run = experiment_of_arrays(**arguments)["arm_ft"]
+    with pytest.raises(ExperimentError, match="by --clearance-deg, from Python clearance_deg$"):
+        run.plan()
+    with pytest.raises(ExperimentError, match="by --force, from Python force"):
+        run.response("impact", mass_kg=1.0)
 
 
 def test_columns_of_a_wrench_in_another_order_are_refused(experiment: Experiment) -> None:
@@ -286,6 +357,22 @@ def test_what_is_no_calibration_is_refused_in_a_line(experiment: Experiment, que
             ExperimentError, match=r"calibrations\['mine'\]: expected a Calibration, got 'arm.json'; read"
         ):
             ask({"mine": Path("arm.json")})
+
+
+def test_verdicts_show_themselves_as_a_table(experiment: Experiment) -> None:
+    """A row per calibration and load case; the tuple that they are stays one, and their records are flat."""
+    run = experiment["arm_ft"]
+    calibration = run.calibrate()
+    verdicts = run.verdicts({"mine": calibration, "theirs": calibration})
+    assert isinstance(verdicts, tuple)
+    assert len(verdicts) == len(verdicts.records()) == 2 * len(run.verdicts(calibration)) > 0
+    assert [record["decision"] for record in verdicts.records()] == [verdict.decision for verdict in verdicts]
+    page, text = verdicts._repr_html_(), " ".join(str(verdicts).split())
+    assert page.count("<tr>") == len(verdicts) + 1
+    for verdict in verdicts:
+        assert all(f">{cell}</td>" in page for cell in (verdict.candidate, verdict.load_case, verdict.decision))
+        assert f"{verdict.candidate} {verdict.load_case} {verdict.decision}" in text
+    assert "UseVerdict(" not in text
 
 
 def test_one_calibration_needs_no_name(experiment: Experiment) -> None:

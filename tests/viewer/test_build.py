@@ -376,7 +376,7 @@ def test_raw_counts_without_a_matrix_are_noted(arm: Path) -> None:
     """Without prior and calibration there is no measured wrench, and the page says what to give."""
     built = _view(edit(arm / PARQUET, 'prior = "matrix_SIM001.txt"\n', ""))
     assert [series.name for series in built.scene.sensors[0].wrenches] == ["expected"]
-    assert "raw counts become wrenches by --calibration or a prior matrix" in _notes(built)
+    assert "raw counts become wrenches by a calibration or a prior matrix" in _notes(built)
 
 
 def test_a_stream_without_samples_is_refused(intact: Path) -> None:

@@ -11,10 +11,12 @@ from forcetorque.interactive.run import Run
 from forcetorque.interactive.simulations import simulate
 from forcetorque.interactive.skin import calibrate_skin, skin_wrench
 from forcetorque.interactive.studies import study
+from forcetorque.interactive.verdicts import Verdicts
 
 __all__ = [
     "Experiment",
     "Run",
+    "Verdicts",
     "calibrate_jointly",
     "calibrate_skin",
     "design_device",

@@ -3,7 +3,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from itertools import pairwise
 from numbers import Real
 from pathlib import Path
 from typing import Any, Literal, get_args
@@ -22,10 +23,16 @@ from forcetorque.spatial import WRENCH_COMPONENTS, WRENCH_UNITS
 
 Span = tuple[float, float]
 """Start and end; s on the clock of the samples; the end is excluded."""
+Spans = Span | Sequence[Span]
+"""One span, or several that do not overlap."""
 _Quantity = Literal["raw", "wrench"]
 _READINGS, _JOINTS = "readings", "joints"
+_KINDS = {Use.CALIBRATION: "calibrate", Use.VALIDATION: "judge"}
+"""Arguments that spans come by, after which their intervals are called."""
 _LATEST_S = 9.2e9
 """Seconds, which as nanoseconds fill 64 bits."""
+_LONGEST_QUOTE = 60
+"""Characters up to which spans are quoted as they came."""
 
 
 def experiment_of_arrays(
@@ -38,8 +45,8 @@ def experiment_of_arrays(
     joint_time_s: Any = None,
     support: str,
     gravity_direction: Any,
-    calibrate: Span,
-    judge: Span | None = None,
+    calibrate: Spans,
+    judge: Spans | None = None,
     serial: str,
     prior: Any = None,
     full_scale: Any = None,
@@ -59,8 +66,9 @@ def experiment_of_arrays(
             out.
         support: Link that stands still and is the only one to touch the world.
         gravity_direction: Direction in which things fall, in the axes of that link; shape (3,).
-        calibrate: Span that is fitted.
-        judge: Span that judges; none if left out.
+        calibrate: Span that is fitted, `(1.0, 59.0)`, or several, `[(1.0, 29.0), (31.0, 59.0)]`; s. Their intervals
+            are called `calibrate`, or `calibrate 1` and so on.
+        judge: Span that judges, or several, in the same way; none if left out.
         serial: Serial number of the sensor.
         prior: Matrix that it was calibrated with before; shape (6, c); N/count, N m/count; None where there is none.
         full_scale: Full scale of its components; shape (6,); N, N m.
@@ -98,9 +106,9 @@ def experiment_of_arrays(
     if not (isinstance(limit_counts, Real) and limit_counts > 0.0):
         raise ExperimentError(f"limit_counts: expected a positive number of counts, got {limit_counts!r}")
     ground = Support(frame=support, gravity_direction=_numbers(gravity_direction, "gravity_direction"))
-    intervals = [_interval("calibrate", calibrate, Use.CALIBRATION, ground)]
+    intervals = _intervals(calibrate, Use.CALIBRATION, ground)
     if judge is not None:
-        intervals.append(_interval("judge", judge, Use.VALIDATION, ground))
+        intervals += _intervals(judge, Use.VALIDATION, ground)
     matrix = None if prior is None else _numbers(prior, "prior")
     if matrix is not None and not np.isfinite(matrix).all():
         raise ExperimentError("prior: expected a matrix of finite numbers, got NaN or infinity in it")
@@ -128,7 +136,7 @@ def experiment_of_arrays(
         regularisation=None,
         fit_options=FitOptions(),
         sphere_intervals=None,
-        roles={interval.label: Role(kind=interval.label, session=None) for interval in intervals},
+        roles={interval.label: Role(kind=_KINDS[interval.use], session=None) for interval in intervals},
         supports=(ground,),
         inputs_sha256={},
     )
@@ -186,14 +194,37 @@ def _full_scale(given: Any) -> FloatArray:
     return full_scale
 
 
-def _interval(label: str, span: Span, use: Use, ground: Support) -> Interval:
+def _intervals(given: Any, use: Use, ground: Support) -> list[Interval]:
+    name = _KINDS[use]
+    spans = _bounds_s(name, given)
+    labels = [name] if len(spans) == 1 else [f"{name} {number}" for number in range(1, len(spans) + 1)]
+    intervals = [
+        Interval(label=label, start_ns=round(start * 1e9), end_ns=round(end * 1e9), use=use, support=ground)
+        for label, (start, end) in zip(labels, spans.tolist(), strict=True)
+    ]
+    in_time = sorted(intervals, key=lambda interval: interval.start_ns)
+    for before, after in pairwise(in_time):
+        if after.start_ns < before.end_ns:
+            raise ExperimentError(
+                f"{name}: expected spans that do not overlap, got {before.label!r} to {before.end_ns * 1e-9:g} s and "
+                f"{after.label!r} from {after.start_ns * 1e-9:g} s"
+            )
+    return intervals
+
+
+def _bounds_s(name: str, given: Any) -> FloatArray:
+    """Starts and ends; shape (k, 2)."""
     try:
-        start, end = (round(float(second) * 1e9) for second in span)
-    except (TypeError, ValueError, OverflowError) as error:
+        bounds = np.asarray(given, dtype=np.float64)
+        if bounds.shape[-1:] != (2,) or bounds.ndim > 2 or not (bounds.size and (np.abs(bounds) < _LATEST_S).all()):
+            raise ValueError
+    except (TypeError, ValueError) as error:
+        got = repr(given) if len(repr(given)) < _LONGEST_QUOTE else _what(given)
         raise ExperimentError(
-            f"{label}: expected one span, start and end in s on the clock of time_s, such as (1.0, 59.0), got {span!r}"
+            f"{name}: expected one span, start and end in s on the clock of time_s, such as (1.0, 59.0), or a list of "
+            f"them, got {got}"
         ) from error
-    return Interval(label=label, start_ns=start, end_ns=end, use=use, support=ground)
+    return bounds.reshape(-1, 2)
 
 
 def _stamps(time_s: Any, name: str) -> IntArray:

@@ -6,22 +6,38 @@ from __future__ import annotations
 from datetime import UTC, datetime
 from importlib.metadata import version
 from pathlib import Path
-from typing import Any
 
 from forcetorque import analysis
 from forcetorque.analysis import BenchRecording
 
 
-def workbench(*recordings: BenchRecording | Path | str, **options: Any) -> analysis.Workbench:
+def workbench(
+    *recordings: BenchRecording | Path | str,
+    full_matrix: bool = False,
+    only_next: bool = False,
+    spec: analysis.AcceptanceFile | None = None,
+    seed: int = 0,
+) -> analysis.Workbench:
     """Calibrate sensors with known loads, and find faults of the workbench: `workbench("SN170.toml")`.
 
     Args:
         recordings: What was hung on each sensor, or the file of it.
-        options: As of `forcetorque.analysis.workbench`: full_matrix, only_next, spec, seed.
+        full_matrix: Whether loads that do not move all six directions are refused, whatever a prior says.
+        only_next: Whether only blocks are checked, and nothing is fitted.
+        spec: Limits to judge the calibrations by; none if left out.
+        seed: Of the deals into folds.
 
     Returns:
         Faults, errors and matrices; `save` writes the calibration of a single sensor.
     """
     read = [given if isinstance(given, BenchRecording) else analysis.read_bench(given) for given in recordings]
     created = datetime.now(UTC).isoformat(timespec="seconds")
-    return analysis.workbench(read, code_version=version("forcetorque"), created=created, **options)
+    return analysis.workbench(
+        read,
+        code_version=version("forcetorque"),
+        created=created,
+        full_matrix=full_matrix,
+        only_next=only_next,
+        spec=spec,
+        seed=seed,
+    )

@@ -3,12 +3,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import fields
 from datetime import UTC, datetime
 from importlib.metadata import version
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Self
+from typing import TYPE_CHECKING, Self
 
 from forcetorque import analysis
 from forcetorque import experiment as experiments
@@ -16,7 +16,7 @@ from forcetorque.analysis import SensorCalibrations
 from forcetorque.analysis.runs.named import NEW, Calibrations, named
 from forcetorque.calibration import Calibration
 from forcetorque.calibration.joint import ModelTolerance
-from forcetorque.estimation.balance import ForceLimit
+from forcetorque.estimation.balance import ForceLimit, PlaneTolerance
 from forcetorque.evaluation import OffsetPolicy
 from forcetorque.experiment import parse_experiment
 from forcetorque.experiment.contacts import contact_in_words
@@ -68,7 +68,15 @@ class Experiment(experiments.Experiment):
         return list(self)
 
     def balance(
-        self, calibrations: Calibrations | None = None, *, touch: str = "15%", release: str = "6%", **options: Any
+        self,
+        calibrations: Calibrations | None = None,
+        *,
+        touch: str = "15%",
+        release: str = "6%",
+        dwell_s: float = 0.0,
+        least_load: str | None = None,
+        height_band_m: float | None = None,
+        plane: PlaneTolerance | None = None,
     ) -> analysis.Balance:
         """Say which feet bear the robot, and where, over all intervals that are not to be ignored.
 
@@ -76,7 +84,11 @@ class Experiment(experiments.Experiment):
             calibrations: How sensors are read; as logged or by their prior if left out.
             touch: Force that a contact reaches, as `50N` or a share of the weight, as `15%`.
             release: Force above which it lasts.
-            options: `dwell_s`, `least_load`, `height_band_m`, `plane` of `forcetorque.analysis.BalanceOptions`.
+            dwell_s: Shortest contact, and shortest pause, that counts; s.
+            least_load: Load below which there is no centre of pressure, written as `touch`; that if left out.
+            height_band_m: How far the centre of mass may be from its median height where (5.22) is asked for; m; it is
+                not if left out.
+            plane: How far soles may be out of one plane; `PlaneTolerance()` if left out.
 
         Returns:
             Phases, centres of pressure and of mass, with every sample in `intervals`.
@@ -85,7 +97,14 @@ class Experiment(experiments.Experiment):
             ExperimentError: If the file has no sole.
             EstimationError: If no foot is down, or thresholds cross.
         """
-        asked = analysis.BalanceOptions(touch=ForceLimit.of(touch), release=ForceLimit.of(release), **options)
+        asked = analysis.BalanceOptions(
+            touch=ForceLimit.of(touch),
+            release=ForceLimit.of(release),
+            dwell_s=dwell_s,
+            least_load=None if least_load is None else ForceLimit.of(least_load),
+            height_band_m=height_band_m,
+            plane=PlaneTolerance() if plane is None else plane,
+        )
         return analysis.balance([self], [analysis.corrections_of(self, named(calibrations))], asked)
 
     def coherence(
@@ -221,6 +240,7 @@ def calibrate_jointly(
     *,
     folder: Path | str = ".",
     tolerance: ModelTolerance | None = None,
+    progress: Callable[[str], None] = lambda _: None,
 ) -> SensorCalibrations:
     """Calibrate all sensors of a robot at once, from parts between them that nothing touches.
 
@@ -229,6 +249,7 @@ def calibrate_jointly(
         sensors: Sensors to calibrate; all of the first file if None.
         folder: Where `save` of the result writes a file per sensor, and what they share.
         tolerance: How far the robot model may be off; `ModelTolerance()` if None.
+        progress: Called with a line for people as work goes on, such as `print`.
 
     Returns:
         A calibration per sensor in `calibrations`, and in `joint` what they share: errors of the model, what is left of
@@ -236,5 +257,11 @@ def calibrate_jointly(
     """
     created = datetime.now(UTC).isoformat(timespec="seconds")
     return analysis.calibrate_jointly(
-        recordings, folder, sensors, code_version=version("forcetorque"), created=created, tolerance=tolerance
+        recordings,
+        folder,
+        sensors,
+        code_version=version("forcetorque"),
+        created=created,
+        tolerance=tolerance,
+        progress=progress,
     )

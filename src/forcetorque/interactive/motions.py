@@ -3,13 +3,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 from forcetorque import analysis
 from forcetorque.analysis import Motion
 from forcetorque.analysis.motion.motion import BAND_SHARE
+from forcetorque.calibration import Calibration
 
 
 def motion(
@@ -18,7 +19,9 @@ def motion(
     *,
     steps_s: Sequence[float] = (),
     band_share: float = BAND_SHARE,
-    **options: Any,
+    desired: Sequence[str] = (),
+    intervals: Collection[str] = (),
+    calibrations: Mapping[str, Calibration] | None = None,
 ) -> Motion:
     """Say how columns of a log move.
 
@@ -27,12 +30,14 @@ def motion(
         columns: Columns of the log, or of `balance`.
         steps_s: Instants of steps; those of what was wanted if none is named; s.
         band_share: Half of the band of settling over the step.
-        options: As of `forcetorque.analysis.motion.signals`: desired, intervals, calibrations.
+        desired: Columns of the log with what was wanted, one for each of the first; none if nothing was.
+        intervals: Labels of the intervals that are taken; all that are not to be ignored if none is named.
+        calibrations: Calibrations that read the sensors for columns of `balance`, by name.
 
     Returns:
         Oscillations, settling times and tracking errors.
     """
-    signals = analysis.motion_signals(log, columns, **options)
+    signals = analysis.motion_signals(log, columns, desired=desired, intervals=intervals, calibrations=calibrations)
     return analysis.motion(signals, steps_s=steps_s, band_share=band_share)
 
 

@@ -11,20 +11,39 @@ from typing import Any
 from forcetorque import analysis
 from forcetorque.analysis import SkinCalibration, SkinWrench, WrenchChoice
 from forcetorque.skin import PatchCalibration
+from forcetorque.skin.taxels import CurveKind
 
 
-def calibrate_skin(*experiments: Path | str, **options: Any) -> SkinCalibration:
+def calibrate_skin(
+    *experiments: Path | str,
+    patch: str | None = None,
+    curve: str = CurveKind.MONOTONE,
+    highest_pa: float | None = None,
+    warm_up: Path | str | None = None,
+) -> SkinCalibration:
     """Fit the pressure curve of every taxel of a patch.
 
     Args:
         experiments: Experiment files with the patch, fitted and kept back.
-        options: As of `forcetorque.analysis.calibrate_skin`: patch, curve, highest_pa.
+        patch: Name of the patch; None for the only one.
+        curve: Form of curve to keep.
+        highest_pa: Highest pressure above rest to fit; Pa; None for all.
+        warm_up: Experiment file of a recording without contact while the robot warms up; heat is not told from pressure
+            without one.
 
     Returns:
         The answer, with the curves as its `calibration`.
     """
     created = datetime.now(UTC).isoformat(timespec="seconds")
-    return analysis.calibrate_skin(experiments, code_version=version("forcetorque"), created=created, **options)
+    return analysis.calibrate_skin(
+        experiments,
+        code_version=version("forcetorque"),
+        created=created,
+        patch=patch,
+        curve=curve,
+        highest_pa=highest_pa,
+        warm_up=warm_up,
+    )
 
 
 def skin_wrench(

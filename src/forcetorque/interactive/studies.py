@@ -3,13 +3,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from datetime import UTC, datetime
 from importlib.metadata import version
 from pathlib import Path
 
 from forcetorque import analysis
 from forcetorque.calibration import ESTIMATION_TYPES, estimation_type
+from forcetorque.new_folder import refuse_existing
 from forcetorque.study import SWEEP_LAMBDAS
 
 
@@ -20,8 +21,10 @@ def study(
     kinds: Sequence[str] = tuple(ESTIMATION_TYPES),
     lambdas: Sequence[float] = SWEEP_LAMBDAS,
     sphere: Collection[str] | None = None,
+    folder: Path | str | None = None,
+    progress: Callable[[str], None] | None = None,
 ) -> analysis.Studies:
-    """Fit every estimation type, lambda and data set, and choose: `study("a.toml", "b.toml")`.
+    """Fit every estimation type, lambda and data set, and choose: `study("a.toml", "b.toml", progress=print)`.
 
     Args:
         experiments: Experiment files with the same sensors.
@@ -31,13 +34,21 @@ def study(
         kinds: Estimation types, SnTdTO to OwTrTO; all nine if left out.
         lambdas: Lambdas of the thesis' equation (5.4); counts2; the thirteen of its tables if left out.
         sphere: Intervals whose motion draws a sphere, for the types S...; what the files say if left out.
+        folder: Folder to make for tables, figures and calibrations of the best; nothing is written if left out.
+        progress: Called with a line for people at every step, such as `print`.
 
     Returns:
-        The choice for every sensor; `records()` has every candidate. `forcetorque study` writes tables and figures.
+        The choice for every sensor; `records()` has every candidate.
+
+    Raises:
+        ForceTorqueError: If there is nothing to study, or the folder is there already.
     """
+    if folder is not None:
+        refuse_existing(Path(folder))
     types = [estimation_type(name) for name in kinds]
     created = datetime.now(UTC).isoformat(timespec="seconds")
-    studies = [
+    studied = analysis.read_study_data([Path(file) for file in experiments], sensors, progress=progress)
+    answers = (
         analysis.study_sensor(
             data,
             data_sets=data_sets,
@@ -46,11 +57,18 @@ def study(
             sphere=sphere,
             code_version=version("forcetorque"),
             created=created,
+            progress=progress,
         )
-        for data in analysis.read_study_data([Path(file) for file in experiments], sensors)
-    ]
+        for data in studied
+    )
+    names = tuple(map(str, experiments))
+    if folder is not None:
+        from forcetorque.report import write_study_folder
+
+        return write_study_folder(folder, answers, experiments=names, progress=progress)
+    studies = list(answers)
     return analysis.Studies(
-        experiments=tuple(map(str, experiments)),
+        experiments=names,
         folder=None,
         sensors=tuple(analysis.studied_sensor(one) for one in studies),
         warnings=tuple(sentence for one in studies for sentence in analysis.study_warnings(one)),

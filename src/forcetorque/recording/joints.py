@@ -58,7 +58,10 @@ def _holders(recording: Recording, joints: Sequence[str], source: str) -> list[t
         if joint not in signals:
             hint, still = "; take derivatives from the positions instead", ""
             if source == "position":
-                hint, still = "", "; if it stood still all along, state where in fixed of [robot]"
+                hint = ""
+                still = (
+                    "; if it stood still all along, state where in fixed of [robot], among arrays repeat its position"
+                )
             raise RecordingError(
                 f"no stream holds the {source} of joint {joint!r}{hint}; {known_names(joint, signals)}{still}"
             )

@@ -70,7 +70,7 @@ def saturation_findings(
                 _finding(
                     stream,
                     "saturation",
-                    f"within {100 * SATURATION_SHARE:g} % of {limit_counts:g} counts{note}",
+                    f"ch{channel} within {100 * SATURATION_SHARE:g} % of {limit_counts:g} counts{note}",
                     first,
                     last,
                     channel=f"ch{channel}",
@@ -195,8 +195,17 @@ def _stuck_channels(stream: Stream, signal: Signal) -> list[Finding]:
     for name, unit, column in zip(signal.columns, signal.units, signal.values.T, strict=True):
         alone: BoolArray = (np.diff(column) == 0.0) & ~whole
         findings += [
-            _finding(stream, "stuck", f"stays at {column[first]:g} {unit}", first, last, channel=name, size=s, unit="s")
-            for first, last, s in _long_runs(stream, alone)
+            _finding(
+                stream,
+                "stuck",
+                f"{name} stays at {column[at]:g} {unit}",
+                at,
+                last,
+                channel=name,
+                size=seconds,
+                unit="s",
+            )
+            for at, last, seconds in _long_runs(stream, alone)
         ]
     return findings
 

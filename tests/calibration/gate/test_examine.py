@@ -131,11 +131,23 @@ def test_eight_channels_are_judged_as_six_are() -> None:
         examine([replace(data, reference=-data.reference)], wide)
 
 
-def test_few_samples_say_nothing_and_channels_that_differ_are_refused() -> None:
-    """Whether they determine a fit is for the fit to say."""
+@pytest.mark.parametrize("prior", [None, PRIOR], ids=["no prior", "prior"])
+def test_few_samples_are_a_doubt_and_one_is_refused(prior: FloatArray | None) -> None:
+    """A prior fits them all the same; one sample is a load that stands still, several of a sample each may not be."""
     data = _data()
-    few = DataSet(label="b", raw=data.raw[:12], reference=-data.reference[:12])
-    assert examine([], PRIOR) == examine([few], PRIOR) == ()
+    (doubt,) = examine([DataSet(label="b", raw=data.raw[:12], reference=-data.reference[:12])], prior)
+    assert (doubt.kind, doubt.message[:21]) == ("span", "12 samples are fitted")
+    one, other = (DataSet(label="b", raw=data.raw[[k]], reference=data.reference[[k]]) for k in (0, 100))
+    with pytest.raises(FitError, match="stands still"):
+        examine([one], prior)
+    (doubt,) = examine([one, other], prior)
+    assert doubt.message.startswith("2 samples are fitted")
+
+
+def test_no_sample_says_nothing_and_channels_that_differ_are_refused() -> None:
+    """That there is none is for the fit to say."""
+    data = _data()
+    assert examine([], PRIOR) == ()
     with pytest.raises(ShapeError):
         examine([data, replace(data, raw=data.raw[:, :5])], None)
     with pytest.raises(ShapeError):

@@ -54,7 +54,8 @@ class Judged:
         """
         if self.calibration is None:
             raise ExperimentError(
-                f"it judges a calibration, none was given of {self.checks.sensor!r}; see --calibration"
+                f"it judges a calibration, none was given of {self.checks.sensor!r}; give it by --calibration, from "
+                "Python calibration"
             )
         return self.calibration
 

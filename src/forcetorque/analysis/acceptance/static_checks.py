@@ -229,7 +229,9 @@ def _position(
     sensor: ExperimentSensor, correction: Correction, population: Mapping[str, FloatArray] | None
 ) -> PopulationPosition:
     if population is None:
-        raise ExperimentError("no matrices of other sensors were given; name them with --population")
+        raise ExperimentError(
+            "no matrices of other sensors were given; name them by --population, from Python population"
+        )
     _require_counts(sensor)
     others = {serial: matrix for serial, matrix in population.items() if serial != sensor.serial}
     return position_in_population(correction.model.matrix, others)

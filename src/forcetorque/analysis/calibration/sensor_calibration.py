@@ -205,5 +205,5 @@ def _touched(run: SensorRun) -> Iterator[str]:
             yield (
                 f"interval {interval.label!r} is left out: {', '.join(names)} touches the robot beyond the sensor, by "
                 "[[contact]] or touched, so that nobody knows what it must read; calibrate all sensors at once, "
-                "--jointly"
+                "--jointly, from Python calibrate_jointly"
             )

@@ -115,7 +115,7 @@ def _default_policy(experiment: Experiment) -> OffsetPolicy:
             return OffsetPolicy(Offset.ONE_LINK_IMU if imu else Offset.ONE_LINK_FIXED_FRAME, interval.label)
     raise ExperimentError(
         f"experiment {experiment.name!r}: expected a phase in which one link alone is touched, which gives the offset; "
-        "name another way by --offset, such as none"
+        "name another way by --offset, from Python offsets, such as none"
     )
 
 

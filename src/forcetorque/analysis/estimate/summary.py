@@ -273,7 +273,10 @@ def _doubts(corrections: Mapping[str, Correction], spans: Sequence[IntervalEstim
         yield from skin_doubts(span, exact, resting)
     for sensor, one in corrections.items():
         if not one.removes_offset:
-            yield f"{sensor}: no offset removed, so that its forces hold whatever offset the sensor has; see --offset"
+            yield (
+                f"{sensor}: no offset removed, so that its forces hold whatever offset the sensor has; see --offset, "
+                "from Python offset"
+            )
 
 
 def _for_table(experiment: Experiment, span: IntervalEstimates, fused: IntervalFusion | None) -> EstimatedSpan:

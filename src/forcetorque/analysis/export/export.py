@@ -21,7 +21,7 @@ from forcetorque.experiment.inputs import stated_in
 
 
 def export_icub_matrix(
-    name: str, calibration: Calibration, output: Path, *, full_scale: Sequence[int] | None = None
+    name: str, calibration: Calibration, output: Path | str, *, full_scale: Sequence[int] | None = None
 ) -> Export:
     """Write the matrix file of a sensor's DSP, which has no place for an offset.
 
@@ -46,7 +46,7 @@ def export_icub_matrix(
         if calibration.prior is not None and calibration.prior.source == "identity":
             raise ExperimentError(
                 'its prior is "identity": the matrix corrects a calibrated stream and is not per count; '
-                "use --to wholebodydynamics"
+                "use --to wholebodydynamics, from Python export_wholebodydynamics"
             )
         file = encode_matrix(calibration.matrix, full_scale=full_scale)
         error = _largest_in_range(file.matrix - calibration.matrix, calibration)
@@ -58,7 +58,7 @@ def export_icub_matrix(
 
 def export_wholebodydynamics(
     calibrations: Mapping[str, Calibration],
-    output: Path,
+    output: Path | str,
     *,
     sensor_name: str | None = None,
     stream: Calibration | None = None,
@@ -92,7 +92,7 @@ def export_wholebodydynamics(
     return _export(ExportFormat.WHOLEBODYDYNAMICS, output, entries)
 
 
-def export_table(calibrations: Mapping[str, Calibration], output: Path) -> Export:
+def export_table(calibrations: Mapping[str, Calibration], output: Path | str) -> Export:
     """Write matrices, offsets and coefficients into a plain table.
 
     Args:
@@ -108,7 +108,7 @@ def export_table(calibrations: Mapping[str, Calibration], output: Path) -> Expor
     return _export(ExportFormat.CSV, output, entries)
 
 
-def export_coefficients(calibrations: Mapping[str, Calibration], output: Path) -> Export:
+def export_coefficients(calibrations: Mapping[str, Calibration], output: Path | str) -> Export:
     """Write the coefficients of temperature and other variables by themselves.
 
     Args:
@@ -133,7 +133,7 @@ def _require_linear(calibrations: Mapping[str, Calibration], form: ExportFormat)
         if calibration.quadratic is not None:
             raise FormatError(
                 f"{name}: expected a linear calibration for --to {form}, which has no place for quadratic terms; "
-                "fit again with `calibrate --linear`"
+                "fit again with `calibrate --linear`, from Python with nonlinear=False"
             )
 
 
@@ -170,7 +170,7 @@ def _entry(
     )
 
 
-def _export(form: ExportFormat, output: Path, entries: Sequence[ExportedCalibration]) -> Export:
+def _export(form: ExportFormat, output: Path | str, entries: Sequence[ExportedCalibration]) -> Export:
     return Export(
         format=form,
         file=str(output),
@@ -188,6 +188,9 @@ def _doubts(form: ExportFormat, entry: ExportedCalibration) -> Iterator[str]:
         yield f"{entry.calibration}: its offset is of the last session, {entry.session!r}; others have their own"
     if entry.variables and not entry.variables_stored:
         names = ", ".join(entry.variables)
-        yield f"{entry.calibration}: the coefficients of {names} are not in this file: --to coefficients"
+        yield (
+            f"{entry.calibration}: the coefficients of {names} are not in this file: --to coefficients, from Python "
+            "export_coefficients, has them"
+        )
     if form is ExportFormat.WHOLEBODYDYNAMICS and not entry.offset.any():
         yield f"{entry.calibration}: the device ignores an FT_OFFSET of six zeros and keeps its own"

@@ -163,7 +163,9 @@ def _chosen(log: RecordedLog, labels: Collection[str]) -> list[RecordedSpan]:
             raise ExperimentError(f"no interval is labelled {label!r}; {known_names(label, known)}")
     spans = [span for span in log.intervals if (span.label in labels if labels else span.use is not Use.IGNORE)]
     if not spans:
-        raise ExperimentError(f"{log.name}: expected an interval that is not to be ignored; name one, --interval")
+        raise ExperimentError(
+            f"{log.name}: expected an interval that is not to be ignored; name one by --interval, from Python intervals"
+        )
     return spans
 
 

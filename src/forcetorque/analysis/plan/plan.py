@@ -259,7 +259,7 @@ def _clearance(table: PlanTable, given: float | None) -> float:
     if clearance is None:
         raise ExperimentError(
             "plan: expected a clearance from the joint limits, in deg; state clearance_deg in [plan] of the experiment "
-            "file, or --clearance-deg"
+            "file, or by --clearance-deg, from Python clearance_deg"
         )
     if not 0.0 <= clearance < np.inf:
         raise ExperimentError(f"plan: expected a clearance of at least 0 deg, got {clearance:g}")

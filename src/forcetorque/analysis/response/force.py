@@ -58,7 +58,10 @@ def driven_response(
     highest = min(HIGHEST_SHARE * rate, *(record.highest_hz for record in records))
     if decays is None:
         if len(pairs) > 1:
-            raise ExperimentError(f"{name}: expected one stretch with a swing, got {len(pairs)}; name one, --interval")
+            raise ExperimentError(
+                f"{name}: expected one stretch with a swing, got {len(pairs)}; name one by --interval, from Python "
+                "intervals"
+            )
         segment = 2 * len(pairs[0][0]) // (SWING_SEGMENTS + 1)
         force, reading = (overlapping(series, segment) for series in pairs[0])
     else:
@@ -79,7 +82,9 @@ def _force_along(record: ExcitedRecord, direction: FloatArray, mass_kg: float | 
         along: FloatArray = values @ direction
         return along
     if direction[3:].any():
-        raise ExperimentError(f"{record.name}: an acceleration excites forces; choose fx, fy or fz, --component")
+        raise ExperimentError(
+            f"{record.name}: an acceleration excites forces; choose fx, fy or fz by --component, from Python component"
+        )
     return (1.0 if mass_kg is None else mass_kg) * (values @ direction[:3])
 
 

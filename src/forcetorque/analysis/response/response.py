@@ -176,7 +176,9 @@ def response(
                 raise
             refused.append(str(error))
     elif fit is None:
-        refused.append("no transfer function: the force was not measured; name its stream, --force")
+        refused.append(
+            "no transfer function: the force was not measured; name its stream by --force, from Python force"
+        )
     rate = records[0].wrench.rate_hz
     inverse = None
     try:
@@ -216,14 +218,18 @@ def _refuse_lacking(
     if kind is ExcitationKind.PENDULUM and (force is None or component is None):
         raise ExperimentError(
             "pendulum: expected the stream of the measured force or acceleration, --force, and the component that it "
-            f"excites, --component, got {force!r} and {component_name!r}: a swing is no event that could tell them"
+            f"excites, --component, from Python force and component, got {force!r} and {component_name!r}: a swing is "
+            "no event that could tell them"
         )
     if kind is ExcitationKind.RELEASE and mass_kg is not None and component is not None and component > 2:
         raise ExperimentError(
             f"release: a weight of known mass is a force; expected fx, fy or fz, got {component_name!r}"
         )
     if kind is ExcitationKind.IMPACT and mass_kg is not None and force is None:
-        raise ExperimentError("impact: a mass says nothing of a tap without its acceleration; name its stream, --force")
+        raise ExperimentError(
+            "impact: a mass says nothing of a tap without its acceleration; name its stream by --force, "
+            "from Python force"
+        )
 
 
 def _signal(kind: ExcitationKind, decays: Decays | None) -> str:

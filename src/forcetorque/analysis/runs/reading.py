@@ -157,7 +157,7 @@ class Correction:
         of_wrench = sensor.quantity != "raw"
         if not of_wrench and sensor.prior is None:
             raise ExperimentError(
-                f"sensor {sensor.name!r}: raw counts become wrenches by --calibration or a prior matrix"
+                f"sensor {sensor.name!r}: raw counts become wrenches by a calibration or a prior matrix"
             )
         matrix = np.eye(6) if of_wrench or sensor.prior is None else sensor.prior
         words = "the logged wrench" if of_wrench else f"the prior {sensor.prior_source}"

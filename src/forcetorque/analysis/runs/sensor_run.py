@@ -145,7 +145,7 @@ class SensorRun:
             raise ExperimentError(
                 f"expected {which} in which nothing touches the robot beyond {self.sensor.name!r}, but by [[contact]] "
                 f"or touched {', '.join(names)} does in every one, so that nobody knows what the sensor must read; "
-                "record it with that in the air, or calibrate all at once, --jointly"
+                "record it with that in the air, or calibrate all at once, --jointly, from Python calibrate_jointly"
             )
         return known
 

@@ -158,7 +158,7 @@ def _corrections(
 ) -> list[tuple[str, Correction, Calibration | None]]:
     """Ways to read a sensor by name, the prior first and with no offset removed: the centre is what is looked for."""
     if run.sensor.prior is None and not calibrations:
-        raise ExperimentError("raw counts become forces by --calibration or a prior matrix")
+        raise ExperimentError("raw counts become forces by a calibration or a prior matrix")
     prior = [] if run.sensor.prior is None else [(PRIOR, Correction.without_offset(run.sensor), None)]
     return [
         *prior,
@@ -215,7 +215,7 @@ def _one_mass(run: SensorRun, intervals: Sequence[Interval]) -> float | None:
             raise ExperimentError(
                 f"expected the same mass on it in all intervals, got {first:.4g} kg in "
                 f"{intervals[0].label!r} and {mass or 0.0:.4g} kg in {interval.label!r}, whose supports are on the two "
-                "sides of the sensor; choose intervals of one side (--interval)"
+                "sides of the sensor; choose intervals of one side by --interval, from Python intervals"
             )
     return masses[0]
 

@@ -122,7 +122,8 @@ def combinations_of(intervals: Sequence[CampaignInterval]) -> dict[str, tuple[st
     if len(kinds) > _MOST_KINDS:
         raise ExperimentError(
             f"expected at most {_MOST_KINDS} kinds of data to try every combination, got {len(kinds)}: "
-            f"{', '.join(kinds)}; name combinations with --data-set, or give intervals a kind"
+            f"{', '.join(kinds)}; name combinations with --data-set, from Python data_sets, or give "
+            "intervals a kind"
         )
     return {
         " + ".join(chosen): tuple(interval.label for interval in intervals if interval.kind in chosen)

@@ -133,9 +133,9 @@ def _temperature(run: SensorRun, wanted: str | None) -> SensorVariable:
         )
     if wanted is None and len(known) != 1:
         got = (
-            f"{', '.join(known)}; choose one, --variable"
+            f"{', '.join(known)}; choose one by --variable, from Python variable"
             if known
-            else "none; state its thermometer, or leave it out, --sensor"
+            else "none; an experiment file states its thermometer; leave out a sensor that has none"
         )
         raise ExperimentError(f"sensor {run.sensor.name!r}: expected one [[sensor.variable]] in degC, got {got}")
     return known[wanted] if wanted is not None else next(iter(known.values()))

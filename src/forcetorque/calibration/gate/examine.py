@@ -9,6 +9,7 @@ import numpy as np
 
 from forcetorque.arrays import FloatArray, read_only
 from forcetorque.calibration.data_set import DataSet
+from forcetorque.calibration.gate.clock import require_gauges
 from forcetorque.calibration.gate.delay import delay_doubts
 from forcetorque.calibration.gate.doubt import Doubt
 from forcetorque.calibration.gate.full_scale import require_within_full_scale
@@ -39,22 +40,27 @@ def examine(
         full_scale: Largest wrench that the sensor reads; shape (6,); N, N m; None if it is not known.
 
     Returns:
-        What is doubtful; nothing where all is well, or where too few samples say anything.
+        What is doubtful; nothing where all is well. Of few samples it is only asked whether their load moves, which
+        stays a doubt.
 
     Raises:
         FitError: If nothing may be fitted: the prior is singular, the model has no mass, its load stands still or is
-            beyond the sensor, or the reading does not follow it, or follows it the wrong way round or by a factor that
-            no sensor has, in all or in its moments.
+            beyond the sensor, a channel is a clock, or the reading does not follow the load, or follows it the wrong
+            way round or by a factor that no sensor has, in all or in its moments.
         ShapeError: If data sets, or data and prior, have different numbers of channels or variables.
     """
     if prior is not None and np.shape(prior) == (6, 6) and not is_invertible(prior):
         raise FitError("the prior matrix is singular, so no matrix corrects what it made")
-    # one sample has no neighbour, and without any the fit itself says what is missing
-    usable = [data for data in data_sets if len(data.raw) > 1]
+    filled = [data for data in data_sets if len(data.raw)]
+    if not filled:
+        return ()  # the fit itself says what is missing
+    usable = [data for data in filled if len(data.raw) > 1]  # one sample has no neighbour
     if sum(len(data.raw) for data in usable) < _FEWEST:
-        return ()
-    moments = pooled(Moments.of(data.raw, data.reference, data.variables) for data in usable)
+        require_moving_load(_pooled(filled))
+        return (_too_few(sum(len(data.raw) for data in filled)),)
+    moments = _pooled(usable)
     require_moving_load(moments)
+    require_gauges(usable, moments)
     if full_scale is not None:
         require_within_full_scale(usable, read_only(full_scale, name="full_scale", shape=(6,)))
     if prior is not None:
@@ -66,3 +72,15 @@ def examine(
         require_moment_unit(movement)
         doubts += scale_doubts(movement, prior)
     return (*doubts, *delay_doubts(usable, prior))
+
+
+def _pooled(data_sets: Sequence[DataSet]) -> Moments:
+    return pooled(Moments.of(data.raw, data.reference, data.variables) for data in data_sets)
+
+
+def _too_few(samples: int) -> Doubt:
+    return Doubt(
+        kind="span",
+        message=f"{samples} samples are fitted, which do not tell whether the reading follows the load; fit a longer "
+        "span, in which it moves",
+    )

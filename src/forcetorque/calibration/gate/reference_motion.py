@@ -49,5 +49,6 @@ def require_moving_load(moments: Moments) -> None:
         raise FitError(
             f"the reference stays within {force_change:.2g} N of {force:.3g} N and {moment_change:.2g} N m of "
             f"{moment:.3g} N m over all fitted samples, as of a limb that stands still; in the experiment file set "
-            'start_s and end_s of every [[interval]] with use = "calibration" to where the limb moves'
+            'start_s and end_s of every [[interval]] with use = "calibration" to where the limb moves, among arrays '
+            "calibrate"
         )

@@ -25,7 +25,8 @@ _FASTER = 3.0
 """Change of the reference, relative to that of the reading, which no reading hides under its noise."""
 
 _CHECK = (
-    "check the unit of the joints (degrees or radians, as units of [[recording.stream]] or recording.json state it), "
+    "check the unit of the joints (degrees or radians, as units of [[recording.stream]] or recording.json state it; "
+    "arrays are in radians), "
     "frame and gravity_direction of [[support]], and whether stream of [[sensor]] is its own; a load that "
     "is lighter than the sensor's drift needs a heavier one beside it"
 )
