@@ -3,7 +3,8 @@ PYTHON ?= python3
 DATA ?= ../shared/data
 VENV := .venv
 BIN := $(VENV)/bin
-SUITE := tests -n auto --dist loadfile --no-loadscope-reorder --data=$(DATA) -m "not long"
+WORKERS := -n auto --dist loadfile --no-loadscope-reorder
+SUITE := tests $(WORKERS) --data=$(DATA) -m "not long"
 
 .PHONY: demo test test-long test-matrix lint types compiled bench docs web web-check web-types clean
 
@@ -19,7 +20,7 @@ test: $(VENV)/test.stamp
 	OMP_NUM_THREADS=1 $(BIN)/pytest $(SUITE)
 
 test-long: $(VENV)/test.stamp $(VENV)/docs.stamp
-	$(BIN)/pytest tests --data=$(DATA) -m "long or fuzz" --all-examples
+	OMP_NUM_THREADS=1 $(BIN)/pytest tests $(WORKERS) --data=$(DATA) -m "long or fuzz" --all-examples
 
 # every Python of pyproject.toml, the oldest with the oldest dependencies; ONLY=3.12 runs one of them
 test-matrix: $(BIN)/uv

@@ -22,10 +22,12 @@ from forcetorque.analysis import (
     draft_experiment,
     evaluate,
     loads_of_use,
+    use_verdicts,
     weigh_load,
 )
 from forcetorque.analysis.payload.load_doubts import circular_loads
 from forcetorque.analysis.payload.sense import reversed_sense
+from forcetorque.calibration.estimation_type import EstimationType, estimation_type
 from forcetorque.errors import FitError, ForceTorqueError
 from forcetorque.experiment import load_experiment
 from tests.scenes.robots import example_robot
@@ -154,6 +156,29 @@ def test_a_tool_that_the_sensor_itself_weighed_is_named(
         assert [words[: words.index(" (")] for words in sentences] == [
             "load 'gripper': weighed before by this sensor itself"
         ] * named
+
+
+@pytest.mark.parametrize("kind", [None, estimation_type("OnTdTO")])
+def test_calibration_and_verdict_from_python_name_a_circular_load(
+    arm: tuple[Path, np.ndarray], weighed: WeighedLoad, tmp_path: Path, kind: EstimationType | None
+) -> None:
+    """As the command line does, which says it once; not where a stated tool told the scale: the negative control."""
+    file = _edited(arm, tmp_path, "gripper", ('link = "ee_link"\n', 'link = "ee_link"\nfrom = "tool.json"\n'))
+    beside = json.loads(weighed.model_dump_json(by_alias=True))
+    for content, named in ((beside, False), ({**beside, "loads": beside["loads"][:1]}, True)):
+        (file.parent / "tool.json").write_text(json.dumps(content), encoding="utf-8")
+        run = _run(file)
+        written = calibrate_for_file(run, tmp_path / "new.json", code_version="", created="2026-01-01", kind=kind)
+        calibration = written.calibrations[0].calibration
+        (verdict,) = use_verdicts(run, {"new": calibration})
+        reasons = [reason.text for reason in verdict.reasons]
+        for words in (calibration.doubts, reasons, written.warnings):
+            assert sum("weighed before by this sensor itself" in sentence for sentence in words) == named
+        assert (verdict.decision == "use") <= (not named)
+        unaware = calibration.model_copy(update={"doubts": ()})  # fitted elsewhere, and judged by the circular load
+        (verdict,) = use_verdicts(run, {"new": unaware})
+        informing = [reason.text for reason in verdict.reasons if reason.against is None]
+        assert sum("weighed before by this sensor itself" in sentence for sentence in informing) == named
 
 
 @pytest.mark.long

@@ -18,7 +18,7 @@ from forcetorque.analysis import (
     evaluate,
     joint_torques,
 )
-from forcetorque.analysis.runs.free_sub_model import FreeSubModel
+from forcetorque.analysis.runs.free_sub_model import SubModelChoice
 from forcetorque.analysis.validate.contact_wrenches import contact_wrenches
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration import Calibration
@@ -44,7 +44,7 @@ def _by_candidate(verdicts: Sequence[ContactForceErrors]) -> dict[tuple[str, Off
 
 def _bias(run: SensorRun, calibrations: dict[str, Calibration], offset: Offset, **how: str) -> FloatArray:
     """Mean contact wrench by the last candidate, which the rows do not have; shape (6,); N, N m."""
-    contacts = contact_wrenches(FreeSubModel.of(run, **how), calibrations)  # type: ignore[arg-type]
+    contacts = contact_wrenches(SubModelChoice(**how).in_run(run), calibrations)  # type: ignore[arg-type]
     bias: FloatArray = contacts.wrenches[len(contacts.candidates) - 1, offset].mean(axis=0)
     return bias
 

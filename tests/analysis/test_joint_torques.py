@@ -19,7 +19,7 @@ from forcetorque.analysis import (
     estimate_experiment,
     joint_torques,
 )
-from forcetorque.analysis.runs.free_sub_model import FreeSubModel
+from forcetorque.analysis.runs.free_sub_model import SubModelChoice
 from forcetorque.analysis.torque.samples import judged_torques
 from forcetorque.arrays import FloatArray, IntArray
 from forcetorque.calibration import Calibration, WrenchModel
@@ -216,7 +216,7 @@ def test_logged_torques_are_compared_too(arm: Path) -> None:
     compared = [v for v in found if v.logged_rmse is not None]
     assert [v.joint for v in compared] == ["shoulder_pitch"] * 2
     assert all(v.logged_samples == v.samples for v in compared)
-    torques = judged_torques(FreeSubModel.of(SensorRun(with_log, sensor)), {})
+    torques = judged_torques(SubModelChoice().in_run(SensorRun(with_log, sensor)), {})
     samples = [errors for key, errors in torques.samples.items() if key.joint == "shoulder_pitch"]
     for errors, verdict in zip(samples, compared, strict=True):
         assert verdict.logged_rmse == pytest.approx(np.sqrt((errors.from_logged**2).mean()), abs=EXACT)

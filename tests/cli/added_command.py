@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The toy command and the toy group, added as docs/architecture.md says: `tests/toy_command`, `tests/toy_group`."""
+"""The toy command and the toy group, added as docs/architecture.md says: `tests/toys/command`, `tests/toys/group`."""
 
 from __future__ import annotations
 
@@ -14,9 +14,9 @@ import pytest
 from forcetorque import analysis, cli
 from forcetorque.cli.main import app
 
-TOY = Path(__file__).parents[1] / "toy_command"
+TOY = Path(__file__).parents[1] / "toys" / "command"
 NAME = "extent"
-TOY_GROUP = TOY.with_name("toy_group")
+TOY_GROUP = TOY.with_name("group")
 GROUP = "toy"
 GROUP_COMMAND = "toy count"
 

@@ -6,7 +6,10 @@ from __future__ import annotations
 import csv
 import io
 import json
+import re
+import shutil
 import tomllib
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -16,7 +19,7 @@ import pytest
 from forcetorque.analysis import Criterion
 from forcetorque.exchange.icub import encode_matrix, write_matrix_file
 from forcetorque.experiment import load_experiment
-from forcetorque.recording import Use
+from forcetorque.recording import Use, read_recording, write_recording
 from forcetorque.simulation import distorted_by_mounting
 from tests.cli.json_schema import faults
 from tests.cli.outcome import Outcome, Run
@@ -228,3 +231,18 @@ def test_a_real_leg_sensor_passes_with_its_calibration_and_fails_with_the_factor
     assert factory["measured"] > 1.5
     rows = list(csv.DictReader(io.StringIO(run(*words[:-1], "csv", "--spec", tighter).out)))
     assert [row["passed"] for row in rows] == ["False"]
+
+
+def test_joints_of_another_unit_are_not_judged(arm: Path, run: Run) -> None:
+    """Degrees that are stated as radians lie beyond the limits of the URDF: no criterion is held to that reference."""
+    recording = read_recording(arm / "recording")
+    joints = recording.streams["joints"]
+    signals = {name: replace(signal, values=np.degrees(signal.values)) for name, signal in joints.signals.items()}
+    shutil.rmtree(arm / "recording")
+    streams = {**recording.streams, "joints": replace(joints, signals=signals)}
+    write_recording(arm / "recording", replace(recording, streams=streams))
+    error = run("accept", PARQUET, "--spec", _write(), "-c", "fitted.json").error()
+    assert re.search(
+        r"\[evaluate\] cannot be judged: joint '\w+': expected positions about the limits of the URDF", error
+    )
+    assert "which fits them in degrees" in error

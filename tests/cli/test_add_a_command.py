@@ -2,7 +2,7 @@
 """A command is two files and two lines: help, schema, report and their tests know it from then on.
 
 So it is in a group, which is a folder and two lines more. This is the recipe of docs/architecture.md, followed with
-`tests/toy_command` and `tests/toy_group`.
+`tests/toys/command` and `tests/toys/group`.
 """
 
 from __future__ import annotations

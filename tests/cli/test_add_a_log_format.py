@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A format of logs is one file and one line: schema, loading, `inspect` and their messages know it from then on.
 
-This is the recipe of docs/architecture.md, followed with `tests/toy_log.py`.
+This is the recipe of docs/architecture.md, followed with `tests/toys/log.py`.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from forcetorque.recording import read_recording
 from tests.cli.json_schema import faults
 from tests.cli.outcome import Run
 from tests.scenes.experiments import PARQUET, YARP, edit
-from tests.toy_log import FILE, ToyFormat, write_toy
+from tests.toys.log import FILE, ToyFormat, write_toy
 
 TOY = 'format = "toy"\npath = "toy"\nstream = ["arm_ft", "joints"]\n'
 

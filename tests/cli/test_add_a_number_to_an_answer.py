@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A number of an answer is one field and its value: table, JSON, CSV, page and schema have it from then on.
 
-This is the recipe of docs/architecture.md, followed with the answer of `tests/toy_command`.
+This is the recipe of docs/architecture.md, followed with the answer of `tests/toys/command`.
 """
 
 from __future__ import annotations

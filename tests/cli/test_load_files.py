@@ -16,7 +16,7 @@ from forcetorque.errors import ExperimentError
 from forcetorque.exchange.load import read_ft_tools, read_mc_rtc
 from forcetorque.exchange.load_format import LoadFormat
 from tests.cli.outcome import Run
-from tests.scenes.wrist_postures import BIAS, CENTRE, MASS, SLOW, write_postures
+from tests.scenes.wrist_postures import BIAS, CENTRE, HELD_S, MASS, SLOW, write_postures
 
 POSTURES = Rotation.random(8, random_state=4)
 POSE = ("0.0", "0.0", "0.05", "0.0", "0.0", "0.0")
@@ -109,6 +109,74 @@ def test_a_robot_is_told_what_several_recordings_say_together(weighed: Path, run
     assert load.mass != run("payload", other, "--format", "json").result()["loads"][0]["mass_kg"]
     assert load.bias.tolist() == result["sessions"][-1]["bias"]
     assert f"the bias is that of {result['sessions'][-1]['session']!r}" in outcome.err
+
+
+_COLUMNS = 'columns = ["fx", "fy", "fz", "tx", "ty", "tz"]'
+_UNITS = 'units = ["N", "N", "N", "N m", "N m", "N m"]'
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "match"),
+    [
+        ("child_to_parent", "parent_to_child", "reversed direction: "),
+        (_COLUMNS, 'columns = ["tx", "ty", "tz", "fx", "fy", "fz"]', "swapped columns: "),
+        ("sensor_to_world", "world_to_sensor", "transposed rotation: "),
+        (_UNITS, _UNITS.replace("N m", "N mm"), "mixed units: "),
+        (_UNITS, 'units = ["kgf", "kgf", "kgf", "N m", "N m", "N m"]', "check units of the wrench"),
+    ],
+)
+@pytest.mark.parametrize("count", [1, 2])
+def test_no_file_is_written_of_a_load_that_the_readings_contradict(
+    weighed: Path, run: Run, tmp_path: Path, count: int, old: str, new: str, match: str
+) -> None:
+    """A file with a wrong frame, sense or unit gives another load than what hangs there, alone and with others."""
+    text = weighed.read_text()
+    assert text.count(old) == 1
+    files = []
+    for number in range(count):
+        folder = tmp_path / str(number)
+        folder.mkdir()
+        (folder / "log.csv").write_bytes((weighed.parent / "log.csv").read_bytes())
+        (folder / "wrist.toml").write_text(text.replace(old, new).replace("100.0, 100.0, 200.0", "60.0, 60.0, 60.0"))
+        files.append(folder / "wrist.toml")
+    error = run("payload", *files, "--to", "gravity-filter", "--world-frame", "map", "-o", tmp_path / "load").error()
+    assert match in error
+    assert "mend that, and weigh again" in error
+    assert not (tmp_path / "load").exists()
+
+
+def test_a_tare_under_a_load_that_the_readings_contradict_writes_no_file(run: Run, tmp_path: Path) -> None:
+    """The new offset would hold twice the weight; the answer itself is still shown."""
+    path = write_postures(tmp_path, seed=8, postures=POSTURES)
+    text = (
+        path.read_text()
+        .replace(f"end_s = {HELD_S}", f"end_s = {7 * HELD_S}")
+        .replace(f"start_s = {HELD_S}", f"start_s = {7 * HELD_S}")
+    )
+    path.write_text(text.replace("child_to_parent", "parent_to_child"))
+    words = ("tare", path, "--interval", "second")
+    error = run(*words, "--to", "gravity-filter", "--world-frame", "map", "-o", tmp_path / "load").error()
+    assert "they say: reversed direction" in error
+    assert not (tmp_path / "load").exists()
+    assert run(*words).code == 0
+
+
+def test_a_robot_may_be_told_of_a_jump_and_that_nothing_hangs_there(run: Run, tmp_path: Path) -> None:
+    """These are warnings: a jump changes the load little, and a stated mass of 0 is what the user wants."""
+    jumped = write_postures(tmp_path, seed=9, postures=POSTURES)
+    rows = np.loadtxt(tmp_path / "log.csv", delimiter=",", skiprows=1)
+    rows[len(rows) // 2 :, 3] += 0.8
+    header = (tmp_path / "log.csv").read_text().split("\n", 1)[0]
+    np.savetxt(tmp_path / "log.csv", rows, delimiter=",", header=header, comments="", fmt="%.9g")
+    text = jumped.read_text()
+    jumped.write_text(
+        text.split("[[interval]]")[0] + '[[interval]]\nlabel = "all"\nstart_s = 0.0\nuse = "calibration"\n'
+    )
+    outcome = run("payload", jumped, "--to", "hrpsys", "-o", tmp_path / "load")
+    assert (outcome.code, "jump: the bias jumps in fz" in outcome.err) == (0, True)
+    jumped.write_text(text.replace(f"mass_kg = {MASS}", "mass_kg = 0.0"))
+    outcome = run("payload", jumped, "--to", "hrpsys", "-o", tmp_path / "load")
+    assert (outcome.code, "all masses are stated as 0" in outcome.err) == (0, True)
 
 
 def test_tare_shows_and_writes_the_offset(tmp_path: Path, run: Run) -> None:

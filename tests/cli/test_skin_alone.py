@@ -12,7 +12,8 @@ import pytest
 
 from forcetorque.experiment import load_shown
 from forcetorque.viewer import BuiltScene, scene_of
-from forcetorque.viewer.scene import SkinEventSeries, read_array
+from forcetorque.viewer.block import read_array
+from forcetorque.viewer.scene import SkinEventSeries
 from tests.cli.outcome import Run
 from tests.scenes.skin_alone import EVENTS, HEURISTIC, MESSAGES, PERIOD_S, TOUCHED, write_events
 from tests.scenes.touched import write_table, write_touched

@@ -94,6 +94,29 @@ def test_bad_warm_ups_are_refused_by_file(run: Run, shank: WarmShank) -> None:
     assert "no.toml" in run(*CALIBRATE, "no.toml").error()
 
 
+@pytest.mark.parametrize("stated", [False, True])
+def test_what_is_added_to_a_warm_up_is_said(run: Run, shank: WarmShank, stated: bool) -> None:
+    """A rate of rows that have no time, once and by the name of the warm-up; of one as it was logged, nothing."""
+    seconds, counts = counts_of(shank.recorded(WARM_UP))
+    np.savez("timed.npz", counts=counts if stated else np.column_stack([seconds, counts]))
+    first = 1 if stated else 2
+    time = f"rate_hz = {1.0 / np.median(np.diff(seconds))}\nstart_s = 0.0"
+    stream = f"""[[recording.stream]]
+name = "counts"
+variable = "counts"
+{time if stated else 'time = { column = 1, unit = "s" }'}
+signal = [{{ quantity = "taxel_counts", columns = [{first}, {counts.shape[1] + first - 1}], unit = "counts" }}]
+
+[[patch]]"""
+    text = Path("warm.toml").read_text(encoding="utf-8").replace('name = "warm"', 'name = "timed"')
+    log = text.replace('"parquet"', '"npz"').replace('path = "warm"', 'path = "timed.npz"')
+    Path("timed.toml").write_text(log.replace("[[patch]]", stream), encoding="utf-8")
+    answer = run("skin", "calibrate", "bag.toml", "-o", "timed.json", "--warm-up", "timed.toml", "--format", "json")
+    assert answer.code == 0
+    said = [line for line in answer.log if "no time is logged" in line]
+    assert [line.partition(": no time")[0] for line in said] == ["WARNING: warm-up 'timed': counts"] * stated
+
+
 def test_dead_pads_are_named(run: Run, shank: WarmShank) -> None:
     """In the warm-up, where others are learned, and in a recording, where the other pad of the module is enough."""
     recording = shank.recorded(WARM_UP)

@@ -56,11 +56,11 @@ def test_ranges_by_hand() -> None:
     ranges = channel_ranges(_stream(COUNTS), COUNTS, ("a", "b", "c"), limit_counts=LIMIT, recovered=False)
     free, full, dead = ranges
     assert (free.channel, free.smallest_counts, free.largest_counts) == ("a", -50.0, 250.0)
-    assert (free.headroom_below, free.headroom_above, free.headroom) == pytest.approx((0.95, 0.75, 0.75))
+    assert (free.headroom_below, free.headroom_above) == pytest.approx((0.95, 0.75))
     assert (free.peak_counts, free.saturated_share) == (250.0, 0.0)
     assert (full.headroom_below, full.headroom_above) == pytest.approx((0.1, 0.0))
     assert (full.saturated_samples, full.saturated_share) == (2, 0.5)
-    assert (dead.headroom, dead.peak_counts) == (1.0, 0.0)
+    assert (dead.headroom_below, dead.headroom_above, dead.peak_counts) == (1.0, 1.0, 0.0)
 
 
 def test_an_offset_takes_head_room_on_one_side() -> None:

@@ -50,11 +50,12 @@ def test_a_singular_matrix_has_no_finite_condition() -> None:
         matrix_condition(MOUNTED[:, :5])
 
 
-def test_the_full_scale_is_the_reachable_one_of_the_worse_direction() -> None:
+def test_the_full_scale_is_the_reachable_one_of_both_directions() -> None:
     """0.1 N per count, 1000 counts and an offset of 30 N: 130 N up, 70 N down, 100 N stated."""
     checks = matrix_checks(0.1 * np.eye(6), np.array([30.0, 0, 0, 0, 0, 0]), limit_counts=1000.0)
-    assert checks.least_full_scale is not None
-    np.testing.assert_allclose(checks.least_full_scale, [70.0, *[100.0] * 5], rtol=EXACT)
+    assert checks.full_scale is not None
+    np.testing.assert_allclose(checks.full_scale.positive, [130.0, *[100.0] * 5], rtol=EXACT)
+    np.testing.assert_allclose(checks.full_scale.negative, [-70.0, *[-100.0] * 5], rtol=EXACT)
     np.testing.assert_allclose(checks.stated_full_scale, np.full(6, 100.0), rtol=EXACT)
     np.testing.assert_allclose(checks.resolution.rms, np.full(6, 0.1), rtol=EXACT)
     mixed = matrix_checks(MOUNTED, OFFSET, limit_counts=LIMIT)
@@ -67,7 +68,7 @@ def test_the_full_scale_is_the_reachable_one_of_the_worse_direction() -> None:
 def test_without_a_full_scale_the_reason_is_there() -> None:
     """More channels than six, a singular matrix, a channel that is saturated without load."""
     wide = matrix_checks(np.hstack([MOUNTED, MOUNTED]), OFFSET, limit_counts=LIMIT)
-    assert (wide.least_full_scale, wide.no_full_scale[:16]) == (None, "with 12 channels")
+    assert (wide.full_scale, wide.no_full_scale[:16]) == (None, "with 12 channels")
     equal = np.array(MOUNTED)
     equal[4] = equal[3]
     assert "singular" in matrix_checks(equal, OFFSET, limit_counts=LIMIT).no_full_scale

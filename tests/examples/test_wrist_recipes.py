@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import numpy as np
@@ -78,19 +79,48 @@ def test_three_clocks_of_a_wrist(data_dir: Path, tmp_path: Path) -> None:
     experiment = _load(text, data_dir, tmp_path)
     imu, orientation = experiment.recording.clocks
     assert imu.delay_half_width_s is not None
-    assert (imu.delay_s, imu.delay_half_width_s) == (pytest.approx(0.0059, abs=5e-4), pytest.approx(0.00045, abs=1e-4))
+    assert (imu.delay_s, imu.delay_half_width_s) == (pytest.approx(0.0059, abs=5e-4), pytest.approx(0.00028, abs=1e-4))
     assert (orientation.delay_s, orientation.delay_half_width_s) == (0.0, None)
     assert [len(experiment.recording.stream(name)) for name in ("wrench", "imu", "orientation")] == [13126, 4778, 1880]
     load = weigh_load(SensorRun(experiment, experiment.sensors[0])).loads[0]
     assert load.mass_kg == pytest.approx(0.932, abs=0.04)
 
 
-def test_one_slow_turn_does_not_tell_the_clock_of_the_arm(data_dir: Path, tmp_path: Path) -> None:
-    """Negative control: of the first run alone it cannot be told, and is refused."""
+def test_slow_turns_tell_the_clock_of_the_arm(data_dir: Path, tmp_path: Path) -> None:
+    """Each of two runs alone agrees with the other within their intervals, and by the IMU as by the sensor."""
     text = (EXAMPLES / "25_wrist_clocks.toml").read_text().replace("delay_s = 0.0", 'delay_s = "estimate"')
-    text = text.replace('use = "validation"', 'use = "ignore"')
+    first, second = (_only(text, label) for label in ("baseline", "vibrations"))
+    told = [_load(one, data_dir, tmp_path).recording.clocks[1] for one in (first, second)]
+    (imu, _) = _load(second, data_dir, tmp_path).recording.clocks
+    begin, end = second.index("[[clock]]"), second.index("[[sensor]]")
+    by_imu = '[[clock]]\nstream = "orientation"\nto = "imu"\ndelay_s = "estimate"\n\n'
+    (around,) = _load(second[:begin] + by_imu + second[end:], data_dir, tmp_path).recording.clocks
+    pairs = [(told[0].delay_s, told[1].delay_s), (told[1].delay_s, imu.delay_s + around.delay_s)]
+    allowed = [sum(one.delay_half_width_s or np.inf for one in ends) for ends in (told, (told[1], around))]
+    assert max(allowed) < 0.03
+    assert all(abs(one - other) < most for (one, other), most in zip(pairs, allowed, strict=True))
+
+
+def test_a_run_that_touches_something_tells_no_clock(data_dir: Path, tmp_path: Path) -> None:
+    """Negative control: the orientation does not show what pushes."""
+    text = _only((EXAMPLES / "25_wrist_clocks.toml").read_text(), "contact")
+    stated = text.replace('delay_s = "estimate"', "delay_s = 0.006").replace(
+        "delay_s = 0.0\n", 'delay_s = "estimate"\n'
+    )
     with pytest.raises(RecordingError, match=r"clock\[1\]: .*does not tell the delay"):
-        _load(text, data_dir, tmp_path)
+        _load(stated, data_dir, tmp_path)
+
+
+def _only(text: str, label: str) -> str:
+    """The experiment with one interval that is used."""
+    head, *intervals = text.split("[[interval]]")
+    used = (
+        one.replace('use = "ignore"', 'use = "validation"')
+        if f'label = "{label}"' in one
+        else re.sub(r'use = "\w+"', 'use = "ignore"', one)
+        for one in intervals
+    )
+    return "[[interval]]".join([head, *used])
 
 
 def test_a_wrench_of_the_base_frame(data_dir: Path, tmp_path: Path) -> None:

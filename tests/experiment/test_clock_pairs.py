@@ -76,16 +76,13 @@ class Pair:
     """Whether its model has no mass beyond the sensor."""
     load: str = ""
     """Table of the experiment file that says what hangs there."""
-    held: int = 43
-    """Of 50 intervals, the fewest that must hold: at a true coverage of 95 % fewer do in one pair of 300."""
 
 
 PAIRS = {
     "gyro and joints": Pair(stream="gyro", to="joints", shown_by="angular_velocity of 'gyro'", model=True),
     "accelerometer and joints": Pair(stream="accelerometer", to="joints", shown_by="and joints of", model=True),
     "gyro and orientation": Pair(stream="gyro", to="pose", shown_by="and orientation of 'pose'"),
-    # it also feels what moves it, in step with the turning: that is no noise of which 20 stretches are independent
-    "accelerometer and gravity": Pair(stream="accelerometer", to="pose", shown_by="and gravity of 'pose'", held=38),
+    "accelerometer and gravity": Pair(stream="accelerometer", to="pose", shown_by="and gravity of 'pose'"),
     "wrench and accelerometer": Pair(
         stream="wrench", to="accelerometer", shown_by="and proper_acceleration of 'accelerometer'"
     ),
@@ -239,13 +236,16 @@ def test_noise_of_an_arm_at_rest_tells_no_clock(name: str) -> None:
         told(PAIRS[name], 3, delay_s=0.05, still=True)
 
 
-DRAWS = 50
+DRAWS, HELD = 50, 43
 
 
 @pytest.mark.long
 @pytest.mark.parametrize("name", PAIRS)
 def test_intervals_of_each_pair_hold_what_was_planted(name: str) -> None:
-    """Of 50 draws most hold the delay and at most two are refused; of 50 arms at rest none is given a delay."""
+    """Of 50 draws most hold the delay and at most two are refused; of 50 arms at rest none is given a delay.
+
+    At a true coverage of 95 % fewer than 43 hold in one pair of 300; at 85 % 43 or more hold with 0.5.
+    """
     rng = np.random.default_rng(40)
     inside, refused, believed = 0, 0, 0
     for seed in range(2000, 2000 + DRAWS):
@@ -265,4 +265,4 @@ def test_intervals_of_each_pair_hold_what_was_planted(name: str) -> None:
     counts = {"inside": inside, "refused": refused, "believed": believed}
     assert believed == 0, counts
     assert refused <= 2, counts
-    assert inside >= PAIRS[name].held, counts
+    assert inside >= HELD, counts

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -11,8 +12,9 @@ from scipy.spatial.transform import Rotation
 
 from forcetorque.loads import Load, LoadProblem, solve
 from forcetorque.loads.fit import fit
+from forcetorque.loads.scale import scales
 from forcetorque.spatial import MeasureDirection
-from tests.loads.payloads import CENTRE, MASS, SIZES, PowerUps, poses, problem_of, weight
+from tests.loads.payloads import CENTRE, MASS, SIZES, PowerUps, poses, problem_of, slow, weight
 
 BIAS = np.array([5.0, -3.0, 12.0, 0.5, -0.2, 0.1])
 COUNT = 30
@@ -98,6 +100,36 @@ CASES: dict[str, tuple[Callable[[], LoadProblem], str, str]] = {
         "mixed units",
         "forces are in kg: multiply by 9.80665",
     ),
+    "kgf": (
+        lambda: problem_of(_reading() * 9.80665, GRAVITY, loads=KNOWN),
+        "mixed units",
+        "forces change by 9.80",
+    ),
+    "N mm of a stated load": (
+        lambda: problem_of(_reading() * np.repeat([1, 1000], 3), GRAVITY, loads=KNOWN),
+        "mixed units",
+        "moments are in N mm; state the units",
+    ),
+    "N m of a stated load": (
+        lambda: problem_of(_reading() / np.repeat([1, 1000], 3), GRAVITY, loads=KNOWN),
+        "mixed units",
+        "moments are in N m, not in N mm",
+    ),
+    "twelve times": (
+        lambda: problem_of(_reading() * 12.0, GRAVITY, loads=KNOWN),
+        "another size",
+        "check the units of the columns, and mass_kg",
+    ),
+    "another tool": (
+        lambda: problem_of(_reading(), GRAVITY, loads=(replace(KNOWN[0], mass=0.4 * MASS),)),
+        "another size",
+        "and mass_kg",
+    ),
+    "nothing of a stated load": (
+        lambda: problem_of(_reading(0.0 * GRAVITY), GRAVITY, loads=KNOWN),
+        "another size",
+        "of what the stated loads make of them",
+    ),
     "frozen": (lambda: problem_of(np.tile(BIAS, (COUNT, 1)), GRAVITY), "frozen log", "30 rows have the same reading"),
     "nothing": (
         lambda: problem_of(_reading(0.0 * GRAVITY), GRAVITY),
@@ -133,6 +165,26 @@ def test_bad_input_is_named(name: str) -> None:
 def test_sound_input_has_no_name(problem: Callable[[], LoadProblem]) -> None:
     """Negative control: slow noise, drift and several power-ups are none of these."""
     assert solve(problem()).hypotheses == ()
+
+
+def test_a_stated_load_is_of_the_size_that_is_read() -> None:
+    """Of 100 sensors that err by 15 % under slow noise none is said to read another size; with moments in N mm 95 are.
+
+    Loads of 0.05 to 2 kg, 4 to 40 rows; of 400 other draws none, and 394. If 3 % of sound ones were named one run in
+    twenty would pass; if 90 % of wrong ones, one in seventeen.
+    """
+    rng, sound, named = np.random.default_rng(6), 0, 0
+    for _ in range(100):
+        count, mass, centre = int(rng.integers(4, 40)), rng.uniform(0.05, 2.0), 0.05 * rng.normal(size=3)
+        gravity = poses(count, rng)
+        error = 0.15 * rng.normal(size=(6, 6)) * np.outer([10.0] * 3 + [1.0] * 3, [0.1] * 3 + [1.0] * 3)
+        noise = SIZES * (rng.normal(size=(count, 6)) + 3.0 * np.stack([slow(count, 10.0, rng) for _ in range(6)], 1))
+        reading = weight(gravity, mass, centre) @ (np.eye(6) + error).T + noise
+        load = (Load(name="tool", mass=mass, centre_of_mass=centre),)
+        sound += any(scales(problem_of(reading, gravity, loads=load)))
+        named += any(scales(problem_of(reading * np.repeat([1, 1000], 3), gravity, loads=load)))
+    assert sound == 0
+    assert named >= 95
 
 
 def test_a_row_that_disagrees_is_named_and_counts_less() -> None:

@@ -8,7 +8,7 @@ from scipy.spatial.transform import Rotation
 
 from forcetorque.arrays import FloatArray
 from forcetorque.viewer import BuiltScene
-from forcetorque.viewer.scene import read_array
+from forcetorque.viewer.block import read_array
 
 
 def link_poses(built: BuiltScene, sample: int) -> dict[str, FloatArray]:

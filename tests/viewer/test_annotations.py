@@ -19,7 +19,7 @@ from forcetorque.errors import ForceTorqueError
 from forcetorque.experiment import load_experiment
 from forcetorque.viewer import BuiltScene, build_scene
 from forcetorque.viewer.annotations import Annotations, intervals_toml, samples_csv, save_annotations
-from forcetorque.viewer.scene import read_array
+from forcetorque.viewer.block import read_array
 from tests.experiment.test_wrist_load import _write as write_wrist
 from tests.scenes.experiments import JOINTS, PARQUET, add, edit
 

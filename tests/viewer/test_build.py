@@ -24,7 +24,8 @@ from forcetorque.recording import Stream, Use
 from forcetorque.recording.alignment import interpolate
 from forcetorque.spatial import MeasureDirection
 from forcetorque.viewer import BuiltScene, build_scene
-from forcetorque.viewer.scene import ArrayRef, Sensor, WrenchSeries, read_array, scene_json
+from forcetorque.viewer.block import read_array
+from forcetorque.viewer.scene import ArrayRef, Sensor, WrenchSeries, scene_json
 from tests.scenes.experiments import DURATION_S, JOINTS, PARQUET, RATE_HZ, TWO, YARP, add, edit
 
 FLOAT32 = 2e-7

@@ -11,9 +11,9 @@ import pytest
 
 from forcetorque.errors import FormatError, MissingExtraError
 from forcetorque.robot import read_urdf
+from forcetorque.viewer.block import Block, read_array
 from forcetorque.viewer.geometry import Geometry, robot_geometry
 from forcetorque.viewer.mesh_files import Triangles, find_mesh, package_folders, read_mesh
-from forcetorque.viewer.scene import Block, read_array
 from forcetorque.viewer.simplify import MOST_TRIANGLES, clustered, simplified
 from forcetorque.viewer.visuals import GREY, read_visuals
 from tests.scenes.robots import PENDULUM_URDF, icub, joint_xml, robot_xml

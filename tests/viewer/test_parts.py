@@ -16,7 +16,8 @@ from forcetorque.calibration import Calibration
 from forcetorque.experiment import Experiment, load_experiment
 from forcetorque.recording import Use
 from forcetorque.viewer import View, build_scene
-from forcetorque.viewer.scene import Sensor, read_array
+from forcetorque.viewer.block import read_array
+from forcetorque.viewer.scene import Sensor
 from tests.scenes.experiments import TWO
 
 FLOAT32 = 1e-5

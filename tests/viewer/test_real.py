@@ -10,7 +10,7 @@ import pytest
 
 from forcetorque.experiment import load_experiment, parse_experiment
 from forcetorque.viewer import BuiltScene, build_scene
-from forcetorque.viewer.scene import read_array
+from forcetorque.viewer.block import read_array
 from tests.viewer.poses import link_poses
 
 pytestmark = pytest.mark.real_data

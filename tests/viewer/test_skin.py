@@ -23,7 +23,9 @@ from forcetorque.simulation.skin import ContactTruth, Loading
 from forcetorque.viewer import BuiltScene, scene_of
 from forcetorque.viewer import skin as viewer_skin
 from forcetorque.viewer import skin_events as viewer_events
-from forcetorque.viewer.scene import Block, SkinContactFrames, read_array
+from forcetorque.viewer.block import read_array
+from forcetorque.viewer.draft import SceneDraft
+from forcetorque.viewer.scene import SkinContactFrames
 from forcetorque.viewer.skin import scene_skin
 from forcetorque.viewer.skin_contacts import half_axes
 from forcetorque.viewer.skin_events import scene_skin_events
@@ -152,19 +154,19 @@ def test_a_patch_that_cannot_be_shown_is_noted(
     """It is left out, and the note says what to change."""
     folder = Path(shutil.copytree(skin_arm[0], tmp_path / "copy"))
     edit(folder / SKIN, old, new)
-    notes = list[str]()
-    assert scene_skin(load_patches(folder / SKIN), (LINK,), Block(), notes, []) == ()
-    assert any(note in line for line in notes)
+    draft = SceneDraft()
+    assert scene_skin(load_patches(folder / SKIN), (LINK,), draft) == ()
+    assert any(note in line for line in draft.notes)
 
 
 def test_contacts_on_another_clock_are_noted(skin_arm: tuple[Path, Sequence[ContactTruth]]) -> None:
     """Stamps of two clocks are never laid beside each other."""
     streams = load_experiment(skin_arm[0] / SKIN).recording.streams
-    recording, notes = Recording(streams={EVENTS: streams[EVENTS]}), list[str]()
-    assert scene_skin_events(recording, "other", ("hand",), Block(), notes) == ()
-    assert "their clock is" in notes[0]
-    assert scene_skin_events(recording, streams[EVENTS].clock, ("forearm",), Block(), notes) == ()
-    assert "no link 'hand'" in notes[1]
+    recording, draft = Recording(streams={EVENTS: streams[EVENTS]}), SceneDraft()
+    assert scene_skin_events(recording, "other", ("hand",), draft) == ()
+    assert "their clock is" in draft.notes[0]
+    assert scene_skin_events(recording, streams[EVENTS].clock, ("forearm",), draft) == ()
+    assert "no link 'hand'" in draft.notes[1]
 
 
 @pytest.mark.real_data
@@ -175,9 +177,9 @@ def test_contacts_of_a_real_robot(data_dir: Path, tmp_path: Path, name: str, par
         (tmp_path / f"{kind}.log").symlink_to(data_dir / "icub_skin_events_pps" / f"{name}_{kind}.log")
     wanted = [SkinPart(number=number, stream=f"part {number}", frame=f"frame_{number}") for number in parts]
     streams = [reading.stream for reading in read_skin_events(tmp_path, parts=wanted)]
-    recording, block, notes = Recording(streams={one.name: one for one in streams}), Block(), list[str]()
+    recording, draft = Recording(streams={one.name: one for one in streams}), SceneDraft()
     frames = [part.frame for part in wanted]
-    shown = scene_skin_events(recording, streams[0].clock, frames, block, notes)
+    shown = scene_skin_events(recording, streams[0].clock, frames, draft)
     rows, pictures = skin_event_rows(recording)
     # a contact of a message whose stamp repeats the one before has no instant of its own
     repeated = len(streams[0]) - len(usable_samples(streams[0].stamp_ns))
@@ -185,6 +187,6 @@ def test_contacts_of_a_real_robot(data_dir: Path, tmp_path: Path, name: str, par
     for number, one, row in zip(parts, shown, rows, strict=True):
         assert parts[number] - 3 * repeated <= row.contacts == one.contacts.force.shape[0] <= parts[number]
         assert one.contacts.spread is None
-    assert all("not newtons" in note for note in notes)
+    assert all("not newtons" in note for note in draft.notes)
     assert len(png_bytes(skin_event_figure(pictures))) > 10_000
-    assert scene_skin_events(recording, "another", frames, block, notes) == ()
+    assert scene_skin_events(recording, "another", frames, draft) == ()

@@ -14,7 +14,9 @@ from forcetorque.cli.output import Format, refuse_standard_output, report_error,
 from forcetorque.errors import ExperimentError, FitError, ForceTorqueError, known_names
 
 if TYPE_CHECKING:
-    from forcetorque.analysis import SensorCalibrations
+    import logging
+
+    from forcetorque.analysis import Campaign, SensorCalibrations
     from forcetorque.calibration import EstimationType, RecordingMoments
     from forcetorque.experiment import Experiment
 
@@ -79,6 +81,7 @@ def calibrate(
     Example: forcetorque calibrate cold.toml warm.toml -o calibrations
     """
     from datetime import UTC, datetime
+    from functools import partial
     from importlib.metadata import version
 
     from forcetorque import analysis
@@ -100,8 +103,14 @@ def calibrate(
     names = _sensors(contents, stored, sensor)
     files = _files(output, names)
     refuse_inputs(files, experiments)
-    lambda_, chosen = _lambda(regularisation), _kind(kind)
-    created = datetime.now(UTC).isoformat(timespec="seconds")
+    fit = partial(
+        analysis.calibrate_for_file,
+        code_version=version("forcetorque"),
+        created=datetime.now(UTC).isoformat(timespec="seconds"),
+        regularisation=_lambda(regularisation),
+        kind=_kind(kind),
+        nonlinear=nonlinear,
+    )
     results, refusals = [], []
     for (name, serial), file in zip(names, files, strict=True):
         log.info("fitting %s (%s)", name, serial)
@@ -111,32 +120,34 @@ def calibrate(
             with stated_in(f"{experiments[0]}: sensor {name!r}" if len(experiments) == 1 else f"sensor {name!r}"):
                 if moments is not None and campaign is not None:
                     analysis.store_moments(campaign, moments)
-                results.append(
-                    analysis.calibrate_for_file(
-                        campaign,
-                        file,
-                        code_version=version("forcetorque"),
-                        created=created,
-                        moments=own,
-                        regularisation=lambda_,
-                        kind=chosen,
-                        nonlinear=nonlinear,
-                    )
-                )
+                results.append(fit(campaign, file, moments=own))
         except ForceTorqueError as error:  # a limb that stands still says nothing against the others
             refusals.append(error)
-            for run in campaign.runs if campaign else ():
-                for sentence in analysis.data_doubts(run):  # what may be the reason
-                    log.warning("%s", sentence)
+            _warn_of_doubts(campaign, log)
     if results:
-        calibrations = analysis.SensorCalibrations.together(results).save()
-        if figure is not None:
-            try:
-                calibrations = _drawn(calibrations, figure)
-            except ForceTorqueError as error:  # what was fitted is written and shown all the same
-                refusals.append(error)
-        show(calibrations, output_format)
+        refusals += _show(analysis.SensorCalibrations.together(results).save(), figure, output_format)
     _end(refusals)
+
+
+def _warn_of_doubts(campaign: Campaign | None, log: logging.Logger) -> None:
+    """Say what is doubtful in the data of a sensor that could not be fitted: it may be the reason."""
+    from forcetorque.analysis import data_doubts
+
+    for run in campaign.runs if campaign else ():
+        for sentence in data_doubts(run):
+            log.warning("%s", sentence)
+
+
+def _show(calibrations: SensorCalibrations, figure: Path | None, output_format: Format) -> list[ForceTorqueError]:
+    """Draw and show what was fitted; what cannot be drawn is shown all the same, and the refusal comes back."""
+    refusals = []
+    if figure is not None:
+        try:
+            calibrations = _drawn(calibrations, figure)
+        except ForceTorqueError as error:
+            refusals.append(error)
+    show(calibrations, output_format)
+    return refusals
 
 
 def _drawn(calibrations: SensorCalibrations, figure: Path) -> SensorCalibrations:

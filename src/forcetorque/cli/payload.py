@@ -44,7 +44,7 @@ def payload(
     with stated_in(", ".join(str(path) for path in experiments)):
         load = analysis.weigh_load(runs)
         if output is not None and to is not None:
-            together = load.loads[0] if len(runs) > 1 else None
+            together = load if len(runs) > 1 else None
             robot = analysis.robot_load(runs[-1], load.sessions[-1].bias, weighed=together)
             log.info("the bias is that of %r, the last power-up", load.sessions[-1].session)
             write_load(robot, output, to, world_frame=world_frame, sensor_pose=sensor_pose, log=log)

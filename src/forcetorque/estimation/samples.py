@@ -12,6 +12,7 @@ from forcetorque.arrays import FloatArray, IntArray, read_only, require_shape
 from forcetorque.constants import STANDARD_GRAVITY
 from forcetorque.errors import RecordingError
 from forcetorque.estimation.estimate import Evaluator, estimate
+from forcetorque.estimation.joint_unit import require_joints_in_radians
 from forcetorque.estimation.needs import required_joints_of
 from forcetorque.estimation.picked import padded_samples
 from forcetorque.estimation.question import Question
@@ -224,6 +225,9 @@ def robot_motion_at(
 
     Returns:
         Motion of the joints, and of those between an IMU and the support; motion of the support frame.
+
+    Raises:
+        RecordingError: If positions are far beyond the limits of the robot, and within them as degrees.
     """
     needed = tuple(dict.fromkeys((*joints, *joints_to_support(model, recording, support))))
     for used in ("position", "velocity", "acceleration") if processing.logged_derivatives else ("position",):
@@ -235,5 +239,6 @@ def robot_motion_at(
             require_overlap(source, recording.stream(stream))
     window = processing.derivative_window
     motion = joint_motion_at(recording, needed, at_ns, window=window, logged_derivatives=processing.logged_derivatives)
+    require_joints_in_radians(model, motion)
     root = support_motion_at(model, recording, support, motion, at_ns, window=window, gravity=processing.gravity)
     return motion, root

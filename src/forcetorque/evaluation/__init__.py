@@ -3,12 +3,8 @@
 
 from forcetorque.evaluation.autocorrelation import Autocorrelation, autocorrelation
 from forcetorque.evaluation.candidate_errors import CandidateErrors, PooledErrors, candidate_errors, evaluator_of_work
-from forcetorque.evaluation.contact_force import (
-    ContactForces,
-    ContactForceValidation,
-    OtherSensors,
-    contact_forces,
-)
+from forcetorque.evaluation.contact_force import ContactForces, contact_forces
+from forcetorque.evaluation.contact_force_validation import ContactForceValidation, OtherSensors
 from forcetorque.evaluation.gains import (
     MARGIN,
     AxisResolution,

@@ -74,11 +74,6 @@ class ChannelRange:
         return 1.0 - self.largest_counts / self.limit_counts
 
     @property
-    def headroom(self) -> float:
-        """What is left towards the nearer limit; share of the limit."""
-        return min(self.headroom_below, self.headroom_above)
-
-    @property
     def peak_counts(self) -> float:
         """Largest magnitude of a reading; counts."""
         return max(abs(self.smallest_counts), abs(self.largest_counts))

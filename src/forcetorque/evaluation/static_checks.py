@@ -37,14 +37,6 @@ class MatrixChecks:
         stated = read_only(self.stated_full_scale, name="stated_full_scale", shape=(6,))
         object.__setattr__(self, "stated_full_scale", stated)
 
-    @property
-    def least_full_scale(self) -> FloatArray | None:
-        """The smaller reachable full scale of both directions of each axis; shape (6,); N, N m."""
-        if self.full_scale is None:
-            return None
-        smaller: FloatArray = np.minimum(self.full_scale.positive, -self.full_scale.negative)
-        return smaller
-
 
 def matrix_checks(matrix: FloatArray, offset: FloatArray, *, limit_counts: float) -> MatrixChecks:
     """Check a calibration without any load.

@@ -57,7 +57,7 @@ class Run(SensorRun):
             moments: What was kept of other recordings, for the generative model.
 
         Returns:
-            The calibration.
+            The calibration; its `doubts` say why what was fitted may be wrong.
         """
         answer = analysis.calibrate_for_file(
             [self, *more],

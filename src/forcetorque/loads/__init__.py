@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Known loads: loads, biases and mounting of one sensor from readings under loads, in one estimation problem."""
 
-from forcetorque.loads.expected import Guess, instants, load_wrench
+from forcetorque.loads.expected import instants, load_wrench
+from forcetorque.loads.guess import Guess
 from forcetorque.loads.load import Load
 from forcetorque.loads.open import spanned_directions
 from forcetorque.loads.partly_known import MatrixSpread, settled

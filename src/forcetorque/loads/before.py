@@ -6,7 +6,8 @@ from __future__ import annotations
 import numpy as np
 
 from forcetorque.arrays import FloatArray
-from forcetorque.loads.expected import Guess, inertial
+from forcetorque.loads.expected import inertial
+from forcetorque.loads.guess import Guess
 from forcetorque.loads.problem import LoadProblem
 from forcetorque.loads.unknowns import OF_LOAD, Kind, places
 

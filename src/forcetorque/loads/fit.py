@@ -10,8 +10,9 @@ import numpy as np
 
 from forcetorque.arrays import BoolArray, FloatArray
 from forcetorque.loads.before import before
-from forcetorque.loads.expected import Guess, changes, expected
+from forcetorque.loads.expected import changes, expected
 from forcetorque.loads.groups import groups_of, noise_sizes, sizes_under
+from forcetorque.loads.guess import Guess
 from forcetorque.loads.mixture import Estimate, Prior, estimate
 from forcetorque.loads.mounting import first_mount
 from forcetorque.loads.problem import LoadProblem

@@ -13,12 +13,14 @@ from dataclasses import replace
 import numpy as np
 
 from forcetorque.arrays import FloatArray
-from forcetorque.loads.expected import Guess, load_wrench, masses, turned_by
+from forcetorque.loads.expected import masses, turned_by
 from forcetorque.loads.fit import Fit, plain_fit
+from forcetorque.loads.guess import Guess
 from forcetorque.loads.jump import strongest_jump
 from forcetorque.loads.mounting import first_mount, quarter_turns, turn_words
 from forcetorque.loads.problem import LoadProblem
 from forcetorque.loads.rows import LoadRows
+from forcetorque.loads.scale import scales
 from forcetorque.loads.solution import Hypothesis
 from forcetorque.loads.unknowns import Kind
 from forcetorque.spatial import FORCE_AND_MOMENT, WRENCH_COMPONENTS, MeasureDirection
@@ -64,6 +66,7 @@ def hypotheses(fitted: Fit, *, drift: bool) -> tuple[Hypothesis, ...]:
             share = unexplained(other.rows, plain_fit(other, drift=drift)[1]) / stated
             if share < limit:
                 named.append(Hypothesis(name=name, words=words, residual_share=share))
+    named += [account for account in scales(problem) if account.name == "mixed units" or not named]
     named += [*_lag(problem, residual, drift=drift), *_jump(fitted, residual, drift=drift)]
     return tuple(sorted(named, key=lambda one: one.residual_share))
 
@@ -165,7 +168,6 @@ def _of_sizes(problem: LoadProblem, guess: Guess) -> Iterator[Hypothesis]:
                 "state the units of the columns"
             )
             yield Hypothesis(name="mixed units", words=words, residual_share=1.0)
-    yield from _scale(problem)
     still = ~(rows.wrench != rows.wrench[:1]).any()
     if len(rows) > 1 and still:
         words = f"all {len(rows)} rows have the same reading: the log is frozen, or nothing was read"
@@ -191,15 +193,6 @@ def _of_short_levers(fitted: Fit) -> Iterator[Hypothesis]:
             yield Hypothesis(name="mixed units", words=words, residual_share=1.0)
 
 
-_UNITS = {
-    1.0 / 9.80665: "forces are in kg: multiply by 9.80665 m/s2",
-    1e3: "forces are in mN",
-    1e-3: "forces are in kN",
-    4.44822**-1: "forces are in lbf",
-}
-"""What readings are over what they should be, where their unit is another one."""
-
-
 def _of_nothing(fitted: Fit) -> Iterator[Hypothesis]:
     """Loads that weigh nothing, by what is stated or by the readings."""
     problem, half = fitted.problem, fitted.half_width
@@ -214,27 +207,6 @@ def _of_nothing(fitted: Fit) -> Iterator[Hypothesis]:
             words = f"the mass of {problem.loads[one.owner].name!r} is not told from 0 although gravity turns"
             sentence = f"{words}: nothing hangs on the sensor, or it was not read"
             yield Hypothesis(name="no load", words=sentence, residual_share=1.0)
-
-
-def _scale(problem: LoadProblem) -> Iterator[Hypothesis]:
-    """Readings that are a multiple of the weight of stated masses, by a known unit."""
-    if not problem.loads or any(load.mass is None for load in problem.loads):
-        return
-    rows = problem.rows
-    weight = load_wrench(problem, plain_fit(problem, drift=False)[0])[:, :3].copy()
-    force = rows.wrench[:, :3].copy()
-    for session in np.unique(rows.session):
-        mine = rows.session == session
-        weight[mine] -= weight[mine].mean(axis=0)
-        force[mine] -= force[mine].mean(axis=0)
-    square = float((weight**2).sum())
-    scale = float((weight * force).sum()) / square if square > 0.0 else 1.0
-    for unit, words in _UNITS.items():
-        if abs(scale / unit - 1.0) < 0.02:
-            sentence = (
-                f"readings are {scale:.4g} of the weight of the stated masses: {words}; state the units of the columns"
-            )
-            yield Hypothesis(name="mixed units", words=sentence, residual_share=1.0)
 
 
 def _lag(problem: LoadProblem, residual: FloatArray, *, drift: bool) -> Iterator[Hypothesis]:

@@ -24,9 +24,10 @@ from forcetorque.arrays import FloatArray, IntArray
 from forcetorque.calibration.generative.assumptions import FRAME, SENSOR, Assumptions
 from forcetorque.calibration.generative.rows import rows_of
 from forcetorque.errors import FitError
-from forcetorque.loads.expected import Guess, load_columns, load_wrench
+from forcetorque.loads.expected import load_columns, load_wrench
 from forcetorque.loads.fit import plain_fit
 from forcetorque.loads.groups import noise_sizes
+from forcetorque.loads.guess import Guess
 from forcetorque.loads.problem import LoadProblem
 from forcetorque.loads.unknowns import Kind
 from forcetorque.spatial import reading_sign

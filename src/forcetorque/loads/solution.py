@@ -9,7 +9,7 @@ from typing import Literal
 import numpy as np
 
 from forcetorque.arrays import FloatArray, read_only
-from forcetorque.loads.expected import Guess
+from forcetorque.loads.guess import Guess
 from forcetorque.loads.load import INERTIAL
 from forcetorque.spatial import Inertia
 

@@ -5,8 +5,9 @@
 
 Matrix, offset and trend are not known, and the noise of every column is what is left of it. The delay is the one under
 which least is left (the likelihood of columns whose noise is not known), looked for step by step and refined on the
-spline of the reference. Noise lasts from sample to sample, so its interval does not count samples: it takes what the
-equation of the delay leaves in each of `BLOCKS` stretches of equal information as independent, with Student's t.
+spline of the reference. Noise lasts from sample to sample, and what the reference does not explain of the motion lasts
+longer, so its interval does not count samples: it takes what the equation of the delay leaves in the slowest waves
+along the recording as independent, with Student's t.
 """
 
 from __future__ import annotations
@@ -24,10 +25,12 @@ from forcetorque.recording.delay_equation import DelayEquation, Stretch, even_me
 from forcetorque.recording.lag import EvenPair, residual_at_lags
 
 BLOCKS = 20
-"""Stretches that count as independent. Fewer make intervals wide, more too narrow where noise lasts."""
+"""Stretches of equal information that count as independent where two delays are compared."""
 
 _SURE = 4.0
 """Standard errors by which the best delay must beat every other, and none at all."""
+_NEAR_STEPS = 2.0
+"""Steps of time within which a delay lies from where it is best on the grid."""
 _MOST_STEPS = 20_000
 """Steps of time that are compared; of longer or denser logs means are taken."""
 _SHORTEST = 10.0
@@ -121,11 +124,11 @@ def estimate_delay(
         step_s=step,
         middle_s=middle,
     )
-    drifting, steady = (equation.solved(best * step, with_drift=drift, blocks=BLOCKS) for drift in (True, False))
+    drifting, steady = (equation.solved(best * step, with_drift=drift) for drift in (True, False))
     root = drifting if with_drift else steady
     delay, half = root.values[0], half_width(root.standard_error, root.degrees_of_freedom)
     most_s = _WIDEST * within_s
-    if not half[0] <= most_s or abs(delay - best * step) > max(2.0 * step, 2.0 * half[0]):
+    if not half[0] <= most_s or abs(delay - best * step) > max(_NEAR_STEPS * step, 2.0 * half[0]):
         raise RecordingError(
             f"what both saw does not tell the delay: its 95 % interval is ± {half[0]:.3g} s, where ± {most_s:.3g} s is "
             "the most that says anything; record faster motion, or state delay_s"
@@ -179,11 +182,19 @@ def _minima(surprise: FloatArray, lags: IntArray) -> list[int]:
     return [int(lag) for lag in lags[least]]
 
 
+def _own_best(equation: DelayEquation, rival: float, best: float) -> float:
+    """A rival at its own best: on the grid alone, the one that happens to lie nearer to a step would win."""
+    refined = float(equation.solved(rival, with_drift=False).values[0])
+    if abs(refined - rival) <= _NEAR_STEPS * equation.step:
+        return refined
+    # steps that run away from it may end at the best of all, which is no rival of itself
+    near = rival + equation.step * np.linspace(-_NEAR_STEPS, _NEAR_STEPS, 17)
+    return float(min(near, key=lambda at: equation.advantage(best, at, blocks=BLOCKS)))
+
+
 def _require_one_answer(equation: DelayEquation, best: float, rivals: list[float], around_s: float) -> None:
     """Refuse a delay that others explain as well, or nothing does."""
-    # each at its own best: on the grid alone, the one that happens to lie nearer to a step would win
-    refined = (float(equation.solved(rival, with_drift=False, blocks=BLOCKS).values[0]) for rival in rivals)
-    for rival in (None, *refined):
+    for rival in (None, *(_own_best(equation, rival, best) for rival in rivals)):
         if equation.advantage(best, rival, blocks=BLOCKS) < _SURE:
             other = "none at all" if rival is None else f"one of {around_s + rival:.3g} s"
             raise RecordingError(

@@ -19,6 +19,9 @@ _SMOOTH_STEPS = 2.0
 """Standard deviation of the smoothing, in steps of time: of what has half the fastest frequency it leaves 1 %."""
 _ROUNDING = 1e-9
 """Part of the largest singular value below which a direction of the reference does not move."""
+_WAVES = 6
+"""Half waves along the recording that tell the error of its sum. Fewer make intervals wide, more too narrow where what
+is left lasts long: of a reading that the reference leaves part of, as long as the slowest motion."""
 _FEWEST_STEPS = 10
 """Steps of time in a block, at least."""
 
@@ -90,19 +93,15 @@ class DelayEquation:
         own = number[:, None] == np.arange(len(stretches))
         self._constant = np.hstack([own, own * along[:, None]]).astype(np.float64)
 
-    def solved(self, start: float, *, with_drift: bool, blocks: int) -> Root:
+    def solved(self, start: float, *, with_drift: bool) -> Root:
         """Solve it.
 
         Args:
             start: Delay to begin with, within a step or two of the solution; s.
             with_drift: Whether the delay grows with time.
-            blocks: Stretches of equal information that count as independent.
 
         Returns:
             The solution.
-
-        Raises:
-            RecordingError: If too little was recorded.
         """
         theta = np.array([start, 0.0]) if with_drift else np.array([start])
         near = _NEAR * self.step / np.array([1.0, max(float(np.abs(self.since).max()), self.step)])[: len(theta)]
@@ -113,21 +112,20 @@ class DelayEquation:
             if (np.abs(change) < _CLOSE * near).all():
                 break
         left = self._left(theta)
-        sums = _block_sums(left.score, left.information, blocks)
-        count, q = sums.shape
+        q = len(theta)
         # of a reference with noise only the derivative of the equation itself tells how sharp the solution is
         slope = np.column_stack(
             [(self._score(theta - d) - self._score(theta + d)) / (2.0 * d[k]) for k, d in enumerate(np.diag(near))]
         )
         inverse = np.linalg.pinv(slope)
-        spread = sums - sums.mean(axis=0)
-        covariance = inverse @ (spread.T @ spread * count / (count - 1.0)) @ inverse.T
+        waves = _slow_waves(left.score, left.information)
+        covariance = inverse @ (waves.T @ waves / len(waves)) @ inverse.T
         sharp = bool((np.linalg.eigvals(slope).real > 0.0).all())
         error = np.sqrt(np.diag(covariance)) if sharp else np.full(q, np.inf)
         return Root(
             values=theta,
             standard_error=error,
-            degrees_of_freedom=np.full(q, float(count - q)),
+            degrees_of_freedom=np.full(q, float(len(waves))),
             explained=self._explained(left.error),
         )
 
@@ -234,6 +232,16 @@ def _projection(design: FloatArray, values: FloatArray) -> tuple[FloatArray, Flo
     basis = left[:, kept]
     coefficients = (right[kept].T / singular[kept]) @ (basis.T @ values) / scale[:, None]
     return basis, coefficients
+
+
+def _slow_waves(score: FloatArray, information: FloatArray) -> FloatArray:
+    """What the slowest waves along the recording have of the score; shape (`_WAVES`, q)."""
+    # each has the variance of the sum, however long the score lasts, if that is short of a wave: the estimate by evenly
+    # weighted cosines of Lazarus, Lewis, Stock and Watson, HAR inference (2018); time counts as information does
+    total = np.cumsum(information)
+    at = (total - 0.5 * information) / total[-1]
+    waves: FloatArray = np.sqrt(2.0) * np.cos(np.pi * np.arange(1, _WAVES + 1)[:, None] * at) @ score
+    return waves
 
 
 def _block_sums(values: FloatArray, information: FloatArray, blocks: int) -> FloatArray:

@@ -4,15 +4,14 @@
 from __future__ import annotations
 
 import math
-import re
 
 from forcetorque.constants import STANDARD_GRAVITY
+from forcetorque.decimal_text import DECIMAL_NUMBER
 from forcetorque.errors import UnitError, known_names
 
 _POUND_FORCE = 4.4482216152605
 """One pound-force in N, by definition of pound and standard gravity."""
 _INCH = 0.0254
-_NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?", re.ASCII)
 
 SI_FACTORS: dict[str, tuple[str, float]] = {
     "N": ("N", 1.0),
@@ -66,7 +65,7 @@ def si_factor(unit: str) -> tuple[str, float]:
     if unit in SI_FACTORS:
         return SI_FACTORS[unit]
     number, _, name = unit.partition(" ")
-    if name not in SI_FACTORS or not _NUMBER.fullmatch(number):
+    if name not in SI_FACTORS or not DECIMAL_NUMBER.fullmatch(number):
         raise UnitError(f"unknown unit {unit!r}; {known_names(unit, SI_FACTORS)}, and with a factor, such as '1e-6 N'")
     factor = float(number)
     if not 0.0 < factor < math.inf:

@@ -15,8 +15,9 @@ from forcetorque.arrays import FloatArray
 from forcetorque.atomic import write_bytes_atomically
 from forcetorque.errors import ForceTorqueError
 from forcetorque.recording import Use
+from forcetorque.viewer.block import read_array
 from forcetorque.viewer.build import BuiltScene
-from forcetorque.viewer.scene import SceneInterval, read_array
+from forcetorque.viewer.scene import SceneInterval
 
 _NANOSECOND = 1e-9
 """Instants are whole nanoseconds; s."""

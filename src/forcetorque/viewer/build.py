@@ -15,20 +15,24 @@ from forcetorque.calibration import Calibration
 from forcetorque.experiment import Experiment
 from forcetorque.experiment.loads.wrist_load import is_wrist_load
 from forcetorque.experiment.skin.skin_alone import BESIDE_M, is_skin_alone
-from forcetorque.recording import Finding, Interval, Stream
+from forcetorque.recording import Finding, Stream
 from forcetorque.recording.alignment import seconds_since
+from forcetorque.viewer.block import Block
 from forcetorque.viewer.contacts import scene_contacts
+from forcetorque.viewer.draft import SceneDraft
 from forcetorque.viewer.expected import expected_readings
 from forcetorque.viewer.geometry import robot_geometry
 from forcetorque.viewer.instants import Posture, posture_at, shown_stream
 from forcetorque.viewer.once import Priors, differentiated
 from forcetorque.viewer.parts import scene_parts
 from forcetorque.viewer.root_pose import root_poses
-from forcetorque.viewer.scene import Block, Robot, Scene, SceneFinding, SceneInterval
+from forcetorque.viewer.scene import Robot, Scene, SceneFinding, SceneInterval
 from forcetorque.viewer.series import scene_sensor
 from forcetorque.viewer.skin import scene_skin
 from forcetorque.viewer.skin_events import scene_skin_events
 from forcetorque.viewer.tree import scene_joints
+
+_BESIDE = f"no [robot]: links with skin are drawn side by side, {BESIDE_M:g} m apart, not where they truly are"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -75,58 +79,53 @@ def build_scene(
     names = dict.fromkeys(experiment.sensor(name).name for name in sensors or (s.name for s in experiment.sensors))
     shown = [experiment.sensor(name) for name in names]
     recording, model = experiment.recording, experiment.model
+    skin_alone = is_skin_alone(model)
     clock = shown_stream(experiment, shown)
     usable, notes = _without_empty(experiment, clock)
-    notes += added_to(experiment.recording)
-    notes += [f"calibrations of {name!r} are not shown: --sensor leaves it out" for name in groups if name not in names]
-    block, sources = Block(), [*_inputs(experiment), *provenance, f"forcetorque {version('forcetorque')}"]
+    draft = SceneDraft(
+        notes=notes, sources=[*_inputs(experiment), *provenance, f"forcetorque {version('forcetorque')}"]
+    )
+    draft.notes.extend(added_to(experiment.recording))
+    draft.notes.extend(
+        f"calibrations of {name!r} are not shown: --sensor leaves it out" for name in groups if name not in names
+    )
     posture = posture_at(recording, model, clock)
     root = root_poses(recording, model, posture, recording.intervals, experiment.processing)
     computed = differentiated(usable)
     priors = Priors(computed)
     expected, lacking = expected_readings(computed, tuple(names), posture)
-    if is_skin_alone(model):
-        notes.append(
-            f"no [robot]: links with skin are drawn side by side, {BESIDE_M:g} m apart, not where they truly are"
-        )
-    else:
-        notes += [*posture.notes, *root.notes, *lacking]
+    draft.notes.extend([_BESIDE] if skin_alone else [*posture.notes, *root.notes, *lacking])
     if experiment.processing.smoothing is not None:
-        sources.append("the smoothing of the experiment file is not applied to what is shown")
+        draft.sources.append("the smoothing of the experiment file is not applied to what is shown")
     series = [
-        scene_sensor(
-            computed, one, groups.get(one.name, {}), expected[one.name], posture, priors, block, notes, sources
-        )
+        scene_sensor(computed, one, groups.get(one.name, {}), expected[one.name], posture, priors, draft)
         for one in shown
     ]
-    contacts = () if is_skin_alone(model) else scene_contacts(computed, groups, posture, priors, block, notes, sources)
-    skin = () if computed.skin is None else scene_skin(computed.skin, model.links, block, notes, sources)
-    events = scene_skin_events(recording, posture.stream.clock, model.links, block, notes)
-    states_support = not (is_wrist_load(model) or is_skin_alone(model))
-    robot, missing = _robot(experiment, posture, urdf, block, mesh_folders)
+    contacts = () if skin_alone else scene_contacts(computed, groups, posture, priors, draft)
+    skin = () if computed.skin is None else scene_skin(computed.skin, model.links, draft)
+    events = scene_skin_events(recording, posture.stream.clock, model.links, draft)
+    robot, missing = _robot(experiment, posture, urdf, draft.block, mesh_folders)
     scene = Scene(
         title=experiment.name,
         samples=len(posture.stamp_ns),
         start_ns=str(recording.start_ns),
         end_s=(recording.span_ns[1] + 1 - recording.start_ns) * 1e-9,
-        time_s=block.add(seconds_since(posture.stamp_ns, recording.start_ns), "float64"),
-        positions=block.add(posture.position, "float32"),
+        time_s=draft.block.add(seconds_since(posture.stamp_ns, recording.start_ns), "float64"),
+        positions=draft.block.add(posture.position, "float32"),
         coordinates=posture.names,
-        root=block.add(root.values, "float32"),
+        root=draft.block.add(root.values, "float32"),
         robot=robot,
-        sensors=(*series, *scene_parts(computed, groups, posture, block, sources)),
+        sensors=(*series, *scene_parts(computed, groups, posture, draft)),
         contacts=contacts,
         skin=skin,
         skin_events=events,
-        intervals=tuple(
-            _interval(interval, recording.start_ns, states_support=states_support) for interval in recording.intervals
-        ),
+        intervals=_intervals(experiment),
         findings=tuple(_finding(finding, recording.start_ns) for finding in inspect_experiment(usable)),
-        notes=tuple(notes) if is_skin_alone(model) else (*notes, *missing),
-        provenance=tuple(sources),
+        notes=tuple(draft.notes) if skin_alone else (*draft.notes, *missing),
+        provenance=tuple(draft.sources),
         annotations_url=None,
     )
-    return BuiltScene(scene=scene, block=block.bytes())
+    return BuiltScene(scene=scene, block=draft.block.bytes())
 
 
 def _robot(
@@ -165,14 +164,19 @@ def _inputs(experiment: Experiment) -> list[str]:
     return [f"{name} sha256 {digest}" for name, digest in sorted(experiment.inputs_sha256.items())]
 
 
-def _interval(interval: Interval, start_ns: int, *, states_support: bool) -> SceneInterval:
-    return SceneInterval(
-        label=interval.label,
-        use=interval.use.value,
-        start_s=(interval.start_ns - start_ns) * 1e-9,
-        end_s=(interval.end_ns - start_ns) * 1e-9,
-        support=None if interval.support is None else interval.support.frame,
-        states_support=states_support,
+def _intervals(experiment: Experiment) -> tuple[SceneInterval, ...]:
+    recording, model = experiment.recording, experiment.model
+    states_support = not (is_wrist_load(model) or is_skin_alone(model))
+    return tuple(
+        SceneInterval(
+            label=interval.label,
+            use=interval.use.value,
+            start_s=(interval.start_ns - recording.start_ns) * 1e-9,
+            end_s=(interval.end_ns - recording.start_ns) * 1e-9,
+            support=None if interval.support is None else interval.support.frame,
+            states_support=states_support,
+        )
+        for interval in recording.intervals
     )
 
 

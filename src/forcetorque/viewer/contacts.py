@@ -22,10 +22,11 @@ from forcetorque.experiment import Experiment
 from forcetorque.experiment.contacts import contacts_at_sensors
 from forcetorque.recording.alignment import gap_limit_ns
 from forcetorque.robot import build_tree
+from forcetorque.viewer.draft import SceneDraft
 from forcetorque.viewer.geometry import flat
 from forcetorque.viewer.instants import Posture
 from forcetorque.viewer.once import Priors
-from forcetorque.viewer.scene import Block, ContactSeries
+from forcetorque.viewer.scene import ContactSeries
 
 
 def scene_contacts(
@@ -33,9 +34,7 @@ def scene_contacts(
     groups: Mapping[str, Mapping[str, Calibration]],
     posture: Posture,
     priors: Priors,
-    block: Block,
-    notes: list[str],
-    sources: list[str],
+    draft: SceneDraft,
 ) -> tuple[ContactSeries, ...]:
     """Estimate what the world does to the robot: at the contacts of the experiment, else at its sensors; and support.
 
@@ -44,9 +43,7 @@ def scene_contacts(
         groups: Calibrations by sensor and name; of each sensor the first is used.
         posture: The instants.
         priors: How sensors are read without a calibration.
-        block: Takes the arrays.
-        notes: Takes what is missing.
-        sources: Takes where the rest comes from.
+        draft: Takes the arrays, what is missing and where the rest comes from.
 
     Returns:
         Contacts, NaN outside intervals; none where the log does not allow to estimate them.
@@ -55,16 +52,18 @@ def scene_contacts(
         corrections = _first_corrections(experiment, groups, priors)
         spans = estimate_experiment(experiment, corrections)
     except ForceTorqueError as error:
-        notes.append(f"no contact wrenches: {error}")
+        draft.notes.append(f"no contact wrenches: {error}")
         return ()
     read = "; ".join(f"{sensor}: {correction.source}" for sensor, correction in corrections.items())
     what = "that the experiment states" if experiment.contacts else "at the sensors"
-    sources.append(f"contact wrenches {what} are estimated with {read}")
-    notes += dict.fromkeys(
-        f"contacts: left out {text}"
-        for span in spans
-        for text in span.left_out
-        if text.startswith("sub-model")  # torques and expected readings are not shown from here
+    draft.sources.append(f"contact wrenches {what} are estimated with {read}")
+    draft.notes.extend(
+        dict.fromkeys(
+            f"contacts: left out {text}"
+            for span in spans
+            for text in span.left_out
+            if text.startswith("sub-model")  # torques and expected readings are not shown from here
+        )
     )
     wrenches: dict[str, FloatArray] = {}
     for span in spans:
@@ -81,7 +80,7 @@ def scene_contacts(
             name=name,
             link=places[name].link,
             link_H_contact=flat(places[name].link_H_contact),
-            values=block.add(values, "float32"),
+            values=draft.block.add(values, "float32"),
         )
         for name, values in wrenches.items()
     )

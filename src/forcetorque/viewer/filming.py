@@ -10,9 +10,9 @@ import numpy as np
 
 from forcetorque.atomic import write_bytes_atomically
 from forcetorque.errors import ForceTorqueError
+from forcetorque.viewer.block import read_array
 from forcetorque.viewer.build import BuiltScene
 from forcetorque.viewer.page import page_of
-from forcetorque.viewer.scene import read_array
 from forcetorque.viewer.serve import DATA_URL, ViewerServer
 from forcetorque.viewer.video import Film, film_page
 

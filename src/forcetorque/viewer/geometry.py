@@ -14,8 +14,9 @@ from forcetorque.errors import FormatError, MissingExtraError
 from forcetorque.robot import RobotModel
 from forcetorque.spatial import make_pose
 from forcetorque.spatial.rotation import rotation_with_z_along
+from forcetorque.viewer.block import Block
 from forcetorque.viewer.mesh_files import Triangles, find_mesh, package_folders, read_mesh
-from forcetorque.viewer.scene import Block, Mesh, Shape
+from forcetorque.viewer.scene import Mesh, Shape
 from forcetorque.viewer.simplify import simplified
 from forcetorque.viewer.visuals import GREY, Visual, read_visuals
 

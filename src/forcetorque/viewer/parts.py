@@ -15,9 +15,11 @@ from forcetorque.calibration.joint.windows import WINDOW_S
 from forcetorque.experiment import Experiment
 from forcetorque.recording import Use
 from forcetorque.recording.alignment import seconds_since
+from forcetorque.viewer.block import Block
+from forcetorque.viewer.draft import SceneDraft
 from forcetorque.viewer.geometry import flat
 from forcetorque.viewer.instants import Posture
-from forcetorque.viewer.scene import Block, Sensor, WrenchSeries
+from forcetorque.viewer.scene import Sensor, WrenchSeries
 
 _BEFORE, _AFTER = "prior", "calibrations"
 """Names of the two series of a part."""
@@ -27,8 +29,7 @@ def scene_parts(
     experiment: Experiment,
     groups: Mapping[str, Mapping[str, Calibration]],
     posture: Posture,
-    block: Block,
-    sources: list[str],
+    draft: SceneDraft,
 ) -> tuple[Sensor, ...]:
     """Collect what is left of the equation of every part between two sensors or more that are calibrated.
 
@@ -38,8 +39,7 @@ def scene_parts(
         experiment: The experiment, without intervals that hold no sample.
         groups: Calibrations by sensor and name; of each sensor the first is used.
         posture: The instants.
-        block: Takes the arrays.
-        sources: Takes what the series are.
+        draft: Takes the arrays, and what the series are.
 
     Returns:
         The parts, shown as sensors are: what is left is a wrench at the link whose motion is known.
@@ -54,14 +54,14 @@ def scene_parts(
         if len(residual.sensors) > 1
     ]
     if residuals:
-        sources.append(
+        draft.sources.append(
             f"parts that nothing touches: what is left of their equations, means of {WINDOW_S:g} s, by the prior "
             "matrices with the offsets that suit best, and by the first calibration of every sensor"
         )
     seconds = seconds_since(posture.stamp_ns, experiment.recording.start_ns)
     places = dict.fromkeys((residual.part, residual.root_link) for residual in residuals)
     return tuple(
-        _part(place, [one for one in residuals if (one.part, one.root_link) == place], seconds, block)
+        _part(place, [one for one in residuals if (one.part, one.root_link) == place], seconds, draft.block)
         for place in places
     )
 

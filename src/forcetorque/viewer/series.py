@@ -20,10 +20,12 @@ from forcetorque.experiment import Experiment, ExperimentSensor
 from forcetorque.recording.alignment import require_overlap
 from forcetorque.robot import SensorFrame
 from forcetorque.spatial import MeasureDirection
+from forcetorque.viewer.block import Block
+from forcetorque.viewer.draft import SceneDraft
 from forcetorque.viewer.geometry import flat
 from forcetorque.viewer.instants import Posture
 from forcetorque.viewer.once import Priors
-from forcetorque.viewer.scene import Block, Ellipsoid, Sensor, Sphere, WrenchSeries
+from forcetorque.viewer.scene import Ellipsoid, Sensor, Sphere, WrenchSeries
 
 _SPHERE_SAMPLES = 50_000
 """Samples of a log from which on ellipsoids are fitted to a part of them."""
@@ -47,9 +49,7 @@ def scene_sensor(
     expected: FloatArray,
     posture: Posture,
     priors: Priors,
-    block: Block,
-    notes: list[str],
-    sources: list[str],
+    draft: SceneDraft,
 ) -> Sensor:
     """Collect the wrenches of a sensor at common instants.
 
@@ -60,23 +60,21 @@ def scene_sensor(
         expected: What the model expects; shape (n, 6); N, N m.
         posture: The instants.
         priors: How sensors are read without a calibration.
-        block: Takes the arrays.
-        notes: Takes what is missing.
-        sources: Takes where the rest comes from.
+        draft: Takes the arrays, what is missing and where the rest comes from.
 
     Returns:
         The sensor with its series; none is expected where the model gives nothing.
     """
-    readings = _readings(experiment, sensor, calibrations, priors, notes, sources)
-    by_candidate = _spheres(experiment, sensor, calibrations, notes, sources)
+    readings = _readings(experiment, sensor, calibrations, priors, draft)
+    by_candidate = _spheres(experiment, sensor, calibrations, draft)
     series = []
     if np.isfinite(expected).any():
-        series.append(_series("expected", "expected", block, expected, sphere=_weight(by_candidate)))
+        series.append(_series("expected", "expected", draft.block, expected, sphere=_weight(by_candidate)))
     for reading in readings:
-        values = _values(experiment, sensor, reading.correction, posture.stamp_ns, notes)
+        values = _values(experiment, sensor, reading.correction, posture.stamp_ns, draft)
         offset = reading.correction.model.offset if reading.candidate == PRIOR else np.zeros(6)
         fits = _ellipsoids(by_candidate.get(reading.candidate), offset)
-        series.append(_series(reading.name, "measured", block, values, force=fits[0], moment=fits[1]))
+        series.append(_series(reading.name, "measured", draft.block, values, force=fits[0], moment=fits[1]))
     tag = experiment.model.sensor(sensor.name)
     joint = experiment.model.joints[tag.joint]
     ends = (joint.child, joint.parent)
@@ -97,34 +95,33 @@ def _readings(
     sensor: ExperimentSensor,
     calibrations: Mapping[str, Calibration],
     priors: Priors,
-    notes: list[str],
-    sources: list[str],
+    draft: SceneDraft,
 ) -> list[_Reading]:
     readings = []
     if sensor.quantity == "wrench" or sensor.prior is not None:
-        correction = _prior_correction(sensor, priors, notes)
+        correction = _prior_correction(sensor, priors, draft)
         name = LOGGED if correction.of_wrench else PRIOR
-        sources.append(f"{sensor.name}: {name} is {correction.source}")
+        draft.sources.append(f"{sensor.name}: {name} is {correction.source}")
         readings.append(_Reading(name=name, candidate=PRIOR, correction=correction))
     elif not calibrations:
-        notes.append(f"sensor {sensor.name!r}: raw counts become wrenches by --calibration or a prior matrix")
+        draft.notes.append(f"sensor {sensor.name!r}: raw counts become wrenches by --calibration or a prior matrix")
     for name, calibration in calibrations.items():
         require_fit(name, calibration, experiment, sensor)
         readings.append(_Reading(name=name, candidate=name, correction=Correction.of(name, calibration)))
     return readings
 
 
-def _prior_correction(sensor: ExperimentSensor, priors: Priors, notes: list[str]) -> Correction:
+def _prior_correction(sensor: ExperimentSensor, priors: Priors, draft: SceneDraft) -> Correction:
     """The prior with the offset that the calibration intervals give; with none where they do not."""
     try:
         return priors.of(sensor)
     except ForceTorqueError as error:
-        notes.append(f"sensor {sensor.name!r}: no offset is removed from the prior reading: {error}")
+        draft.notes.append(f"sensor {sensor.name!r}: no offset is removed from the prior reading: {error}")
     return Correction.without_offset(sensor)
 
 
 def _values(
-    experiment: Experiment, sensor: ExperimentSensor, correction: Correction, at_ns: IntArray, notes: list[str]
+    experiment: Experiment, sensor: ExperimentSensor, correction: Correction, at_ns: IntArray, draft: SceneDraft
 ) -> FloatArray:
     source = experiment.recording.stream(sensor.stream)
     first = experiment.recording.stream(experiment.sensors[0].stream)
@@ -134,7 +131,7 @@ def _values(
             require_overlap(first, stream)
         return wrench_at(experiment, sensor, correction, at_ns)
     except ForceTorqueError as error:
-        notes.append(f"sensor {sensor.name!r}: no reading by {correction.source}: {error}")
+        draft.notes.append(f"sensor {sensor.name!r}: no reading by {correction.source}: {error}")
         return np.full((len(at_ns), 6), np.nan)
 
 
@@ -142,22 +139,21 @@ def _spheres(
     experiment: Experiment,
     sensor: ExperimentSensor,
     calibrations: Mapping[str, Calibration],
-    notes: list[str],
-    sources: list[str],
+    draft: SceneDraft,
 ) -> dict[str, SensorSphere]:
     try:
         thinned, every = _thinned(experiment, sensor)
         analyses = spheres(SensorRun(thinned, sensor), calibrations).analyses
     except ForceTorqueError as error:
-        notes.append(f"sensor {sensor.name!r}: no sphere and no ellipsoid: {error}")
+        draft.notes.append(f"sensor {sensor.name!r}: no sphere and no ellipsoid: {error}")
         return {}
     for sphere in analyses:
         if _force_fit(sphere) is None:
             fit = sphere.analysis.free if sphere.analysis.mapped is None else sphere.analysis.mapped.fit
             reason = "; ".join(fit.why)
-            notes.append(f"sensor {sensor.name!r}, {sphere.candidate}: no ellipsoid of forces: {reason}")
+            draft.notes.append(f"sensor {sensor.name!r}, {sphere.candidate}: no ellipsoid of forces: {reason}")
     labels = ", ".join(map(repr, analyses[0].intervals))
-    sources.append(
+    draft.sources.append(
         f"{sensor.name}: sphere of the weight and ellipsoids as by `forcetorque sphere` over {labels}{every}"
     )
     return {sphere.candidate: sphere for sphere in analyses}

@@ -14,24 +14,22 @@ from forcetorque.analysis.skin.wrench_choice import WrenchChoice
 from forcetorque.errors import ForceTorqueError
 from forcetorque.experiment import ExperimentPatch, PatchExperiment
 from forcetorque.recording.alignment import usable_samples
-from forcetorque.viewer.scene import Block, SkinPatch
+from forcetorque.viewer.block import Block
+from forcetorque.viewer.draft import SceneDraft
+from forcetorque.viewer.scene import SkinPatch
 from forcetorque.viewer.skin_contacts import contact_frames
 
 MOST_PRESSURES: Final = 2_000_000
 """Pressures of a patch that a page holds, 8 MB: 17 minutes of 380 taxels at 50 Hz in means of 10 messages."""
 
 
-def scene_skin(
-    experiment: PatchExperiment, links: Container[str], block: Block, notes: list[str], sources: list[str]
-) -> tuple[SkinPatch, ...]:
+def scene_skin(experiment: PatchExperiment, links: Container[str], draft: SceneDraft) -> tuple[SkinPatch, ...]:
     """Find pressures and contacts of every patch with a table, over the whole recording.
 
     Args:
         experiment: The patches.
         links: Links of the robot.
-        block: Takes the arrays.
-        notes: Takes what is missing.
-        sources: Takes where the rest comes from.
+        draft: Takes the arrays, what is missing and where the rest comes from.
 
     Returns:
         The patches that can be shown.
@@ -39,20 +37,24 @@ def scene_skin(
     shown = []
     for patch in experiment.patches:
         if patch.table is None:
-            notes.append(f"patch {patch.name!r} is not shown: [[patch]] states no table; skin calibrate makes one")
+            draft.notes.append(
+                f"patch {patch.name!r} is not shown: [[patch]] states no table; skin calibrate makes one"
+            )
             continue
         averaged = _averaged(experiment, patch)
         try:
             frames = patch_frames(experiment, patch.table, patch=patch.name, choice=WrenchChoice(averaged=averaged))
         except ForceTorqueError as error:
-            notes.append(f"patch {patch.name!r} is not shown: {error}")
+            draft.notes.append(f"patch {patch.name!r} is not shown: {error}")
             continue
         link = patch.link or frames.skin.layout.frame
         if link not in links:
-            notes.append(f"patch {patch.name!r} is not shown: the robot has no link {link!r}; state link in [[patch]]")
+            draft.notes.append(
+                f"patch {patch.name!r} is not shown: the robot has no link {link!r}; state link in [[patch]]"
+            )
             continue
-        shown.append(_patch(patch.name, link, frames, _period_s(experiment, patch) * averaged, block))
-        sources.append(f"{patch.name}: pressures and contacts by kriging, in means of {averaged} messages")
+        shown.append(_patch(patch.name, link, frames, _period_s(experiment, patch) * averaged, draft.block))
+        draft.sources.append(f"{patch.name}: pressures and contacts by kriging, in means of {averaged} messages")
     return tuple(shown)
 
 

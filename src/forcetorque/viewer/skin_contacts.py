@@ -8,7 +8,8 @@ from collections.abc import Sequence
 import numpy as np
 
 from forcetorque.arrays import FloatArray, IntArray
-from forcetorque.viewer.scene import Block, SkinContactFrames
+from forcetorque.viewer.block import Block
+from forcetorque.viewer.scene import SkinContactFrames
 
 
 def contact_frames(

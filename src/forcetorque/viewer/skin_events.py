@@ -12,7 +12,9 @@ from forcetorque.arrays import BoolArray, FloatArray
 from forcetorque.recording import Recording, Signal, Stream
 from forcetorque.recording.alignment import gap_limit_ns, seconds_since, usable_samples
 from forcetorque.skin.contact import followed_places
-from forcetorque.viewer.scene import Block, SkinEventSeries
+from forcetorque.viewer.block import Block
+from forcetorque.viewer.draft import SceneDraft
+from forcetorque.viewer.scene import SkinEventSeries
 from forcetorque.viewer.skin_contacts import contact_frames
 
 MOST_MESSAGES: Final = 50_000
@@ -20,7 +22,7 @@ MOST_MESSAGES: Final = 50_000
 
 
 def scene_skin_events(
-    recording: Recording, clock: str, links: Container[str], block: Block, notes: list[str]
+    recording: Recording, clock: str, links: Container[str], draft: SceneDraft
 ) -> tuple[SkinEventSeries, ...]:
     """Collect the contacts of every stream of skin events.
 
@@ -28,8 +30,7 @@ def scene_skin_events(
         recording: The recording.
         clock: Clock of what is shown besides.
         links: Links of the robot.
-        block: Takes the arrays.
-        notes: Takes what is missing.
+        draft: Takes the arrays, and what is missing.
 
     Returns:
         The streams of that clock whose frame the robot has.
@@ -40,13 +41,15 @@ def scene_skin_events(
             continue
         frame = stream.signal("skin_event").frame or ""
         if stream.clock != clock:
-            notes.append(f"contacts of {stream.name!r} are not shown: their clock is {stream.clock!r}, not {clock!r}")
+            draft.notes.append(
+                f"contacts of {stream.name!r} are not shown: their clock is {stream.clock!r}, not {clock!r}"
+            )
             continue
         if frame not in links:
-            notes.append(f"contacts of {stream.name!r} are not shown: the robot has no link {frame!r}")
+            draft.notes.append(f"contacts of {stream.name!r} are not shown: the robot has no link {frame!r}")
             continue
-        shown.append(_series(stream, frame, recording.start_ns, block))
-        notes.append(f"contacts of {stream.name!r}: their arrows are the skinManager's heuristic, not newtons")
+        shown.append(_series(stream, frame, recording.start_ns, draft.block))
+        draft.notes.append(f"contacts of {stream.name!r}: their arrows are the skinManager's heuristic, not newtons")
     return tuple(shown)
 
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A figure is one file, its name in the package and a line that draws it: it is held to what holds for all then.
 
-This is the recipe of docs/architecture.md, followed with `tests/toy_figure.py`.
+This is the recipe of docs/architecture.md, followed with `tests/toys/figure.py`.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from forcetorque.report import figures
 from forcetorque.report.document import Document, Figure, Picture, Section, html_bytes
 from tests.report import drawing
 from tests.report.figures import test_every_figure as every_figure
-from tests.toy_figure import toy_figure
+from tests.toys.figure import toy_figure
 
 
 def _toy(rng: np.random.Generator) -> Any:

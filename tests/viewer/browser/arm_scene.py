@@ -10,10 +10,10 @@ import numpy as np
 
 from forcetorque.arrays import FloatArray
 from forcetorque.robot import JointMotion, RobotModel, build_tree, link_pose, read_urdf
+from forcetorque.viewer.block import Block
 from forcetorque.viewer.build import BuiltScene
 from forcetorque.viewer.geometry import flat, robot_geometry
 from forcetorque.viewer.scene import (
-    Block,
     ContactSeries,
     Ellipsoid,
     Robot,

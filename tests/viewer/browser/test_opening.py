@@ -9,8 +9,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from forcetorque.viewer.block import read_array
 from forcetorque.viewer.build import BuiltScene
-from forcetorque.viewer.scene import read_array
 from tests.browser import Visit
 from tests.viewer.browser.arm_scene import Arm, arm_scene
 

@@ -13,7 +13,8 @@ import pytest
 
 from forcetorque.experiment import load_shown
 from forcetorque.viewer import BuiltScene, scene_of
-from forcetorque.viewer.scene import Block, SkinEventSeries, SkinPatch, read_array
+from forcetorque.viewer.block import Block, read_array
+from forcetorque.viewer.scene import SkinEventSeries, SkinPatch
 from forcetorque.viewer.skin_contacts import contact_frames
 from tests.browser import Visit
 from tests.scenes.skin_alone import TOUCHED, write_events

@@ -3,24 +3,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 
 from forcetorque.calibration import CalibratedVariable, Calibration
 from forcetorque.spatial import WRENCH_COMPONENTS
 
 
-def fit_doubts(calibration: Calibration) -> Iterator[str]:
+def fit_doubts(calibration: Calibration, *, said: Collection[str] = ()) -> Iterator[str]:
     """Say what makes a calibration doubtful.
 
     Args:
         calibration: The calibration.
+        said: Doubts about its data that were said already.
 
     Yields:
         A sentence per doubt, with the name of the sensor.
     """
     sensor = calibration.sensor.name
     own = (*_turned(calibration), *_unmoved(calibration), *_left_prior(calibration), *_refused(calibration))
-    for sentence in (*calibration.doubts, *own):
+    for sentence in (*(doubt for doubt in calibration.doubts if doubt not in said), *own):
         yield f"{sensor}: {sentence}"
 
 

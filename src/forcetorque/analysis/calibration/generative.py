@@ -17,6 +17,7 @@ from forcetorque.calibration import (
     GenerativeFit,
     IntervalMoments,
     LinearVariable,
+    NonlinearTrial,
     Prior,
     Provenance,
     RecordingMoments,
@@ -56,14 +57,7 @@ def generative_calibration(
     first = recordings[0]
     intervals = [interval for recording in recordings for interval in recording.intervals]
     stretches, variables = [interval.means for interval in intervals], [v.linear for v in first.variables]
-    fit = fit_generative(stretches, first.prior, first.assumptions, variables=variables, drift=first.drift)
-    trial = None
-    if first.nonlinear:
-        trial = try_correction(stretches, first.prior, first.assumptions, variables=variables, drift=first.drift)
-        fit = corrected_fit(fit, stretches, trial.kept) if trial.kept else fit
-    load_error = LoadError.largest(recording.load_error for recording in recordings)
-    if load_error is not None and first.prior is not None:
-        fit = replace(fit, posterior=load_error.widened(fit.posterior, first.prior))
+    fit, trial = _fit(recordings, stretches, variables)
     moments = pooled(interval.moments for interval in intervals)
     sessions = _sessions(fit, intervals, first.prior)
     errors = fit.posterior.coefficient_error(fit.model.coefficients)
@@ -81,9 +75,7 @@ def generative_calibration(
         offset_standard_error=sessions[-1].standard_error,
         residual_rms=fit.residual,
         lambda_counts2=None,
-        prior=None
-        if first.prior is None or first.prior_source is None or sessions[-1].prior_offset is None
-        else Prior(matrix=first.prior, offset=sessions[-1].prior_offset, source=first.prior_source),
+        prior=_prior(first, sessions[-1]),
         validity=validity_of(
             np.min([interval.raw_minimum_counts for interval in intervals], axis=0),
             np.max([interval.raw_maximum_counts for interval in intervals], axis=0),
@@ -92,16 +84,44 @@ def generative_calibration(
         ),
         selection=Selection(rule=_RULE),
         doubts=(*dict.fromkeys(d for recording in recordings for d in recording.doubts), *_disagreeing(fit, stretches)),
-        provenance=Provenance(
-            code_version=code_version,
-            created=created,
-            experiment="; ".join(dict.fromkeys(recording.experiment for recording in recordings)),
-            intervals=tuple(interval.interval for interval in intervals),
-            samples=sum(interval.samples for interval in intervals),
-            dropped=sum(interval.dropped for interval in intervals),
-            inputs_sha256=_inputs(recordings),
-            added=tuple(dict.fromkeys(sentence for recording in recordings for sentence in recording.added)),
-        ),
+        provenance=_provenance(recordings, code_version=code_version, created=created),
+    )
+
+
+def _fit(
+    recordings: Sequence[RecordingMoments], stretches: Sequence[WindowMeans], variables: Sequence[LinearVariable]
+) -> tuple[GenerativeFit, NonlinearTrial | None]:
+    """The fit, widened by what known loads may err, and whether quadratic terms won; None where nobody asked."""
+    first = recordings[0]
+    fit = fit_generative(stretches, first.prior, first.assumptions, variables=variables, drift=first.drift)
+    trial = None
+    if first.nonlinear:
+        trial = try_correction(stretches, first.prior, first.assumptions, variables=variables, drift=first.drift)
+        fit = corrected_fit(fit, stretches, trial.kept) if trial.kept else fit
+    load_error = LoadError.largest(recording.load_error for recording in recordings)
+    if load_error is not None and first.prior is not None:
+        fit = replace(fit, posterior=load_error.widened(fit.posterior, first.prior))
+    return fit, trial
+
+
+def _prior(recording: RecordingMoments, last: SessionOffset) -> Prior | None:
+    """The prior with its offset in the last session; None where the sensor has none."""
+    if recording.prior is None or recording.prior_source is None or last.prior_offset is None:
+        return None
+    return Prior(matrix=recording.prior, offset=last.prior_offset, source=recording.prior_source)
+
+
+def _provenance(recordings: Sequence[RecordingMoments], *, code_version: str, created: str) -> Provenance:
+    intervals = [interval for recording in recordings for interval in recording.intervals]
+    return Provenance(
+        code_version=code_version,
+        created=created,
+        experiment="; ".join(dict.fromkeys(recording.experiment for recording in recordings)),
+        intervals=tuple(interval.interval for interval in intervals),
+        samples=sum(interval.samples for interval in intervals),
+        dropped=sum(interval.dropped for interval in intervals),
+        inputs_sha256=_inputs(recordings),
+        added=tuple(dict.fromkeys(sentence for recording in recordings for sentence in recording.added)),
     )
 
 

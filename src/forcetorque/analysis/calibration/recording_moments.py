@@ -8,6 +8,7 @@ from pathlib import Path
 from urllib.parse import quote
 
 from forcetorque.analysis.calibration.load_error import load_error_of
+from forcetorque.analysis.payload.contradictions import reference_doubts
 from forcetorque.analysis.runs.campaign import Campaign, Runs
 from forcetorque.analysis.runs.campaign_recording import CampaignRecording
 from forcetorque.analysis.runs.sensor_run import SensorRun
@@ -43,7 +44,8 @@ def recording_moments(runs: Runs) -> list[RecordingMoments]:
             continue
         kept = [IntervalMoments.of(i.data_set, i.fitted, dropped=i.part.samples.dropped) for i in own]
         stated_by = CampaignRecording.of(run)
-        moments = moments_of(stated_by, kept, variables=variables, doubts=[doubt.message for doubt in doubts])
+        said = [*(doubt.message for doubt in doubts), *reference_doubts(run)]
+        moments = moments_of(stated_by, kept, variables=variables, doubts=said)
         results.append(moments.model_copy(update={"load_error": _load_error(run)}))
     return results
 

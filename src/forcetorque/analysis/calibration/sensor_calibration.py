@@ -153,7 +153,7 @@ def calibrate_for_file(
     return SensorCalibrations(
         experiment=calibration.provenance.experiment,
         calibrations=(entry,),
-        warnings=(*doubts, *fit_doubts(calibration)),
+        warnings=(*doubts, *fit_doubts(calibration, said=doubts)),
     )
 
 

@@ -8,6 +8,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
+from forcetorque.analysis.payload.contradictions import reference_doubts
 from forcetorque.analysis.runs.campaign import Campaign
 from forcetorque.analysis.runs.campaign_interval import CampaignInterval
 from forcetorque.arrays import FloatArray
@@ -77,7 +78,10 @@ def thesis_calibration(
         created=created,
         experiment="; ".join(dict.fromkeys(campaign.experiments)),
         inputs_sha256=campaign.inputs_sha256,
-        doubts=[doubt.message for doubt in doubts],
+        doubts=[
+            *(doubt.message for doubt in doubts),
+            *dict.fromkeys(sentence for run in campaign.runs for sentence in reference_doubts(run)),
+        ],
         added=campaign.added,
     )
 

@@ -12,11 +12,12 @@ from typing import Self
 
 import numpy as np
 
+from forcetorque.analysis.joint.logged_parts import LoggedParts
 from forcetorque.analysis.runs.reading import readings_at
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration.joint import Stretch, UntouchedStretch, window_means
 from forcetorque.errors import ExperimentError
-from forcetorque.estimation.part_equations import joints_of_cuts, joints_of_part, sensors_of, untouched_parts
+from forcetorque.estimation.part_equations import untouched_parts
 from forcetorque.estimation.picked import padded_samples
 from forcetorque.estimation.root_motion import imu_frame
 from forcetorque.estimation.samples import robot_motion_at
@@ -24,8 +25,7 @@ from forcetorque.experiment import Experiment, ExperimentSensor
 from forcetorque.experiment.contacts import contacts_in
 from forcetorque.recording import Interval, MovingSupport
 from forcetorque.recording.alignment import require_overlap, seconds_since
-from forcetorque.robot import BodyTree, build_tree
-from forcetorque.robot.sub_model import SubModel
+from forcetorque.robot import build_tree
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -117,12 +117,12 @@ def joint_interval(
         # the motion is known where the IMU is: nothing needs to be carried to another link
         support = replace(support, frame=imu_frame(experiment.model, experiment.recording, support))
     tree = build_tree(model, support.frame)
-    parts, weighed, left_out = _logged(experiment, untouched_parts(tree, sensors, touched), tree)
-    if not parts and not weighed:
+    logged = LoggedParts.of(experiment, untouched_parts(tree, sensors, touched), tree)
+    if not logged.parts and not logged.weighed:
         raise ExperimentError(
-            f"interval {interval.label!r}: of no untouched part are all joints in the log: {'; '.join(left_out)}"
+            f"interval {interval.label!r}: of no untouched part are all joints in the log: {'; '.join(logged.left_out)}"
         )
-    used = [experiment.sensor(name) for name in sensors if any(name in sensors_of(part) for part in (*parts, *weighed))]
+    used = [experiment.sensor(name) for name in sensors if name in logged.sensors]
     source = experiment.recording.stream(used[0].stream)
     for sensor in used[1:]:
         require_overlap(source, experiment.recording.stream(sensor.stream))
@@ -131,14 +131,7 @@ def joint_interval(
         experiment.recording,
         experiment.model,
         support,
-        tuple(
-            dict.fromkeys(
-                (
-                    *(joint for part in parts for joint in joints_of_part(tree, part)),
-                    *(joint for part in weighed for joint in joints_of_cuts(tree, part)),
-                )
-            )
-        ),
+        logged.joints(tree),
         source,
         samples.stamp_ns,
         processing=experiment.processing,
@@ -158,7 +151,9 @@ def joint_interval(
     )
     return JointInterval(
         interval=interval,
-        untouched=UntouchedStretch(stretch=stretch, parts=parts, weighed=weighed, left_out=left_out),
+        untouched=UntouchedStretch(
+            stretch=stretch, parts=logged.parts, weighed=logged.weighed, left_out=logged.left_out
+        ),
         raw={name: RawWindows.of(stretch, values) for name, values in raw.items()},
     )
 
@@ -181,20 +176,3 @@ def required_prior(sensor: ExperimentSensor) -> FloatArray:
             'its data sheet as `prior`, or "identity" for a log of wrenches'
         )
     return sensor.prior
-
-
-def _logged(
-    experiment: Experiment, parts: Sequence[SubModel], tree: BodyTree
-) -> tuple[tuple[SubModel, ...], tuple[SubModel, ...], tuple[str, ...]]:
-    """Parts whose joints were logged, those that can be weighed at least, and of the others what they lack."""
-    available = set(experiment.recording.joint_signals("position"))
-    logged, weighed, lacking = [], [], []
-    for part in parts:
-        missing = [joint for joint in joints_of_part(tree, part) if joint not in available]
-        if not missing:
-            logged.append(part)
-        elif available.issuperset(joints_of_cuts(tree, part)):
-            weighed.append(replace(part, name=f"weight on {', '.join(sensors_of(part))}"))
-        else:
-            lacking.append(f"part {part.name!r} needs the joint(s) {', '.join(missing)}, which the log lacks")
-    return tuple(logged), tuple(weighed), tuple(lacking)

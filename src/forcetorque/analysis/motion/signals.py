@@ -69,7 +69,6 @@ def motion_signals_of_arrays(
     units: Mapping[str, str],
     *,
     desired: Mapping[str, Any] | None = None,
-    interval: str = "arrays",
 ) -> list[MotionSignal]:
     """Make signals of arrays, such as columns of a data frame or of a simulation.
 
@@ -78,7 +77,6 @@ def motion_signals_of_arrays(
         columns: Samples by name; shape (n,) each.
         units: Unit of each.
         desired: What was wanted of some of them, by their names; shape (n,) each.
-        interval: What the arrays are of.
 
     Returns:
         A signal for each column.
@@ -96,7 +94,7 @@ def motion_signals_of_arrays(
             raise ExperimentError(f"desired: no column {name!r}; {known_names(name, columns)}")
     return [
         MotionSignal(
-            interval=interval,
+            interval="arrays",
             column=name,
             unit=units[name],
             time_s=time_s,

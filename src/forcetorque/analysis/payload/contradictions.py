@@ -5,10 +5,23 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from forcetorque.analysis.payload.load_doubts import circular_loads
 from forcetorque.analysis.payload.sense import reversed_sense
 from forcetorque.analysis.runs.sensor_run import SensorRun
 from forcetorque.loads import LoadSolution
 from forcetorque.recording import Use
+
+
+def reference_doubts(run: SensorRun) -> tuple[str, ...]:
+    """Say why what mechanics demands of a sensor may be wrong, so that it flatters the calibration fitted to it.
+
+    Args:
+        run: The sensor.
+
+    Returns:
+        A sentence for each statement that the readings contradict, and for each load that the sensor itself weighed.
+    """
+    return (*contradicted_statements(run), *circular_loads(run))
 
 
 def contradicted_statements(run: SensorRun) -> Iterator[str]:

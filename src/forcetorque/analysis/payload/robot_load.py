@@ -3,23 +3,30 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 import numpy as np
 
-from forcetorque.analysis.payload.rows import LoadRow
+from forcetorque.analysis.payload.contradictions import overweight_loads
+from forcetorque.analysis.payload.payload import WeighedLoad
+from forcetorque.analysis.payload.rows import HypothesisRow
 from forcetorque.analysis.runs.sensor_run import SensorRun
 from forcetorque.arrays import FloatArray
 from forcetorque.errors import ExperimentError
 from forcetorque.exchange.load import RobotLoad, write_load_file
 from forcetorque.exchange.load_format import LoadFormat
-from forcetorque.experiment.loads.wrist_load import LOAD_LINK
+from forcetorque.experiment.loads.wrist_load import LOAD_LINK, WristLoads
+from forcetorque.loads import Hypothesis
+from forcetorque.recording import Use
 from forcetorque.spatial import WRENCH_COMPONENTS
+
+_CAUTIONS = {"jump", "lag"}
+"""Accounts of the rows that change a load little: its bias steps, or its readings come late."""
 
 
 def robot_load(
-    run: SensorRun, bias: Sequence[float | None] | FloatArray, *, weighed: LoadRow | None = None
+    run: SensorRun, bias: Sequence[float | None] | FloatArray, *, weighed: WeighedLoad | None = None
 ) -> RobotLoad:
     """Give the load of a wrist sensor, estimated or stated, with a bias of the sensor.
 
@@ -27,13 +34,14 @@ def robot_load(
         run: The wrist sensor.
         bias: Reading without load, such as that of `weigh_load`, or minus the offset of `tare`; shape (6,); N, N m;
             None where the data leave it open.
-        weighed: The load by several recordings together, as `weigh_load` gives it; by that of the run alone if None.
+        weighed: What several recordings say together, as `weigh_load` gives it; the run alone if None.
 
     Returns:
         The load, to write it for a robot (`export_load`).
 
     Raises:
-        ExperimentError: If the experiment is of a robot with links, has several loads, or leaves load or bias open.
+        ExperimentError: If the experiment is of a robot with links, has several loads, leaves load or bias open, or if
+            the readings contradict the frames, senses and units by which the load was weighed.
     """
     experiment, known = run.experiment, np.array(bias, dtype=np.float64)
     if experiment.wrist is None:
@@ -51,17 +59,23 @@ def robot_load(
             f"expected a bias along every axis, of which a robot is told, the data leave {names} open: "
             "`forcetorque payload` says what to record"
         )
+    if contradiction := next(_contradictions(run, experiment.wrist, weighed), None):
+        raise ExperimentError(
+            f"expected a load that the readings agree with, of which a robot is told, they say: {contradiction}; mend "
+            "that, and weigh again"
+        )
     if weighed is None:
         (support,) = supports.values()
         inertia = experiment.model_on(support).links[LOAD_LINK]
         mass, centre = inertia.mass, inertia.first_moment / inertia.mass if inertia.mass else np.zeros(3)
-    elif weighed.mass_kg is None or None in weighed.centre_of_mass_m:
-        raise ExperimentError(
-            f"expected a load that the recordings determine, of which a robot is told, they leave {weighed.load!r} "
-            "open: `forcetorque payload` says what to record"
-        )
     else:
-        mass, centre = weighed.mass_kg, np.array(weighed.centre_of_mass_m, dtype=np.float64)
+        (load,) = weighed.loads
+        if load.mass_kg is None or None in load.centre_of_mass_m:
+            raise ExperimentError(
+                f"expected a load that the recordings determine, of which a robot is told, they leave {load.load!r} "
+                "open: `forcetorque payload` says what to record"
+            )
+        mass, centre = load.mass_kg, np.array(load.centre_of_mass_m, dtype=np.float64)
     matrix = run.sensor.prior if run.sensor.quantity == "raw" else None
     return RobotLoad(
         sensor=run.sensor.name,
@@ -72,6 +86,19 @@ def robot_load(
         bias=known,
         matrix=np.eye(6) if matrix is None else matrix,
     )
+
+
+def _contradictions(run: SensorRun, hanging: WristLoads, weighed: WeighedLoad | None) -> Iterator[str]:
+    """What says that the load is not what hangs there, or the bias not that of the sensor."""
+    accounts: Sequence[Hypothesis | HypothesisRow] = ()
+    if weighed is not None:
+        accounts = weighed.hypotheses
+    elif run.has(Use.CALIBRATION) and hanging.table.applied is None:
+        accounts = hanging.solution(run.experiment).hypotheses
+    # a mass that is stated as 0 is no mistake: a robot may be told that nothing hangs there
+    spared = _CAUTIONS | ({"no load"} if hanging.are_stated else set())
+    yield from (f"{account.name}: {account.words}" for account in accounts if account.name not in spared)
+    yield from overweight_loads(run)
 
 
 def export_load(

@@ -3,10 +3,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
-from typing import Self
+from typing import TypeVar
 
+from forcetorque.analysis.runs.campaign import Campaign
 from forcetorque.analysis.runs.corrections import corrections_of
 from forcetorque.analysis.runs.reading import Correction, wrench_at
 from forcetorque.analysis.runs.sensor_run import SensorRun
@@ -15,9 +16,54 @@ from forcetorque.calibration import Calibration
 from forcetorque.errors import ExperimentError
 from forcetorque.estimation import Contact
 from forcetorque.evaluation import ContactForceValidation, OtherSensors
-from forcetorque.recording import Interval
+from forcetorque.recording import Interval, Use
 from forcetorque.recording.alignment import require_overlap
 from forcetorque.robot import build_tree
+
+Answer = TypeVar("Answer")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class SubModelChoice:
+    """Which sub-model judges a sensor, and what the other sensors are taken to read: alike in all recordings."""
+
+    others: Mapping[str, Calibration] | None = None
+    """Calibrations of the other sensors by name, for the mode `measured`; where there is none, their prior."""
+    other_sensors: OtherSensors = OtherSensors.MODEL
+    """Whether the other sensors read what the model expects or what they measured."""
+    sub_model: str | None = None
+    """The sub-model, by the sensor at its base or the root link; None for that outboard of the sensor."""
+    contact: str | None = None
+    """Link at whose origin the contact is estimated; None for that mounted on the sensor."""
+
+    def in_run(self, run: SensorRun) -> FreeSubModel:
+        """Decide how the other sensors are read in a recording.
+
+        Args:
+            run: The judged sensor.
+
+        Returns:
+            The sub-model.
+        """
+        measured = self.other_sensors is OtherSensors.MEASURED
+        corrections = corrections_of(run.experiment, self.others or {}) if measured else {}
+        return FreeSubModel(run=run, choice=self, corrections=corrections)
+
+    def in_campaign(self, campaign: Campaign, question: Callable[[FreeSubModel], Answer]) -> dict[str, Answer]:
+        """Ask the sub-model of every recording that has validation intervals.
+
+        Args:
+            campaign: The judged sensor.
+            question: What is asked; its errors tell the file where there are several.
+
+        Returns:
+            Answers by the names of the recordings.
+        """
+        answers = {}
+        for run in campaign.runs_with(Use.VALIDATION):
+            with campaign.stated(run):
+                answers[campaign.recording(run)] = question(self.in_run(run))
+        return answers
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -26,46 +72,10 @@ class FreeSubModel:
 
     run: SensorRun
     """The judged sensor."""
-    other_sensors: OtherSensors
-    """Whether the other sensors read what the model expects or what they measured."""
-    sub_model: str | None
-    """The sub-model, by the sensor at its base or the root link; None for that outboard of the sensor."""
-    contact: str | None
-    """Link at whose origin the contact is estimated; None for that mounted on the sensor."""
+    choice: SubModelChoice
+    """Which sub-model it is, and where its contact."""
     corrections: Mapping[str, Correction]
     """How the sensors are read, by name; empty where the others read what the model expects."""
-
-    @classmethod
-    def of(
-        cls,
-        run: SensorRun,
-        *,
-        others: Mapping[str, Calibration] | None = None,
-        other_sensors: OtherSensors = OtherSensors.MODEL,
-        sub_model: str | None = None,
-        contact: str | None = None,
-    ) -> Self:
-        """Decide how the other sensors are read.
-
-        Args:
-            run: The judged sensor.
-            others: Calibrations of the other sensors by name, for the mode `measured`; where there is none, their
-                prior.
-            other_sensors: Whether the other sensors read what the model expects or what they measured.
-            sub_model: The sub-model, by the sensor at its base or the root link.
-            contact: Link at whose origin the contact is estimated.
-
-        Returns:
-            The sub-model.
-        """
-        measured = other_sensors is OtherSensors.MEASURED
-        return cls(
-            run=run,
-            other_sensors=other_sensors,
-            sub_model=sub_model,
-            contact=contact,
-            corrections=corrections_of(run.experiment, others or {}) if measured else {},
-        )
 
     def seen_from_support(self, interval: Interval) -> ContactForceValidation:
         """Find the sub-model in an interval.
@@ -81,13 +91,13 @@ class FreeSubModel:
         """
         if interval.support is None:
             raise ExperimentError("expected a support frame, got none")
-        experiment = self.run.experiment
+        experiment, contact = self.run.experiment, self.choice.contact
         return ContactForceValidation(
             tree=build_tree(experiment.model_on(interval.support), interval.support.frame),
             sensor=self.run.sensor.name,
-            sub_model=self.sub_model,
-            contact=None if self.contact is None else Contact(link=self.contact, name="contact"),
-            other_sensors=self.other_sensors,
+            sub_model=self.choice.sub_model,
+            contact=None if contact is None else Contact(link=contact, name="contact"),
+            other_sensors=self.choice.other_sensors,
             support=interval.support.frame,
             cut_at=tuple(sensor.name for sensor in experiment.sensors),
         )

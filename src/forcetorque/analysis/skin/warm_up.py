@@ -8,6 +8,7 @@ from typing import Annotated
 
 import numpy as np
 
+from forcetorque.analysis.runs.added import added_to
 from forcetorque.analysis.skin.messages import patch_messages
 from forcetorque.errors import ExperimentError
 from forcetorque.exchange.skin import describe_patch
@@ -55,7 +56,7 @@ def learn_warm_up(
         patch: The patch that is calibrated.
 
     Returns:
-        What was learned, what makes it doubtful, and the SHA-256 of its input files.
+        What was learned, what makes it doubtful and what the file adds to its log, and the SHA-256 of its input files.
 
     Raises:
         ExperimentError: If it is another patch, its layout is not stated, or its interval is not.
@@ -76,7 +77,12 @@ def learn_warm_up(
         described = describe_patch(own.layout)
         layout = described.layout(rebuilt_normals(described.positions, described.modules))
         learned = fit_warm_up(content.name, seconds[chosen], counts[chosen], layout)
-    return learned, _doubts(learned, own), {f"{content.name}: {k}": v for k, v in content.inputs_sha256.items()}
+    added = tuple(f"warm-up {content.name!r}: {sentence}" for sentence in added_to(content.recording))
+    return (
+        learned,
+        (*_doubts(learned, own), *added),
+        {f"{content.name}: {k}": v for k, v in content.inputs_sha256.items()},
+    )
 
 
 def _warming(content: PatchExperiment, seconds: np.ndarray) -> np.ndarray:

@@ -10,11 +10,10 @@ import numpy as np
 
 from forcetorque.analysis.runs.campaign import Campaign, Runs
 from forcetorque.analysis.runs.candidate import JudgedRow
-from forcetorque.analysis.runs.free_sub_model import FreeSubModel
+from forcetorque.analysis.runs.free_sub_model import SubModelChoice
 from forcetorque.analysis.torque.samples import JudgedTorques, judged_torques, pooled_torques
 from forcetorque.calibration import Calibration
 from forcetorque.evaluation import OtherSensors, torque_errors
-from forcetorque.recording import Use
 from forcetorque.result import Result, Shown, Table, finite_or_none, table_of
 from forcetorque.robot import JointType
 
@@ -110,13 +109,8 @@ def joint_torques(
         ExperimentError: If an interval has no support.
     """
     campaign = Campaign.of(runs)
-    recordings = {}
-    for run in campaign.runs_with(Use.VALIDATION):
-        with campaign.stated(run):
-            free = FreeSubModel.of(
-                run, others=others, other_sensors=other_sensors, sub_model=sub_model, contact=contact
-            )
-            recordings[campaign.recording(run)] = judged_torques(free, calibrations)
+    choice = SubModelChoice(others=others, other_sensors=other_sensors, sub_model=sub_model, contact=contact)
+    recordings = choice.in_campaign(campaign, lambda free: judged_torques(free, calibrations))
     return joint_torques_of(campaign, pooled_torques(recordings))
 
 

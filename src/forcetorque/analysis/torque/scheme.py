@@ -52,8 +52,8 @@ def torque_scheme(free: FreeSubModel, interval: Interval) -> TorqueScheme:
     sub_model, recording = free.seen_from_support(interval), free.run.experiment.recording
     tree, cut_at, sensor = sub_model.tree, tuple(sub_model.cut_at or ()), sub_model.sensor
     available = set(recording.joint_signals("position"))
-    names = cut_at if free.other_sensors is OtherSensors.MEASURED else (sensor,)
-    loaded = {name: joints_of_sensor(tree, name, cut_at=cut_at, contact=free.contact) for name in names}
+    names = cut_at if free.choice.other_sensors is OtherSensors.MEASURED else (sensor,)
+    loaded = {name: joints_of_sensor(tree, name, cut_at=cut_at, contact=free.choice.contact) for name in names}
     joints, sensors, left_out = [], [sensor], []
     for joint in loaded[sensor]:
         readers = tuple(name for name in names if joint in loaded[name])
@@ -74,7 +74,7 @@ def torque_scheme(free: FreeSubModel, interval: Interval) -> TorqueScheme:
     return TorqueScheme(
         tree=tree,
         cut_at=cut_at,
-        contact=free.contact,
+        contact=free.choice.contact,
         joints=tuple(joints),
         sensors=tuple(sensors),
         logged=logged,

@@ -3,21 +3,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import Final
 
+from forcetorque.analysis.payload.load_doubts import circular_loads
 from forcetorque.analysis.runs.campaign import Campaign, Runs
 from forcetorque.analysis.runs.named import Calibrations, named
-from forcetorque.analysis.runs.unseen import require_unseen_if_judged
+from forcetorque.analysis.runs.unseen import doubts_about_choice, require_unseen_if_judged
 from forcetorque.analysis.use.judge import UseJudge
 from forcetorque.analysis.use.judged_evidence import judged_evidence
 from forcetorque.analysis.use.loads_of_use import Refuse, loads_of_use, raise_refused
 from forcetorque.analysis.use.prior_comparison import compare_with_prior
-from forcetorque.analysis.use.verdict import UseVerdict
+from forcetorque.analysis.use.verdict import Reason, UseVerdict
+from forcetorque.calibration import Calibration
 from forcetorque.errors import FitError
 from forcetorque.evaluation import Offset
 from forcetorque.evaluation.use import UseOffset
 from forcetorque.experiment.tables.load_case import LoadCaseTable
+from forcetorque.recording import Use
 
 
 def use_verdicts(
@@ -66,15 +69,25 @@ def use_verdicts(
             except FitError as error:
                 refuse(error)
             else:
-                verdicts.append(_verdict(campaign, name, judge))
+                verdicts.append(_verdict(campaign, name, judge, tuple(_informing(campaign, name, calibration))))
     return tuple(verdicts)
+
+
+def _informing(campaign: Campaign, name: str, calibration: Calibration) -> Iterator[Reason]:
+    """What no judged data can show: that what judges is not independent of what is judged."""
+    for run in campaign.runs:
+        circular = circular_loads(run)
+        chosen = doubts_about_choice(run, name, calibration) if run.has(Use.VALIDATION) else ()
+        for sentence in (*circular, *chosen):
+            if sentence not in calibration.doubts:  # of which the judge speaks
+                yield Reason(against=None, text=sentence)
 
 
 _COMPARED: Final = {UseOffset.FITTED: Offset.FITTED, UseOffset.TARED: Offset.JUDGED_MEAN}
 """With which offset judged data compare a calibration and its prior for a use."""
 
 
-def _verdict(campaign: Campaign, name: str, judge: UseJudge) -> UseVerdict:
+def _verdict(campaign: Campaign, name: str, judge: UseJudge, informing: tuple[Reason, ...]) -> UseVerdict:
     decision, reasons = judge.verdict()
     case = judge.case
     return UseVerdict(
@@ -87,7 +100,7 @@ def _verdict(campaign: Campaign, name: str, judge: UseJudge) -> UseVerdict:
         stated=case.is_stated,
         decision=decision,
         sentence=f"{decision} for {case.words}: {reasons[0].text}",
-        reasons=reasons,
+        reasons=(*reasons, *dict.fromkeys(informing)),
         within=judge.within,
         errors=tuple(judge.errors()),
     )

@@ -9,7 +9,7 @@ from typing import Annotated
 import numpy as np
 
 from forcetorque.analysis.runs.campaign import Campaign, Runs
-from forcetorque.analysis.runs.free_sub_model import FreeSubModel
+from forcetorque.analysis.runs.free_sub_model import SubModelChoice
 from forcetorque.analysis.use.judged_excitation import JudgedExcitation, fewest_independent
 from forcetorque.analysis.validate.best_candidate import BestCandidate, judged_best
 from forcetorque.analysis.validate.contact_wrenches import ContactWrenches, contact_wrenches, pooled_contacts
@@ -17,7 +17,6 @@ from forcetorque.calibration import Calibration
 from forcetorque.errors import ExperimentError
 from forcetorque.evaluation import Offset, OtherSensors, errors_from_zero
 from forcetorque.experiment.content import ExperimentSensor
-from forcetorque.recording import Use
 from forcetorque.result import (
     Result,
     Row,
@@ -128,13 +127,8 @@ def contact_forces(
         ExperimentError: If there is nothing to judge, or an interval has no support.
     """
     campaign = Campaign.of(runs)
-    recordings = {}
-    for run in campaign.runs_with(Use.VALIDATION):
-        with campaign.stated(run):
-            free = FreeSubModel.of(
-                run, others=others, other_sensors=other_sensors, sub_model=sub_model, contact=contact
-            )
-            recordings[campaign.recording(run)] = contact_wrenches(free, calibrations)
+    choice = SubModelChoice(others=others, other_sensors=other_sensors, sub_model=sub_model, contact=contact)
+    recordings = choice.in_campaign(campaign, lambda free: contact_wrenches(free, calibrations))
     return contact_forces_of(campaign.sensor, recordings)
 
 

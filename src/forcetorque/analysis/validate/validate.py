@@ -10,7 +10,7 @@ from pydantic import Field
 
 from forcetorque.analysis.evaluate.tables import smoothing_words
 from forcetorque.analysis.runs.campaign import Campaign, Runs
-from forcetorque.analysis.runs.free_sub_model import FreeSubModel
+from forcetorque.analysis.runs.free_sub_model import FreeSubModel, SubModelChoice
 from forcetorque.analysis.runs.named import Calibrations, named
 from forcetorque.analysis.runs.validity import ReadingsOutside, readings_outside, sentences
 from forcetorque.analysis.torque.joint_torques import (
@@ -136,16 +136,10 @@ def validate(
         ExperimentError: If there is nothing to judge, or an interval has no support.
     """
     campaign, judged_by = Campaign.of(runs), named(calibrations)
-    contacts: dict[str, ContactWrenches] = {}
-    torques: dict[str, JudgedTorques] = {}
-    for run in campaign.runs_with(Use.VALIDATION):
-        with campaign.stated(run):
-            free = FreeSubModel.of(
-                run, others=others, other_sensors=other_sensors, sub_model=sub_model, contact=contact
-            )
-            # torques need the motion of more joints, in which that of the contact force is found
-            torques[campaign.recording(run)] = judged_torques(free, judged_by)
-            contacts[campaign.recording(run)] = contact_wrenches(free, judged_by)
+    choice = SubModelChoice(others=others, other_sensors=other_sensors, sub_model=sub_model, contact=contact)
+    answers = choice.in_campaign(campaign, lambda free: _torques_and_contacts(free, judged_by))
+    torques = {name: answer[0] for name, answer in answers.items()}
+    contacts = {name: answer[1] for name, answer in answers.items()}
     judged = joint_torques_of(campaign, pooled_torques(torques))
     forces = contact_forces_of(campaign.sensor, contacts)
     name = campaign.sensor.name
@@ -168,6 +162,13 @@ def validate(
         uses=uses,
         warnings=(*sentences(validity), *(f"left out: {words}" for words in left_out)),
     )
+
+
+def _torques_and_contacts(
+    free: FreeSubModel, calibrations: Mapping[str, Calibration]
+) -> tuple[JudgedTorques, ContactWrenches]:
+    """Torques first: they need the motion of more joints, in which that of the contact force is found."""
+    return judged_torques(free, calibrations), contact_wrenches(free, calibrations)
 
 
 def _validity(

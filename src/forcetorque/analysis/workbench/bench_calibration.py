@@ -17,7 +17,7 @@ from forcetorque.calibration import (
     SessionOffset,
     excitation_of,
 )
-from forcetorque.exsitu import SESSION, BenchFit
+from forcetorque.exsitu import SESSION, Bench, BenchFit
 
 _RULE = "readings of known loads regressed on them; sizes of prior deviations by evidence"
 
@@ -41,10 +41,13 @@ def bench_calibration(
     posterior, matrix = fit.posterior, fit.model.matrix
     error = posterior.offset_error(fit.model.offset, SESSION)
     readings = bench.raw + bench.bias
-    prior_offset = None
-    if bench.prior is not None:
-        prior_offset = (bench.loads.wrench - bench.read_by(bench.prior)).mean(axis=0) - bench.prior @ bench.bias
-    time = bench.instants_s
+    prior = _prior(recording, bench)
+    session = SessionOffset(
+        name=SESSION,
+        offset=fitted.offset,
+        standard_error=error,
+        prior_offset=None if prior is None else prior.offset,
+    )
     return Calibration(
         sensor=SensorIdentity(
             name=sensor.name,
@@ -55,16 +58,14 @@ def bench_calibration(
         ),
         matrix=matrix,
         offset=fitted.offset,
-        sessions=(SessionOffset(name=SESSION, offset=fitted.offset, standard_error=error, prior_offset=prior_offset),),
+        sessions=(session,),
         estimation_type=GENERATIVE,
         posterior=posterior,
         matrix_standard_error=posterior.matrix_error(matrix),
         offset_standard_error=error,
         residual_rms=fit.residual,
         lambda_counts2=None,
-        prior=None
-        if bench.prior is None or prior_offset is None
-        else Prior(matrix=bench.prior, offset=prior_offset, source=str(sensor.prior or "given")),
+        prior=prior,
         validity=validity_of(
             readings.min(axis=0),
             readings.max(axis=0),
@@ -73,21 +74,33 @@ def bench_calibration(
         ),
         selection=Selection(rule=_RULE),
         doubts=doubts,
-        provenance=Provenance(
-            code_version=code_version,
-            created=created,
-            experiment=recording.file,
-            intervals=(
-                FittedInterval(
-                    label=SESSION,
-                    start_ns=round(1e9 * time.min()),
-                    end_ns=round(1e9 * time.max()),
-                    session=SESSION,
-                    experiment=recording.file,
-                ),
+        provenance=_provenance(recording, bench, code_version=code_version, created=created),
+    )
+
+
+def _prior(recording: BenchRecording, bench: Bench) -> Prior | None:
+    """The matrix so far, with the offset at which it reads the loads of the bench in the mean; None where none is."""
+    if bench.prior is None:
+        return None
+    offset = (bench.loads.wrench - bench.read_by(bench.prior)).mean(axis=0) - bench.prior @ bench.bias
+    return Prior(matrix=bench.prior, offset=offset, source=str(recording.sensor.prior or "given"))
+
+
+def _provenance(recording: BenchRecording, bench: Bench, *, code_version: str, created: str) -> Provenance:
+    return Provenance(
+        code_version=code_version,
+        created=created,
+        experiment=recording.file,
+        intervals=(
+            FittedInterval(
+                label=SESSION,
+                start_ns=round(1e9 * bench.instants_s.min()),
+                end_ns=round(1e9 * bench.instants_s.max()),
+                session=SESSION,
+                experiment=recording.file,
             ),
-            samples=len(bench),
-            dropped=len(recording.loads) - len(bench),
-            inputs_sha256=recording.inputs_sha256,
         ),
+        samples=len(bench),
+        dropped=len(recording.loads) - len(bench),
+        inputs_sha256=recording.inputs_sha256,
     )

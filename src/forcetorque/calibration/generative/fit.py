@@ -12,12 +12,13 @@ from forcetorque.arrays import FloatArray, read_only
 from forcetorque.calibration.generative import assumptions as expected
 from forcetorque.calibration.generative.assumptions import Assumptions, Scale
 from forcetorque.calibration.generative.design import Design, design_of, whiten
-from forcetorque.calibration.generative.determined import require_rank, require_response, require_sensor
-from forcetorque.calibration.generative.evidence import Unknowns, infer
+from forcetorque.calibration.generative.determined import require_rank
+from forcetorque.calibration.generative.evidence import infer
 from forcetorque.calibration.generative.means import WindowMeans, in_order
 from forcetorque.calibration.generative.rows import LOADS, Rows, rows_of
+from forcetorque.calibration.generative.solved_rows import SolvedRows
 from forcetorque.calibration.linear_variable import LinearVariable
-from forcetorque.calibration.posterior import Posterior, RowNoise
+from forcetorque.calibration.posterior import Posterior
 from forcetorque.calibration.quadratic_correction import PAIRS
 from forcetorque.calibration.wrench_model import WrenchModel
 from forcetorque.errors import FitError
@@ -119,9 +120,63 @@ def fit_generative(
         accuracy=rows.accuracy,
         freedom=max(len(raw) - design.free.shape[1], 1),
     )
-    return _Result(rows, design, basis, unknowns, expected_rows, matrix, assumptions).fit(
-        raw, wrench, values, centre, with_prior=prior is not None, variables=variables
+    solved = SolvedRows(
+        rows=rows,
+        design=design,
+        basis=basis,
+        unknowns=unknowns,
+        expected_rows=expected_rows,
+        matrix=matrix,
+        with_prior=prior is not None,
+        assumptions=assumptions,
     )
+    return _fit(solved, raw, wrench, values - centre, variables=variables, centre=centre)
+
+
+def _fit(
+    solved: SolvedRows,
+    raw: FloatArray,
+    wrench: FloatArray,
+    moved: FloatArray,
+    *,
+    variables: Sequence[LinearVariable],
+    centre: FloatArray,
+) -> GenerativeFit:
+    """Read the means by what the rows come to; `moved` are the values of the variables about their centre."""
+    matrix, posterior = solved.solution(variables, wrench)
+    design, v, sessions = solved.design, len(variables), len(posterior.sessions)
+    mean, to_wrench = posterior.mean, posterior.to_wrench
+    offsets = -(to_wrench @ mean[:, LOADS + v : LOADS + v + sessions]).T
+    drifts = -(to_wrench @ mean[:, LOADS + v + sessions :]).T if posterior.drift else None
+    model = WrenchModel(
+        matrix=matrix,
+        offset=offsets[-1],
+        coefficients=-(to_wrench @ mean[:, LOADS : LOADS + v]),
+        reference_values=centre,
+    )
+    error = raw @ matrix.T + moved @ model.coefficients.T - wrench
+    return GenerativeFit(
+        model=model,
+        offsets=offsets,
+        drifts=drifts,
+        session_time_s=design.session_time_s,
+        posterior=posterior,
+        residual=_residual(design, error, offsets, drifts),
+        quadratic=solved.quadratic(),
+        load_to_full_scale=solved.rows.load_to_full_scale,
+        means=len(raw),
+    )
+
+
+def _residual(design: Design, error: FloatArray, offsets: FloatArray, drifts: FloatArray | None) -> FloatArray:
+    """Root mean square of errors without an offset, less offset and drift of each session; shape (6,); N, N m."""
+    sessions = len(design.sessions)
+    member = design.free[:, :sessions].argmax(axis=1)
+    left = error + offsets[member]
+    if drifts is not None:
+        left = left + drifts[member] * design.free[:, sessions:].sum(axis=1)[:, None]
+    residual: FloatArray = np.sqrt(np.average(left**2, axis=0, weights=design.timeline.share))
+    return residual
 
 
 def _rough(raw: FloatArray, wrench: FloatArray) -> FloatArray:
@@ -178,157 +233,3 @@ def _require_means(design: Design, *, drift: bool) -> None:
                 f"session {name!r}: expected at least 3 s of data for an offset and its drift, got {count} s; "
                 "take its offset as constant"
             )
-
-
-class _Result:
-    """From the unknowns of the rows to matrix, offsets and posterior."""
-
-    def __init__(
-        self,
-        rows: Rows,
-        design: Design,
-        basis: Sequence[FloatArray],
-        unknowns: Sequence[Unknowns],
-        expected_rows: FloatArray,
-        matrix: FloatArray,
-        assumptions: Assumptions,
-    ) -> None:
-        self.rows, self.design, self.basis, self.unknowns = rows, design, basis, unknowns
-        self.expected_rows, self.matrix, self.assumptions = expected_rows, matrix, assumptions
-
-    def fit(
-        self,
-        raw: FloatArray,
-        wrench: FloatArray,
-        values: FloatArray,
-        centre: FloatArray,
-        *,
-        with_prior: bool,
-        variables: Sequence[LinearVariable],
-    ) -> GenerativeFit:
-        v, sessions = len(variables), len(self.design.sessions)
-        rows, unit = self.rows, self.rows.unit
-        known = [self._row(k) for k in range(len(unit))]
-        mean = np.stack([row[0] for row in known]) * unit[:, None]
-        covariance = np.stack([row[1] for row in known]) * unit[:, None, None] ** 2
-        learnt = covariance[:, :LOADS, :LOADS].copy()
-        noise = self._noise()
-        matrix, to_wrench = self._matrix(mean[:, :LOADS], noise)
-        if rows.space == "channel":
-            mean[:, :LOADS] += rows.from_load * unit[:, None]
-        covariance += self._repeatability(matrix)
-        prior = self._before(unit) if with_prior else None
-        if not with_prior:
-            require_response(mean[:, :LOADS], learnt, wrench)
-        posterior = Posterior(
-            space=rows.space,
-            variables=tuple(variable.name for variable in variables),
-            sessions=self.design.sessions,
-            drift=self.design.free.shape[1] > sessions,
-            mean=mean,
-            covariance=covariance,
-            learnt_covariance=learnt,
-            prior_covariance=prior,
-            to_wrench=to_wrench,
-            noise=noise,
-            accuracy=self.assumptions.reference_accuracy(self.matrix),
-            repeatability=self.assumptions.repeatability,
-            load_centre=self.design.load_centre,
-        )
-        offsets = -(to_wrench @ mean[:, LOADS + v : LOADS + v + sessions]).T
-        model = WrenchModel(
-            matrix=matrix,
-            offset=offsets[-1],
-            coefficients=-(to_wrench @ mean[:, LOADS : LOADS + v]),
-            reference_values=centre,
-        )
-        error = raw @ matrix.T + (values - centre) @ model.coefficients.T - wrench
-        drifts = -(to_wrench @ mean[:, LOADS + v + sessions :]).T if posterior.drift else None
-        return GenerativeFit(
-            model=model,
-            offsets=offsets,
-            drifts=drifts,
-            session_time_s=self.design.session_time_s,
-            posterior=posterior,
-            residual=self._residual(error, offsets, drifts),
-            quadratic=np.stack([self._quadratic(k) for k in range(len(unit))]) * unit[:, None],
-            load_to_full_scale=rows.load_to_full_scale,
-            means=len(raw),
-        )
-
-    def _noise(self) -> tuple[RowNoise, ...]:
-        """Noise of every row, in its unit of readings."""
-        return tuple(
-            RowNoise(
-                white=float(np.sqrt(unknown.variance) * unit),
-                time_constant_s=unknown.data.noise.time_constant_s,
-                ratio=unknown.data.noise.ratio,
-            )
-            for unknown, unit in zip(self.unknowns, self.rows.unit, strict=True)
-        )
-
-    def _residual(self, error: FloatArray, offsets: FloatArray, drifts: FloatArray | None) -> FloatArray:
-        """Root mean square of errors without an offset, less offset and drift of each session; shape (6,); N, N m."""
-        sessions = len(self.design.sessions)
-        member = self.design.free[:, :sessions].argmax(axis=1)
-        left = error + offsets[member]
-        if drifts is not None:
-            left = left + drifts[member] * self.design.free[:, sessions:].sum(axis=1)[:, None]
-        residual: FloatArray = np.sqrt(np.average(left**2, axis=0, weights=self.design.timeline.share))
-        return residual
-
-    def _row(self, k: int) -> tuple[FloatArray, FloatArray]:
-        """Mean and covariance of [six coefficients, variables, offsets, drifts] of a row, in its unit."""
-        unknown, basis, design = self.unknowns[k], self.basis[k], self.design
-        sessions, free = len(design.sessions), design.free.shape[1]
-        used = LOADS + self.expected_rows.shape[1]
-        data = unknown.data
-        worth = data.free_columns @ basis  # of the free unknowns, by what the others explain
-        from_unknowns = np.zeros((used + free, len(unknown.coefficients)))
-        from_unknowns[:used] = basis[:used]
-        from_unknowns[used:] = -worth
-        from_unknowns[used : used + sessions] -= design.column_means[:, :used] @ basis[:used]
-        constant = np.zeros(used + free)
-        constant[LOADS:used] = self.expected_rows[k]
-        constant[used:] = data.free_response[:, k]
-        constant[used : used + sessions] += design.response_means[:, k]
-        covariance = from_unknowns @ unknown.covariance @ from_unknowns.T
-        covariance[used:, used:] += unknown.variance * data.free_covariance
-        return constant + from_unknowns @ unknown.coefficients, 0.5 * (covariance + covariance.T)
-
-    def _matrix(self, change: FloatArray, noise: Sequence[RowNoise]) -> tuple[FloatArray, FloatArray]:
-        """The matrix, and what turns errors of rows into errors of wrenches."""
-        rows, unit = self.rows, self.rows.unit
-        if rows.space == "wrench":
-            require_sensor(np.eye(LOADS) + change * (unit / unit[:, None]))
-            to_wrench = np.asarray(np.linalg.inv(np.eye(LOADS) + change), dtype=np.float64)
-            return to_wrench @ self.matrix, to_wrench
-        response = rows.from_load * unit[:, None] + change
-        precision = np.array([1.0 / (one.white**2 * (1.0 + one.ratio)) for one in noise])[:, None]
-        weighed = precision * response
-        matrix = np.asarray(np.linalg.solve(response.T @ weighed, weighed.T), dtype=np.float64)
-        return matrix, matrix
-
-    def _before(self, unit: FloatArray) -> FloatArray:
-        """Covariance of the six coefficients of every row before any data."""
-        prior = []
-        for k, unknown in enumerate(self.unknowns):
-            root = self.basis[k][:LOADS, : 2 * LOADS] * unknown.deviations[: 2 * LOADS]
-            prior.append(unit[k] ** 2 * root @ root.T)
-        return np.stack(prior)
-
-    def _repeatability(self, matrix: FloatArray) -> FloatArray:
-        """Covariance by motions in which the sensor answers otherwise, about the mean load of each session."""
-        rows, design = self.rows, self.design
-        sessions, free = len(design.sessions), design.free.shape[1]
-        used = LOADS + self.expected_rows.shape[1]
-        jacobian = np.zeros((used + free, LOADS))
-        jacobian[:LOADS] = np.eye(LOADS)
-        jacobian[used : used + sessions] = -design.column_means[:, :LOADS]
-        roots = rows_of(matrix, self.assumptions, with_prior=rows.space == "wrench").sensor_root
-        spread = self.assumptions.repeatability * jacobian @ (roots * rows.unit[:, None, None])
-        return spread @ spread.transpose(0, 2, 1)
-
-    def _quadratic(self, k: int) -> FloatArray:
-        place = 2 * LOADS + self.expected_rows.shape[1]
-        return self.unknowns[k].coefficients[place : place + len(PAIRS[0])]

@@ -80,12 +80,7 @@ def fit_stretches(
     duration = sum(float(np.ptp(one.stretch.time_s)) for one in stretches if len(one.stretch))
     every = max(round(duration / LINEAR_S), 1)
     windows = _windows(stretches, terms, None, every)
-    kept = _agreeing(windows, None)
-    fit = _fit(windows, kept, terms, spreads)
-    straight = _agreeing(windows, fit)
-    # what a touch bends in the first fit is straight in the second
-    if not all(map(np.array_equal, kept, straight)):
-        fit = _fit(windows, straight, terms, spreads)
+    fit = _fit(windows, _agreeing(windows, None), terms, spreads)
     for number in range(2, ROUNDS + 1):
         progress(f"the same about the fit, round {number} of {ROUNDS}")
         windows = _windows(stretches, terms, fit, every if number < ROUNDS else 1)

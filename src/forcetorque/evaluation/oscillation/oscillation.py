@@ -17,6 +17,7 @@ import numpy as np
 
 from forcetorque.arrays import FloatArray, read_only
 from forcetorque.evaluation.oscillation.candidate import Candidate
+from forcetorque.evaluation.oscillation.tapered_swings import TaperedSwings
 from forcetorque.noise import half_width
 
 _MOST_GROWTH = 12.0
@@ -68,66 +69,55 @@ def fit_oscillation(values: FloatArray, rate_hz: float, candidate: Candidate) ->
     Returns:
         The oscillation.
     """
+    swings = TaperedSwings.about(candidate, len(values))
+    data = swings.seen(values)
+    shape, squares = _closest_shape(swings, data, candidate)
+    columns = swings.columns(shape)
+    sizes = np.linalg.lstsq(columns, data, rcond=None)[0]
+    parameters = np.array([*sizes, *shape])
+    degrees = len(data) - len(parameters)
+    moved = [
+        (swings.columns(shape + step) - swings.columns(shape - step)) @ sizes / (2.0 * _STEP)
+        for step in _STEP * np.eye(2)
+    ]
+    jacobian = np.column_stack([columns, *moved])
+    covariance = squares / degrees * np.linalg.pinv(jacobian.T @ jacobian, hermitian=True)
+    duration_s = len(values) / rate_hz
+    frequency_hz, amplitude, damping = map(float, _frequency_amplitude_damping(parameters, duration_s))
+    gradient = _gradient(parameters, duration_s)
+    return Oscillation(
+        frequency_hz=frequency_hz,
+        amplitude=amplitude,
+        damping=damping,
+        standard_error=np.sqrt(np.einsum("ip,pq,iq->i", gradient, covariance, gradient)),
+        degrees_of_freedom=degrees,
+        coherence_s=duration_s,
+        chance=candidate.chance,
+        fitted=swings.cosine_and_sine(shape) @ sizes,
+    )
+
+
+def _closest_shape(swings: TaperedSwings, data: FloatArray, candidate: Candidate) -> tuple[FloatArray, float]:
+    """Cycles and growth of the swing nearest to the data, and the sum of squares that it leaves."""
     from scipy.optimize import least_squares  # here because importing it takes longer than most commands
 
-    n = len(values)
-    place = (np.arange(n) - 0.5 * (n - 1)) / n  # in records
-    carrier = candidate.family.tapers(n) * np.exp(-2j * np.pi * candidate.cycles * place)
-
-    def seen(signals: FloatArray) -> FloatArray:
-        """What the tapers see of signals, real parts over imaginary ones; shape (2 k, ...)."""
-        numbers = carrier @ signals
-        both: FloatArray = np.concatenate([numbers.real, numbers.imag])
-        return both
-
-    def swings(shape: Any) -> FloatArray:
-        cycles, growth = shape
-        envelope, angle = np.exp(growth * place), 2.0 * np.pi * cycles * place
-        # the signal lost its mean and trend, and the swing with it
-        return _detrended(np.column_stack([envelope * np.cos(angle), envelope * np.sin(angle)]))
-
-    data = seen(values)
-
-    def left(shape: Any) -> FloatArray:
-        columns = seen(swings(shape))
-        residual: FloatArray = data - columns @ np.linalg.lstsq(columns, data, rcond=None)[0]
-        return residual
+    def residual(shape: Any) -> FloatArray:
+        columns = swings.columns(shape)
+        left: FloatArray = data - columns @ np.linalg.lstsq(columns, data, rcond=None)[0]
+        return left
 
     reach = float(candidate.family.half_bandwidth)
     solved = least_squares(
-        left,
+        residual,
         [candidate.cycles, candidate.growth],
         bounds=([candidate.cycles - reach, -_MOST_GROWTH], [candidate.cycles + reach, _MOST_GROWTH]),
         diff_step=[_STEP / candidate.cycles, _STEP],
     )
-    shape = solved.x
-    columns = seen(swings(shape))
-    cosine, sine = np.linalg.lstsq(columns, data, rcond=None)[0]
-    parameters = np.array([cosine, sine, *shape])
-    degrees = len(data) - len(parameters)
-    noise = 2.0 * float(solved.cost) / degrees
-    moved = [
-        (seen(swings(shape + step)) - seen(swings(shape - step))) @ [cosine, sine] / (2.0 * _STEP)
-        for step in _STEP * np.eye(2)
-    ]
-    jacobian = np.column_stack([columns, *moved])
-    covariance = noise * np.linalg.pinv(jacobian.T @ jacobian, hermitian=True)
-    stated = _told(parameters, n / rate_hz)
-    gradient = _gradient(parameters, n / rate_hz)
-    return Oscillation(
-        frequency_hz=float(stated[0]),
-        amplitude=float(stated[1]),
-        damping=float(stated[2]),
-        standard_error=np.sqrt(np.einsum("ip,pq,iq->i", gradient, covariance, gradient)),
-        degrees_of_freedom=degrees,
-        coherence_s=n / rate_hz,
-        chance=candidate.chance,
-        fitted=swings(shape) @ np.array([cosine, sine]),
-    )
+    return solved.x, 2.0 * float(solved.cost)
 
 
-def _told(parameters: FloatArray, duration_s: float) -> FloatArray:
-    """Frequency, amplitude and damping of cosine, sine, cycles and growth."""
+def _frequency_amplitude_damping(parameters: FloatArray, duration_s: float) -> FloatArray:
+    """Frequency in Hz, amplitude and damping of cosine, sine, cycles and growth."""
     cosine, sine, cycles, growth = parameters
     # mean square of exp(growth u) over u from -1/2 to 1/2
     square = math.sinh(growth) / growth if abs(growth) > _STEP else 1.0
@@ -137,17 +127,11 @@ def _told(parameters: FloatArray, duration_s: float) -> FloatArray:
 
 
 def _gradient(parameters: FloatArray, duration_s: float) -> FloatArray:
-    """Of what is told by the parameters; shape (3, 4)."""
+    """Derivatives of frequency, amplitude and damping by the parameters; shape (3, 4)."""
     steps = 1e-4 * np.array([*[math.hypot(*parameters[:2])] * 2, 1.0, 1.0])
-    columns = [
-        (_told(parameters + step, duration_s) - _told(parameters - step, duration_s)) / (2.0 * step.sum())
-        for step in np.diag(steps)
-    ]
+    ahead, behind = (
+        [_frequency_amplitude_damping(parameters + sign * step, duration_s) for step in np.diag(steps)]
+        for sign in (1.0, -1.0)
+    )
+    columns = [(more - less) / (2.0 * step) for more, less, step in zip(ahead, behind, steps, strict=True)]
     return np.column_stack(columns)
-
-
-def _detrended(values: FloatArray) -> FloatArray:
-    from scipy.signal import detrend
-
-    flat: FloatArray = detrend(values, axis=0)
-    return flat

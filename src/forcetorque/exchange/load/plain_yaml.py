@@ -10,11 +10,11 @@ from pathlib import Path
 
 import numpy as np
 
+from forcetorque.decimal_text import DECIMAL_NUMBER
 from forcetorque.errors import FormatError, MissingFileError, known_names
 
 _ENTRY = re.compile(r"(?P<key>[A-Za-z_]\w*):(?:\s+(?P<value>.*))?$")
 _ITEM = re.compile(r"\s*-\s+(?P<value>\S+)$")
-_NUMBER = re.compile(r"[+-]?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][+-]?[0-9]+)?")
 _LARGEST = 1 << 20
 """Bytes; a file of parameters has a few hundred."""
 
@@ -122,13 +122,13 @@ def _value(file: Path, line: int, text: str) -> Value:
         if not text.endswith("]"):
             raise FormatError(f"{file}:{line}: expected a list that ends in ], got {text[:60]!r}")
         return [_number(file, line, part.strip()) for part in text[1:-1].split(",")]
-    if _NUMBER.fullmatch(text):
+    if DECIMAL_NUMBER.fullmatch(text):
         return _number(file, line, text)
     return text.strip("\"'")
 
 
 def _number(file: Path, line: int, text: str) -> float:
-    if not _NUMBER.fullmatch(text) or not np.isfinite(float(text)):
+    if not DECIMAL_NUMBER.fullmatch(text) or not np.isfinite(float(text)):
         raise FormatError(f"{file}:{line}: expected a finite number, got {text[:60]!r}")
     return float(text)
 

@@ -11,6 +11,7 @@ from xml.etree.ElementTree import Element
 import numpy as np
 
 from forcetorque.arrays import FloatArray
+from forcetorque.decimal_text import DECIMAL_NUMBER
 from forcetorque.errors import FormatError, MissingFileError, quoted
 from forcetorque.exchange.wholebodydynamics.correction import SensorCorrection
 from forcetorque.exchange.wholebodydynamics.group import Group
@@ -18,7 +19,6 @@ from forcetorque.xml_file import read_xml
 
 _LIST = re.compile(r"\(([^()]*)\)")
 _SEPARATOR = re.compile(r"[\s,]+")
-_NUMBER = re.compile(r"[+-]?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][+-]?[0-9]+)?")
 
 _Lists = dict[Group, dict[str, FloatArray]]
 
@@ -88,7 +88,7 @@ def _numbers(text: str, *, count: int, where: str) -> FloatArray:
         raise FormatError(f"{where}: expected {count} numbers in parentheses, got {quoted(text.strip())}")
     words = [word for word in _SEPARATOR.split(content[1]) if word]
     for word in words:
-        if not _NUMBER.fullmatch(word):
+        if not DECIMAL_NUMBER.fullmatch(word):
             raise FormatError(f"{where}: expected {count} finite numbers such as -0.5, got {quoted(word)}")
     if len(words) != count:
         raise FormatError(f"{where}: expected {count} numbers, got {len(words)}; the device refuses to start with that")

@@ -8,12 +8,12 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import TypeAlias
 
+from forcetorque.decimal_text import DECIMAL_NUMBER
 from forcetorque.errors import FormatError
 
 _TOKEN = re.compile(r"""(?P<space>\ +)|(?P<bracket>[()])|\[(?P<vocab>[^][()"\s]*)\]
                         |"(?P<text>(?:[^"\\]|\\.)*)"|(?P<word>[^][()"\ ]+)""", re.VERBOSE)  # fmt: skip
 _INTEGER = re.compile(r"-?[0-9]{1,18}")
-_FLOAT = re.compile(r"[-+]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][-+]?[0-9]+)?")
 _ESCAPE = re.compile(r"\\(.)", re.DOTALL)
 _CLIP = 40
 """Length to which a text is cut in messages."""
@@ -111,4 +111,4 @@ def _element(token: re.Match[str]) -> BottleValue:
     word = token["word"]
     if _INTEGER.fullmatch(word):
         return int(word)
-    return float(word) if _FLOAT.fullmatch(word) else word
+    return float(word) if DECIMAL_NUMBER.fullmatch(word) else word

@@ -135,7 +135,15 @@ def _shown(recording: Recording, stream: Stream, values: FloatArray) -> Shown:
 
 
 def _gravity(recording: Recording, motion: Motion, reading: Stream, reference: Stream) -> FloatArray:
-    return reference.signals["gravity"].values
+    """Gravity, and what turning adds to it where an orientation tells that: an arm moves what it turns."""
+    gravity = reference.signals["gravity"].values
+    if "orientation" not in reference.signals:
+        return gravity
+    # a point of a body that turns about another one feels what is linear in these; left out it would pass for noise,
+    # which it is not: it comes again with the motion
+    speed = _turning(recording, motion, reading, reference)
+    turned = smooth_columns(reference.stamp_ns, speed, _TURN_WINDOW, derivative=1)
+    return np.column_stack([gravity, turned, *_products(speed)])
 
 
 def _acceleration(recording: Recording, motion: Motion, reading: Stream, reference: Stream) -> FloatArray:
@@ -184,9 +192,13 @@ def _loaded_link(tree: BodyTree, sensor: str, loaded: frozenset[str], *, beyond_
 
 def _of_any_load(motion: RootMotion) -> FloatArray:
     """What the wrench of any rigid load on a link is linear in, by Newton and Euler; shape (n, 12)."""
-    speed = motion.angular_velocity
-    products = [speed[:, i] * speed[:, j] for i, j in _PRODUCTS]
-    return np.column_stack([motion.proper_acceleration, motion.angular_acceleration, *products])
+    return np.column_stack(
+        [motion.proper_acceleration, motion.angular_acceleration, *_products(motion.angular_velocity)]
+    )
+
+
+def _products(speed: FloatArray) -> list[FloatArray]:
+    return [speed[:, i] * speed[:, j] for i, j in _PRODUCTS]
 
 
 _PAIRS: Sequence[tuple[tuple[str, ...], tuple[str, ...]]] = (

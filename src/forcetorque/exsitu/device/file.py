@@ -11,7 +11,8 @@ from pydantic_core import PydanticCustomError
 from forcetorque.exsitu.device.description import Device
 from forcetorque.exsitu.device.sequence import Sequence
 from forcetorque.exsitu.device.twelve_steps import YawReturn, twelve_steps
-from forcetorque.simulation.scenario.schema import Imu, Sensors
+from forcetorque.simulation.scenario.schema import Imu
+from forcetorque.simulation.scenario.sensor_tables import Sensors
 from forcetorque.toml_table import Finite, NotNegative, Positive, Table
 
 

@@ -30,6 +30,10 @@ COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#0
 """The palette of Okabe and Ito, which the colour-blind tell apart; the faint yellow comes last."""
 REFERENCE_COLOUR = "#000000"
 """Colour of what the others are compared with; no `look` has it."""
+REFERENCE_LINE: dict[str, Any] = {"color": REFERENCE_COLOUR, "linestyle": (0, (4, 3)), "linewidth": 1.6}
+"""Line of what the others are compared with, such as a limit."""
+THIN_REFERENCE_LINE: dict[str, Any] = {**REFERENCE_LINE, "linewidth": 1.2}
+"""The same in small panels."""
 
 TITLE_POINTS = 10.0
 """Size of titles and of the labels of axes; points."""

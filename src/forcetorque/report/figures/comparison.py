@@ -6,11 +6,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
-import numpy as np
-
 from forcetorque.arrays import FloatArray
 from forcetorque.report.figures.canvas import (
-    REFERENCE_COLOUR,
+    REFERENCE_LINE,
     ROW_INCHES,
     legend_below,
     look,
@@ -20,13 +18,13 @@ from forcetorque.report.figures.canvas import (
 from forcetorque.report.figures.inputs import drawable, drawable_each, instants
 from forcetorque.report.figures.thinning import thinned_line
 from forcetorque.report.figures.time_lines import draw_over_time
-from forcetorque.spatial.wrench import FORCE_AND_MOMENT, WRENCH_COMPONENTS
+from forcetorque.report.figures.wrench_size import rms_words
+from forcetorque.spatial.wrench import WRENCH_COMPONENTS
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 _ROW_HEIGHT = 0.7 * ROW_INCHES[1]
-_REFERENCE = {"color": REFERENCE_COLOUR, "linestyle": (0, (4, 3)), "linewidth": 1.6}
 
 
 def comparison_figure(time_s: FloatArray, reference: FloatArray, candidates: Mapping[str, FloatArray]) -> Figure:
@@ -58,12 +56,12 @@ def comparison_figure(time_s: FloatArray, reference: FloatArray, candidates: Map
     panels = figure.subplots(3, 2, sharex=True).T.ravel()
     at, lines = thinned_line(time, known)
     for panel, component, line in zip(panels, WRENCH_COMPONENTS, lines.T, strict=True):
-        panel.plot(at, line, zorder=3.0, **_REFERENCE)
+        panel.plot(at, line, zorder=3.0, **REFERENCE_LINE)
         panel.set_ylabel(f"{component}, {'N' if component.startswith('f') else 'N m'}")
         panel.grid(visible=True, color="0.9", linewidth=0.6)
         panel.set_axisbelow(True)
         panel.margins(x=0.01)
-    keys = [("reference", _REFERENCE)]
+    keys = [("reference", REFERENCE_LINE)]
     for k, (name, values) in enumerate(by_name.items()):
         at, lines = thinned_line(time, values)
         for panel, line in zip(panels, lines.T, strict=True):
@@ -78,8 +76,5 @@ def comparison_figure(time_s: FloatArray, reference: FloatArray, candidates: Map
 
 
 def _difference(error: FloatArray) -> str:
-    error = error[np.isfinite(error).all(axis=1)]
-    if not len(error):
-        return "no samples"
-    force, torque = (np.sqrt((error[:, part] ** 2).sum(axis=1).mean()) for part in FORCE_AND_MOMENT)
-    return f"rms difference {force:.3g} N, {torque:.3g} N m"
+    size = rms_words(error)
+    return "no samples" if size is None else f"rms difference {size}"

@@ -13,8 +13,8 @@ from forcetorque.arrays import BoolArray, FloatArray
 from forcetorque.calibration.excitation import EXPLAINED_SHARE
 from forcetorque.errors import ShapeError
 from forcetorque.report.figures.canvas import (
-    REFERENCE_COLOUR,
     SMALL_POINTS,
+    THIN_REFERENCE_LINE,
     TITLE_POINTS,
     legend_below,
     look,
@@ -43,7 +43,6 @@ _ROUNDING = 1e-9
 """Eigenvectors, and shares, pass their bounds by no more than rounding."""
 _EXCITED: dict[str, Any] = {"color": look(0).colour, "marker": look(0).marker}
 _NOT_EXCITED: dict[str, Any] = {"color": look(1).colour, "marker": "X"}
-_LIMIT: dict[str, Any] = {"color": REFERENCE_COLOUR, "linestyle": (0, (4, 3)), "linewidth": 1.2}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -103,7 +102,7 @@ def excitation_figure(
         strength.set_title(shown_name(sensor.name), loc="left", fontsize=TITLE_POINTS)
     keys = [("excited by the loads", {**_EXCITED, "markersize": 8.0, "linewidth": 1.2})]
     keys.append(("not excited", {**_NOT_EXCITED, "markersize": 9.0, "linewidth": 1.2, "linestyle": ":"}))
-    keys.append((f"least share of an excited direction, {100 * EXPLAINED_SHARE:.0f} %", _LIMIT))
+    keys.append((f"least share of an excited direction, {100 * EXPLAINED_SHARE:.0f} %", THIN_REFERENCE_LINE))
     legend_below(figure, keys)
     return figure
 
@@ -162,7 +161,7 @@ def _draw_deviation(panel: Axes, sensor: _Sensor) -> None:
 
 
 def _draw_explained(panel: Axes, sensor: _Sensor) -> None:
-    panel.axvline(100.0 * EXPLAINED_SHARE, **_LIMIT)
+    panel.axvline(100.0 * EXPLAINED_SHARE, **THIN_REFERENCE_LINE)
     panel.set_xlim(0.0, 105.0)
     _draw_values(panel, sensor, 100.0 * sensor.explained, 0.0)
     panel.set_xlabel("variance explained by loads, %", fontsize=SMALL_POINTS)

@@ -14,6 +14,7 @@ from forcetorque.errors import ShapeError
 from forcetorque.report.figures.canvas import (
     REFERENCE_COLOUR,
     SMALL_POINTS,
+    THIN_REFERENCE_LINE,
     TITLE_POINTS,
     legend_below,
     look,
@@ -45,7 +46,6 @@ _SHARE_END = 140.0
 _BEFORE: dict[str, Any] = {"color": REFERENCE_COLOUR, "marker": "s", "markerfacecolor": "none", "markersize": 7.0}
 _AFTER: dict[str, Any] = {"color": look(0).colour, "marker": look(0).marker, "markersize": 8.0}
 _AFTER_LITTLE: dict[str, Any] = {"color": look(1).colour, "marker": "X", "markersize": 9.0}
-_LIMIT: dict[str, Any] = {"color": REFERENCE_COLOUR, "linestyle": (0, (4, 3)), "linewidth": 1.2}
 
 
 def learnt_figure(learnt: Mapping[str, Sequence[LearntDirection]]) -> Figure:
@@ -88,7 +88,7 @@ def learnt_figure(learnt: Mapping[str, Sequence[LearntDirection]]) -> Figure:
             ("before, by the prior", {**_BEFORE, "linestyle": "none"}),
             ("after", {**_AFTER, "linestyle": "-"}),
             ("after, where less than half is learnt: the prior decides", {**_AFTER_LITTLE, "linestyle": ":"}),
-            ("narrower by half", _LIMIT),
+            ("narrower by half", THIN_REFERENCE_LINE),
         ],
         title="predicted error where a load is added along a direction: one standard deviation of the error vector",
     )
@@ -112,7 +112,7 @@ def _errors(row: LearntDirection) -> tuple[tuple[float, float], tuple[float, flo
 
 
 def _draw_shares(panel: Axes, shares: Sequence[float]) -> None:
-    panel.axvline(100.0 * LITTLE_LEARNT, **_LIMIT)
+    panel.axvline(100.0 * LITTLE_LEARNT, **THIN_REFERENCE_LINE)
     for row, share in enumerate(shares):
         little = share < LITTLE_LEARNT
         end = 100.0 * max(share, 0.0)

@@ -22,7 +22,8 @@ from forcetorque.report.figures.canvas import (
     shown_name,
 )
 from forcetorque.report.figures.inputs import drawable_each, instants
-from forcetorque.spatial.wrench import FORCE_AND_MOMENT, WRENCH_COMPONENTS
+from forcetorque.report.figures.wrench_size import rms_words
+from forcetorque.spatial.wrench import WRENCH_COMPONENTS
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -204,11 +205,8 @@ def _share_correlation_axes(panels: list[Axes]) -> None:
 
 
 def _size(values: FloatArray) -> str:
-    whole = values[np.isfinite(values).all(axis=1)]
-    if not len(whole):
-        return "no whole samples"
-    force, torque = (np.sqrt((whole[:, part] ** 2).sum(axis=1).mean()) for part in FORCE_AND_MOMENT)
-    return f"rms {force:.3g} N, {torque:.3g} N m"
+    size = rms_words(values)
+    return "no whole samples" if size is None else f"rms {size}"
 
 
 def _effective(correlations: list[Autocorrelation]) -> str:

@@ -13,6 +13,7 @@ from forcetorque.arrays import FloatArray
 from forcetorque.errors import ShapeError
 from forcetorque.report.figures.canvas import (
     REFERENCE_COLOUR,
+    REFERENCE_LINE,
     legend_below,
     look,
     new_figure,
@@ -37,7 +38,6 @@ _LEAST_DECADES = 0.9
 _BEFORE: dict[str, Any] = {"color": REFERENCE_COLOUR, "marker": "s", "markerfacecolor": "white", "linestyle": "-"}
 _AFTER: dict[str, Any] = {"color": look(0).colour, "marker": look(0).marker, "linestyle": "-"}
 _AFTER_BEYOND: dict[str, Any] = {"color": look(1).colour, "marker": "X", "linestyle": (0, (2, 1))}
-_LIMIT: dict[str, Any] = {"color": REFERENCE_COLOUR, "linestyle": (0, (4, 3)), "linewidth": 1.6}
 
 
 def use_figure(verdicts: Sequence[UseVerdict], names: Mapping[str, str]) -> Figure:
@@ -83,7 +83,7 @@ def _keys(rows: Sequence[UseError]) -> list[tuple[str, Mapping[str, Any]]]:
         *([("before: prior matrix", _BEFORE)] if any(row.before is not None for row in rows) else []),
         *([("after: calibration", _AFTER)] if _AFTER in styles else []),
         *([("after, perhaps too much", _AFTER_BEYOND)] if _AFTER_BEYOND in styles else []),
-        *([("allowed; grey: too much", _LIMIT)] if any(row.allowed is not None for row in rows) else []),
+        *([("allowed; grey: too much", REFERENCE_LINE)] if any(row.allowed is not None for row in rows) else []),
     ]
 
 
@@ -104,7 +104,7 @@ def _draw_row(panel: Axes, place: int, row: UseError) -> None:
     if row.allowed < end:
         left = max(row.allowed, panel.get_xlim()[0])
         panel.fill_between([left, end], top, bottom, color="0.92", linewidth=0.0, zorder=0)
-    panel.plot([row.allowed] * 2, [top, bottom], zorder=1, **_LIMIT)
+    panel.plot([row.allowed] * 2, [top, bottom], zorder=1, **REFERENCE_LINE)
     panel.annotate(
         f"{two_digits(row.allowed)} {row.unit} allowed",
         (row.allowed, place + _LIMIT_AT),

@@ -11,7 +11,8 @@ from forcetorque.simulation.scenario.run import (
     simulate,
     trace_recordings,
 )
-from forcetorque.simulation.scenario.schema import LINEAR_ONLY, ScenarioFile
+from forcetorque.simulation.scenario.schema import ScenarioFile
+from forcetorque.simulation.scenario.sensor_tables import LINEAR_ONLY
 
 __all__ = [
     "INTERVAL_MARGIN_S",

@@ -3,9 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from pathlib import Path
-from types import MappingProxyType
 from typing import Annotated, Any, Literal
 
 import numpy as np
@@ -17,10 +15,13 @@ from forcetorque.arrays import FloatArray
 from forcetorque.constants import STANDARD_GRAVITY
 from forcetorque.recording import Use
 from forcetorque.simulation.motions import INTERNAL_FORCE_N, STILL_S, MovementKind
-from forcetorque.toml_table import Finite, Positive, Table, Text
+from forcetorque.simulation.scenario.sensor_tables import (
+    UNDISTURBED,
+    Sensors,
+)
+from forcetorque.toml_table import Finite, NotNegative, Positive, Table, Text
 
 _Count = Annotated[int, Field(ge=0, strict=True)]
-_AtLeastZero = Annotated[float, Field(ge=0.0, allow_inf_nan=False, strict=True)]
 
 
 def _downwards() -> FloatArray:
@@ -58,11 +59,11 @@ class Load(Table):
 class RobotErrorSizes(Table):
     """How much the robot differs from its URDF, to which the experiment files point; standard deviations."""
 
-    mass: _AtLeastZero = 0.02
+    mass: NotNegative = 0.02
     """Relative difference of the mass of a link."""
-    centre_m: _AtLeastZero = 0.002
+    centre_m: NotNegative = 0.002
     """Every coordinate of the centre of mass of a link."""
-    joint_zero_deg: _AtLeastZero = 0.5
+    joint_zero_deg: NotNegative = 0.5
     """Zero of a rotary joint."""
     seed: _Count | None = None
     """Seed of the errors; that of the scenario, which also moves the robot, if left out."""
@@ -73,129 +74,18 @@ class Imu(Table):
 
     link: Annotated[tuple[Text, ...], Field(min_length=1)]
     """Link in whose frame it reads; the first of these that the robot has."""
-    accelerometer_bias: _AtLeastZero = 0.0
+    accelerometer_bias: NotNegative = 0.0
     """Spread of the bias of each axis; m/s2."""
-    accelerometer_noise: _AtLeastZero = 0.0
+    accelerometer_noise: NotNegative = 0.0
     """White noise; m/s2."""
-    gyroscope_bias: _AtLeastZero = 0.0
+    gyroscope_bias: NotNegative = 0.0
     """Spread of the bias of each axis; rad/s."""
-    gyroscope_noise: _AtLeastZero = 0.0
+    gyroscope_noise: NotNegative = 0.0
     """White noise; rad/s."""
-
-
-class WorkbenchError(Table):
-    """How much the workbench matrix of one mounted sensor errs; the other sensors stay as they are drawn.
-
-    Means of the absolute error over all recordings with `use = "validation"`, on the true loads, with an offset
-    for each recording that leaves no mean error. What mounting does to the sensor is scaled to that.
-    """
-
-    sensor: Text
-    """The sensor."""
-    mean_force_N: Annotated[tuple[_AtLeastZero, ...], Field(min_length=3, max_length=3)]
-    """Of f_x, f_y and f_z; N."""
-    mean_moment_Nm: Annotated[tuple[_AtLeastZero, ...], Field(min_length=3, max_length=3)]
-    """Of tau_x, tau_y and tau_z; N m."""
-
-    @property
-    def mean_absolute(self) -> tuple[float, ...]:
-        """All six; N, N m."""
-        return self.mean_force_N + self.mean_moment_Nm
-
-
-class MatrixErrorSize(Table):
-    """How wrong the workbench matrix of every mounted sensor is, in place of all that mounting does.
-
-    It reads a true wrench w as `(1 + E) w`; E is drawn for each sensor, and has this size for each.
-    """
-
-    share: Annotated[float, Field(ge=0.0, lt=1.0, strict=True)]
-    """Root mean square of the coefficients of E, moments over the lever taken for forces."""
-    lever_m: Positive = 0.07
-    """Moment over force, about that of the mean errors in thesis Table 5.7; m."""
-
-
-class Sensors(Table):
-    """What every sensor is made of; figures of the spread between sensors are standard deviations."""
-
-    seed: _Count | None = None
-    """Seed of the sensors, of their offsets and noise; that of the scenario, which also moves the robot, if left
-    out."""
-    names: Annotated[tuple[Text, ...], Field(min_length=1)] | None = None
-    """Sensors of the robot; all if left out."""
-    family: Text = "standard"
-    """Family that specimens are drawn from."""
-    noise_counts: _AtLeastZero = 3.0
-    """White noise; counts."""
-    noise_corner_hz: _AtLeastZero = 0.0
-    """Frequency below which 1/f noise prevails."""
-    offset_counts: _AtLeastZero = 3000.0
-    """Spread of the offset of a channel between sensors."""
-    power_up_counts: _AtLeastZero = 100.0
-    """Spread of its change from one power-up to the next."""
-    drift_counts_per_degC: _AtLeastZero = 0.0
-    """Spread of the linear drift with temperature."""
-    gradient_counts_per_degC: _AtLeastZero = 0.0
-    """Spread of the part with the difference between gauges."""
-    hysteresis_counts_per_degC: _AtLeastZero = 0.0
-    """Spread of the part with hysteresis."""
-    reference_degC: Finite = 25.0
-    """Temperature without drift."""
-    creep_share: Finite = 0.0
-    """What creep adds in the end, relative to the load."""
-    creep_time_s: Positive = 30.0
-    """Time constant of creep."""
-    crosstalk_counts: _AtLeastZero = 0.0
-    """Spread of the quadratic response at full scale."""
-    screw_torque_Nm: Annotated[tuple[_AtLeastZero, ...], Field(min_length=3)] = (2.0,) * 6
-    """Torques of the screws around the rim, evenly spaced from the x axis on."""
-    mounting_strength: _AtLeastZero = 0.0
-    """Relative change of an in-plane channel where the rim is tighter by 2 N m; even screws change nothing."""
-    mounting_spread: _AtLeastZero = 0.0
-    """Random change of each coefficient that mounting adds, relative to its row."""
-    step_counts: _AtLeastZero = 1.0
-    """Step of the converter; 0 for none."""
-    limit_counts: Annotated[int, Field(gt=0, strict=True)] = 32767
-    """Magnitude at which a channel is saturated."""
-    workbench_error: WorkbenchError | None = None
-    """How much the workbench matrix of one sensor errs; as it is drawn if left out."""
-    matrix_error: MatrixErrorSize | None = None
-    """Size of the error of every workbench matrix; what mounting makes of it if left out."""
-
-    @model_validator(mode="after")
-    def _one_error_of_the_matrix(self) -> Sensors:
-        if self.matrix_error is not None and (
-            self.mounting_spread or self.mounting_strength or self.workbench_error is not None
-        ):
-            raise PydanticCustomError(
-                "matrix_error",
-                "matrix_error stands for all that mounting does; leave it out, or mounting_spread, mounting_strength "
-                "and workbench_error",
-            )
-        return self
-
-
-LINEAR_ONLY: Mapping[str, Any] = MappingProxyType(
-    {
-        "limit_counts": 10_000_000,
-        "gradient_counts_per_degC": 0.0,
-        "hysteresis_counts_per_degC": 0.0,
-        "creep_share": 0.0,
-        "crosstalk_counts": 0.0,
-    }
-)
-"""Changes of `Sensors` after which a matrix, an offset per power-up and a coefficient of the temperature tell all but
-noise: nothing saturates, lags, creeps or is quadratic. Matrices, offsets and linear drift are drawn as without them."""
 
 
 _NEEDS_IMU = (MovementKind.STEPPING, MovementKind.CONTACT_SWITCHING)
 """Motions in which at times nobody knows what which foot bears."""
-
-
-UNDISTURBED: Mapping[str, Any] = MappingProxyType(
-    {**LINEAR_ONLY, "noise_counts": 0.0, "step_counts": 0.0, "drift_counts_per_degC": 0.0}
-)
-"""Changes of `Sensors` after which a matrix and an offset per power-up tell all."""
 
 
 class Motion(Table):
@@ -217,7 +107,7 @@ class Motion(Table):
     postures: Annotated[int, Field(gt=1, strict=True)] | None = None
     """grid: steps of each joint; z_torque, balancing: number of postures; contact_switching: while it hangs, and each
     time that it stands on one foot."""
-    hold_s: _AtLeastZero = 0.0
+    hold_s: NotNegative = 0.0
     """grid, z_torque, balancing: rest at every posture."""
     still_s: Positive = STILL_S
     """contact_switching: rest before and after it moves, and on both feet each time."""
@@ -226,7 +116,7 @@ class Motion(Table):
     placement: _Count = 0
     """contact_switching, standing, sway, squat, stepping: recordings of one number have their feet in the same places;
     0 has them below the hips."""
-    internal_force_N: _AtLeastZero = INTERNAL_FORCE_N
+    internal_force_N: NotNegative = INTERNAL_FORCE_N
     """contact_switching, standing, sway, squat, stepping: how much the feet push against each other along each axis at
     most."""
 
@@ -276,9 +166,9 @@ class Recorded(Table):
 class Network(Table):
     """What happens on the way to a yarpdatadumper folder, which is written if this table is there."""
 
-    jitter_s: _AtLeastZero = 0.001
+    jitter_s: NotNegative = 0.001
     """Largest change of a stamp."""
-    clock_offset_s: _AtLeastZero = 0.0
+    clock_offset_s: NotNegative = 0.0
     """Largest time by which the clock of a port is ahead or behind."""
     lost_messages: _Count = 0
     """Messages of every port that do not arrive."""

@@ -13,7 +13,7 @@ from forcetorque.errors import FormatError, known_names
 from forcetorque.simulation.effects import Creep, Crosstalk, ScrewPattern, ThermalDrift, mounted
 from forcetorque.simulation.family import CHANNEL_ANGLES, FAMILIES, IN_PLANE
 from forcetorque.simulation.matrix_error import mounted_matrix, random_matrix_error
-from forcetorque.simulation.scenario.schema import Sensors
+from forcetorque.simulation.scenario.sensor_tables import Sensors
 from forcetorque.simulation.scenario.workbench_error import mounted_with_error
 from forcetorque.simulation.sensor import SimulatedSensor, distorted_by_mounting
 

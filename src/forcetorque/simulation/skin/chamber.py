@@ -38,7 +38,6 @@ def chamber_recording(
     ramp_s: float,
     rng: np.random.Generator,
     broken: Mapping[int, Ailment] | None = None,
-    start_ns: int = EPOCH_NS,
 ) -> Recording:
     """Record a patch while the pressure rises evenly to a peak and falls again.
 
@@ -48,7 +47,6 @@ def chamber_recording(
         ramp_s: Time up to it, and down again; s.
         rng: Source of noise.
         broken: What is wrong with which taxel; nothing if None.
-        start_ns: When it starts; ns.
 
     Returns:
         The streams `counts`, a column per taxel, and `chamber`, on one clock.
@@ -69,7 +67,7 @@ def chamber_recording(
             raise SkinError(f"broken: expected taxels of 0 to {taxels - 1}, got {taxel}")
         share = pressure / highest_pa
         counts[:, taxel] = _broken(ailment, level[:, taxel], float(responses.rest[taxel]), share, rng)
-    stamps = start_ns + np.rint(seconds * 1e9).astype(np.int64)
+    stamps = EPOCH_NS + np.rint(seconds * 1e9).astype(np.int64)
     gauge = pressure + _GAUGE_PA * rng.standard_normal(len(pressure))
     return Recording(streams={stream.name: stream for stream in (_counts(stamps, counts), _chamber(stamps, gauge))})
 

@@ -63,11 +63,6 @@ class SkinSurface:
         """Area of all facets; m²."""
         return float(self.facet_areas.sum())
 
-    @property
-    def isolated(self) -> IntArray:
-        """Numbers of taxels that no facet touches; shape (k,)."""
-        return np.setdiff1d(np.arange(len(self)), self.triangles)
-
     def with_ring(self, taxels: BoolArray) -> BoolArray:
         """Add to some taxels all their neighbours.
 
