@@ -32,10 +32,14 @@ DECODE = """async ([film, frames, fps]) => {
     [canvas.width, canvas.height] = [video.videoWidth, video.videoHeight];
     const pen = canvas.getContext("2d", { willReadFrequently: true });
     for (let k = 0; k < frames; k++) {
-        video.currentTime = (k + 0.5) / fps;
-        await new Promise(done => { video.onseeked = done; });
         // a browser says that it is there before it gives the picture to canvases
-        await new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)));
+        const shown = new Promise(done => {
+            const look = (_, frame) =>
+                Math.abs(frame.mediaTime - k / fps) < 0.5 / fps ? done() : video.requestVideoFrameCallback(look);
+            video.requestVideoFrameCallback(look);
+        });
+        video.currentTime = (k + 0.5) / fps;
+        await shown;
         pen.drawImage(video, 0, 0);
         const data = pen.getImageData(0, 0, canvas.width, canvas.height).data;
         sums.push(data.reduce((sum, value, k) => (sum * 31 + value + k) % 1000003, 7));
