@@ -81,11 +81,7 @@ def unexplained(rows: LoadRows, residual: FloatArray) -> float:
     Returns:
         Root mean square of both shares; 0 where nothing changes.
     """
-    moved = rows.wrench.copy()
-    for session in np.unique(rows.session):
-        mine = rows.session == session
-        moved[mine] -= moved[mine].mean(axis=0)
-    shares = []
+    moved, shares = rows.moved(rows.wrench), []
     for axes in FORCE_AND_MOMENT:
         whole = float((moved[:, axes] ** 2).sum())
         shares.append(float((residual[:, axes] ** 2).sum()) / whole if whole > 0.0 else 0.0)

@@ -10,7 +10,7 @@ import numpy as np
 from forcetorque.arrays import FloatArray
 from forcetorque.loads.problem import LoadProblem
 from forcetorque.loads.unknowns import AXES
-from forcetorque.spatial import reading_sign
+from forcetorque.spatial import FORCE, reading_sign
 
 
 def quarter_turns() -> list[FloatArray]:
@@ -72,13 +72,7 @@ def force_response(problem: LoadProblem) -> FloatArray:
     Returns:
         Shape (3, 3); N m/s2.
     """
-    rows, total = problem.rows, np.zeros((3, 3))
-    inner = np.zeros((3, 3))
-    for session in np.unique(rows.session):
-        mine = rows.session == session
-        force = rows.wrench[mine, :3] - rows.wrench[mine, :3].mean(axis=0)
-        moved = rows.proper_acceleration[mine] - rows.proper_acceleration[mine].mean(axis=0)
-        total += force.T @ moved
-        inner += moved.T @ moved
-    response: FloatArray = total @ np.linalg.pinv(inner, rcond=1e-6, hermitian=True)
+    rows = problem.rows
+    force, moved = rows.moved(rows.wrench[:, FORCE]), rows.moved(rows.proper_acceleration)
+    response: FloatArray = force.T @ moved @ np.linalg.pinv(moved.T @ moved, rcond=1e-6, hermitian=True)
     return response

@@ -78,6 +78,21 @@ class LoadRows:
     def __len__(self) -> int:
         return len(self.wrench)
 
+    def moved(self, values: FloatArray) -> FloatArray:
+        """Take values from their mean in each power-up, in which the bias is one.
+
+        Args:
+            values: Of the rows; shape (n, k).
+
+        Returns:
+            What changes within power-ups; shape (n, k).
+        """
+        moved = values.copy()
+        for session in np.unique(self.session):
+            mine = self.session == session
+            moved[mine] -= moved[mine].mean(axis=0)
+        return moved
+
     def _require_finite(self) -> None:
         for field in ("wrench", "proper_acceleration", "angular_velocity", "angular_acceleration", "variables"):
             values = getattr(self, field)

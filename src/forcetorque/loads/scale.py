@@ -6,8 +6,6 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-import numpy as np
-
 from forcetorque.arrays import FloatArray
 from forcetorque.constants import STANDARD_GRAVITY
 from forcetorque.loads.expected import load_wrench
@@ -56,7 +54,7 @@ def scales(problem: LoadProblem) -> Iterator[Hypothesis]:
 def _scale(
     problem: LoadProblem, demanded: FloatArray, axes: slice, what: str, key: str, units: dict[float, str]
 ) -> Iterator[Hypothesis]:
-    load, reading = (_moved(problem, wrench[:, axes]) for wrench in (demanded, problem.rows.wrench))
+    load, reading = (problem.rows.moved(wrench[:, axes]) for wrench in (demanded, problem.rows.wrench))
     square = float((load**2).sum())
     degrees = reading.size - 3 * len(problem.sessions) - 1
     if square == 0.0 or degrees < 1:
@@ -71,12 +69,3 @@ def _scale(
     remedy = f"{unit}; state the units of the columns" if unit else f"check the units of the columns, and {key}"
     words = f"{what} change by {factor:.4g} of what the stated loads make of them: {remedy}"
     yield Hypothesis(name=name, words=words, residual_share=1.0)
-
-
-def _moved(problem: LoadProblem, values: FloatArray) -> FloatArray:
-    """From their mean in each session."""
-    moved = values.copy()
-    for session in np.unique(problem.rows.session):
-        mine = problem.rows.session == session
-        moved[mine] -= moved[mine].mean(axis=0)
-    return moved
