@@ -111,7 +111,9 @@ def test_dates_and_seconds_are_not_taken_for_each_other(tmp_path: Path) -> None:
         read_table(tmp_path / "log.parquet", _layout(), stream="supply", clock="pc")
 
 
-@pytest.mark.parametrize("kind", [pa.timestamp("ms"), pa.timestamp("us", "Europe/Rome"), pa.string()])
+@pytest.mark.parametrize(
+    "kind", [pa.timestamp("ms"), pa.timestamp("us", "Europe/Rome"), pa.string(), pa.large_string()]
+)
 def test_parquet_has_instants_or_texts(tmp_path: Path, kind: pa.DataType) -> None:
     """Instants count from 1970 in UTC whatever zone they are shown in."""
     stamps = pa.array([NS_0, NS_0 + 250_000_000], pa.timestamp("ns")).cast(pa.timestamp("ms")).cast(kind)

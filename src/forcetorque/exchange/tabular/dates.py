@@ -35,6 +35,18 @@ def is_date(cell: str) -> bool:
     return _CELL.fullmatch(cell.strip(_AROUND)) is not None
 
 
+def is_text(column: Any) -> bool:
+    """Tell whether a column holds texts.
+
+    Args:
+        column: Column of Arrow.
+
+    Returns:
+        Whether it does, with offsets of 32 bits or of 64.
+    """
+    return bool(pa.types.is_string(column.type) or pa.types.is_large_string(column.type))
+
+
 def date_stamps(column: Any, place: Callable[[int], str]) -> Any:
     """Give the times of a column of dates.
 
@@ -86,7 +98,7 @@ def column_of_dates(column: Any) -> IntArray | None:
     try:
         if pa.types.is_timestamp(column.type):
             stamps = instant_stamps(column, str)
-        elif pa.types.is_string(column.type) and len(column) and is_date(column[0].as_py() or ""):
+        elif is_text(column) and len(column) and is_date(column[0].as_py() or ""):
             stamps = date_stamps(column, str)
         else:
             return None

@@ -4,10 +4,9 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Literal
+from typing import Literal, get_args
 
 from forcetorque.errors import FormatError, known_names
-from forcetorque.exchange.tabular.dates import ISO8601
 from forcetorque.recording import OrientationLayout
 
 StampUnit = Literal["s", "ms", "us", "ns", "iso8601"]
@@ -27,9 +26,8 @@ class StampColumn:
     """s, ms, us or ns since the epoch of the clock, or `iso8601` of dates."""
 
     def __post_init__(self) -> None:
-        units = (*NANOSECOND_DIGITS, ISO8601)
-        if self.unit not in units:
-            raise FormatError(f"unit of the stamps: {known_names(self.unit, units)}; got {self.unit!r}")
+        if self.unit not in get_args(StampUnit):
+            raise FormatError(f"unit of the stamps: {known_names(self.unit, get_args(StampUnit))}; got {self.unit!r}")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

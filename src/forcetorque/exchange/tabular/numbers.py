@@ -13,7 +13,7 @@ import pyarrow.compute as pc
 from forcetorque.arrays import FloatArray, IntArray
 from forcetorque.arrow_numbers import arrow_numbers
 from forcetorque.errors import FormatError
-from forcetorque.exchange.tabular.dates import ISO8601, date_stamps, instant_stamps, is_date
+from forcetorque.exchange.tabular.dates import ISO8601, date_stamps, instant_stamps, is_date, is_text
 from forcetorque.exchange.tabular.layout import NANOSECOND_DIGITS, StampColumn
 
 LATEST_NS = 9.2e18
@@ -59,10 +59,9 @@ def column_stamps(column: Any, stamp: StampColumn, place: Callable[[int], str]) 
     Raises:
         FormatError: If a time is missing or none.
     """
-    is_text = pa.types.is_string(column.type) or pa.types.is_large_string(column.type)
-    if is_text and stamp.unit != ISO8601:
+    if is_text(column) and stamp.unit != ISO8601:
         return _of_texts(column, stamp, place)
-    if is_text:
+    if is_text(column):
         column, digits = date_stamps(column, lambda row: f"{place(row)}: column {stamp.column!r}"), 0
     elif pa.types.is_timestamp(column.type):
         column, digits = instant_stamps(column, lambda row: f"{place(row)}: column {stamp.column!r}"), 0
