@@ -80,7 +80,6 @@ def calibrate(
 
     Example: forcetorque calibrate cold.toml warm.toml -o calibrations
     """
-    from datetime import UTC, datetime
     from functools import partial
     from importlib.metadata import version
 
@@ -88,6 +87,7 @@ def calibrate(
     from forcetorque.cli.calibrate_jointly import calibrate_together, refuse_beside_jointly
     from forcetorque.cli.figure_file import refuse_figure
     from forcetorque.cli.reading import campaign_of, read_experiments, refuse_inputs, stored_moments
+    from forcetorque.created import created_now
     from forcetorque.experiment.inputs import stated_in
 
     log = start_logging()
@@ -106,7 +106,7 @@ def calibrate(
     fit = partial(
         analysis.calibrate_for_file,
         code_version=version("forcetorque"),
-        created=datetime.now(UTC).isoformat(timespec="seconds"),
+        created=created_now(),
         regularisation=_lambda(regularisation),
         kind=_kind(kind),
         nonlinear=nonlinear,

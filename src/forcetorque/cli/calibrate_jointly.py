@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Mapping, Sequence
-from datetime import UTC, datetime
 from importlib.metadata import version
 from pathlib import Path
 
@@ -13,6 +12,7 @@ from forcetorque.analysis import JOINT_FILE, SensorCalibrations, calibrate_joint
 from forcetorque.atomic import write_bytes_atomically
 from forcetorque.cli.output import Format, show
 from forcetorque.cli.reading import read_experiments, refuse_inputs, sensors_named
+from forcetorque.created import created_now
 from forcetorque.errors import ExperimentError
 
 
@@ -66,7 +66,7 @@ def calibrate_together(
         output,
         [sensor.name for sensor in chosen],
         code_version=version("forcetorque"),
-        created=datetime.now(UTC).isoformat(timespec="seconds"),
+        created=created_now(),
         progress=log.info,
     )
     written = result.save()

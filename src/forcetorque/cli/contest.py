@@ -25,21 +25,19 @@ def contest(
 
     Example: forcetorque contest contest.toml --figure contest.png
     """
-    from datetime import UTC, datetime
     from importlib.metadata import version
 
     from forcetorque import analysis
     from forcetorque.atomic import write_bytes_atomically
     from forcetorque.cli.figure_file import refuse_figure
+    from forcetorque.created import created_now
     from forcetorque.experiment.inputs import stated_in
 
     start_logging()
     refuse_figure(figure)
     entries = analysis.read_entries(config)
     with stated_in(str(config)):
-        result = analysis.contest(
-            entries, code_version=version("forcetorque"), created=datetime.now(UTC).isoformat(timespec="seconds")
-        )
+        result = analysis.contest(entries, code_version=version("forcetorque"), created=created_now())
     if figure is not None:
         from forcetorque.report.figures import contest_figure
         from forcetorque.report.figures.canvas import png_bytes

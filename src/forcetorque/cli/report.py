@@ -37,12 +37,12 @@ def report(
 
     Example: forcetorque report experiment.toml right_leg.json -o report.html
     """
-    from datetime import UTC, datetime
     from importlib.metadata import version
 
     from forcetorque import report as reports
     from forcetorque.analysis import Demands, read_population
     from forcetorque.cli.reading import read_shown, refuse_inputs
+    from forcetorque.created import created_now
 
     log = start_logging()
     reports.require_writable(output)
@@ -61,7 +61,7 @@ def report(
     written = reports.report(
         experiments,
         groups,
-        created=datetime.now(UTC).isoformat(timespec="seconds"),
+        created=created_now(),
         code_version=version("forcetorque"),
         title=title,
         demands=demands,

@@ -55,11 +55,11 @@ def study(
 
     Example: forcetorque study simulated/*.toml --sphere grid -o study
     """
-    from datetime import UTC, datetime
     from importlib.metadata import version
 
     from forcetorque import analysis
     from forcetorque.calibration import ESTIMATION_TYPES, estimation_type
+    from forcetorque.created import created_now
     from forcetorque.experiment.inputs import stated_in
     from forcetorque.report import write_study_folder
     from forcetorque.study import SWEEP_LAMBDAS
@@ -69,7 +69,7 @@ def study(
     combinations = None if data_set is None else _data_sets(data_set)
     kinds = [estimation_type(name) for name in kind or ESTIMATION_TYPES]
     lambdas = _lambdas(SWEEP_LAMBDAS if regularisation is None else regularisation)
-    created = datetime.now(UTC).isoformat(timespec="seconds")
+    created = created_now()
     studied = analysis.read_study_data(experiments, sensor, progress=log.info)
 
     def studies() -> Iterator[SensorStudy]:

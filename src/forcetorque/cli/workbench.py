@@ -46,13 +46,13 @@ def workbench(
 
     Example: forcetorque workbench SN170.toml -o SN170.json
     """
-    from datetime import UTC, datetime
     from importlib.metadata import version
 
     from forcetorque import analysis
     from forcetorque.atomic import refuse_unwritable
     from forcetorque.cli.figure_file import refuse_figure
     from forcetorque.cli.reading import refuse_inputs
+    from forcetorque.created import created_now
 
     start_logging()
     refuse_figure(figure)
@@ -64,7 +64,7 @@ def workbench(
     answer = analysis.workbench(
         [analysis.read_bench(file) for file in files],
         code_version=version("forcetorque"),
-        created=datetime.now(UTC).isoformat(timespec="seconds"),
+        created=created_now(),
         full_matrix=full_matrix,
         only_next=next_only,
         spec=None if spec is None else analysis.read_acceptance(spec),

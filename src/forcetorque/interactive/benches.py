@@ -3,12 +3,12 @@
 
 from __future__ import annotations
 
-from datetime import UTC, datetime
 from importlib.metadata import version
 from pathlib import Path
 
 from forcetorque import analysis
 from forcetorque.analysis import BenchRecording
+from forcetorque.created import created_now
 
 
 def workbench(
@@ -31,7 +31,7 @@ def workbench(
         Faults, errors and matrices; `save` writes the calibration of a single sensor.
     """
     read = [given if isinstance(given, BenchRecording) else analysis.read_bench(given) for given in recordings]
-    created = datetime.now(UTC).isoformat(timespec="seconds")
+    created = created_now()
     return analysis.workbench(
         read,
         code_version=version("forcetorque"),

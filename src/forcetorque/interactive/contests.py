@@ -3,11 +3,11 @@
 
 from __future__ import annotations
 
-from datetime import UTC, datetime
 from importlib.metadata import version
 from pathlib import Path
 
 from forcetorque import analysis
+from forcetorque.created import created_now
 
 
 def contest(entries: analysis.Entries | Path | str) -> analysis.Contest:
@@ -20,5 +20,5 @@ def contest(entries: analysis.Entries | Path | str) -> analysis.Contest:
         Ranks, scores and pairs; it shows itself as tables.
     """
     stated = entries if isinstance(entries, analysis.Entries) else analysis.read_entries(entries)
-    created = datetime.now(UTC).isoformat(timespec="seconds")
+    created = created_now()
     return analysis.contest(stated, code_version=version("forcetorque"), created=created)

@@ -5,7 +5,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import fields
-from datetime import UTC, datetime
 from importlib.metadata import version
 from pathlib import Path
 from typing import TYPE_CHECKING, Self
@@ -16,6 +15,7 @@ from forcetorque.analysis import SensorCalibrations
 from forcetorque.analysis.runs.named import NEW, Calibrations, named
 from forcetorque.calibration import Calibration
 from forcetorque.calibration.joint import ModelTolerance
+from forcetorque.created import created_now
 from forcetorque.estimation.balance import ForceLimit, PlaneTolerance
 from forcetorque.evaluation import OffsetPolicy
 from forcetorque.experiment import parse_experiment
@@ -255,7 +255,7 @@ def calibrate_jointly(
         A calibration per sensor in `calibrations`, and in `joint` what they share: errors of the model, what is left of
         the equations, spans that were touched.
     """
-    created = datetime.now(UTC).isoformat(timespec="seconds")
+    created = created_now()
     return analysis.calibrate_jointly(
         recordings,
         folder,

@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Callable, Collection, Mapping, Sequence
-from datetime import UTC, datetime
 from importlib.metadata import version
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
@@ -17,6 +16,7 @@ from forcetorque.analysis.plan.proposal import Effort
 from forcetorque.analysis.runs.named import Calibrations, named, one_named
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration import Calibration, EstimationType, RecordingMoments
+from forcetorque.created import created_now
 from forcetorque.errors import ExperimentError, known_names
 from forcetorque.evaluation import OtherSensors
 from forcetorque.interactive.verdicts import Verdicts
@@ -63,7 +63,7 @@ class Run(SensorRun):
             [self, *more],
             f"{self.sensor.name}.json",
             code_version=version("forcetorque"),
-            created=_now(),
+            created=created_now(),
             kind=kind,
             regularisation=regularisation,
             nonlinear=nonlinear,
@@ -344,7 +344,7 @@ class Run(SensorRun):
         return report(
             [(str(self.experiment.file), self.experiment)],
             [{self.sensor.name: named(calibrations)}],
-            created=_now(),
+            created=created_now(),
             code_version=version("forcetorque"),
             title=title,
             demands=demands,
@@ -365,7 +365,3 @@ class Run(SensorRun):
 
         judged = self.judged(named(calibrations))
         return comparison_figure(judged.time_s, judged.reference, dict(judged.measured))
-
-
-def _now() -> str:
-    return datetime.now(UTC).isoformat(timespec="seconds")

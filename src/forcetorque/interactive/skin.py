@@ -3,13 +3,13 @@
 
 from __future__ import annotations
 
-from datetime import UTC, datetime
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
 from forcetorque import analysis
 from forcetorque.analysis import SkinCalibration, SkinWrench, WrenchChoice
+from forcetorque.created import created_now
 from forcetorque.skin import PatchCalibration
 from forcetorque.skin.taxels import CurveKind
 
@@ -34,7 +34,7 @@ def calibrate_skin(
     Returns:
         The answer, with the curves as its `calibration`.
     """
-    created = datetime.now(UTC).isoformat(timespec="seconds")
+    created = created_now()
     return analysis.calibrate_skin(
         experiments,
         code_version=version("forcetorque"),

@@ -4,12 +4,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Mapping, Sequence
-from datetime import UTC, datetime
 from importlib.metadata import version
 from pathlib import Path
 
 from forcetorque import analysis
 from forcetorque.calibration import ESTIMATION_TYPES, estimation_type
+from forcetorque.created import created_now
 from forcetorque.new_folder import refuse_existing
 from forcetorque.study import SWEEP_LAMBDAS
 
@@ -46,7 +46,7 @@ def study(
     if folder is not None:
         refuse_existing(Path(folder))
     types = [estimation_type(name) for name in kinds]
-    created = datetime.now(UTC).isoformat(timespec="seconds")
+    created = created_now()
     studied = analysis.read_study_data([Path(file) for file in experiments], sensors, progress=progress)
     answers = (
         analysis.study_sensor(

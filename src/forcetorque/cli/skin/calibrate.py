@@ -62,13 +62,13 @@ def calibrate(
 
     Example: forcetorque skin calibrate fit.toml held_out.toml -o patch.json
     """
-    from datetime import UTC, datetime
     from importlib.metadata import version
 
     from forcetorque import analysis
     from forcetorque.atomic import refuse_unwritable
     from forcetorque.cli.figure_file import refuse_figure
     from forcetorque.cli.reading import refuse_inputs
+    from forcetorque.created import created_now
     from forcetorque.exchange.skin.pressure_table import write_pressure_table
 
     log = start_logging()
@@ -86,7 +86,7 @@ def calibrate(
     answer = analysis.calibrate_skin(
         contents,
         code_version=version("forcetorque"),
-        created=datetime.now(UTC).isoformat(timespec="seconds"),
+        created=created_now(),
         patch=patch,
         curve=curve.value,
         highest_pa=None if highest is None else 1e3 * highest,
