@@ -133,6 +133,15 @@ def test_an_instant_beyond_64_bits_is_refused(tmp_path: Path) -> None:
         read_table(tmp_path / "log.parquet", _layout(), stream="supply", clock="pc")
 
 
+@pytest.mark.parametrize("unit", ["s", "iso8601"])
+def test_a_missing_instant_is_refused_by_its_row(tmp_path: Path, unit: str) -> None:
+    """As an empty cell, not as a number that is none."""
+    table = pa.table({"t": pa.array([NS_0, None], pa.timestamp("ns")), "u": [1.0, 2.0], "i": [1.0, 2.0]})
+    pq.write_table(table, tmp_path / "log.parquet")
+    with pytest.raises(FormatError, match=r"row 2: column 't': expected an instant, got an empty cell"):
+        read_table(tmp_path / "log.parquet", _layout(unit=unit), stream="supply", clock="pc")
+
+
 @pytest.mark.parametrize(
     ("text", "unit", "step"),
     [

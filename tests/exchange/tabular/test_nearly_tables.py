@@ -93,6 +93,9 @@ def test_a_quote_that_is_not_closed_is_refused_by_its_line(tmp_path: Path, line:
     file = _file(tmp_path, _text(rows, headings=[*HEADINGS, "note"]))
     assert len(_read(file)) == len(ROWS)
     rows[line - 2][-1] = '"5 inch'
+    inner = [*ROWS[:1], [ROWS[1][0], f'"{ROWS[1][1]}', *ROWS[1][2:]], *ROWS[2:]]
+    with pytest.raises(FormatError, match=":3: expected a quote on either side of a cell, got one"):
+        _read(_file(tmp_path, _text(inner)))
     file = _file(tmp_path, _text(rows, headings=[*HEADINGS, "note"]))
     with pytest.raises(FormatError, match=rf":{line}: expected a quote on either side of a cell, got one"):
         _read(file)

@@ -39,6 +39,8 @@ def has_open_quote(line: str, delimiter: str) -> bool:
     Returns:
         Whether one does.
     """
+    if delimiter == " " or QUOTE not in line:
+        return False
     try:
         list(csv.reader([line], delimiter=delimiter, quotechar=QUOTE, strict=True))
     except csv.Error:

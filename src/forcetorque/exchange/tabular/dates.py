@@ -47,7 +47,7 @@ def is_text(column: Any) -> bool:
     return bool(pa.types.is_string(column.type) or pa.types.is_large_string(column.type))
 
 
-def date_stamps(column: Any, place: Callable[[int], str]) -> Any:
+def date_stamps(column: Any, place: Callable[[int], str]) -> IntArray:
     """Give the times of a column of dates.
 
     Args:
@@ -55,16 +55,15 @@ def date_stamps(column: Any, place: Callable[[int], str]) -> Any:
         place: Says where its rows are, in the words that an error begins with.
 
     Returns:
-        Column of Arrow with nanoseconds since 1970, as if the dates were in UTC where they state no zone.
+        Nanoseconds since 1970, as if the dates were in UTC where they state no zone; shape (n,).
 
     Raises:
         FormatError: If one is missing or no date, or some state a zone and others none.
     """
-    text = pc.replace_substring(pc.utf8_trim(column, characters=_AROUND), ",", ".")
-    return _cast(text, place)
+    return _instants(pc.replace_substring(pc.utf8_trim(column, characters=_AROUND), ",", "."), place)
 
 
-def instant_stamps(column: Any, place: Callable[[int], str]) -> Any:
+def instant_stamps(column: Any, place: Callable[[int], str]) -> IntArray:
     """Give the times of a column of instants, as Parquet and data frames have them.
 
     Args:
@@ -72,18 +71,21 @@ def instant_stamps(column: Any, place: Callable[[int], str]) -> Any:
         place: Says where its rows are, in the words that an error begins with.
 
     Returns:
-        Column of Arrow with nanoseconds since 1970, as if the instants were in UTC where they have no zone.
+        Nanoseconds since 1970, as if the instants were in UTC where they have no zone; shape (n,).
 
     Raises:
-        FormatError: If one is not of the years 1678 to 2261.
+        FormatError: If one is missing, or not of the years 1678 to 2261.
     """
     try:
-        return column.cast(pa.timestamp("ns", column.type.tz)).cast(pa.int64())
+        stamps = column.cast(pa.timestamp("ns", column.type.tz)).cast(pa.int64())
     except pa.ArrowException as error:
         reason = " ".join(str(error).split())
         raise FormatError(
             f"{place(0)}: expected instants of the years {_YEARS[0]} to {_YEARS[1]}, got {reason}"
         ) from error
+    if stamps.null_count:
+        raise FormatError(f"{place(stamps.is_null().to_pylist().index(True))}: expected an instant, got an empty cell")
+    return arrow_numbers(stamps)
 
 
 def column_of_dates(column: Any) -> IntArray | None:
@@ -97,17 +99,15 @@ def column_of_dates(column: Any) -> IntArray | None:
     """
     try:
         if pa.types.is_timestamp(column.type):
-            stamps = instant_stamps(column, str)
-        elif is_text(column) and len(column) and is_date(column[0].as_py() or ""):
-            stamps = date_stamps(column, str)
-        else:
-            return None
+            return instant_stamps(column, str)
+        if is_text(column) and len(column) and is_date(column[0].as_py() or ""):
+            return date_stamps(column, str)
     except FormatError:
-        return None
-    return None if stamps.null_count else arrow_numbers(stamps)
+        pass  # such as a thirteenth month: a text like another
+    return None
 
 
-def _cast(text: Any, place: Callable[[int], str]) -> Any:
+def _instants(text: Any, place: Callable[[int], str]) -> IntArray:
     first = _CELL.fullmatch(text[0].as_py() or "")
     instant = pa.timestamp("ns", "UTC" if first is not None and first["zone"] is not None else None)
     try:
@@ -118,7 +118,7 @@ def _cast(text: Any, place: Callable[[int], str]) -> Any:
     # older Arrow takes years that 64 bits do not hold for others
     if stamps.null_count or years["min"] < _YEARS[0] or years["max"] > _YEARS[1]:
         raise _bad_date(text, instant, place)
-    return stamps
+    return arrow_numbers(stamps)
 
 
 def _bad_date(text: Any, instant: Any, place: Callable[[int], str]) -> FormatError:

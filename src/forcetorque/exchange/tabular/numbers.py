@@ -59,18 +59,17 @@ def column_stamps(column: Any, stamp: StampColumn, place: Callable[[int], str]) 
     Raises:
         FormatError: If a time is missing or none.
     """
-    if is_text(column) and stamp.unit != ISO8601:
-        return _of_texts(column, stamp, place)
+
+    def where(row: int) -> str:
+        return f"{place(row)}: column {stamp.column!r}"
+
     if is_text(column):
-        column, digits = date_stamps(column, lambda row: f"{place(row)}: column {stamp.column!r}"), 0
-    elif pa.types.is_timestamp(column.type):
-        column, digits = instant_stamps(column, lambda row: f"{place(row)}: column {stamp.column!r}"), 0
-    elif stamp.unit == ISO8601:
-        raise FormatError(
-            f"{place(0)}: column {stamp.column!r}: expected dates, as stated, got {column.type}; state s, ms, us or ns"
-        )
-    else:
-        digits = NANOSECOND_DIGITS[stamp.unit]
+        return date_stamps(column, where) if stamp.unit == ISO8601 else _of_texts(column, stamp, place)
+    if pa.types.is_timestamp(column.type):
+        return instant_stamps(column, where)
+    if stamp.unit == ISO8601:
+        raise FormatError(f"{where(0)}: expected dates, as stated, got {column.type}; state s, ms, us or ns")
+    digits = NANOSECOND_DIGITS[stamp.unit]
     if pa.types.is_integer(column.type) and not column.null_count:
         whole = arrow_numbers(column.cast(pa.int64()))
         far = np.flatnonzero(np.abs(whole.astype(np.float64)) * 10.0**digits > LATEST_NS)

@@ -147,7 +147,7 @@ def _batches(file: Path, layout: TableLayout, names: tuple[str, ...], first_line
             raise _placed(file, text, layout, names, line, str(error)) from error
         rows = text.count(b"\n")
         if len(table) != rows:
-            raise _unclosed(file, text, layout, line)
+            raise _placed(file, text, layout, names, line, f"{len(table)} rows in {rows} lines")
         yield table if layout.decimal == "." else _with_points(file, table, layout, line)
         line += rows
 
@@ -176,7 +176,10 @@ def _placed(
     expected = "a number with a decimal comma, as stated" if has_comma else "a number"
     wanted = {name: k for k, name in enumerate(names) if any(name in s.columns for s in layout.signals)}
     for number, line in enumerate(text.rstrip(b"\n").split(b"\n"), start=first_line):
-        fields = cells_of(line.decode(errors="replace"), layout.delimiter)
+        row = line.decode(errors="replace")
+        if has_open_quote(row, layout.delimiter):
+            return FormatError(f"{file}:{number}: expected a quote on either side of a cell, got one; delete it")
+        fields = cells_of(row, layout.delimiter)
         if len(fields) != len(names):
             return FormatError(
                 f"{file}:{number}: expected {len(names)} columns separated by {layout.delimiter!r}, got {len(fields)}"
@@ -187,10 +190,3 @@ def _placed(
             except ValueError:
                 return FormatError(f"{file}:{number}: column {name!r}: expected {expected}, got {fields[k][:40]!r}")
     return FormatError(f"{file}: expected a table of numbers, got {' '.join(reason.split())[:200]}")
-
-
-def _unclosed(file: Path, text: bytes, layout: TableLayout, first_line: int) -> FormatError:
-    """Name the first line with a quote that takes what stands behind it for one cell."""
-    lines = (line.decode(errors="replace") for line in text.split(b"\n"))
-    number = next((k for k, line in enumerate(lines, first_line) if has_open_quote(line, layout.delimiter)), first_line)
-    return FormatError(f"{file}:{number}: expected a quote on either side of a cell, got one; delete it")
