@@ -66,7 +66,7 @@ def hypotheses(fitted: Fit, *, drift: bool) -> tuple[Hypothesis, ...]:
             share = unexplained(other.rows, plain_fit(other, drift=drift)[1]) / stated
             if share < limit:
                 named.append(Hypothesis(name=name, words=words, residual_share=share))
-    named += [account for account in scales(problem) if account.name == "mixed units" or not named]
+    named += scales(problem, guess, other_sizes=not named)
     named += [*_lag(problem, residual, drift=drift), *_jump(fitted, residual, drift=drift)]
     return tuple(sorted(named, key=lambda one: one.residual_share))
 
