@@ -10,7 +10,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from types import MappingProxyType
 from typing import Any
 
 import numpy as np
@@ -20,6 +19,7 @@ from forcetorque.exsitu.bench import Placement
 from forcetorque.exsitu.loads import BenchLoads
 from forcetorque.exsitu.scatter import moved_loads, turned_loads
 from forcetorque.exsitu.span import RANK_TOLERANCE, load_sizes
+from forcetorque.read_only_mapping import read_only_mapping
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -40,7 +40,7 @@ class UncertainLoads:
         for field, shape in (("wrench", (n, 6)), ("count", (n,)), ("fresh", (n, 6, None))):
             object.__setattr__(self, field, read_only(getattr(self, field), name=field, shape=shape))
         lasting = {name: read_only(change, name=name, shape=(n, 6)) for name, change in self.lasting.items()}
-        object.__setattr__(self, "lasting", MappingProxyType(lasting))
+        object.__setattr__(self, "lasting", read_only_mapping(lasting))
 
     @classmethod
     def of_bench(cls, loads: BenchLoads, placement: Placement, *, samples: int) -> UncertainLoads:

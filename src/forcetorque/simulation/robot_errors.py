@@ -5,12 +5,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from types import MappingProxyType
 
 import numpy as np
 
 from forcetorque.arrays import FloatArray, read_only
 from forcetorque.errors import RobotError, known_names
+from forcetorque.read_only_mapping import read_only_mapping
 from forcetorque.robot import Joint, JointType, RobotModel
 from forcetorque.spatial import Inertia, make_pose, rotation_about_z, rotation_with_z_along, skew
 
@@ -28,9 +28,9 @@ class RobotErrors:
 
     def __post_init__(self) -> None:
         centres = {link: read_only(shift, name=link, shape=(3,)) for link, shift in self.centre_m.items()}
-        object.__setattr__(self, "centre_m", MappingProxyType(centres))
+        object.__setattr__(self, "centre_m", read_only_mapping(centres))
         for name in ("mass", "joint_zero_rad"):
-            object.__setattr__(self, name, MappingProxyType(dict(getattr(self, name))))
+            object.__setattr__(self, name, read_only_mapping(getattr(self, name)))
 
     @classmethod
     def draw(

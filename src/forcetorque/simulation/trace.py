@@ -6,12 +6,12 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import partial
-from types import MappingProxyType
 
 import numpy as np
 
 from forcetorque.arrays import FloatArray, IntArray, read_only
 from forcetorque.errors import RobotError, known_names
+from forcetorque.read_only_mapping import read_only_mapping
 from forcetorque.recording import Recording, Signal, Stream
 from forcetorque.recording.alignment import seconds_since
 from forcetorque.robot import JointMotion, RootMotion
@@ -71,8 +71,8 @@ class Trace:
         stamps = {name: np.array(own, dtype=np.int64) for name, own in self.stamp_ns.items()}
         for own in stamps.values():
             own.setflags(write=False)
-        object.__setattr__(self, "stamp_ns", MappingProxyType(stamps))
-        object.__setattr__(self, "loads", MappingProxyType(loads))
+        object.__setattr__(self, "stamp_ns", read_only_mapping(stamps))
+        object.__setattr__(self, "loads", read_only_mapping(loads))
 
     def recorded(
         self,

@@ -5,12 +5,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
-from types import MappingProxyType
 
 import numpy as np
 
 from forcetorque.arrays import FloatArray, read_only
 from forcetorque.errors import ShapeError
+from forcetorque.read_only_mapping import read_only_mapping
 from forcetorque.robot import BodyTree, JointMotion, RootMotion
 
 
@@ -46,7 +46,7 @@ class Stretch:
             name: read_only(values, name=f"readings of {name!r}", shape=(n, 6))
             for name, values in self.readings.items()
         }
-        object.__setattr__(self, "readings", MappingProxyType(readings))
+        object.__setattr__(self, "readings", read_only_mapping(readings))
         object.__setattr__(self, "touched", tuple(self.touched))
 
     def __len__(self) -> int:

@@ -6,13 +6,13 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from enum import StrEnum
-from types import MappingProxyType
 from typing import Final
 
 import numpy as np
 
 from forcetorque.arrays import FloatArray, read_only
 from forcetorque.errors import SensorError
+from forcetorque.read_only_mapping import read_only_mapping
 
 ALLOWED_SHARE: Final = 0.05
 """Error that is allowed where nobody states it, as a share of the loads: root mean square over root mean square."""
@@ -54,7 +54,7 @@ class LoadCase:
         # a bare word would fail every `is`, and so read as the other one
         object.__setattr__(self, "offset", UseOffset(self.offset))
         object.__setattr__(self, "wrench", read_only(self.wrench, name=f"{self.name}: wrench", shape=(None, 6)))
-        object.__setattr__(self, "changes", MappingProxyType(dict(self.changes)))
+        object.__setattr__(self, "changes", read_only_mapping(self.changes))
         if not len(self.wrench) or not np.isfinite(self.wrench).all() or not self.wrench.any():
             raise SensorError(f"load case {self.name!r}: expected loads of finite size, and not all of them zero")
         for unit, allowed in (("N", self.allowed_force_N), ("N m", self.allowed_moment_Nm)):

@@ -5,13 +5,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
-from types import MappingProxyType
 
 import numpy as np
 
 from forcetorque.arrays import FloatArray, read_only
 from forcetorque.constants import STANDARD_GRAVITY
 from forcetorque.errors import RobotError, ShapeError, known_names
+from forcetorque.read_only_mapping import read_only_mapping
 from forcetorque.robot import BodyTree, JointMotion, RobotModel, build_tree
 from forcetorque.simulation.motions.joint_range import free_joints, joint_range
 from forcetorque.simulation.motions.movement import Movement, MovementKind, Touch
@@ -48,7 +48,7 @@ class Stand:
 
     def __post_init__(self) -> None:
         for name in ("ranges", "posture"):
-            object.__setattr__(self, name, MappingProxyType(dict(getattr(self, name))))
+            object.__setattr__(self, name, read_only_mapping(getattr(self, name)))
         object.__setattr__(self, "gravity_direction", _unit(self.gravity_direction))
         object.__setattr__(self, "tree", build_tree(self.model, self.support))
         object.__setattr__(self, "joints", free_joints(self.model))
