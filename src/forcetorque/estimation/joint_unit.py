@@ -8,6 +8,11 @@ import numpy as np
 from forcetorque.errors import RecordingError
 from forcetorque.robot import JointMotion, JointType, RobotModel
 
+CHECK_JOINT_UNIT = (
+    "check the unit of the joints (degrees or radians, as units of [[recording.stream]] or recording.json state it; "
+    "arrays are in radians)"
+)
+"""What is to be done where joints may be in another unit."""
 _FAR = 2.0 * np.pi
 """Beyond its limits by a full turn no joint reads, even one whose encoder counts from another zero; rad."""
 _MOST = 0.99
@@ -36,6 +41,5 @@ def require_joints_in_radians(model: RobotModel, motion: JointMotion) -> None:
             farthest = turned[np.argmax(np.abs(turned))]
             raise RecordingError(
                 f"joint {name!r}: expected positions about the limits of the URDF, {limit.lower:.3g} to "
-                f"{limit.upper:.3g} rad, got up to {farthest:.3g} rad, which fits them in degrees; check the unit of "
-                "the joints (degrees or radians, as units of [[recording.stream]] or recording.json state it)"
+                f"{limit.upper:.3g} rad, got up to {farthest:.3g} rad, which fits them in degrees; {CHECK_JOINT_UNIT}"
             )

@@ -10,6 +10,7 @@ import numpy as np
 from forcetorque.calibration.gate.doubt import Doubt
 from forcetorque.calibration.gate.movement import Movement
 from forcetorque.errors import FitError
+from forcetorque.estimation.joint_unit import CHECK_JOINT_UNIT
 
 _FOLLOWS = 0.5
 """Explained share of what lasts in the reading below which it does not follow the reference.
@@ -25,8 +26,7 @@ _FASTER = 3.0
 """Change of the reference, relative to that of the reading, which no reading hides under its noise."""
 
 _CHECK = (
-    "check the unit of the joints (degrees or radians, as units of [[recording.stream]] or recording.json state it; "
-    "arrays are in radians), "
+    f"{CHECK_JOINT_UNIT}, "
     "frame and gravity_direction of [[support]], and whether stream of [[sensor]] is its own; a load that "
     "is lighter than the sensor's drift needs a heavier one beside it"
 )
