@@ -58,6 +58,7 @@ def use_verdicts(
     worse = [row for row in compared if row.judgement == "worse"]
     verdicts = []
     for name, calibration in judged.items():
+        informing = tuple(dict.fromkeys(_informing(campaign, name, calibration)))
         for case in loads_of_use(campaign.runs, more, matrix=calibration.matrix, refuse=refuse):
             try:
                 judge = UseJudge(
@@ -69,7 +70,7 @@ def use_verdicts(
             except FitError as error:
                 refuse(error)
             else:
-                verdicts.append(_verdict(campaign, name, judge, tuple(_informing(campaign, name, calibration))))
+                verdicts.append(_verdict(campaign, name, judge, informing))
     return tuple(verdicts)
 
 
@@ -100,7 +101,7 @@ def _verdict(campaign: Campaign, name: str, judge: UseJudge, informing: tuple[Re
         stated=case.is_stated,
         decision=decision,
         sentence=f"{decision} for {case.words}: {reasons[0].text}",
-        reasons=(*reasons, *dict.fromkeys(informing)),
+        reasons=(*reasons, *informing),
         within=judge.within,
         errors=tuple(judge.errors()),
     )
