@@ -102,6 +102,10 @@ def test_moments_are_refused_that_are_not_of_the_sensor(recorded: Path, tmp_path
         _calibrated(runs, kept[:1])
     with pytest.raises(FitError, match="stored moments are fitted by the generative model"):
         calibrate_sensor(runs[1:], code_version="1", created="now", moments=kept[:1], regularisation=5.0)
+    with pytest.raises(FitError, match="stored moments are fitted by the generative model"):
+        calibrate_sensor(None, code_version="1", created="now", moments=kept, regularisation=5.0)
+    with pytest.raises(FitError, match="stored moments are fitted by the generative model"):
+        calibrate_sensor(None, code_version="1", created="now", moments=kept, kind="OwTrTO")
     file = tmp_path / "moments.json"
     with pytest.raises(MissingFileError, match="expected a file of moments"):
         read_moments(file)

@@ -145,6 +145,11 @@ def test_a_calibrated_wrench_needs_the_matrix_that_made_it(experiment: Experimen
             ExperimentError,
             "calibrate: expected spans that do not overlap, got 'calibrate 2' to 4 s and 'calibrate 1' from 3 s",
         ),
+        (
+            {"calibrate": (1, 4), "judge": (3, 5)},
+            ExperimentError,
+            "calibrate and judge: expected spans that do not overlap, got 'calibrate' to 4 s and 'judge' from 3 s",
+        ),
         ({"calibrate": None}, ExperimentError, "calibrate: expected one span"),
         ({"judge": (np.nan, 2.0)}, ExperimentError, "judge: expected one span"),
         ({"judge": (0.0, np.inf)}, ExperimentError, "judge: expected one span"),

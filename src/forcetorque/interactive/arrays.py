@@ -109,6 +109,7 @@ def experiment_of_arrays(
     intervals = _intervals(calibrate, Use.CALIBRATION, ground)
     if judge is not None:
         intervals += _intervals(judge, Use.VALIDATION, ground)
+    _require_apart(intervals)
     matrix = None if prior is None else _numbers(prior, "prior")
     if matrix is not None and not np.isfinite(matrix).all():
         raise ExperimentError("prior: expected a matrix of finite numbers, got NaN or infinity in it")
@@ -198,18 +199,21 @@ def _intervals(given: Any, use: Use, ground: Support) -> list[Interval]:
     name = _KINDS[use]
     spans = _bounds_s(name, given)
     labels = [name] if len(spans) == 1 else [f"{name} {number}" for number in range(1, len(spans) + 1)]
-    intervals = [
+    return [
         Interval(label=label, start_ns=round(start * 1e9), end_ns=round(end * 1e9), use=use, support=ground)
         for label, (start, end) in zip(labels, spans.tolist(), strict=True)
     ]
-    in_time = sorted(intervals, key=lambda interval: interval.start_ns)
-    for before, after in pairwise(in_time):
+
+
+def _require_apart(intervals: Sequence[Interval]) -> None:
+    """Refuse samples that would be fitted and judged, or fitted twice, in the words of a caller without a file."""
+    for before, after in pairwise(sorted(intervals, key=lambda interval: interval.start_ns)):
         if after.start_ns < before.end_ns:
+            arguments = " and ".join(dict.fromkeys(_KINDS[interval.use] for interval in (before, after)))
             raise ExperimentError(
-                f"{name}: expected spans that do not overlap, got {before.label!r} to {before.end_ns * 1e-9:g} s and "
-                f"{after.label!r} from {after.start_ns * 1e-9:g} s"
+                f"{arguments}: expected spans that do not overlap, got {before.label!r} to "
+                f"{before.end_ns * 1e-9:g} s and {after.label!r} from {after.start_ns * 1e-9:g} s"
             )
-    return intervals
 
 
 def _bounds_s(name: str, given: Any) -> FloatArray:

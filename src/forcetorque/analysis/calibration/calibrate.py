@@ -15,6 +15,8 @@ from forcetorque.calibration import Calibration, EstimationType, RecordingMoment
 from forcetorque.errors import ExperimentError, FitError
 from forcetorque.experiment import Experiment
 
+_MOMENTS = "stored moments are fitted by the generative model; leave out the estimation type and lambda"
+
 
 def calibrate_sensor(
     runs: Runs | None,
@@ -49,6 +51,8 @@ def calibrate_sensor(
             quadratic terms are asked for of such a type, or of a single recording.
     """
     if runs is None:
+        if kind not in (None, "generative") or regularisation is not None:
+            raise FitError(_MOMENTS)
         return generative_calibration(moments, code_version=code_version, created=created, nonlinear=nonlinear)
     campaign = Campaign.of(runs)
     if kind is None and regularisation is None:
@@ -88,7 +92,7 @@ def _fitted(
     if nonlinear:
         raise FitError("nonlinear: the types of the thesis are linear; leave out the estimation type and lambda")
     if moments:
-        raise FitError("stored moments are fitted by the generative model; leave out the estimation type and lambda")
+        raise FitError(_MOMENTS)
     if isinstance(regularisation, str) and regularisation != "held-out":
         raise FitError(f"regularisation: expected lambda in counts2, or 'held-out', got {regularisation!r}")
     named = estimation_type(kind) if isinstance(kind, str) else kind
