@@ -9,23 +9,21 @@ from __future__ import annotations
 
 import ast
 import sys
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from importlib import import_module
 from pathlib import Path
 from types import ModuleType
 from typing import Any
 
 
-def open_door(package: str, *, handed_out: Callable[[Any], Any] | None = None) -> None:
+def open_door(package: str) -> None:
     """Let a package import the names that it offers when they are first asked for.
 
     Args:
         package: Name of the package, which is being imported; its names are imported under `if TYPE_CHECKING`.
-        handed_out: Gives what is handed out in place of what a module has; that itself if left out.
     """
     module = sys.modules[package]
     module.__dict__["_homes"] = _homes(Path(str(module.__file__)))
-    module.__dict__["_handed_out"] = handed_out
     module.__class__ = _Door
 
 
@@ -41,16 +39,12 @@ class _Door(ModuleType):
     """A package that looks for what it does not have where its file says."""
 
     _homes: Mapping[str, str]
-    _handed_out: Callable[[Any], Any] | None
 
     def __getattr__(self, name: str) -> Any:
         home = self.__dict__["_homes"].get(name)
         if home is None:
             raise AttributeError(f"module {self.__name__!r} has no attribute {name!r}")
         value = getattr(import_module(home), name)
-        handed_out = self.__dict__["_handed_out"]
-        if handed_out is not None:
-            value = handed_out(value)
         self.__dict__[name] = value
         return value
 

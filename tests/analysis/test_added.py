@@ -3,13 +3,16 @@
 
 from __future__ import annotations
 
+import re
 import shutil
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
+from types import FunctionType
 
 import pytest
 
+from forcetorque import analysis
 from forcetorque.analysis import (
     AcceptanceFile,
     Campaign,
@@ -31,10 +34,10 @@ from forcetorque.analysis import (
     tare,
     validate,
 )
-from forcetorque.analysis.runs.added import added_to, saying_what_was_added
+from forcetorque.analysis.runs.added import added_to, warns_of_additions
 from forcetorque.calibration import Calibration
 from forcetorque.experiment import load_experiment
-from forcetorque.result import Result
+from forcetorque.result import Result, result_classes
 from tests.scenes.experiments import PARQUET, add
 
 CLOCK = '\n[[clock]]\nstream = "arm_ft"\nto = "joints"\ndelay_s = 0.0\n'
@@ -114,7 +117,7 @@ def _question(experiments: object, told: tuple[str, ...] = ()) -> _Answer:
 
 def test_of_several_recordings_each_is_named(asked: Asked) -> None:
     """One alone is not, and what a question says itself is not said again."""
-    question, first = saying_what_was_added(_question), asked.run.experiment
+    question, first = warns_of_additions(_question), asked.run.experiment
     other = replace(first, name="other", recording=replace(first.recording))
     words = added_to(first.recording)
     assert question([asked.run]).warnings == question(first).warnings == words
@@ -125,12 +128,26 @@ def test_of_several_recordings_each_is_named(asked: Asked) -> None:
     assert question(first, told).warnings == told
 
 
-def test_what_is_no_result_is_left_alone() -> None:
-    """Numbers, classes and constants pass as they are."""
-    assert saying_what_was_added(Result) is Result
-    assert saying_what_was_added(len) is len
-    assert saying_what_was_added(_number)(1.0) == 2.0
+def _forgetful(name: str) -> bool:
+    """Whether an analysis of recordings gives a result without the warnings of what was added to them."""
+    function = getattr(analysis, name)
+    if not isinstance(function, FunctionType):
+        return False
+    results = {kind.__name__ for kind in result_classes(analysis).values()}
+    takes = " ".join(str(kind) for argument, kind in function.__annotations__.items() if argument != "return")
+    recorded = re.search(r"\b(Runs|SensorRun|Campaign|Experiment|MotionSignal|FootForces)\b", takes)
+    gives = str(function.__annotations__.get("return"))
+    return bool(recorded) and gives in results and not hasattr(function, "__wrapped__")
 
 
-def _number(value: float) -> float:
-    return 2.0 * value
+def test_no_analysis_of_recordings_forgets_what_was_added() -> None:
+    """Every one that offers a result of the command line; a negative control is one without the decorator."""
+    assert [name for name in analysis.__all__ if _forgetful(name)] == []
+    wrapped = [name for name in analysis.__all__ if hasattr(getattr(analysis, name), "__wrapped__")]
+    assert len(wrapped) > 20
+
+
+def test_an_analysis_that_forgets_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Negative control: one of them without its decorator."""
+    monkeypatch.setattr(analysis, "validate", analysis.validate.__wrapped__)  # type: ignore[attr-defined]
+    assert _forgetful("validate")

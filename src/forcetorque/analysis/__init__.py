@@ -7,7 +7,6 @@ Whatever recordings an answer is about, what their experiment files add to the l
 
 from typing import TYPE_CHECKING
 
-from forcetorque.analysis.runs.added import saying_what_was_added
 from forcetorque.door import open_door
 
 if TYPE_CHECKING:
@@ -343,4 +342,4 @@ __all__ = [
     "write_plan",
 ]
 
-open_door(__name__, handed_out=saying_what_was_added)
+open_door(__name__)

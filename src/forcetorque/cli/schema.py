@@ -66,8 +66,8 @@ def _files() -> dict[str, Callable[[], dict[str, Any]]]:
 
 
 def _results() -> dict[str, Callable[[], dict[str, Any]]]:
-    from forcetorque import analysis, experiment, report, viewer
+    import forcetorque
     from forcetorque.result import result_classes
 
-    results = result_classes(analysis, experiment, report, viewer)
+    results = result_classes(forcetorque)
     return {name: kind.described for name, kind in results.items()}

@@ -10,7 +10,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Self
 
 from forcetorque import analysis
-from forcetorque import experiment as experiments
 from forcetorque.analysis import SensorCalibrations
 from forcetorque.analysis.runs.named import NEW, Calibrations, named
 from forcetorque.calibration import Calibration
@@ -20,6 +19,8 @@ from forcetorque.estimation.balance import ForceLimit, PlaneTolerance
 from forcetorque.evaluation import OffsetPolicy
 from forcetorque.experiment import parse_experiment
 from forcetorque.experiment.contacts import contact_in_words
+from forcetorque.experiment.content import Experiment as ExperimentContent
+from forcetorque.experiment.load import load_experiment as load_content
 from forcetorque.interactive.run import Run
 from forcetorque.result import Table, html_table, html_warnings
 
@@ -27,13 +28,13 @@ if TYPE_CHECKING:  # what shows takes long to import, and most scripts do not
     from forcetorque.viewer import View
 
 
-class Experiment(experiments.Experiment):
+class Experiment(ExperimentContent):
     """Everything that an experiment file points to, sensors by name: `[experiment[name] for name in experiment]`."""
 
     __slots__ = ()
 
     @classmethod
-    def of(cls, content: experiments.Experiment) -> Self:
+    def of(cls, content: ExperimentContent) -> Self:
         """Hold an experiment.
 
         Args:
@@ -231,11 +232,11 @@ def load_experiment(path: Path | str) -> Experiment:
         FormatError: If a file does not have its form.
         ExperimentError: If the file contradicts itself, the robot or the recording.
     """
-    return Experiment.of(experiments.load_experiment(path))
+    return Experiment.of(load_content(path))
 
 
 def calibrate_jointly(
-    recordings: Sequence[experiments.Experiment],
+    recordings: Sequence[ExperimentContent],
     sensors: Sequence[str] | None = None,
     *,
     folder: Path | str = ".",

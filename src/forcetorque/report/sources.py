@@ -10,8 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-import forcetorque.analysis
-import forcetorque.experiment
+import forcetorque
 from forcetorque.analysis import AcceptanceFile, read_acceptance
 from forcetorque.analysis.runs.applicability import calibrations_of
 from forcetorque.calibration import Calibration, read_calibration
@@ -20,6 +19,9 @@ from forcetorque.experiment import Experiment
 from forcetorque.result import result_classes
 
 _KINDS = "an experiment file, a calibration, an acceptance file or the JSON result of a command"
+
+_NOT_DRAWN = {"report", "view"}
+"""Results that a report does not show: itself, and the page of the viewer."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -63,7 +65,7 @@ def sort_sources(paths: Sequence[Path]) -> ReportSources:
                 acceptance.append(read_acceptance(path))
             case ["forcetorque", "calibration"]:
                 calibrations[str(path)] = read_calibration(path)
-            case ["forcetorque", kind] if kind in result_classes(forcetorque.analysis, forcetorque.experiment):
+            case ["forcetorque", kind] if kind in result_classes(forcetorque).keys() - _NOT_DRAWN:
                 results[str(path)] = content
             case _:
                 raise FormatError(f"{path}: expected {_KINDS}, got the schema {content.get('schema')!r}")

@@ -13,6 +13,7 @@ from forcetorque.analysis.acceptance.criteria import Subject, criteria_of
 from forcetorque.analysis.acceptance.criterion import Bound, Criterion, RecordingCriterion
 from forcetorque.analysis.acceptance.file import AcceptanceFile
 from forcetorque.analysis.acceptance.static_checks import RecordingChecks, StaticChecks, check
+from forcetorque.analysis.runs.added import warns_of_additions
 from forcetorque.analysis.runs.campaign import Campaign, Runs
 from forcetorque.analysis.runs.unseen import doubts_about_choice
 from forcetorque.analysis.runs.validity import ReadingsOutside, readings_outside, sentences
@@ -115,6 +116,7 @@ def _cells(criterion: Criterion) -> tuple[str, ...]:
     )
 
 
+@warns_of_additions
 def accept(
     runs: Runs,
     spec: AcceptanceFile,

@@ -24,6 +24,7 @@ from forcetorque.analysis.balance.rows import (
     phase_rows,
     robot_row,
 )
+from forcetorque.analysis.runs.added import warns_of_additions
 from forcetorque.analysis.runs.reading import Correction
 from forcetorque.errors import ExperimentError
 from forcetorque.estimation.balance import NO_FOOT, require_support
@@ -116,6 +117,7 @@ class Balance(Result):
         return write_samples(path, spans, schema=SAMPLES)
 
 
+@warns_of_additions
 def balance(
     recordings: Sequence[Experiment | FootForces],
     corrections: Sequence[Mapping[str, Correction]] = (),

@@ -18,7 +18,7 @@ from forcetorque.analysis.calibration.tables import calibration_blocks, componen
 from forcetorque.analysis.inspect.findings import doubtful_spans
 from forcetorque.analysis.payload.contradictions import contradicted_statements
 from forcetorque.analysis.payload.load_doubts import load_doubts
-from forcetorque.analysis.runs.added import added_to
+from forcetorque.analysis.runs.added import added_to, warns_of_additions
 from forcetorque.analysis.runs.campaign import Campaign, Runs
 from forcetorque.analysis.runs.possible_touch import possible_touch
 from forcetorque.analysis.runs.sensor_run import SensorRun
@@ -106,6 +106,7 @@ class SensorCalibrations(Result):
         return [line for entry in self.calibrations for line in component_records(entry.calibration)]
 
 
+@warns_of_additions
 def calibrate_for_file(
     runs: Runs | None,
     file: Path | str,

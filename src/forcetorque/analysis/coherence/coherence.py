@@ -21,6 +21,7 @@ from forcetorque.analysis.coherence.rows import (
     OffsetOfSensor,
     PhaseForce,
 )
+from forcetorque.analysis.runs.added import warns_of_additions
 from forcetorque.analysis.runs.offsets import offset_policies
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration import Calibration
@@ -32,6 +33,7 @@ from forcetorque.noise import mean_error
 from forcetorque.recording import Interval, MovingSupport, Use
 
 
+@warns_of_additions
 def coherence(
     experiment: Experiment,
     candidates: Mapping[str, Mapping[str, Calibration]] | None = None,

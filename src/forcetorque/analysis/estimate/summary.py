@@ -12,6 +12,7 @@ from pydantic import Field
 
 from forcetorque.analysis.estimate.estimate import IntervalEstimates
 from forcetorque.analysis.estimate.skin_summary import SkinContactSummary, skin_doubts, skin_rows
+from forcetorque.analysis.runs.added import warns_of_additions
 from forcetorque.analysis.runs.reading import Correction
 from forcetorque.analysis.runs.validity import ReadingsOutside, outside_row, sentences
 from forcetorque.analysis.torque.fusion import IntervalFusion, TorqueFusion, summarise_fusion
@@ -179,6 +180,7 @@ def _tables(recording: EstimateSummary | EstimatedRecording) -> Iterator[Table |
         yield from recording.fusion.blocks()
 
 
+@warns_of_additions
 def estimates_of_recordings(summaries: Mapping[str, EstimateSummary]) -> EstimateSummary:
     """Put what several recordings amount to together; nothing is pooled, as every one has samples of its own.
 
@@ -204,6 +206,7 @@ def estimates_of_recordings(summaries: Mapping[str, EstimateSummary]) -> Estimat
     )
 
 
+@warns_of_additions
 def summarise_estimates(
     experiment: Experiment,
     corrections: Mapping[str, Correction],

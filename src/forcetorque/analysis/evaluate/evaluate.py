@@ -12,6 +12,7 @@ from pydantic import Field
 
 from forcetorque.analysis.evaluate.tables import ERROR_WORDS, error_tables, smoothing_words
 from forcetorque.analysis.payload.load_doubts import circular_loads
+from forcetorque.analysis.runs.added import warns_of_additions
 from forcetorque.analysis.runs.campaign import Campaign, Runs
 from forcetorque.analysis.runs.candidate import JudgedCandidate, JudgedRow
 from forcetorque.analysis.runs.judged import JudgedWrenches
@@ -170,6 +171,7 @@ class _Judged:
     time_s: FloatArray
 
 
+@warns_of_additions
 def evaluate(runs: Runs, calibrations: Calibrations) -> Evaluation:
     """Judge calibrations, and the priors that they came from, on data that was not fitted.
 

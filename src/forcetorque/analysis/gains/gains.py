@@ -12,6 +12,7 @@ from pydantic import Field
 
 from forcetorque.analysis.gains.rows import ChannelRow, ResolutionRow, SensorRow
 from forcetorque.analysis.gains.strongest import strongest_rows
+from forcetorque.analysis.runs.added import warns_of_additions
 from forcetorque.analysis.runs.raw_counts import RawCounts, raw_counts
 from forcetorque.analysis.runs.sensor_run import SensorRun
 from forcetorque.arrays import FloatArray, read_only, require_shape
@@ -99,6 +100,7 @@ class SensorGains:
         return np.array([advised.factor for advised in self.advice])
 
 
+@warns_of_additions
 def select_gains(
     run: SensorRun, *, margin: float = MARGIN, calibration: tuple[str, Calibration] | None = None
 ) -> Gains:

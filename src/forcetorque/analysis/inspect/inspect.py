@@ -23,6 +23,7 @@ from forcetorque.analysis.inspect.inspected_file import (
 )
 from forcetorque.analysis.inspect.inspected_streams import StreamRow, stream_rows, stream_table
 from forcetorque.analysis.inspect.skin_findings import inspect_patches, taxel_findings
+from forcetorque.analysis.runs.added import warns_of_additions
 from forcetorque.errors import FormatError, MissingFileError, RecordingError
 from forcetorque.exchange.formats import format_named, not_recognised, recognised_format
 from forcetorque.exchange.log_sketch import SketchingFormat
@@ -134,6 +135,7 @@ class Inspection(Result):
         return super().columns() or list(FindingRow.model_fields)
 
 
+@warns_of_additions
 def inspect_log(path: Path | str, *, log_format: str | None = None) -> Inspection:
     """Inspect an experiment file, a log of any format that is recognised by what is there, or a sensor's calibration.
 
@@ -151,6 +153,7 @@ def inspect_log(path: Path | str, *, log_format: str | None = None) -> Inspectio
     return _inspection(str(source), *_recorded(source, log_format))
 
 
+@warns_of_additions
 def inspected(experiment: Experiment) -> Inspection:
     """Inspect the recording of an experiment that is read already, or was made from arrays.
 

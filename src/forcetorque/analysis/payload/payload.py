@@ -26,6 +26,7 @@ from forcetorque.analysis.payload.rows import (
 from forcetorque.analysis.payload.sense import reversed_sense
 from forcetorque.analysis.payload.weighing import hanging_on, links_of, problem_among, weighed, weighed_alone
 from forcetorque.analysis.payload.words import bias_words, disagreements, drift_words, load_words, payload_doubts
+from forcetorque.analysis.runs.added import warns_of_additions
 from forcetorque.analysis.runs.campaign import Campaign, Runs
 from forcetorque.analysis.runs.sensor_run import SensorRun
 from forcetorque.loads import LoadSolution, instants, load_wrench
@@ -120,6 +121,7 @@ class WeighedLoad(Result):
         return [load.flat() | session.flat() for load in self.loads for session in self.sessions]
 
 
+@warns_of_additions
 def weigh_load(runs: Runs) -> WeighedLoad:
     """Give the loads that the calibration intervals of one or several experiments tell.
 

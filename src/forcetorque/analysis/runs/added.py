@@ -5,11 +5,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import wraps
-from types import FunctionType
-from typing import TYPE_CHECKING, Any
+from typing import Any, ParamSpec, TypeVar
 
-if TYPE_CHECKING:
-    from forcetorque.recording import Recording
+from forcetorque.recording import Recording
+from forcetorque.result import Result
+
+Options = ParamSpec("Options")
+Answer = TypeVar("Answer", bound=Result)
 
 ADDED = {"clock", "transformed", "fixed_joint", "stated_rate", "skipped_rows"}
 """Kinds of findings that say what the experiment file adds to its log."""
@@ -27,30 +29,23 @@ def added_to(recording: Recording) -> tuple[str, ...]:
     return tuple(f"{finding.stream}: {finding.message}" for finding in recording.findings if finding.kind in ADDED)
 
 
-def saying_what_was_added(offered: Any) -> Any:
-    """Let a question say what was added to the recordings that it is asked about, as warnings of its result.
+def warns_of_additions(analysis: Callable[Options, Answer]) -> Callable[Options, Answer]:
+    """Let the result of an analysis warn of what experiment files add to the recordings that it is given.
 
     Args:
-        offered: What a package offers: a question, or anything else.
+        analysis: A function whose arguments hold experiments, their sensors, or many of these.
 
     Returns:
-        The question, which says it; anything else as it is.
+        The function; its result has a warning for every addition that no warning of it names yet.
     """
-    if not isinstance(offered, FunctionType):
-        return offered
-    question: Callable[..., Any] = offered
 
-    @wraps(question)
-    def asked(*args: Any, **options: Any) -> Any:
-        from forcetorque.result import Result  # here because the door opens before any question is asked
+    @wraps(analysis)
+    def warning(*args: Options.args, **options: Options.kwargs) -> Answer:
+        result = analysis(*args, **options)
+        untold = tuple(_untold((*args, *options.values()), result.warnings))
+        return result.model_copy(update={"warnings": (*result.warnings, *untold)}) if untold else result
 
-        answer = question(*args, **options)
-        if not isinstance(answer, Result):
-            return answer
-        untold = tuple(_untold((*args, *options.values()), answer.warnings))
-        return answer.model_copy(update={"warnings": (*answer.warnings, *untold)}) if untold else answer
-
-    return asked
+    return warning
 
 
 def _untold(arguments: Iterable[Any], told: Iterable[str]) -> Iterator[str]:
@@ -65,8 +60,6 @@ def _untold(arguments: Iterable[Any], told: Iterable[str]) -> Iterator[str]:
 
 def _recordings(argument: Any) -> Iterator[tuple[str, Recording]]:
     """The recordings of experiments, of sensors in them, and of many of these."""
-    from forcetorque.recording import Recording  # here because the door opens before any question is asked
-
     if isinstance(getattr(argument, "recording", None), Recording):
         yield argument.name, argument.recording
     elif hasattr(argument, "runs"):

@@ -11,7 +11,7 @@ from typing import Final, Literal
 import numpy as np
 from pydantic import Field
 
-from forcetorque.analysis.runs.added import added_to
+from forcetorque.analysis.runs.added import added_to, warns_of_additions
 from forcetorque.analysis.skin.contact_rows import SkinContactRow, SkinWrenchPicture, contact_rows
 from forcetorque.analysis.skin.frames import SkinFrames, skin_frames
 from forcetorque.analysis.skin.heat_rows import OFFERED, ReleaseRow, heat_warnings, release_row
@@ -107,6 +107,7 @@ class SkinWrench(Result):
         return super().columns() or list(SkinContactRow.model_fields)
 
 
+@warns_of_additions
 def skin_wrench(
     experiment: Path | str | PatchExperiment,
     calibration: Path | str | PatchCalibration,

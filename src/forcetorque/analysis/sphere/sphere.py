@@ -8,6 +8,7 @@ from typing import Literal
 
 from pydantic import Field
 
+from forcetorque.analysis.runs.added import warns_of_additions
 from forcetorque.analysis.runs.applicability import by_sensor
 from forcetorque.analysis.runs.named import Calibrations, named
 from forcetorque.analysis.runs.sensor_run import SensorRun
@@ -67,6 +68,7 @@ class Spheres(Result):
             yield f"drawn to {self.figure}"
 
 
+@warns_of_additions
 def spheres(run: SensorRun, calibrations: Calibrations, intervals: Sequence[str] | None = None) -> Spheres:
     """Compare how the three axes of a sensor weigh the limb that is carried around.
 
@@ -103,6 +105,7 @@ def spheres(run: SensorRun, calibrations: Calibrations, intervals: Sequence[str]
     )
 
 
+@warns_of_additions
 def spheres_of_sensors(
     experiment: Experiment,
     sensors: Sequence[ExperimentSensor],

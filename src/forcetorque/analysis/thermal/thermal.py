@@ -10,6 +10,7 @@ from typing import Literal
 import numpy as np
 from pydantic import Field
 
+from forcetorque.analysis.runs.added import warns_of_additions
 from forcetorque.analysis.runs.chosen_intervals import chosen_intervals
 from forcetorque.analysis.runs.reading import Correction, readings_at
 from forcetorque.analysis.runs.sensor_run import SensorRun
@@ -63,6 +64,7 @@ class Thermal(Result):
         ]
 
 
+@warns_of_additions
 def thermal(
     run: SensorRun,
     *,

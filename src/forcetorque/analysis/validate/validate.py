@@ -9,6 +9,7 @@ from typing import ClassVar, Literal
 from pydantic import Field
 
 from forcetorque.analysis.evaluate.tables import smoothing_words
+from forcetorque.analysis.runs.added import warns_of_additions
 from forcetorque.analysis.runs.campaign import Campaign, Runs
 from forcetorque.analysis.runs.free_sub_model import FreeSubModel, SubModelChoice
 from forcetorque.analysis.runs.named import Calibrations, named
@@ -108,6 +109,7 @@ class Validation(Result):
                 yield f"{sensor}, {row.candidate}, offset {row.offset}: read by {row.offset_source}"
 
 
+@warns_of_additions
 def validate(
     runs: Runs,
     calibrations: Calibrations,
