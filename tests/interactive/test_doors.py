@@ -13,7 +13,10 @@ import pytest
 from typer.testing import CliRunner
 
 from forcetorque import Experiment, analysis, load_experiment, read_calibration
+from forcetorque.analysis import calibrate_jointly as calibrate_jointly_of_experiments
+from forcetorque.analysis import calibrate_skin as calibrate_skin_of_recordings
 from forcetorque.analysis import draft_experiment, evaluate, inspect_log, read_acceptance
+from forcetorque.analysis import workbench as workbench_of_recordings
 from forcetorque.cli.main import app
 from forcetorque.errors import ExperimentError, FitError, ForceTorqueError
 from forcetorque.interactive import (
@@ -65,9 +68,9 @@ def _said(*words: Path | str) -> str:
         (Run.accept, analysis.accept),
         (Run.plan, analysis.plan),
         (Run.report, report),
-        (workbench, analysis.workbench),
-        (calibrate_jointly, analysis.calibrate_jointly),
-        (calibrate_skin, analysis.calibrate_skin),
+        (workbench, workbench_of_recordings),
+        (calibrate_jointly, calibrate_jointly_of_experiments),
+        (calibrate_skin, calibrate_skin_of_recordings),
         (motion, analysis.motion_signals),
     ],
     ids=lambda function: function.__qualname__,
