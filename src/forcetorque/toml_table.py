@@ -13,6 +13,7 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_valida
 from pydantic_core import ErrorDetails, PydanticCustomError
 
 from forcetorque.errors import FormatError, MissingFileError, known_names
+from forcetorque.run_files import declare_input
 
 
 class Table(BaseModel):
@@ -111,6 +112,7 @@ def read_toml(path: Path | str, form: type[_Content], *, what: str) -> _Content:
     file = Path(path)
     if not file.is_file():
         raise MissingFileError(f"{file}: expected {what}, there is none")
+    declare_input(file)
     try:
         text = file.read_text(encoding="utf-8")
         content = tomllib.loads(text)

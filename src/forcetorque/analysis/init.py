@@ -28,6 +28,7 @@ from forcetorque.errors import ExperimentError, ForceTorqueError
 from forcetorque.exchange.formats import format_named
 from forcetorque.experiment.inputs import Inputs
 from forcetorque.experiment.log_context import ExperimentContext
+from forcetorque.output_file import refuse_output
 from forcetorque.recording import Recording
 from forcetorque.result import Result, Row, Shown, Table, table_of
 from forcetorque.robot import JointType, RobotModel, read_urdf
@@ -105,6 +106,7 @@ def draft_experiment(
     *,
     urdf: Path | str | None = None,
     log_format: str | None = None,
+    force: bool = False,
 ) -> Draft:
     """Write the first experiment file of a log.
 
@@ -114,20 +116,22 @@ def draft_experiment(
 
     Args:
         logs: A log of any format, or several tables of one recording.
-        output: File to write, which must not be there yet; None to write none.
+        output: File to write; None to write none.
         urdf: The robot; None for a wrist sensor whose pose is logged.
         log_format: Name of the format; it is recognised by what is there if None.
+        force: Whether a file that is there already may be replaced.
 
     Returns:
         The file, and its questions.
 
     Raises:
-        ExperimentError: If there is such a file already, or no log is given.
+        OutputError: If there is such a file already.
+        ExperimentError: If no log is given.
         FormatError: If the log is of no known format.
     """
     file = Path("experiment.toml") if output is None else Path(output)
-    if output is not None and file != STANDARD_OUTPUT and file.exists():
-        raise ExperimentError(f"{file}: there is such a file already; choose another name, or move it away")
+    if output is not None:
+        refuse_output(file, force=force)
     files = [logs] if isinstance(logs, Path | str) else logs
     if not files:
         raise ExperimentError("expected a log to begin an experiment file of, got none")

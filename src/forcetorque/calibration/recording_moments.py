@@ -23,6 +23,7 @@ from forcetorque.calibration.moments import Moments
 from forcetorque.calibration.provenance import FittedInterval
 from forcetorque.calibration.sensor_identity import SensorIdentity
 from forcetorque.errors import FitError
+from forcetorque.output_file import refuse_output
 from forcetorque.part import Part, read_part
 
 SCHEMA: Final = "forcetorque/moments/1"
@@ -249,12 +250,17 @@ class RecordingMoments(Part):
         """What is known beside data and prior."""
         return Assumptions(full_scale=self.full_scale, accuracy=self.accuracy, repeatability=self.repeatability)
 
-    def save(self, path: Path | str) -> None:
+    def save(self, path: Path | str, *, force: bool = False) -> None:
         """Write it as JSON; on any error the file keeps what it held before.
 
         Args:
             path: File to write or to replace, in an existing folder.
+            force: Whether a file that is neither a result nor a figure may be replaced; an input never is.
+
+        Raises:
+            OutputError: If the file is an input of it, or a file that `force` is needed for.
         """
+        refuse_output(path, inputs_sha256=self.inputs_sha256.values(), force=force)
         text = json.dumps(self.model_dump(mode="json", by_alias=True), allow_nan=False)
         write_bytes_atomically(Path(path), (text + "\n").encode())
 

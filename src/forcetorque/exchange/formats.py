@@ -26,6 +26,7 @@ from forcetorque.exchange.tabular.hindrance import hindrance
 from forcetorque.exchange.tabular.log_format import TabularFormat
 from forcetorque.exchange.yarp.log_format import YarpFormat
 from forcetorque.recording.joined import joined_stream
+from forcetorque.run_files import declare_input
 
 LOG_FORMATS: tuple[LogFormat[Any], ...] = (
     YarpFormat(),
@@ -121,6 +122,7 @@ def recognised_format(path: Path) -> LogFormat[Any] | None:
     Raises:
         FormatError: If several do.
     """
+    declare_input(path)
     formats = [known for known in LOG_FORMATS if known.recognises(path)]
     if len(formats) > 1:
         raise FormatError(

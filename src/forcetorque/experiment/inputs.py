@@ -9,6 +9,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from forcetorque.errors import ForceTorqueError
+from forcetorque.run_files import declare_input
 
 
 class Inputs:
@@ -28,6 +29,7 @@ class Inputs:
             Path to open.
         """
         path = self.folder / relative
+        declare_input(path)
         self._read[relative.as_posix()] = path
         return path
 
@@ -44,6 +46,7 @@ class Inputs:
         path = self.folder / relative
         for pattern in patterns:
             for file in sorted(path.glob(pattern)):
+                declare_input(file)
                 self._read[(relative / file.name).as_posix()] = file
         return path
 

@@ -18,6 +18,7 @@ from forcetorque.calibration import Calibration, read_calibration
 from forcetorque.errors import ExperimentError, FormatError, MissingFileError
 from forcetorque.experiment import Experiment
 from forcetorque.result import result_classes
+from forcetorque.run_files import declare_input
 
 _KINDS = "an experiment file, a calibration, an acceptance file or the JSON result of a command"
 
@@ -117,6 +118,7 @@ def _content(path: Path) -> dict[str, Any]:
         raise MissingFileError(f"{path}: expected a file to report on, there is none")
     if path.suffix not in (".toml", ".json"):  # so that no calibration is called as priors are in the tables
         raise FormatError(f"{path}: expected {_KINDS}, whose names end in .toml or .json")
+    declare_input(path)
     try:
         text = path.read_text(encoding="utf-8")
         content = tomllib.loads(text) if path.suffix == ".toml" else json.loads(text)

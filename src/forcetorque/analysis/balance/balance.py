@@ -30,6 +30,7 @@ from forcetorque.estimation.balance import NO_FOOT, require_support
 from forcetorque.exchange.sample_table import SampleSpan, write_samples
 from forcetorque.experiment import Experiment, FootForces
 from forcetorque.experiment.inputs import stated_in
+from forcetorque.output_file import refuse_output
 from forcetorque.result import Result, Table, table_of
 
 SAMPLES = "forcetorque/balance-samples/1"
@@ -94,15 +95,17 @@ class Balance(Result):
             + (f"; no centre of pressure below {self.least_load_N:.3g} N" if self.feet else "")
         )
 
-    def write(self, path: Path | str) -> int:
+    def write(self, path: Path | str, *, force: bool = False) -> int:
         """Write every sample: the columns of `IntervalBalance.columns`, a row per instant.
 
         Args:
             path: File to write or to replace, ending in .parquet or .csv.
+            force: Whether a file that is neither a result nor a figure may be replaced.
 
         Returns:
             Number of rows.
         """
+        refuse_output(path, force=force)
         several = len(self.experiments) > 1
         spans = [
             SampleSpan(

@@ -110,12 +110,13 @@ def channel_full_scale(recording: CampaignRecording) -> FloatArray:
     return full_scale_of(recording.sensor, recording.options.accuracy, channels=recording.channels)
 
 
-def store_moments(runs: Runs, folder: Path | str) -> list[Path]:
+def store_moments(runs: Runs, folder: Path | str, *, force: bool = False) -> list[Path]:
     """Keep what a calibration needs of every recording of a sensor.
 
     Args:
         runs: The sensor, in one experiment or several.
         folder: Where the files go; made where it is missing.
+        force: As of `RecordingMoments.save`.
 
     Returns:
         The files, one per recording.
@@ -126,5 +127,5 @@ def store_moments(runs: Runs, folder: Path | str) -> list[Path]:
     for recording in recording_moments(runs):
         name = f"{recording.sensor.name}_{recording.sensor.serial}_{recording.intervals[0].recording}"
         files.append(place / f"{quote(name, safe=' ')}.json")
-        recording.save(files[-1])
+        recording.save(files[-1], force=force)
     return files

@@ -18,6 +18,7 @@ from forcetorque.exchange.load import RobotLoad, write_load_file
 from forcetorque.exchange.load_format import LoadFormat
 from forcetorque.experiment.loads.wrist_load import LOAD_LINK, WristLoads
 from forcetorque.loads import Hypothesis
+from forcetorque.output_file import refuse_output
 from forcetorque.recording import Use
 from forcetorque.spatial import WRENCH_COMPONENTS
 
@@ -108,6 +109,7 @@ def export_load(
     *,
     world_frame: str | None = None,
     body_H_sensor: FloatArray | None = None,
+    force: bool = False,
 ) -> str:
     """Write the file in which a robot is told what hangs on its sensor.
 
@@ -117,9 +119,11 @@ def export_load(
         form: Form of the file.
         world_frame: For `gravity-filter`, the frame of tf whose z axis points up.
         body_H_sensor: For `mc-rtc`, pose of the sensor in its parent body; shape (4, 4); m.
+        force: Whether a file that is neither a result nor a figure may be replaced.
 
     Returns:
         What the program does with it, in words.
     """
+    refuse_output(output, force=force)
     write_load_file(output, load, form, world_frame=world_frame, body_H_sensor=body_H_sensor)
     return form.convention

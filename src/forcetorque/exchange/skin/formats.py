@@ -13,6 +13,7 @@ from forcetorque.exchange.skin.layout_table import LayoutTable
 from forcetorque.exchange.skin.skin_gui import SkinGuiPlan
 from forcetorque.exchange.skin.taxel_array import TaxelArrayMessage
 from forcetorque.exchange.skin.urdf_frames import UrdfFrames
+from forcetorque.run_files import declare_input
 from forcetorque.skin import PatchDescription, SkinLayout, patch_normals
 
 
@@ -71,6 +72,7 @@ def describe_patch(path: Path | str) -> PatchDescription:
     file = Path(path)
     if not file.is_file():
         raise MissingFileError(f"{file}: expected a file with a layout of skin, there is none")
+    declare_input(file)
     try:
         text = file.read_text(encoding="utf-8")
     except UnicodeDecodeError as error:

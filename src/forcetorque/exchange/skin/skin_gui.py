@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from forcetorque.errors import FormatError, MissingFileError
+from forcetorque.run_files import declare_input
 from forcetorque.skin import (
     LARGEST_MESSAGE,
     MODULE_COLUMNS,
@@ -75,6 +76,7 @@ def read_plan(path: Path | str) -> tuple[PlannedModule, ...]:
     file = Path(path)
     if not file.is_file():
         raise MissingFileError(f"{file}: expected a plan of a patch, there is none")
+    declare_input(file)
     return planned_modules(file, file.read_text(encoding="utf-8"))
 
 
