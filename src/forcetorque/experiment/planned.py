@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import tomllib
 from pathlib import Path
 from typing import Annotated, Literal
 
@@ -29,7 +28,7 @@ from forcetorque.experiment.tables.processing import ProcessingTable
 from forcetorque.experiment.tables.sensor import Sensor
 from forcetorque.recording import Recording, ScalarSource, Support
 from forcetorque.robot import RobotModel
-from forcetorque.toml_table import Table, Text, read_toml
+from forcetorque.toml_table import Table, Text, read_toml, toml_content
 
 
 class PlannedSensor(Sensor):
@@ -121,7 +120,7 @@ def load_planned(path: Path | str) -> Experiment:
 def _tables(file: Path) -> set[str] | None:
     """What the file states; None of one that cannot be read, which is left to the reader that says why."""
     try:
-        return set(tomllib.loads(file.read_text(encoding="utf-8")))
+        return set(toml_content(file)[1])
     except (OSError, ValueError, RecursionError):
         return None
 
