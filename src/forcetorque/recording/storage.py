@@ -29,6 +29,7 @@ from forcetorque.recording.interval import Interval, MovingSupport, Support, Use
 from forcetorque.recording.quantity import QUANTITIES
 from forcetorque.recording.recording import Recording
 from forcetorque.recording.stream import Signal, Stream
+from forcetorque.temporary import temporary_beside
 
 INDEX_FILE = "recording.json"
 """File that makes a folder a recording."""
@@ -54,16 +55,12 @@ def write_recording(folder: Path | str, recording: Recording) -> None:
         raise MissingFileError(f"{folder}: expected an existing folder to write to, got none; create {target.parent}")
     if target.exists():
         _require_replaceable(target)
-    fresh = target.with_name(f".{uuid4().hex}.tmp")
-    fresh.mkdir()
-    try:
+    with temporary_beside(target, folder=True) as fresh:
         for stream in recording.streams.values():
             _write_stream(fresh / _file_name(stream.name), stream)
         index = json.dumps(_index(recording), indent=2, default=whole_number)  # counts may be NumPy integers
         (fresh / INDEX_FILE).write_text(index + "\n", encoding="utf-8")
         _replace(target, fresh)
-    finally:
-        shutil.rmtree(fresh, ignore_errors=True)
 
 
 def read_recording(folder: Path | str) -> Recording:
