@@ -4,6 +4,7 @@
 from forcetorque.result.cells import finite_or_none, interval, number, with_error
 from forcetorque.result.html import html_table, html_warnings
 from forcetorque.result.names import short_names
+from forcetorque.result.quantity_text import NO_BREAK, with_joined_units
 from forcetorque.result.registry import result_classes
 from forcetorque.result.result import Result
 from forcetorque.result.row import AxisValues, FloatOrNull, Row, Values, WrenchValues
@@ -13,6 +14,7 @@ from forcetorque.result.text import table_text, wrapped
 from forcetorque.result.vague import VAGUE_WORDS, without_vague
 
 __all__ = [
+    "NO_BREAK",
     "COMPONENTS",
     "VAGUE_WORDS",
     "AxisValues",
@@ -35,6 +37,7 @@ __all__ = [
     "table_text",
     "with_error",
     "with_first_column",
+    "with_joined_units",
     "without_vague",
     "wrapped",
 ]

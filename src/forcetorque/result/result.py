@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import html
 import json
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
@@ -12,7 +11,7 @@ from typing import Any, ClassVar, Self
 from pydantic import Field
 
 from forcetorque.errors import ShapeError
-from forcetorque.result.html import html_table, html_warnings
+from forcetorque.result.html import html_table, html_text, html_warnings
 from forcetorque.result.row import Row
 from forcetorque.result.table import Table
 from forcetorque.result.text import table_text, wrapped
@@ -99,7 +98,7 @@ class Result(Row):
 
     def _repr_html_(self) -> str:
         return html_warnings(self.cautions()) + "".join(
-            f"<p>{html.escape(block)}</p>" if isinstance(block, str) else html_table(block) for block in self.blocks()
+            f"<p>{html_text(block)}</p>" if isinstance(block, str) else html_table(block) for block in self.blocks()
         )
 
     @classmethod
