@@ -172,6 +172,13 @@ def test_sound_input_has_no_name(problem: Callable[[], LoadProblem]) -> None:
     assert solve(problem()).hypotheses == ()
 
 
+def test_noisy_readings_under_an_unknown_tilt_are_no_error() -> None:
+    """Other frames are tried without the tilt, which would need the orientation that they do not have."""
+    noise = 10.0 * SIZES * np.random.default_rng(7).normal(size=(COUNT, 6))
+    solution = solve(problem_of(weight(GRAVITY) + noise, GRAVITY, orientation=ROTATIONS, tilt=True))
+    assert solution.hypotheses == ()
+
+
 def _is_of_another_size(problem: LoadProblem) -> bool:
     return any(scales(problem, plain_fit(problem, drift=False)[0], other_sizes=True))
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
@@ -110,15 +111,15 @@ def _others(problem: LoadProblem) -> Iterator[tuple[str, str, float, LoadProblem
         turn = min(quarter_turns()[1:], key=lambda turn: float(((turn - first_mount(problem)) ** 2).sum()))
         words = f"the sensor is turned against the axes of the motion: {turn_words(turn)}; state the frames so"
         acceleration = rows.proper_acceleration @ turn.T
-        yield "turned axes", words, _CLEARLY, replace(problem, rows=_turned(rows, turn, acceleration))
+        turned = replace(problem, rows=_turned(rows, turn, acceleration), tilt=False)
+        yield "turned axes", words, _CLEARLY, turned
 
 
 def _turned(rows: LoadRows, turn: FloatArray, acceleration: FloatArray) -> LoadRows:
-    others = {
-        field: getattr(rows, field) @ turn.T
-        for field in ("angular_velocity", "angular_acceleration")
-        if getattr(rows, field) is not None
-    }
+    others: dict[str, Any] = {}
+    if rows.angular_velocity_products is not None and rows.angular_acceleration is not None:
+        others["angular_velocity_products"] = turn @ rows.angular_velocity_products @ turn.T
+        others["angular_acceleration"] = rows.angular_acceleration @ turn.T
     for field in ("columns", "known"):
         values = getattr(rows, field)
         if values is not None:
@@ -152,7 +153,7 @@ def _of_sizes(problem: LoadProblem, guess: Guess) -> Iterator[Hypothesis]:
     """Numbers of a size that no load has."""
     rows = problem.rows
     gravity = float(np.median(np.linalg.norm(rows.proper_acceleration, axis=1)))
-    if rows.angular_velocity is None and not 9.0 < gravity < 10.6:
+    if rows.angular_velocity_products is None and not 9.0 < gravity < 10.6:
         words = f"gravity is {gravity:.4g} m/s2: its unit is another one, such as g; state the unit of the column"
         yield Hypothesis(name="unit of gravity", words=words, residual_share=1.0)
     for number, (load, mass) in enumerate(zip(problem.loads, masses(problem, guess), strict=True)):
