@@ -169,6 +169,8 @@ def fit(problem: LoadProblem, *, drift: bool) -> Fit:
     weight = np.ones(len(problem.rows))
     for _ in range(_ROUNDS):
         fitted = _weighed_fit(problem, drift=drift, weight=weight)
+        if (np.abs(fitted.residual) <= _ROUNDING * noise_sizes(problem.rows.wrench)).all():
+            break
         lighter = row_weights(row_distances(fitted.groups, fitted.directions.basis, fitted.estimate, weight))
         if np.allclose(lighter, weight, rtol=0.02, atol=1e-4):
             break
