@@ -251,7 +251,7 @@ def _lag(problem: LoadProblem, residual: FloatArray, *, drift: bool) -> Iterator
             f"the reading is about {abs(_LAGS[best]):.1f} s {side} the motion, as a filter or another clock makes it: "
             "shift the clock of the stream, or use rows in which nothing moves"
         )
-        yield Hypothesis(name="lag", words=words, residual_share=float(shares[best]))
+        yield Hypothesis(name="lag", words=words, residual_share=float(shares[best]), severity="caution")
 
 
 def _behind(rows: LoadRows, time_s: FloatArray, lag: float) -> LoadRows:
@@ -291,4 +291,4 @@ def _jump(fitted: Fit, residual: FloatArray, *, drift: bool) -> Iterator[Hypothe
     )
     share = unexplained(rows, left) / stated
     if share < _LESS_FOR_JUMP:
-        yield Hypothesis(name="jump", words=words, residual_share=share)
+        yield Hypothesis(name="jump", words=words, residual_share=share, severity="caution")
