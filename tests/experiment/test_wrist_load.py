@@ -17,6 +17,7 @@ from forcetorque.analysis import (
     weigh_load,
 )
 from forcetorque.analysis.inspect.findings import inspect_experiment
+from forcetorque.analysis.payload import sense
 from forcetorque.analysis.payload.contradictions import overweight_loads, reference_doubts
 from forcetorque.calibration import ESTIMATION_TYPES, EstimationType
 from forcetorque.errors import ExperimentError, FitError, ForceTorqueError
@@ -434,6 +435,16 @@ def test_a_bias_that_steps_is_said_and_does_not_speak_against_the_calibration(tm
     assert jumps == ["caution"]
     assert any("the bias jumps" in words for words in data_doubts(run, by_model=False))
     assert not any("the bias jumps" in words for words in reference_doubts(run))
+
+
+def test_the_sense_of_a_reading_is_compared_once_for_a_fit(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Warnings of a fit and doubts in its file come from one computation."""
+    experiment = load_experiment(_write(tmp_path))
+    run, asked = SensorRun(experiment, experiment.sensors[0]), []
+    monkeypatch.setattr(sense, "_reversed_sense", lambda own: asked.append(own) or ["another sense"])
+    for doubts in ([*data_doubts(run, by_model=False)], reference_doubts(run)):
+        assert "another sense" in doubts
+    assert asked == [run]
 
 
 @pytest.mark.parametrize(("full_scale", "heavy"), [("100.0, 100.0, 200.0", False), ("8.0, 8.0, 8.0", True)])
