@@ -25,7 +25,14 @@ from forcetorque.analysis.payload.rows import (
 )
 from forcetorque.analysis.payload.sense import reversed_sense
 from forcetorque.analysis.payload.weighing import hanging_on, links_of, problem_among, weighed, weighed_alone
-from forcetorque.analysis.payload.words import bias_words, disagreements, drift_words, load_words, payload_doubts
+from forcetorque.analysis.payload.words import (
+    bias_words,
+    disagreements,
+    drift_words,
+    inertia_words,
+    load_words,
+    payload_doubts,
+)
 from forcetorque.analysis.runs.campaign import Campaign, Runs
 from forcetorque.analysis.runs.sensor_run import SensorRun
 from forcetorque.loads import LoadSolution, instants, load_wrench
@@ -95,6 +102,8 @@ class WeighedLoad(Result):
         source = f"{self.sensor} ({self.serial}), {self.rows} rows"
         for load in self.loads:
             yield f"{source}: {load_words(load)}"
+            if (inertia := inertia_words(load)) is not None:
+                yield inertia
         yield table_of(self.sessions, "bias: reading without load")
         if self.variables:
             yield table_of(self.variables, "what variables add to the reading, per unit")

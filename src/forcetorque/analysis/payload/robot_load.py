@@ -22,9 +22,6 @@ from forcetorque.output_file import refuse_output
 from forcetorque.recording import Use
 from forcetorque.spatial import WRENCH_COMPONENTS
 
-_CAUTIONS = {"jump", "lag"}
-"""Accounts of the rows that change a load little: its bias steps, or its readings come late."""
-
 
 def robot_load(
     run: SensorRun, bias: Sequence[float | None] | FloatArray, *, weighed: WeighedLoad | None = None
@@ -97,8 +94,9 @@ def _contradictions(run: SensorRun, hanging: WristLoads, weighed: WeighedLoad | 
     elif run.has(Use.CALIBRATION) and hanging.table.applied is None:
         accounts = hanging.solution(run.experiment).hypotheses
     # a mass that is stated as 0 is no mistake: a robot may be told that nothing hangs there
-    spared = _CAUTIONS | ({"no load"} if hanging.are_stated else set())
-    yield from (f"{account.name}: {account.words}" for account in accounts if account.name not in spared)
+    spared = {"no load"} if hanging.are_stated else set()
+    against = (account for account in accounts if account.severity == "contradiction")
+    yield from (f"{account.name}: {account.words}" for account in against if account.name not in spared)
     yield from overweight_loads(run)
 
 
