@@ -66,6 +66,8 @@ class SkinFrames:
     """Columns of thermal pads that are dead in this recording."""
     untold: IntArray
     """Columns of taxels that follow no living pad, and are left out for it."""
+    heating: float
+    """Steepest minute of heat, over that of the warm-up; 0 where heat is not followed."""
 
 
 def skin_frames(
@@ -112,6 +114,7 @@ def skin_frames(
         releases=() if follower is None else tuple(follower.releases),
         dead_pads=dead,
         untold=table.taxels[~told],
+        heating=0.0 if follower is None else follower.heating,
     )
 
 
