@@ -462,9 +462,15 @@ def _coherence(rng: np.random.Generator) -> Figure:
             samples=100,
             force_N=error + [0.0, 0.0, 324.7],
             force_error_N=error,
-            force_half_width_95_N=None if phase == "double_3" else np.abs(rng.normal(size=3)),
+            force_half_width_95_N=(None, 0.5, None) if phase == "double_3" else (1.0, 0.3, 0.7),
+            force_deviation_N=(1.0, 2.0, 0.5),
+            force_smallest_N=error - 3.0,
+            force_largest_N=error + 3.0,
             moment_error_Nm=None,
             moment_half_width_95_Nm=None,
+            moment_deviation_Nm=None,
+            moment_smallest_Nm=None,
+            moment_largest_Nm=None,
             evidence=phase != interval,
         )
         for offset, interval in ((Offset.ONE_LINK_IMU, "hanging"), (Offset.NONE, None))

@@ -79,11 +79,13 @@ class Balance(Result):
         weight = "" if self.weight_N is None else f", weight {self.weight_N:.1f} N"
         yield table_of(
             self.phases,
-            f"support phases of {', '.join(self.experiments)}{weight}; net force: mean ± half its 95 % interval",
+            f"support phases of {', '.join(self.experiments)}{weight}; net force: mean, "
+            "± half its 95 % interval where it is stationary noise or the phase recurs",
         )
         if self.feet:
             yield table_of(
-                self.feet, "centre of pressure of each foot, on its sole; mean ± half the 95 % interval of one point"
+                self.feet,
+                "centre of pressure of each foot, on its sole; x, y: means; ± half a 95 % interval of one point",
             )
         if self.robot:
             yield table_of(self.robot, "centre of pressure and of mass of the robot, in the frame of a sole")
