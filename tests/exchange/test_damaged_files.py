@@ -12,7 +12,6 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
@@ -20,7 +19,6 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from forcetorque.errors import ForceTorqueError, FormatError
-from forcetorque.exchange.array_file import npz
 from forcetorque.exchange.formats import recognised_format
 from forcetorque.exchange.log_sketch import SketchingFormat
 from forcetorque.exchange.ros import RosFormat
@@ -211,15 +209,3 @@ def test_bombs_in_the_index_of_a_bag_are_refused(tmp_path: Path, bomb: str) -> N
     with pytest.raises(FormatError):
         RosFormat().describe(folder)
     assert time.perf_counter() - start < SLOWEST_S
-
-
-def test_a_packed_array_that_would_fill_the_memory_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Zeros pack a thousandfold: what they are as float64 counts, not what the file weighs."""
-    path = tmp_path / "log.npz"
-    np.savez_compressed(path, q=np.zeros((1 << 20, 2), dtype=np.uint8), t=np.zeros(1 << 20))
-    assert path.stat().st_size < 1 << 14
-    stream = arrays.STREAM | {"signal": arrays.STREAM["signal"][:1]}
-    arrays._read(path, "npz", stream)
-    monkeypatch.setattr(npz, "LARGEST_ARRAY", 1 << 20)
-    with pytest.raises(FormatError, match="q.npy: expected at most 1048576 numbers"):
-        arrays._read(path, "npz", stream)

@@ -121,7 +121,7 @@ WRONG: list[tuple[dict[str, Any], dict[str, Any], type[ForceTorqueError], str]] 
         FormatError,
         r"stream\[0\]: .*no variable 'log.c'; did you mean \"log.C\"\?",
     ),
-    (COUNTS | {"variable": "note"}, PRESSURE, FormatError, "no variable 'note'"),
+    (COUNTS | {"variable": "note"}, PRESSURE, FormatError, "note: expected rows of real numbers, got 1 x 6 text"),
     (COUNTS | {"time": {"column": 9, "unit": "s"}}, PRESSURE, FormatError, "expected at least 9 columns, got 5"),
     (COUNTS | {"sequence": 2}, PRESSURE, FormatError, "row 2: expected a whole number to count by"),
     (COUNTS, PRESSURE | {"name": "counts"}, FormatError, "two streams are named 'counts'"),
