@@ -43,6 +43,31 @@ def require_file(path: Path, expected: str) -> None:
         raise FormatError(f"{path}: expected {expected}, got {kind}; name a file")
 
 
+def read_text(path: Path, expected: str) -> str:
+    """Read a file of text.
+
+    Args:
+        path: Path of a file.
+        expected: What it should be, such as `a plan of a patch`.
+
+    Returns:
+        Its text.
+
+    Raises:
+        MissingFileError: If nothing is there.
+        FormatError: If it is no file, or no text in UTF-8.
+    """
+    require_file(path, expected)
+    try:
+        return path.read_text(encoding="utf-8")
+    except UnicodeDecodeError as error:
+        raise FormatError(
+            f"{path}: expected {expected} in UTF-8, got bytes that are no text at byte {error.start}; save it as UTF-8"
+        ) from error
+    except OSError as error:
+        raise FormatError(f"{path}: expected {expected}, got: {error.strerror}") from error
+
+
 def unpacked_limit(path: Path) -> int:
     """Give the number of bytes that a file may unpack to.
 

@@ -11,7 +11,7 @@ import numpy as np
 from pydantic import Field
 
 from forcetorque.calibration import LinearVariable
-from forcetorque.errors import ExperimentError
+from forcetorque.errors import ExperimentError, ForceTorqueError
 from forcetorque.experiment import schema
 from forcetorque.experiment.content import Experiment, ExperimentSensor, SensorVariable
 from forcetorque.experiment.inputs import Inputs
@@ -27,6 +27,7 @@ from forcetorque.experiment.tables.load_case import LoadCaseTable
 from forcetorque.experiment.tables.plan import PlanTable
 from forcetorque.experiment.tables.processing import ProcessingTable
 from forcetorque.experiment.tables.sensor import Sensor
+from forcetorque.input_file import read_text
 from forcetorque.recording import Recording, ScalarSource, Support
 from forcetorque.robot import RobotModel
 from forcetorque.toml_table import Table, Text, read_toml
@@ -121,8 +122,8 @@ def load_planned(path: Path | str) -> Experiment:
 def _tables(file: Path) -> set[str] | None:
     """What the file states; None of one that cannot be read, which is left to the reader that says why."""
     try:
-        return set(tomllib.loads(file.read_text(encoding="utf-8")))
-    except (OSError, ValueError, RecursionError):
+        return set(tomllib.loads(read_text(file, "an experiment file")))
+    except (ForceTorqueError, ValueError, RecursionError):
         return None
 
 

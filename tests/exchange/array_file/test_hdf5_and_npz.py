@@ -128,6 +128,19 @@ def test_a_pickle_is_refused_and_not_run(tmp_path: Path) -> None:
         np.load(tmp_path / "log.npz", allow_pickle=True)["q"]
 
 
+def test_a_header_that_is_cut_is_refused(tmp_path: Path) -> None:
+    """In a bracket, where the parser of NumPy finds no end."""
+    path = _write(tmp_path, "npz")
+    with zipfile.ZipFile(path) as archive:
+        members = {name: archive.read(name) for name in archive.namelist()}
+    members["q.npy"] = members["q.npy"].replace(b"(40, 2), }", b"(40, 2  }")
+    with zipfile.ZipFile(path, "w") as archive:
+        for name, data in members.items():
+            archive.writestr(name, data)
+    with pytest.raises(FormatError, match=r"log\.npz: q\.npy: expected a header of \.npy, got one that cannot be read"):
+        _read(path, "npz", STREAM)
+
+
 def test_claims_that_would_fill_the_memory_are_refused(tmp_path: Path) -> None:
     """A shape of 8 TB in a file of a few hundred bytes, by NumPy and by HDF5."""
     header = io.BytesIO()
