@@ -30,13 +30,13 @@ class SketchedColumns:
     is_number: bool = True
     """Whether it holds numbers, as far as it was looked at."""
     smallest: float | None = None
-    """Smallest of the numbers that were looked at; None for none."""
+    """Smallest of its numbers; None for none."""
     largest: float | None = None
-    """Largest of the numbers that were looked at; None for none."""
+    """Largest of its numbers; None for none."""
     mean: float | None = None
-    """Mean of the numbers that were looked at; None for none."""
+    """Mean of its numbers; None for none."""
     step: float | None = None
-    """Median step, in seconds of dates, where the numbers that were looked at rise as times do; else None."""
+    """Median step, in seconds of dates, where its first numbers rise as times do; else None."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -60,11 +60,18 @@ class LogSketch:
     has_headings: bool = True
     """Whether the file itself names them; without, they are called by their number, from 1."""
     quaternion: tuple[int, ...] = ()
-    """Places of the first columns of four that have norm 1 in every row, as quaternions do."""
+    """Places of the first columns of four that have norm 1 in each of the first rows, as quaternions do."""
     skipped_arrays: Mapping[str, str] = field(default_factory=dict)
     """Of a file of arrays what no experiment file can state, such as `1 x 3 struct array`, by its name."""
-    rows_looked_at: int | None = None
-    """How many rows were looked at from the first; None where no number was."""
+    ranged_rows: int | None = None
+    """How many rows, from the first, the smallest, largest and mean numbers are of; None for all."""
+    stopped: str | None = None
+    """Why they are not of all."""
+
+    @property
+    def range_words(self) -> str:
+        """Words about the rows that ranges are of, where these are not all; else empty."""
+        return "" if self.ranged_rows is None else f" in the first {self.ranged_rows} rows"
 
 
 def median_step(values: FloatArray | IntArray) -> float | None:

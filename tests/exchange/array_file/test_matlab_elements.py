@@ -16,6 +16,7 @@ from hypothesis.extra.numpy import array_shapes, arrays
 from scipy.io import loadmat, savemat
 from scipy.sparse import csc_array
 
+from forcetorque.analysis import draft_experiment, inspect_log
 from forcetorque.errors import FormatError
 from forcetorque.exchange.array_file.matlab import matlab_contents, read_matlab
 from forcetorque.exchange.array_file.matlab_elements import DEEPEST
@@ -136,3 +137,23 @@ def test_structs_in_structs_end_somewhere(tmp_path: Path) -> None:
     savemat(tmp_path / "log.mat", {"s": {"s": inner}})
     with pytest.raises(FormatError, match=f"expected structs at most {DEEPEST} deep"):
         matlab_contents(tmp_path / "log.mat")
+
+
+def test_what_cannot_be_read_is_said(tmp_path: Path) -> None:
+    """By `inspect`, and by `init` in its answer and in the file; a file of nothing else is refused."""
+    savemat(tmp_path / "log.mat", MIXED)
+    inspection = inspect_log(tmp_path / "log.mat")
+    words = (
+        "cannot be read, for these are no arrays of real numbers: log.note (1 x 6 text), runs (1 x 2 struct array), "
+    )
+    assert inspection.skipped_arrays["runs"] == "1 x 2 struct array"
+    assert any(str(block).startswith(words) for block in inspection.blocks())
+    draft = draft_experiment(tmp_path / "log.mat")
+    assert any(note.startswith(words) for note in draft.notes)
+    assert f"# {words}" in draft.content
+    savemat(tmp_path / "log.mat", {"runs": MIXED["runs"]})
+    for read in (inspect_log, draft_experiment):
+        with pytest.raises(
+            FormatError, match=r"expected arrays of real numbers, got runs \(1 x 2 struct array\); save"
+        ):
+            read(tmp_path / "log.mat")

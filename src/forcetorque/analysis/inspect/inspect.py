@@ -93,6 +93,8 @@ class Inspection(Result):
     """Columns or arrays of a log that does not say what it holds, in place of streams."""
     skipped_arrays: dict[str, str] = {}
     """Of a file of arrays what no experiment file can state, such as `1 x 3 struct array`, by its name."""
+    ranges_of: str | None = None
+    """Of which rows the smallest, largest and mean numbers are, where these are not all, and why."""
     calibration: SeenCalibration | None = None
     """The calibration that a sensor came with, where the file is one."""
 
@@ -108,6 +110,8 @@ class Inspection(Result):
             return
         if self.unread:
             yield table_of(self.unread, f"{self.source}: what is in it")
+            if self.ranges_of is not None:
+                yield f"smallest, largest and mean are {self.ranges_of}"
             if self.skipped_arrays:
                 yield f"cannot be read, for these are no arrays of real numbers: {skipped_words(self.skipped_arrays)}"
             yield sketch_words(self.unread, self.source)
@@ -198,6 +202,7 @@ def _without_experiment(source: Path, name: str | None) -> Inspection | None:
         findings=(),
         unread=unread,
         skipped_arrays=dict(sketch.skipped_arrays),
+        ranges_of=f"of those{sketch.range_words} alone: {sketch.stopped}" if sketch.range_words else None,
     )
 
 
