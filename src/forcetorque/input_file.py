@@ -23,6 +23,19 @@ _KINDS = (
 )
 
 
+def refuse_special(path: Path) -> None:
+    """Refuse a path that leads to a pipe, a socket or a device: it would keep its reader waiting, or never end.
+
+    Args:
+        path: Path of a file or a folder, which need not be there.
+
+    Raises:
+        FormatError: If something else is there.
+    """
+    if path.exists() and not (path.is_file() or path.is_dir()):
+        require_file(path, "a file or a folder")
+
+
 def require_file(path: Path, expected: str) -> None:
     """Refuse a path that leads to no regular file; a pipe would keep its reader waiting.
 
