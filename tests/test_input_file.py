@@ -118,7 +118,7 @@ def test_packed_parts_of_bags_are_bounded(
     monkeypatch.setattr(unpacking, "LARGEST_CHUNK", 60)
     monkeypatch.setattr(input_file, "ALWAYS_UNPACKED", 400)
     monkeypatch.setattr(input_file, "UNPACKED_RATIO", 1)
-    with pytest.raises(FormatError, match="at most 60 bytes|unpacks to at most"):
+    with pytest.raises(FormatError, match=rf"{path.name}.*(at most 60 bytes|unpacks to at most)"):
         RosFormat().describe(path)
 
 

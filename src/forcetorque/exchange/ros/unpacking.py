@@ -49,7 +49,11 @@ def bound_reader(path: Path, reader: Any) -> Callable[[bytes], bytes]:
     claimed = 0
     for file in (storage, *getattr(storage, "storages", ())):
         for chunk in getattr(file, "chunks", ()):
-            _require_small(str(path), chunk.uncompressed_size)
+            if chunk.uncompressed_size > LARGEST_CHUNK:
+                raise FormatError(
+                    f"{path}: expected packed parts of at most {LARGEST_CHUNK} bytes, got one of "
+                    f"{chunk.uncompressed_size}; write the bag with smaller chunks"
+                )
             claimed += chunk.uncompressed_size
     require_unpacked(path, claimed)
     metadata = getattr(storage, "metadata", None)
@@ -94,21 +98,25 @@ def _bound_chunks(path: Path, chunks: dict[int, Any]) -> None:
 
 def _chunk_method(name: str) -> Callable[[bytes, int], bytes]:
     def unpack(data: bytes, size: int) -> bytes:
-        _require_small("chunk", size)
+        if size > LARGEST_CHUNK:
+            raise ValueError(f"expected packed parts of at most {LARGEST_CHUNK} bytes, got one of {size}")
         return _unpacked(name, data, size)
 
     return unpack
 
 
 def _unpacked(name: str, data: bytes, most: int) -> bytes:
-    unpacker = _unpacker(name)
-    content: bytes = unpacker.decompress(data, max_length=most)
-    # what is as long as allowed ends where the next byte is asked for
-    more = b"" if unpacker.eof else unpacker.decompress(b"", max_length=1)
-    if more:
-        raise FormatError(f"expected a packed part of a bag of at most {most} bytes, got more")
-    if not unpacker.eof:
-        raise FormatError("expected a whole packed part of a bag, got one that is cut off")
+    """What packed bytes hold, of which there may be several streams behind each other; who opened the bag names it."""
+    content = b""
+    while data:
+        unpacker = _unpacker(name)
+        content += unpacker.decompress(data, max_length=most - len(content))
+        # what is as long as allowed ends where the next byte is asked for
+        if not unpacker.eof and unpacker.decompress(b"", max_length=1):
+            raise ValueError(f"expected a packed part of a bag of at most {most} bytes, got more")
+        if not unpacker.eof:
+            raise ValueError("expected a whole packed part of a bag, got one that is cut off")
+        data = unpacker.unused_data
     return content
 
 
@@ -125,11 +133,3 @@ def _zstd() -> Any:
     from rosbags.rosbag2 import reader
 
     return reader.zstd  # type: ignore[attr-defined]  # of Python 3.14, or its copy for older ones
-
-
-def _require_small(place: str, size: int) -> None:
-    if size > LARGEST_CHUNK:
-        raise FormatError(
-            f"{place}: expected packed parts of at most {LARGEST_CHUNK} bytes, got one of {size}; write the bag with "
-            "smaller chunks"
-        )
