@@ -14,6 +14,7 @@ import pytest
 
 from forcetorque.errors import FormatError
 from forcetorque.exchange.formats import recognised_format
+from forcetorque.exchange.hdf5_layout import elsewhere
 from forcetorque.exchange.log_sketch import SketchingFormat
 from forcetorque.exchange.robometry import RobometryFormat
 from tests.exchange.array_file import test_hdf5_and_npz as arrays
@@ -98,6 +99,23 @@ def test_what_is_in_another_file_is_not_read(others: Path, name: str, kind: str)
         arrays._read(path, name, arrays.STREAM)
     (stream,) = arrays._read(path, name, arrays.STREAM | {"signal": arrays.STREAM["signal"][:1]}).streams
     np.testing.assert_allclose(stream.signal("position").values, np.radians(arrays.JOINTS))
+
+
+@pytest.mark.parametrize("version", ["earliest", "latest"])
+def test_the_header_of_any_version_is_read(others: Path, version: str) -> None:
+    """With many attributes, which go on in other blocks; a group and sound datasets are no virtual ones."""
+    with h5py.File(others / "log.h5", "w", libver=version, userblock_size=512) as file:
+        file["whole"] = arrays.WRENCHES
+        file.create_dataset("packed", data=arrays.WRENCHES, chunks=(10, 6), compression="gzip", track_times=True)
+        file.create_group("group", track_order=True)
+        _virtual(".")(file, "virtual")
+        _external("x")(file, "external")
+        for entry in file.values():
+            for k in range(7):
+                entry.attrs[f"a{k}"] = np.arange(50)
+        expected = {"virtual": "virtual dataset", "external": "dataset in external storage"}
+        file.flush()
+        assert {name: elsewhere(file, name) for name in file} == dict.fromkeys(file, None) | expected
 
 
 def test_a_dataset_of_the_file_is_read(others: Path) -> None:

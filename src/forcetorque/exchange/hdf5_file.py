@@ -17,6 +17,7 @@ import numpy as np
 
 from forcetorque.arrays import FloatArray
 from forcetorque.errors import ForceTorqueError, FormatError, MissingExtraError
+from forcetorque.exchange.hdf5_layout import elsewhere
 from forcetorque.input_file import require_file, require_unpacked
 
 if TYPE_CHECKING:
@@ -99,7 +100,7 @@ class Member:
     path: str
     """Its path in the file."""
     dataset: Any
-    """The dataset; None where there is only a link."""
+    """The dataset; None where its numbers are elsewhere."""
     elsewhere: str | None
     """Why its numbers are not in the file; None where they are."""
 
@@ -132,9 +133,13 @@ def members(group: h5py.Group) -> Iterator[Member]:
             if not is_member(here, name):
                 yield Member(path=f"{here.name.rstrip('/')}/{name}", dataset=None, elsewhere="link")
                 continue
+            place = elsewhere(here, name)
+            if place is not None:
+                yield Member(path=f"{here.name.rstrip('/')}/{name}", dataset=None, elsewhere=place)
+                continue
             entry = here[name]
             if isinstance(entry, h5py.Dataset):
-                yield Member(path=entry.name, dataset=entry, elsewhere=_elsewhere(entry))
+                yield Member(path=entry.name, dataset=entry, elsewhere=None)
             elif isinstance(entry, h5py.Group):
                 pending.append((entry, depth + 1))
 
@@ -191,6 +196,12 @@ def member(group: h5py.Group, name: str) -> Any:
                 f"{group.file.filename}: {group.name}: expected {name} in the file itself, got none or a link; copy it "
                 "there"
             )
+        place = elsewhere(here, part)
+        if place is not None:
+            raise FormatError(
+                f"{group.file.filename}: {group.name}: {name}: expected numbers in the file itself, got a {place}; "
+                "save them in one file"
+            )
         here = here[part]
     return here
 
@@ -227,13 +238,13 @@ def dataset_numbers(dataset: Any) -> FloatArray:
 
 
 def require_readable(several: Iterable[Any]) -> None:
-    """Refuse datasets whose bytes are not in their file, or are more than it may unpack to, before any is read.
+    """Refuse datasets that are more than their file may unpack to, before any is read.
 
     Args:
-        several: Datasets of an open file that are read together.
+        several: Datasets of an open file that are read together, by `members` or `member`.
 
     Raises:
-        FormatError: If one is virtual or in another file, or they are too large.
+        FormatError: If they are too large.
     """
     import h5py
 
@@ -241,12 +252,6 @@ def require_readable(several: Iterable[Any]) -> None:
     for dataset in several:
         if not isinstance(dataset, h5py.Dataset):
             raise FormatError(f"{_place(dataset)}: expected a dataset, got a group; name another one")
-        elsewhere = _elsewhere(dataset)
-        if elsewhere is not None:
-            raise FormatError(
-                f"{_place(dataset)}: expected numbers in the file itself, got a {elsewhere}, which names other files; "
-                "save them in one file"
-            )
         path, size = Path(dataset.file.filename), dataset.size or 0
         limit = LARGEST_RATIO * path.stat().st_size
         if size * dataset.dtype.itemsize > limit:
@@ -256,15 +261,6 @@ def require_readable(several: Iterable[Any]) -> None:
             )
         unpacked += size * max(dataset.dtype.itemsize, np.dtype(np.float64).itemsize)
         require_unpacked(path, unpacked, where=str(dataset.name)[:100])
-
-
-def _elsewhere(dataset: Any) -> str | None:
-    """Why the bytes of a dataset may not be in its file; asked before its shape, for which HDF5 opens other files."""
-    if dataset.is_virtual:
-        return "virtual dataset"
-    if dataset.external is not None:
-        return "dataset in external storage"
-    return None
 
 
 def _place(dataset: Any) -> str:

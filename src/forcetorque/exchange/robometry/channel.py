@@ -19,6 +19,7 @@ import numpy as np
 from forcetorque.arrays import FloatArray, IntArray
 from forcetorque.errors import FormatError
 from forcetorque.exchange.hdf5_file import MOST_OBJECTS, dataset_numbers, datasets, is_member, member, require_readable
+from forcetorque.exchange.hdf5_layout import elsewhere
 
 DESCRIPTION = "description_list"
 """Names of the joints; the group that holds it is that of the log."""
@@ -55,7 +56,7 @@ def log_group(file: Any) -> Any | None:
     """
     import h5py
 
-    groups = [file, *(file[name] for name in file if is_member(file, name))]
+    groups = [file, *(member(file, name) for name in file if is_member(file, name) and elsewhere(file, name) is None)]
     return next((group for group in groups if isinstance(group, h5py.Group) and is_member(group, DESCRIPTION)), None)
 
 
@@ -127,7 +128,8 @@ def texts(dataset: Any) -> tuple[str, ...]:
         return (_text(dataset),)
     if h5py.check_ref_dtype(dataset.dtype) is not h5py.Reference or dataset.size > MOST_OBJECTS:
         raise FormatError(f"{dataset.file.filename}: {dataset.name}: expected names, got {dataset.dtype}")
-    return tuple(_text(dataset.file[reference]) for reference in dataset[()].ravel())
+    names = (h5py.h5r.get_name(reference, dataset.file.id) for reference in dataset[()].ravel())
+    return tuple(_text(member(dataset.file, (name or b"").decode().strip("/"))) for name in names)
 
 
 def _text(dataset: Any) -> str:

@@ -105,7 +105,7 @@ def _reading(rows: Rows, layout: TableLayout, *, stream: str, clock: str) -> Log
 
 def _numbers(rows: Rows, layout: TableLayout) -> tuple[IntArray, list[FloatArray]]:
     """Stamps, and for each signal its columns as they are in the table."""
-    if not rows.count:
+    if rows.count <= 0:  # damaged files of Parquet claim less than none
         raise FormatError(f"{rows.name}: expected rows, got none")
     stamp_ns = _stamps_without_column(rows, layout)
     numbers = [np.empty((rows.count, len(signal.columns))) for signal in layout.signals]
