@@ -76,7 +76,7 @@ def test_zeros_that_would_fill_the_memory_are_refused(
 
 
 def test_tables_that_would_fill_the_memory_are_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Parquet as others write it, of which only what is read counts, and as this library does."""
+    """Parquet as others write it, whose columns repeat one number, and as this library does."""
     zeros = np.zeros(ROWS)
     pq.write_table(pa.table({"t": zeros, "ft.x": zeros, "y": zeros}), tmp_path / "log.parquet", compression="zstd")
     signal = TableSignal(quantity="scalar", columns=("ft.x",), units=("1",))
