@@ -13,7 +13,7 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_valida
 from pydantic_core import ErrorDetails, PydanticCustomError
 
 from forcetorque.errors import FormatError, MissingFileError, known_names
-from forcetorque.run_files import declare_input
+from forcetorque.input_file import require_file
 
 
 class Table(BaseModel):
@@ -103,7 +103,7 @@ def toml_content(file: Path) -> tuple[str, dict[str, Any]]:
     Returns:
         Its text without the mark, and the tables in it.
     """
-    declare_input(file)
+    require_file(file, "a TOML file")
     text = file.read_text(encoding="utf-8-sig")
     return text, tomllib.loads(text)
 

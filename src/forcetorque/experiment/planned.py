@@ -10,7 +10,7 @@ import numpy as np
 from pydantic import Field
 
 from forcetorque.calibration import LinearVariable
-from forcetorque.errors import ExperimentError
+from forcetorque.errors import ExperimentError, ForceTorqueError
 from forcetorque.experiment import schema
 from forcetorque.experiment.content import Experiment, ExperimentSensor, SensorVariable
 from forcetorque.experiment.inputs import Inputs
@@ -121,7 +121,7 @@ def _tables(file: Path) -> set[str] | None:
     """What the file states; None of one that cannot be read, which is left to the reader that says why."""
     try:
         return set(toml_content(file)[1])
-    except (OSError, ValueError, RecursionError):
+    except (ForceTorqueError, OSError, ValueError, RecursionError):
         return None
 
 

@@ -21,7 +21,7 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 
 from forcetorque.arrays import FloatArray, IntArray
-from forcetorque.arrow_numbers import arrow_numbers
+from forcetorque.arrow_numbers import arrow_numbers, require_small_parquet
 from forcetorque.errors import FormatError, MissingFileError, RecordingError, ShapeError
 from forcetorque.paths import real_path
 from forcetorque.recording.finding import Finding
@@ -208,7 +208,9 @@ def _read_stream(path: Path) -> Stream:
     if not path.is_file():
         raise MissingFileError(f"{path}: expected the Parquet file of a stream, there is no such file")
     try:
-        table = pq.read_table(path, page_checksum_verification=True).combine_chunks()
+        file = pq.ParquetFile(path, page_checksum_verification=True)
+        require_small_parquet(path, file.metadata, file.schema_arrow.names)
+        table = file.read().combine_chunks()
         header = json.loads(table.schema.metadata[_METADATA_KEY])
         signals = {}
         for quantity, described in header["signals"].items():

@@ -25,7 +25,7 @@ from forcetorque.analysis.inspect.inspected_streams import StreamRow, stream_row
 from forcetorque.analysis.inspect.skin_findings import inspect_patches, taxel_findings
 from forcetorque.errors import FormatError, MissingFileError, RecordingError
 from forcetorque.exchange.formats import format_named, not_recognised, recognised_format
-from forcetorque.exchange.log_sketch import SketchingFormat
+from forcetorque.exchange.log_sketch import SketchingFormat, skipped_words
 from forcetorque.exchange.prior import PriorFile, StatedUnits, holds_prior, read_prior_file
 from forcetorque.experiment import (
     Experiment,
@@ -91,6 +91,10 @@ class Inspection(Result):
     """Clocks that the experiment file brings to one, in its order, of which findings say the same in words."""
     unread: tuple[ColumnRow, ...] = ()
     """Columns or arrays of a log that does not say what it holds, in place of streams."""
+    skipped_arrays: dict[str, str] = {}
+    """Of a file of arrays what no experiment file can state, such as `1 x 3 struct array`, by its name."""
+    ranges_of: str | None = None
+    """Of which rows the smallest, largest and mean numbers are, where these are not all, and why."""
     calibration: SeenCalibration | None = None
     """The calibration that a sensor came with, where the file is one."""
 
@@ -106,6 +110,10 @@ class Inspection(Result):
             return
         if self.unread:
             yield table_of(self.unread, f"{self.source}: what is in it")
+            if self.ranges_of is not None:
+                yield f"smallest, largest and mean are {self.ranges_of}"
+            if self.skipped_arrays:
+                yield f"cannot be read, for these are no arrays of real numbers: {skipped_words(self.skipped_arrays)}"
             yield sketch_words(self.unread, self.source)
             return
         yield stream_table(self.streams, f"{self.source}: streams")
@@ -187,7 +195,15 @@ def _without_experiment(source: Path, name: str | None) -> Inspection | None:
         return None
     sketch = known.sketch(source)
     unread = column_rows(sketch, looks(sketch))
-    return Inspection(source=str(source), streams={}, duration_s=0.0, findings=(), unread=unread)
+    return Inspection(
+        source=str(source),
+        streams={},
+        duration_s=0.0,
+        findings=(),
+        unread=unread,
+        skipped_arrays=dict(sketch.skipped_arrays),
+        ranges_of=f"of those{sketch.range_words} alone: {sketch.stopped}" if sketch.range_words else None,
+    )
 
 
 def _prior(source: Path) -> PriorFile:
