@@ -370,6 +370,7 @@ def use_of(
     force: float = 4.0,
     before: float | None = 20.0,
     allowed: float | None = 8.0,
+    measured: float | None = None,
     reasons: tuple[Reason, ...] = (),
     **changed: Any,
 ) -> UseVerdict:
@@ -388,6 +389,7 @@ def use_of(
             after_at_least=0.5 * scale * force,
             after_at_most=2.0 * scale * force,
             allowed=limit,
+            measured=None if measured is None else scale * measured,
             axes=(scale * force,) * 3,
             from_matrix=scale * force,
             from_offset=0.0,
@@ -416,7 +418,10 @@ def use_of(
 
 
 def _use(rng: np.random.Generator) -> Figure:
-    uses = [use_of(load_case=name, force=rng.uniform(0.5, 30.0)) for name in ("push", "weight of the robot", "tool")]
+    uses = [
+        use_of(load_case=name, force=rng.uniform(0.5, 30.0), measured=rng.uniform(0.5, 30.0))
+        for name in ("push", "weight of the robot", "tool")
+    ]
     return use_figure(uses, {"leg.json": "leg.json"})
 
 

@@ -136,18 +136,19 @@ class Report(Result):
         def own(row: UseVerdict | Undecided) -> bool:
             return (row.sensor, row.serial) == (steps.sensor, steps.serial)
 
-        sensors = (sensor for experiment in self.experiments for sensor in experiment.sensors)
-        calibrations = {
-            file: one
-            for sensor in sensors
+        sensors = [
+            sensor
+            for experiment in self.experiments
+            for sensor in experiment.sensors
             if (sensor.sensor, sensor.serial) == (steps.sensor, steps.serial)
-            for file, one in sensor.calibrations.items()
-        }
+        ]
+        calibrations = {file: one for sensor in sensors for file, one in sensor.calibrations.items()}
         return decision_page(
             steps,
             [*filter(own, self.uses)],
             [*filter(own, self.undecided)],
             calibrations,
+            [line for sensor in sensors for line in sensor.verdict],
             explained=steps is self.next_steps[0],
         )
 
