@@ -107,6 +107,36 @@ def counts_of(sensor: ExperimentSensor, stream: Stream) -> FloatArray | None:
     return recover_raw(values, sensor.prior)
 
 
+def expected_at(
+    experiment: Experiment, sensor: ExperimentSensor, interval: Interval, at_ns: IntArray
+) -> FloatArray | None:
+    """Give the wrench that a sensor is expected to read, by the model without loads that are still to be estimated.
+
+    Args:
+        experiment: The experiment.
+        sensor: One of its sensors.
+        interval: An interval of its recording.
+        at_ns: Instants; shape (n,); ns.
+
+    Returns:
+        Wrenches; shape (n, 6); N, N m; NaN in gaps; None where the model cannot be evaluated.
+    """
+    wrist = experiment.wrist
+    try:
+        return expected_wrench(
+            experiment.recording,
+            experiment.model if wrist is None else wrist.nominal_model(experiment.model),
+            sensor=sensor.name,
+            stream=sensor.stream,
+            interval=interval,
+            at_ns=at_ns,
+            processing=experiment.processing,
+            applied=None if wrist is None else wrist.table.applied,
+        )
+    except ForceTorqueError:  # whoever needs the expected wrench is told what it lacks
+        return None
+
+
 def _sample_quality(experiment: Experiment, sensor: ExperimentSensor) -> SampleQuality:
     stream = experiment.recording.stream(sensor.stream)
     values = stream.signal(sensor.quantity).values
@@ -164,7 +194,7 @@ def _moved_in(
         return []
     whole = np.flatnonzero(usable)
     rows = np.unique(np.concatenate([whole[:: max(len(whole) // _INSTANTS, 1)], *judged.values()]))
-    expected = _expected(experiment, sensor, interval, stamps[rows])
+    expected = expected_at(experiment, sensor, interval, stamps[rows])
     if expected is None:
         return []
     size = np.ptp(expected[np.isfinite(expected).all(axis=1)], axis=0) if np.isfinite(expected).any() else np.zeros(6)
@@ -176,23 +206,3 @@ def _moved_in(
         if len(part) > 1 and moving.any() and float((np.ptp(part, axis=0)[moving] / size[moving]).max()) > least:
             moved.append(run)
     return moved
-
-
-def _expected(
-    experiment: Experiment, sensor: ExperimentSensor, interval: Interval, at_ns: IntArray
-) -> FloatArray | None:
-    """Expected wrench by the model without loads that are still to be estimated; None where it cannot be evaluated."""
-    wrist = experiment.wrist
-    try:
-        return expected_wrench(
-            experiment.recording,
-            experiment.model if wrist is None else wrist.nominal_model(experiment.model),
-            sensor=sensor.name,
-            stream=sensor.stream,
-            interval=interval,
-            at_ns=at_ns,
-            processing=experiment.processing,
-            applied=None if wrist is None else wrist.table.applied,
-        )
-    except ForceTorqueError:  # whoever needs the expected wrench is told what it lacks
-        return None

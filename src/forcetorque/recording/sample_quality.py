@@ -199,7 +199,7 @@ def noisy_runs(stamp_ns: IntArray, values: FloatArray, runs: Collection[Run]) ->
     changed = int(np.count_nonzero(changes[moving].any(axis=1)))
     if not changed:
         return []
-    variance = _white_variance(stamps, np.where(elsewhere[:, None], samples, np.nan))
+    variance = white_variance(stamps, np.where(elsewhere[:, None], samples, np.nan))
     step = smallest_steps(values)
     noise = np.sqrt(np.maximum(variance - _ROUNDING * step**2, 0.0))
     ranges = ranges_of(values)
@@ -245,8 +245,16 @@ def mask_of(runs: Collection[Run], count: int) -> BoolArray:
     return mask
 
 
-def _white_variance(stamp_ns: IntArray, values: FloatArray) -> FloatArray:
-    """Variance of what changes from sample to sample and back, of every channel; shape (c,)."""
+def white_variance(stamp_ns: IntArray, values: FloatArray) -> FloatArray:
+    """Estimate the variance of white noise: of what changes from sample to sample and back, where the load moves least.
+
+    Args:
+        stamp_ns: Stamps, which increase; shape (n,); ns.
+        values: Readings; shape (n, c); NaN where none is to count.
+
+    Returns:
+        Variance of every channel, 0 where too few samples lie close together; shape (c,).
+    """
     none = np.zeros(values.shape[1])
     if len(values) < 2 * _BESIDE + 2:
         return none
