@@ -54,6 +54,7 @@ def test_still_poses_of_a_kuka_calibrate_as_drafted(data_dir: Path, tmp_path: Pa
     file = tmp_path / "poses.toml"
     file.write_text("\n".join(lines).replace('sense = "?"', 'sense = "sensor_to_world"'))
     fitted = calibrate_sensor(SensorRun(load_experiment(file), "ft_sensor"), code_version="", created="")
+    assert (fitted.provenance.samples, fitted.provenance.dropped) == (24, 0)
     assert fitted.residual_rms.max() < 0.15  # N; the sensor resolves 0.05
     file.write_text(file.read_text().replace("sensor_to_world", "world_to_sensor"))
     with pytest.raises(FitError, match=r"of which the reference, .* explains 42%"):

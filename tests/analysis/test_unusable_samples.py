@@ -11,8 +11,17 @@ from typing import Any
 import numpy as np
 import pytest
 
-from forcetorque.analysis import SensorRun, calibrate_for_file, calibrate_sensor, evaluate, inspect_experiment, validate
+from forcetorque.analysis import (
+    SensorRun,
+    calibrate_for_file,
+    calibrate_sensor,
+    evaluate,
+    inspect_experiment,
+    validate,
+    weigh_load,
+)
 from forcetorque.analysis.calibration.recording_moments import store_moments
+from forcetorque.analysis.joint.interval import joint_interval
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration import Calibration, read_calibration
 from forcetorque.calibration.recording_moments import read_moments
@@ -21,6 +30,7 @@ from forcetorque.experiment.sample_quality import sample_quality
 from forcetorque.recording import QUANTITIES, Signal, Stream
 from forcetorque.recording.sample_quality import UnusableCounts
 from tests.scenes.experiments import JOINTS, MOUNTED, PARQUET, RATE_HZ
+from tests.scenes.wrist_postures import write_postures
 
 FIT, JUDGE = slice(100, 250), slice(900, 950)
 """Rows of 3 s in the calibration interval, and of 1 s in the validation interval."""
@@ -196,3 +206,39 @@ def test_a_log_that_is_frozen_all_over_says_so(arm: Path) -> None:
     plain = load_experiment(arm / PARQUET)
     with pytest.raises(Exception, match=r"say nothing of the load: \d+ frozen"):
         _fitted(_changed(plain, np.tile(_raw(plain)[:1], (len(_raw(plain)), 1))))
+
+
+def test_what_is_frozen_or_stamped_again_weighs_nothing(tmp_path: Path) -> None:
+    """A reading that froze while the wrist turned: the load is that of a log without it."""
+    path = write_postures(tmp_path, seed=3, known=False)
+    log = tmp_path / "log.csv"
+    plain = log.read_text()
+    lines = plain.splitlines()
+    rows = [line.split(",") for line in lines[1:]]
+    for row in rows[1200:1500]:  # the reading of the first posture in the second
+        row[1:7] = rows[1199][1:7]
+    log.write_text("\n".join([lines[0], *(",".join(row) for row in rows)]))
+    frozen = weigh_load(SensorRun(load_experiment(path), "wrist"))
+    log.write_text("\n".join([lines[0], *(",".join(row) for row in rows[:1199] + rows[1500:])]))
+    lacking = weigh_load(SensorRun(load_experiment(path), "wrist"))
+    assert [(row.frozen, row.interval) for row in frozen.unusable_samples] == [(301, "all")]
+    assert not lacking.unusable_samples
+    first, second = (json.loads(result.json_text()) for result in (frozen, lacking))
+    assert first["loads"] == second["loads"]
+
+
+@pytest.mark.real_data
+def test_the_frozen_leg_of_a_real_robot_leaves_its_windows(data_dir: Path, tmp_path: Path) -> None:
+    """Of 33 s on the left foot its leg's sensor repeats one reading for 9.3 s; the other three lose nothing."""
+    text = (Path(__file__).parents[2] / "examples" / "23_icub_yoga_switching.toml").read_text(encoding="utf-8")
+    path = tmp_path / "switching.toml"
+    path.write_text(text.replace("../../shared/data", data_dir.as_posix()))
+    experiment = load_experiment(path)
+    names = [sensor.name for sensor in experiment.sensors]
+    (left,) = [interval for interval in experiment.recording.intervals if interval.label == "left"]
+    raw = joint_interval(experiment, left, names).raw
+    lost = {name: windows.unusable for name, windows in raw.items() if windows.unusable}
+    assert lost == {"l_leg_ft_sensor": UnusableCounts(frozen=930)}
+    windows = raw["l_leg_ft_sensor"]
+    gaps = windows.time_s[np.isnan(windows.means).any(axis=1)]
+    assert (gaps.min(), gaps.max(), len(gaps)) == (pytest.approx(25.9, abs=0.3), pytest.approx(35.2, abs=0.3), 39)
