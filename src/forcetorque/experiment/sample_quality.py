@@ -25,12 +25,15 @@ from forcetorque.recording.sample_quality import (
     repeated_samples,
     smallest_steps,
 )
+from forcetorque.spatial import FORCE_AND_MOMENT
 
 if TYPE_CHECKING:
     from forcetorque.experiment.content import Experiment, ExperimentSensor
 
 _MOVED = 0.02
-"""Share of the movement of the expected wrench in an interval from which on it moves during a run of equal readings."""
+"""Share of the movement of the expected wrench in the log from which on it moves during a run of equal readings."""
+_HARDLY, _LEVER_M = 0.05, 0.01
+"""Least movement in the log that counts, relative to the size of the load; and least lever of the size of moments."""
 _STEPS = 4.0
 """Steps of its resolution by which a channel would then have moved."""
 _AT_ENDS_S = 0.1
@@ -163,46 +166,53 @@ def _moved_runs(experiment: Experiment, sensor: ExperimentSensor, runs: list[Run
     """Runs of equal readings during which the expected wrench moves by more than the sensor resolves."""
     if not runs:
         return []
-    stream = experiment.recording.stream(sensor.stream)
-    values = stream.signal(sensor.quantity).values
+    values = experiment.recording.stream(sensor.stream).signal(sensor.quantity).values
     ranges, steps = ranges_of(values), smallest_steps(values)
     # how far the reading goes in its own resolution; one that never changes resolves nothing
     resolved = float(np.max(ranges[steps > 0.0] / steps[steps > 0.0], initial=0.0)) if steps.any() else np.inf
     least = max(_MOVED, _STEPS / resolved)
-    moved = [
-        run
+    known = [
+        part
         for interval in experiment.recording.intervals
         if interval.support is not None and interval.use is not Use.IGNORE
-        for run in _moved_in(experiment, sensor, interval, runs, least)
+        if (part := _expected_over(experiment, sensor, interval, runs)) is not None
+    ]
+    if not known:
+        return []
+    everywhere = np.concatenate([expected for expected, _ in known])
+    force, moment = (float(np.sqrt((everywhere[:, rows] ** 2).sum(axis=1).mean())) for rows in FORCE_AND_MOMENT)
+    change = np.ptp(everywhere, axis=0)
+    # what hardly moves beside its size moves by rounding
+    sizes = [
+        max(float(np.linalg.norm(change[rows])), _HARDLY * size)
+        for rows, size in zip(FORCE_AND_MOMENT, (force, max(moment, _LEVER_M * force)), strict=True)
+    ]
+    moved = [
+        run
+        for _, within in known
+        for run, expected in within.items()
+        for rows, size in zip(FORCE_AND_MOMENT, sizes, strict=True)
+        if size > 0.0 and np.linalg.norm(np.ptp(expected[:, rows], axis=0)) > least * size
     ]
     return list(dict.fromkeys(moved))
 
 
-def _moved_in(
-    experiment: Experiment, sensor: ExperimentSensor, interval: Interval, runs: list[Run], least: float
-) -> list[Run]:
-    """Runs in an interval during which the expected wrench moves by a share of what it moves in the interval."""
+def _expected_over(
+    experiment: Experiment, sensor: ExperimentSensor, interval: Interval, runs: list[Run]
+) -> tuple[FloatArray, dict[Run, FloatArray]] | None:
+    """Expected wrench over an interval, and during the runs that reach into it; None where it is not known."""
     stamps = experiment.recording.stream(sensor.stream).stamp_ns
     margin = round((_AT_ENDS_S + 0.5 * experiment.processing.derivative_window.window_s) * 1e9)
-    usable = interval.holds(stamps) & ~repeated_samples(stamps)
-    within = {
-        run: np.flatnonzero(usable & (stamps >= stamps[run[0]] + margin) & (stamps <= stamps[run[1]] - margin))
-        for run in runs
-    }
-    judged = {run: rows[:: max(len(rows) // _FEWEST, 1)] for run, rows in within.items() if len(rows) > 1}
-    if not judged:
-        return []
-    whole = np.flatnonzero(usable)
-    rows = np.unique(np.concatenate([whole[:: max(len(whole) // _INSTANTS, 1)], *judged.values()]))
+    whole = np.flatnonzero(interval.holds(stamps) & ~repeated_samples(stamps))
+    at_ns = stamps[whole]
+    inside = {run: whole[(at_ns >= stamps[run[0]] + margin) & (at_ns <= stamps[run[1]] - margin)] for run in runs}
+    chosen = {run: rows[:: max(len(rows) // _FEWEST, 1)] for run, rows in inside.items() if len(rows) > 1}
+    if not len(whole):
+        return None
+    rows = np.unique(np.concatenate([whole[:: max(len(whole) // _INSTANTS, 1)], *chosen.values()]))
     expected = expected_at(experiment, sensor, interval, stamps[rows])
     if expected is None:
-        return []
-    size = np.ptp(expected[np.isfinite(expected).all(axis=1)], axis=0) if np.isfinite(expected).any() else np.zeros(6)
-    moving = size > 1e-9
-    moved = []
-    for run, chosen in judged.items():
-        part = expected[np.isin(rows, chosen)]
-        part = part[np.isfinite(part).all(axis=1)]
-        if len(part) > 1 and moving.any() and float((np.ptp(part, axis=0)[moving] / size[moving]).max()) > least:
-            moved.append(run)
-    return moved
+        return None
+    finite = np.isfinite(expected).all(axis=1)
+    within = {run: expected[finite & np.isin(rows, some)] for run, some in chosen.items()}
+    return expected[finite], {run: part for run, part in within.items() if len(part) > 1}

@@ -20,9 +20,12 @@ SATURATION_SHARE = 0.005
 
 _BY_CHANCE = 1e-9
 """Chance of a run of equal readings, by the noise of the log, below which it is frozen."""
-_NOISE_FREE, _FINE, _NOISE_FREE_FINE = 2e-5, 1e-6, 2e-4
-"""Noise relative to the range of a channel below which it is that of written digits, as in simulated logs; where steps
-are finer than the second share no converter made them, and what a simulation computes may be rougher: the third."""
+_WRITTEN, _COMPUTED = 2e-5, 1e-3
+"""Noise relative to the range of a channel below which there is none: that of written digits; and, of readings on no
+grid, what a simulation computes of a motion."""
+_ON_GRID, _FINEST = 0.01, 1e-7
+"""Part of a step by which changes of readings on a grid differ from whole steps; and the finest step of a converter,
+relative to the range, below which the grid is that of floating point."""
 _BESIDE = 2
 """Neighbours on either side of a sample, whose cubic follows a smooth motion and no noise."""
 _NEIGHBOURS = -56.0 / 36.0
@@ -203,7 +206,9 @@ def noisy_runs(stamp_ns: IntArray, values: FloatArray, runs: Collection[Run]) ->
     step = smallest_steps(values)
     noise = np.sqrt(np.maximum(variance - _ROUNDING * step**2, 0.0))
     ranges = ranges_of(values)
-    noise[np.sqrt(variance) <= np.where(step > _FINE * ranges, _NOISE_FREE, _NOISE_FREE_FINE) * ranges] = 0.0
+    of_converter = (step > _FINEST * ranges) & _are_on_grid(changes[moving], step)
+    least = np.where(of_converter, _WRITTEN, _COMPUTED) * ranges
+    noise[np.sqrt(variance) <= least] = 0.0
     # a reading that lies in the middle of a step stays there longest
     stays = np.ones(len(noise))
     stays[noise > 0.0] = erf(step[noise > 0.0] / (noise[noise > 0.0] * 8.0**0.5))
@@ -211,8 +216,8 @@ def noisy_runs(stamp_ns: IntArray, values: FloatArray, runs: Collection[Run]) ->
     with np.errstate(divide="ignore"):
         per_reading = float(np.log(stays).sum())
     counts = np.cumsum(np.isin(np.arange(len(stamp_ns)), usable))
-    least = held * np.log(_BY_CHANCE)
-    return [(first, last) for first, last in runs if (counts[last] - counts[first]) * per_reading < least]
+    chance = held * np.log(_BY_CHANCE)
+    return [(first, last) for first, last in runs if (counts[last] - counts[first]) * per_reading < chance]
 
 
 def smallest_steps(values: FloatArray) -> FloatArray:
@@ -271,6 +276,15 @@ def white_variance(stamp_ns: IntArray, values: FloatArray) -> FloatArray:
     quietest = np.argsort(moved, axis=0)[: -(-parts // _QUIETEST)]
     usual: FloatArray = np.median(np.take_along_axis(means, quietest, axis=0), axis=0) / _NEIGHBOURS
     return np.maximum(usual, 0.0)
+
+
+def _are_on_grid(changes: FloatArray, step: FloatArray) -> BoolArray:
+    """Whether the changes of every channel are whole numbers of its steps, as those of a converter; shape (c,)."""
+    changed = (changes != 0.0) & (step > 0.0)
+    steps = np.divide(changes, step, out=np.zeros_like(changes), where=changed)
+    whole = changed & (np.abs(steps - np.round(steps)) < _ON_GRID)
+    on_grid: BoolArray = whole.sum(axis=0) > 0.5 * changed.sum(axis=0)
+    return on_grid
 
 
 def _beside_cubic(stamp_ns: IntArray, values: FloatArray) -> FloatArray:
