@@ -155,7 +155,10 @@ def _sample_quality(experiment: Experiment, sensor: ExperimentSensor) -> SampleQ
 
 
 def _saturated(sensor: ExperimentSensor, stream: Stream) -> BoolArray:
-    counts = None if "saturated" in stream.signals else counts_of(sensor, stream)
+    try:
+        counts = None if "saturated" in stream.signals else counts_of(sensor, stream)
+    except ForceTorqueError:  # whoever needs the counts is told why there are none
+        counts = None
     if counts is None:
         return stream.held
     reached = at_limit(counts, sensor.limit_counts, recovered=sensor.quantity != "raw")

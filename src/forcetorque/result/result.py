@@ -29,14 +29,15 @@ class Result(Row):
     of_several: ClassVar[tuple[str, ...]] = ()
     """Fields that are not in the JSON where they are empty, such as those about each of several recordings."""
 
-    interval_uses: ClassVar[tuple[str, ...]] = ()
-    """Uses of the intervals whose samples it is made from; all but ignored ones where it is empty."""
+    interval_uses: ClassVar[tuple[str, ...] | None] = None
+    """Uses of the intervals whose samples it is made from, all but ignored ones where it is empty; None for no samples,
+    or where it does not count what it leaves out."""
 
     warnings: tuple[str, ...] = Field(default=(), exclude=True)
     """What makes the answer doubtful, in sentences; messages, not part of the JSON."""
 
-    unusable_samples: tuple[UnusableSamples, ...] = ()
-    """Samples that are left out because they say nothing of the load; not in the JSON where there are none."""
+    unusable_samples: tuple[UnusableSamples, ...] = Field(default=(), exclude=True)
+    """Samples that are left out because they say nothing of the load; in the JSON where there are any."""
 
     def blocks(self) -> Iterator[Table | str]:
         """Give what people read, in its order; every class has its own.
@@ -90,7 +91,9 @@ class Result(Row):
             One object with stable keys.
         """
         content = self.model_dump(mode="json", by_alias=True)
-        stated = {name: value for name, value in content.items() if value or name not in (*self.of_several, _UNUSABLE)}
+        stated = {name: value for name, value in content.items() if value or name not in self.of_several}
+        if self.unusable_samples:
+            stated[_UNUSABLE] = [row.model_dump(mode="json", by_alias=True) for row in self.unusable_samples]
         return json.dumps(stated, indent=2, allow_nan=False)
 
     def cautions(self) -> Iterator[str]:
@@ -126,7 +129,10 @@ class Result(Row):
             Its JSON schema.
         """
         schema = cls.model_json_schema(mode="serialization")
-        schema["required"] = [name for name in schema.get("required", ()) if name not in (*cls.of_several, _UNUSABLE)]
+        schema["required"] = [name for name in schema.get("required", ()) if name not in cls.of_several]
+        if cls.interval_uses is not None:
+            rows = {"type": "array", "items": UnusableSamples.model_json_schema(mode="serialization")}
+            schema["properties"][_UNUSABLE] = rows | {"description": cls.model_fields[_UNUSABLE].description or ""}
         return schema
 
     @classmethod

@@ -52,7 +52,9 @@ def saying_what_was_added(offered: Any) -> Any:
             return answer
         arguments = (*args, *options.values())
         untold = tuple(_untold(arguments, answer.warnings))
-        left_out = (*answer.unusable_samples, *_left_out(arguments, answer.interval_uses))
+        left_out = answer.unusable_samples
+        if answer.interval_uses is not None:
+            left_out = (*left_out, *_left_out(arguments, answer.interval_uses))
         if not untold and not left_out:
             return answer
         said = {"warnings": (*answer.warnings, *untold), "unusable_samples": tuple(dict.fromkeys(left_out))}
