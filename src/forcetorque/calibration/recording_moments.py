@@ -25,6 +25,7 @@ from forcetorque.calibration.sensor_identity import SensorIdentity
 from forcetorque.errors import FitError
 from forcetorque.output_file import refuse_output
 from forcetorque.part import Part, read_part
+from forcetorque.recording.sample_quality import UnusableCounts
 
 SCHEMA: Final = "forcetorque/moments/1"
 """Name and version of the file's form."""
@@ -45,6 +46,8 @@ class IntervalMoments(Part):
     """Number of samples."""
     dropped: int = Field(ge=0)
     """Samples of the interval that were left out."""
+    unusable: UnusableCounts = UnusableCounts()
+    """Those among them that say nothing of the load: frozen, saturated, repeated; zeros in earlier files."""
     raw_minimum_counts: _Vector
     """Smallest reading per channel; counts."""
     raw_maximum_counts: _Vector
@@ -75,13 +78,21 @@ class IntervalMoments(Part):
     """Variables at the same samples."""
 
     @classmethod
-    def of(cls, data: DataSet, interval: FittedInterval, *, dropped: int) -> IntervalMoments:
+    def of(
+        cls,
+        data: DataSet,
+        interval: FittedInterval,
+        *,
+        dropped: int,
+        unusable: UnusableCounts = UnusableCounts(),  # noqa: B008
+    ) -> IntervalMoments:
         """Reduce the samples of an interval.
 
         Args:
             data: Samples with their instants.
             interval: Which interval they are.
             dropped: Samples of the interval that were left out.
+            unusable: Those among them that say nothing of the load.
 
         Returns:
             What is kept of them.
@@ -93,6 +104,7 @@ class IntervalMoments(Part):
             recording=data.recording,
             samples=moments.count,
             dropped=dropped,
+            unusable=unusable,
             raw_minimum_counts=data.raw.min(axis=0),
             raw_maximum_counts=data.raw.max(axis=0),
             variable_minimum=data.variables.min(axis=0),

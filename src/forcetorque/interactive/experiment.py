@@ -43,7 +43,7 @@ class Experiment(experiments.Experiment):
         Returns:
             The same, with its sensors by name.
         """
-        return cls(**{field.name: getattr(content, field.name) for field in fields(content)})
+        return cls(**{field.name: getattr(content, field.name) for field in fields(content) if field.init})
 
     def __getitem__(self, sensor: str) -> Run:
         """Choose a sensor.

@@ -11,6 +11,7 @@ from forcetorque.result.row import AxisValues, FloatOrNull, Row, Values, WrenchV
 from forcetorque.result.shown import COMPONENTS, Shown, ShownWrench
 from forcetorque.result.table import Table, table_of, with_first_column
 from forcetorque.result.text import table_text, wrapped
+from forcetorque.result.unusable import UnusableSamples
 from forcetorque.result.vague import VAGUE_WORDS, without_vague
 
 __all__ = [
@@ -24,6 +25,7 @@ __all__ = [
     "Shown",
     "ShownWrench",
     "Table",
+    "UnusableSamples",
     "Values",
     "WrenchValues",
     "finite_or_none",

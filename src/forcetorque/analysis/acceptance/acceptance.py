@@ -27,6 +27,8 @@ class Acceptance(Result):
 
     of_several: ClassVar[tuple[str, ...]] = ("recordings", "recordings_measured")
 
+    interval_uses = ()
+
     schema_name: Literal["forcetorque/accept/1"] = Field(default="forcetorque/accept/1", alias="schema")
     """Form of the result."""
     experiment: str

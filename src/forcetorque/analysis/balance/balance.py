@@ -43,6 +43,8 @@ _DOUBTED_SHARE = 0.1
 class Balance(Result):
     """How a robot stood over the intervals of experiments."""
 
+    interval_uses = ()
+
     schema_name: Literal["forcetorque/balance/1"] = Field(default="forcetorque/balance/1", alias="schema")
     """Form of the result."""
     experiments: tuple[str, ...]

@@ -42,7 +42,7 @@ def recording_moments(runs: Runs) -> list[RecordingMoments]:
         own = [interval for interval in intervals if interval.recording == recording]
         if not own:
             continue
-        kept = [IntervalMoments.of(i.data_set, i.fitted, dropped=i.part.samples.dropped) for i in own]
+        kept = [interval.moments for interval in own]
         stated_by = CampaignRecording.of(run)
         said = [*(doubt.message for doubt in doubts), *reference_doubts(run)]
         moments = moments_of(stated_by, kept, variables=variables, doubts=said)

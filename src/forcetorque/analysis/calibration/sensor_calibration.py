@@ -49,6 +49,8 @@ class SensorCalibration(Row):
 class SensorCalibrations(Result):
     """Calibrations of the sensors of an experiment."""
 
+    interval_uses = ("calibration",)
+
     schema_name: Literal["forcetorque/calibrate/1"] = Field(default="forcetorque/calibrate/1", alias="schema")
     """Form of the result."""
     experiment: str

@@ -107,6 +107,8 @@ class CoherenceSummary(Row):
 class Coherence(Result):
     """Whether the contacts together bear the weight, whichever of them touch (thesis 5.6)."""
 
+    interval_uses = ()
+
     schema_name: Literal["forcetorque/coherence/1"] = Field(default="forcetorque/coherence/1", alias="schema")
     """Form of the result."""
     experiment: str

@@ -100,6 +100,8 @@ class EstimateSummary(Result):
 
     of_several: ClassVar[tuple[str, ...]] = ("recordings",)
 
+    interval_uses = ()
+
     schema_name: Literal["forcetorque/estimate/1"] = Field(default="forcetorque/estimate/1", alias="schema")
     """Form of the result."""
     experiment: str

@@ -100,6 +100,8 @@ class Evaluation(Result):
 
     of_several: ClassVar[tuple[str, ...]] = ("recordings",)
 
+    interval_uses = ()
+
     schema_name: Literal["forcetorque/evaluate/1"] = Field(default="forcetorque/evaluate/1", alias="schema")
     """Form of the result."""
     experiment: str

@@ -50,6 +50,8 @@ class WeighedLoad(Result):
     """What hangs on a wrist sensor or on a robot, and the sensor's biases."""
 
     of_several: ClassVar[tuple[str, ...]] = ("recordings", "disagreements")
+    interval_uses = ()
+
     schema_name: Literal["forcetorque/payload/2"] = Field(default="forcetorque/payload/2", alias="schema")
     """Form of the result."""
     experiment: str

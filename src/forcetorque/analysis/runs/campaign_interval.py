@@ -10,7 +10,7 @@ from pathlib import Path
 
 from forcetorque.analysis.runs.campaign_recording import CampaignRecording, refuse_a_file_twice, require_one_sensor
 from forcetorque.analysis.runs.samples import IntervalSamples
-from forcetorque.calibration import DataSet, FittedInterval
+from forcetorque.calibration import DataSet, FittedInterval, IntervalMoments
 from forcetorque.experiment.recording_names import distinct_files, recording_name
 from forcetorque.recording import Interval
 from forcetorque.study import ValidationSet
@@ -51,6 +51,12 @@ class CampaignInterval:
             experiment=self.experiment,
             content=self.part.content,
         )
+
+    @property
+    def moments(self) -> IntervalMoments:
+        """What is kept of the samples for a fit."""
+        samples = self.part.samples
+        return IntervalMoments.of(self.data_set, self.fitted, dropped=samples.dropped, unusable=samples.unusable)
 
     @property
     def validation_set(self) -> ValidationSet:

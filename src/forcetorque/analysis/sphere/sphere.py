@@ -27,6 +27,8 @@ __all__ = ["SensorSphere", "SphereRow", "Spheres", "spheres", "spheres_of_sensor
 class Spheres(Result):
     """Apparent masses of the axes of sensors, with and without the model, and what they are worth."""
 
+    interval_uses = ()
+
     schema_name: Literal["forcetorque/sphere/1"] = Field(default="forcetorque/sphere/1", alias="schema")
     """Form of the result."""
     experiment: str

@@ -45,10 +45,7 @@ def generative_fits(
         The fits. A combination without a load, with readings that do not follow it, or without a prior and with too few
         loads, is left out.
     """
-    kept = {
-        interval.label: IntervalMoments.of(interval.data_set, interval.fitted, dropped=interval.part.samples.dropped)
-        for interval in data.calibration
-    }
+    kept = {interval.label: interval.moments for interval in data.calibration}
     calibrations: dict[str, Calibration] = {}
     candidates, left_out = [], []
     for name, labels in combinations.items():

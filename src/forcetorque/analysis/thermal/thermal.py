@@ -31,6 +31,8 @@ from forcetorque.spatial import WRENCH_COMPONENTS, WRENCH_UNITS
 class Thermal(Result):
     """What temperature does to sensors at constant load."""
 
+    interval_uses = ()
+
     schema_name: Literal["forcetorque/thermal/1"] = Field(default="forcetorque/thermal/1", alias="schema")
     """Form of the result."""
     experiment: str

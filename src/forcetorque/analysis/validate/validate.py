@@ -43,6 +43,8 @@ class Validation(Result):
 
     of_several: ClassVar[tuple[str, ...]] = ("recordings", "recording_torques")
 
+    interval_uses = ()
+
     schema_name: Literal["forcetorque/validate/1"] = Field(default="forcetorque/validate/1", alias="schema")
     """Form of the result."""
     experiment: str

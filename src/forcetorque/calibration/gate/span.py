@@ -49,9 +49,10 @@ def span_doubts(movement: Movement, setup: Setup = ROBOT, *, has_prior: bool) ->
     # of a load that carries everything the differences may be rounded below zero
     rest, unit = np.sqrt(max(left, 0.0)), "N" if has_prior else "counts"
     change = float(np.sqrt(max(np.diag(movement.second)[k : k + 3].sum(), 0.0)))
+    explained = max(1.0 - left / moved, 0.0) if moved > 0.0 else 0.0  # white noise alone lasts by chance, or not at all
     message = (
         f"the reading moves by {np.sqrt(moved):.3g} {unit}, of which the reference, which moves by {change:.3g} N, "
-        f"explains {max(1.0 - left / moved, 0.0):.0%}; {setup.check_span}"
+        f"explains {explained:.0%}; {setup.check_span}"
     )
     size = float(np.linalg.norm(movement.size[:3]))
     if has_prior and (rest > _LARGE * size or change > _FASTER * np.sqrt(moved)):
