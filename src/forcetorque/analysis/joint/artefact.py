@@ -29,7 +29,9 @@ from forcetorque.calibration import (
 from forcetorque.calibration.joint import JointFit, JointResult, PartResidual, sensor_posterior
 from forcetorque.recording.sample_quality import UnusableCounts
 
-_RULE = "parts of the robot between sensors that nothing touches; sizes of changes by evidence"
+_RULE = (
+    "parts of the robot between sensors that nothing touches; sizes of changes by evidence, at most the expected ones"
+)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
