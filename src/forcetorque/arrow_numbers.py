@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Columns of Arrow as NumPy arrays, without pandas.
+"""Columns of Arrow as NumPy arrays, without pandas, and how much those of a file are.
 
 Arrow's own conversions, `to_numpy` among them, import pandas wherever that is installed, though nothing asks for it:
 half of what a short command takes. So numbers are read from the column's buffers.
@@ -7,11 +7,15 @@ half of what a short command takes. So numbers are read from the column's buffer
 
 from __future__ import annotations
 
+from collections.abc import Collection
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 import pyarrow as pa
+
+from forcetorque.input_file import require_unpacked
 
 _TYPES = {pa.float64(): np.float64, pa.int64(): np.int64}
 
@@ -33,3 +37,19 @@ def arrow_numbers(column: Any) -> npt.NDArray[Any]:
         return numbers
     valid = np.unpackbits(np.frombuffer(validity, dtype=np.uint8), bitorder="little")[own]
     return np.where(valid, numbers, np.nan)
+
+
+def require_small_parquet(file: Path, metadata: Any, columns: Collection[str]) -> None:
+    """Refuse a Parquet file that unpacks to more than it may, before a column is read.
+
+    Args:
+        file: The file.
+        metadata: What Arrow says of it.
+        columns: Names of the columns that are read.
+
+    Raises:
+        FormatError: If what it packs, or their numbers, are more.
+    """
+    # what is said of single columns is not asked for: Arrow ends the process where that is damaged
+    packed = sum(metadata.row_group(k).total_byte_size for k in range(metadata.num_row_groups))
+    require_unpacked(file, max(metadata.num_rows * len(columns) * np.dtype(np.float64).itemsize, packed))

@@ -7,10 +7,11 @@ import os
 import stat
 import sys
 from pathlib import Path
-from uuid import uuid4
 
 from forcetorque.errors import ForceTorqueError, MissingFileError
 from forcetorque.paths import real_path
+from forcetorque.run_files import refuse_input
+from forcetorque.temporary import temporary_beside
 
 STANDARD_OUTPUT = Path("-")
 """What a command is given in place of a file to have it on standard output."""
@@ -32,6 +33,7 @@ def write_bytes_atomically(path: Path, data: bytes) -> None:
     Raises:
         MissingFileError: If the folder of the file does not exist.
         ForceTorqueError: If something is there that is no file, no character device and no pipe.
+        OutputError: If the run of the command has read the file.
     """
     if path == STANDARD_OUTPUT:
         sys.stdout.flush()
@@ -42,19 +44,15 @@ def write_bytes_atomically(path: Path, data: bytes) -> None:
         with path.open("wb") as stream:
             stream.write(data)
         return
+    refuse_input(path)
     target = real_path(path)
-    # Same folder, because a rename is atomic only within one file system. Opened like any new file,
-    # not by `tempfile`, whose files nobody else may read.
-    temporary = target.with_name(f".{uuid4().hex}.tmp")
-    try:
-        with temporary.open("xb") as stream:
+    with temporary_beside(target) as temporary:
+        with temporary.open("wb") as stream:
             stream.write(data)
             stream.flush()
             # Otherwise a power cut after the rename can leave an empty file.
             os.fsync(stream.fileno())
         temporary.replace(target)
-    finally:
-        temporary.unlink(missing_ok=True)
 
 
 def refuse_unwritable(path: Path) -> None:

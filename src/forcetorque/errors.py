@@ -29,6 +29,10 @@ class MissingFileError(ForceTorqueError, FileNotFoundError):
     """A file or a folder that was named is not there."""
 
 
+class OutputError(ForceTorqueError, FileExistsError):
+    """A file that is to be written is an input, or was made by somebody else."""
+
+
 class RobotError(ForceTorqueError, ValueError):
     """A robot model is not a tree of links, or lacks what was asked of it."""
 

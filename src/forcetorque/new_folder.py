@@ -4,13 +4,12 @@
 from __future__ import annotations
 
 import os
-import shutil
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
-from uuid import uuid4
 
 from forcetorque.errors import ForceTorqueError
+from forcetorque.temporary import temporary_beside
 
 
 @contextmanager
@@ -27,14 +26,13 @@ def new_folder(output: Path) -> Iterator[Path]:
         ForceTorqueError: If the folder is there already.
     """
     refuse_existing(output)
-    fresh = output.with_name(f".{uuid4().hex}.tmp")
     parents = [parent for parent in output.parents if not parent.exists()]
-    fresh.mkdir(parents=True)
+    output.parent.mkdir(parents=True, exist_ok=True)
     try:
-        yield fresh
-        fresh.rename(output)
+        with temporary_beside(output, folder=True) as fresh:
+            yield fresh
+            fresh.rename(output)
     finally:
-        shutil.rmtree(fresh, ignore_errors=True)
         with suppress(OSError):  # not empty: the folder is in it, or somebody else's
             for parent in parents:
                 parent.rmdir()

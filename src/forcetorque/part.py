@@ -11,6 +11,7 @@ from pydantic import ConfigDict, ValidationError
 
 from forcetorque.array_field import ArrayModel
 from forcetorque.errors import FormatError, MissingFileError, ShapeError
+from forcetorque.run_files import declare_input
 
 
 class Part(ArrayModel):
@@ -53,6 +54,7 @@ def read_json(file: Path, *, expected: str) -> Any:
     """
     if not file.is_file():
         raise MissingFileError(f"{file}: expected {expected}")
+    declare_input(file)
     try:
         return json.loads(file.read_text(encoding="utf-8"))
     except (json.JSONDecodeError, UnicodeDecodeError, RecursionError) as error:

@@ -13,6 +13,7 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_valida
 from pydantic_core import ErrorDetails, PydanticCustomError
 
 from forcetorque.errors import FormatError, MissingFileError, known_names
+from forcetorque.input_file import require_file
 
 
 class Table(BaseModel):
@@ -93,6 +94,20 @@ def open_questions(text: str) -> tuple[OpenQuestion, ...]:
     return tuple(questions)
 
 
+def toml_content(file: Path) -> tuple[str, dict[str, Any]]:
+    """Parse a TOML file, with or without the byte-order mark that some editors put in front.
+
+    Args:
+        file: The file; it exists. What is no UTF-8 or no TOML raises the ValueError of the parser.
+
+    Returns:
+        Its text without the mark, and the tables in it.
+    """
+    require_file(file, "a TOML file")
+    text = file.read_text(encoding="utf-8-sig")
+    return text, tomllib.loads(text)
+
+
 def read_toml(path: Path | str, form: type[_Content], *, what: str) -> _Content:
     """Read and check a TOML file, without opening what it points to.
 
@@ -112,8 +127,7 @@ def read_toml(path: Path | str, form: type[_Content], *, what: str) -> _Content:
     if not file.is_file():
         raise MissingFileError(f"{file}: expected {what}, there is none")
     try:
-        text = file.read_text(encoding="utf-8")
-        content = tomllib.loads(text)
+        text, content = toml_content(file)
     except (ValueError, RecursionError) as error:  # not TOML, not UTF-8, or numbers and lists beyond all bounds
         raise FormatError(f"{file}: expected TOML, got {error}") from error
     _require_answers(file, text)

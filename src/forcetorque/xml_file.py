@@ -10,6 +10,7 @@ from defusedxml.common import DefusedXmlException
 from defusedxml.ElementTree import parse
 
 from forcetorque.errors import FormatError
+from forcetorque.run_files import declare_input
 
 
 def read_xml(file: Path) -> Element | None:
@@ -24,6 +25,7 @@ def read_xml(file: Path) -> Element | None:
     Raises:
         FormatError: If it is not XML, or uses entities or external files.
     """
+    declare_input(file)
     try:
         root: Element | None = parse(file).getroot()
     except ParseError as error:

@@ -34,7 +34,7 @@ from forcetorque.analysis import (
     tare,
     validate,
 )
-from forcetorque.analysis.runs.added import added_to, warns_of_additions
+from forcetorque.analysis.runs.added import added_to, with_recording_notes
 from forcetorque.calibration import Calibration
 from forcetorque.experiment import load_experiment
 from forcetorque.result import Result, result_classes
@@ -117,7 +117,7 @@ def _question(experiments: object, told: tuple[str, ...] = ()) -> _Answer:
 
 def test_of_several_recordings_each_is_named(asked: Asked) -> None:
     """One alone is not, and what a question says itself is not said again."""
-    question, first = warns_of_additions(_question), asked.run.experiment
+    question, first = with_recording_notes(_question), asked.run.experiment
     other = replace(first, name="other", recording=replace(first.recording))
     words = added_to(first.recording)
     assert question([asked.run]).warnings == question(first).warnings == words

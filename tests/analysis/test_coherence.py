@@ -173,7 +173,7 @@ def test_true_matrices_bear_the_weight(switched: Switched) -> None:
 def test_tables_are_those_of_the_thesis(switched: Switched) -> None:
     """A table of forces and one of moments per offset, with a line for each phase; what is no evidence says so."""
     tables = [block for block in switched.result.blocks() if not isinstance(block, str)]
-    assert len(tables) == 2 * len(OFFSETS) + 1
+    assert len(tables) == 3 * len(OFFSETS) + 1
     assert tables[0].headings == ("phase", "read by", "Fx, N", "Fy, N", "Fz, N", "Ex, N", "Ey, N", "Ez, N", "")
     assert [row[0] for row in tables[0].rows] == ["hanging", "double_1", "l_sole", "double_2", "r_sole", "double_3"]
     assert [row[-1] for row in tables[0].rows] == ["not evidence", "", "", "", "", ""]

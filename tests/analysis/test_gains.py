@@ -253,3 +253,51 @@ def test_a_leg_sensor_of_a_real_robot(data_dir: Path, tmp_path: Path) -> None:
     assert len(joints) == 12
     assert row.strongest[-1].time_s == pytest.approx(37.84, abs=0.02)
     assert joints["r_hip_roll"] == pytest.approx(1.239, abs=0.002)
+
+
+def _held_still(experiment: Experiment) -> Experiment:
+    """The arm stays where it was at 3 s, and its sensor reads noise about what it read there."""
+    streams = dict(experiment.recording.streams)
+    sensor, joints = streams["arm_ft"], streams["joints"]
+    raw, position = sensor.signal("raw"), joints.signal("position")
+    noise = np.random.default_rng(4).normal(scale=4.0, size=raw.values.shape)
+    streams["arm_ft"] = replace(sensor, signals={"raw": replace(raw, values=np.round(raw.values[150] * 0.01 + noise))})
+    streams["joints"] = replace(
+        joints, signals={"position": replace(position, values=np.tile(position.values[150], (len(joints), 1)))}
+    )
+    return replace(experiment, recording=replace(experiment.recording, streams=streams))
+
+
+@pytest.mark.parametrize("drift_counts", [0.0, 200.0])
+@pytest.mark.parametrize("gains", ["", GAINS], ids=["factors", "gains"])
+def test_a_limb_that_does_not_move_gets_no_advice(arm: Path, drift_counts: float, gains: str) -> None:
+    """Readings far from the limit that stay, or drift, do not say how far they go; those near a limit are lowered."""
+    edit(arm / PARQUET, SERIAL, SERIAL + gains)
+    still = _held_still(load_experiment(arm / PARQUET))
+    stream = still.recording.stream("arm_ft")
+    raw = stream.signal("raw").values + np.linspace(0.0, drift_counts, len(stream))[:, None]
+    raw[:, 2] += 31000.0
+    experiment = _with_counts(still, {(row, k): raw[row, k] for row in range(len(raw)) for k in range(6)})
+    result = select_gains(_run(experiment))
+    channels = result.sensors[0].channels
+    assert [channel.change for channel in channels] == [
+        GainChange.LOWER if k == 2 else GainChange.UNKNOWN for k in range(6)
+    ]
+    assert {(channels[k].recommended_gain, channels[k].largest_factor) for k in (0, 1, 3, 4, 5)} == {(None, None)}
+    assert channels[0].expected_largest_counts == channels[0].largest_counts
+    assert "none: still" in result.text()
+    assert any("ch0, ch1, ch3, ch4, ch5 did not move" in warning for warning in result.warnings)
+    moved = select_gains(_run(load_experiment(arm / PARQUET))).sensors[0].channels
+    assert GainChange.UNKNOWN not in {channel.change for channel in moved}
+
+
+def test_advice_without_a_contact_says_so(arm: Path) -> None:
+    """A limb in the air does not show what it bears in use; with a contact beyond the sensor the advice stands."""
+    free = select_gains(_run(load_experiment(arm / PARQUET)))
+    raised = [channel for channel in free.sensors[0].channels if channel.change is GainChange.RAISE]
+    assert (free.sensors[0].contact_recorded, bool(raised)) == (False, True)
+    assert "no contact was in the log: loads of use were not recorded" in " ".join(free.text().split())
+    add(arm / PARQUET, '\n[[contact]]\nframe = "hand"\nintervals = ["fit"]\n')
+    touched = select_gains(_run(load_experiment(arm / PARQUET)))
+    assert touched.sensors[0].contact_recorded
+    assert "no contact was in the log" not in " ".join(touched.text().split())

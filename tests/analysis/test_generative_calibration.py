@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -21,9 +22,10 @@ from forcetorque.calibration import (
     write_calibration,
 )
 from forcetorque.errors import ExperimentError, FitError, FormatError, MissingFileError
+from forcetorque.evaluation import push_error
 from forcetorque.experiment import load_experiment
 from forcetorque.recording import Use
-from tests.scenes.experiments import PARQUET, edit
+from tests.scenes.experiments import MOUNTED, PARQUET, RATE_HZ, edit
 from tests.scenes.studies import CALIBRATION, SENSOR, VALIDATION
 
 
@@ -166,3 +168,29 @@ def test_a_thesis_type_warns_where_loads_leave_it_alone(intact: Path) -> None:
     assert any("along them OnTdTO leaves the prior for noise" in sentence for sentence in words)
     default = calibrate_sensor(run, code_version="1", created="now")
     assert not [*fit_doubts(default.model_copy(update={"validity": excited}))]
+
+
+def test_a_contact_that_nobody_stated_is_left_out_and_said(arm: Path, tmp_path: Path) -> None:
+    """Three seconds with 24 N on the hand: counted, and named with their seconds in the artefact and its file."""
+    file = edit(arm / PARQUET, "start_s = 14.5\nend_s = 23.5", "start_s = 23.5\nend_s = 23.9")
+    experiment = load_experiment(edit(file, "end_s = 14.0", "end_s = 23.5"))
+    stream = experiment.recording.stream("arm_ft")
+    time = (stream.stamp_ns - experiment.recording.start_ns) * 1e-9
+    counts = stream.signal("raw").values.copy()
+    counts[(time > 9.0) & (time < 12.0)] += np.linalg.solve(MOUNTED, [20.0, 10.0, -10.0, 1.0, -1.0, 0.5])
+    signals = dict(stream.signals) | {"raw": replace(stream.signal("raw"), values=counts)}
+    streams = dict(experiment.recording.streams) | {"arm_ft": replace(stream, signals=signals)}
+    touched = replace(experiment, recording=replace(experiment.recording, streams=streams))
+    clean, fitted = _calibrated([SensorRun(experiment, "arm_ft")]), _calibrated([SensorRun(touched, "arm_ft")])
+    assert not any("is left out" in doubt for doubt in clean.doubts)
+    assert clean.provenance.dropped == 0
+    (doubt,) = (doubt for doubt in fitted.doubts if "is left out" in doubt)
+    assert doubt.startswith(
+        "interval 'fit': 7.51 to 13.48 s is left out: the readings disagree there with all others, by"
+    )
+    assert fitted.provenance.dropped == clean.provenance.samples - fitted.provenance.samples == 6.0 * RATE_HZ
+    assert fitted.validity.raw_maximum_counts == pytest.approx(clean.validity.raw_maximum_counts, rel=0.2)
+    write_calibration(tmp_path / "fitted.json", fitted)
+    assert doubt in read_calibration(tmp_path / "fitted.json").doubts
+    errors = [push_error(one.matrix, MOUNTED).force_N for one in (clean, fitted)]
+    assert errors[1] < 1.5 * errors[0]

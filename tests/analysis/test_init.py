@@ -16,7 +16,7 @@ import pytest
 from forcetorque.analysis import draft_experiment, inspect_log
 from forcetorque.analysis.draft.boards import joint_rows
 from forcetorque.analysis.draft.likeness import likenesses
-from forcetorque.errors import ExperimentError, ForceTorqueError, FormatError, MissingFileError
+from forcetorque.errors import ExperimentError, ForceTorqueError, FormatError, MissingFileError, OutputError
 from forcetorque.exchange.heading import read_heading
 from forcetorque.exchange.signal_table import OrientationTable
 from forcetorque.experiment import load_experiment, parse_experiment
@@ -286,7 +286,7 @@ def test_a_wrist_sensor_without_a_robot_has_a_load(tmp_path: Path) -> None:
     assert content["load"]["motion"] == ["pose"]
     assert content["recording"]["stream"][1]["signal"][0]["orientation"] == {"form": "quat_xyzw", "sense": "?"}
     assert _keys(draft.content) == ["frame", "sense", "serial", "full_scale", "measure_direction"]
-    with pytest.raises(ExperimentError, match="x.toml: there is such a file already"):
+    with pytest.raises(OutputError, match="x.toml: expected a new file"):
         draft_experiment([tmp_path / "wrench.csv"], tmp_path / "x.toml")
 
 

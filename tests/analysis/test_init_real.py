@@ -8,8 +8,9 @@ from pathlib import Path
 
 import pytest
 
-from forcetorque.analysis import draft_experiment, inspect_log
-from forcetorque.errors import FormatError
+from forcetorque import load_experiment
+from forcetorque.analysis import SensorRun, calibrate_sensor, draft_experiment, inspect_log
+from forcetorque.errors import FitError, FormatError
 
 pytestmark = pytest.mark.real_data
 
@@ -27,6 +28,37 @@ def test_three_clocks_of_a_kuka(data_dir: Path) -> None:
     assert [float(words.split("makes ")[1].split(" Hz")[0]) for words in rates] == [697.8, 254.2, 99.15]
     assert 'motion = ["1-baseline_orientations"]' in draft.content
     assert [q.key for q in draft.questions][-3:] == ["serial", "full_scale", "measure_direction"]
+
+
+def test_still_poses_of_a_kuka_calibrate_as_drafted(data_dir: Path, tmp_path: Path) -> None:
+    """24 rows in any order, a pose each, with every question answered; the pose the wrong way round is refused."""
+    folder = data_dir / "ati_gamma_kuka_med14_skrede"
+    draft = draft_experiment([folder / "0-calibration_fts-accel.csv"]).content
+    start, end = draft.index('quantity = "proper_acceleration"'), draft.index('quantity = "orientation"')
+    signal = "[[recording.stream.signal]]"
+    draft = draft[: draft.rindex(signal, 0, start)] + draft[draft.rindex(signal, 0, end) :]
+    answers = {
+        "path": f'"{folder.as_posix()}"',
+        "stamp": '"row"',
+        "units": '["N", "N", "N", "N m", "N m", "N m"]',
+        "frame": '"ft_sensor"',
+        "serial": '"A1"',
+        "full_scale": "[130.0, 130.0, 400.0, 10.0, 10.0, 10.0]",
+        "measure_direction": '"child_to_parent"',
+    }
+    lines = [
+        f"{key} = {answers[key]}" if key in answers and ("?" in line or key == "path") else line
+        for line in draft.splitlines()
+        for key in [line.split(" = ")[0]]
+    ]
+    file = tmp_path / "poses.toml"
+    file.write_text("\n".join(lines).replace('sense = "?"', 'sense = "sensor_to_world"'))
+    fitted = calibrate_sensor(SensorRun(load_experiment(file), "ft_sensor"), code_version="", created="")
+    assert (fitted.provenance.samples, fitted.provenance.dropped) == (24, 0)
+    assert fitted.residual_rms.max() < 0.15  # N; the sensor resolves 0.05
+    file.write_text(file.read_text().replace("sensor_to_world", "world_to_sensor"))
+    with pytest.raises(FitError, match=r"of which the reference, .* explains 42%"):
+        calibrate_sensor(SensorRun(load_experiment(file), "ft_sensor"), code_version="", created="")
 
 
 def test_a_table_without_headings(data_dir: Path) -> None:

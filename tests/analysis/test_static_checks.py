@@ -81,10 +81,10 @@ def test_samples_are_counted_by_interval(arm: Path) -> None:
 
 
 def test_a_stretch_of_one_reading_is_saturated(arm: Path) -> None:
-    """A board that says nothing repeats its last valid sample: 60 samples in 1.2 s count, 40 in 0.8 s do not."""
+    """A board that says nothing repeats its last valid sample: 40 samples in 0.8 s count, 20 in 0.4 s do not."""
     plain = load_experiment(arm / PARQUET)
     raw = plain.recording.stream("arm_ft").signal("raw").values
-    for length, counted in ((60, 60), (40, 0)):
+    for length, counted in ((40, 40), (20, 0)):
         held = {f"r{row}c{k}": raw[100, k] for row in range(100, 100 + length) for k in range(6)}
         damaged = _changed(plain, **held)
         shares = [row.saturated_share for row in _checked(damaged).recording]

@@ -162,6 +162,24 @@ def test_what_a_fusion_needs_is_asked_for(arm: Path, fitted: Calibration) -> Non
             _fused(file, fitted)
 
 
+def test_the_deviation_of_the_model_may_be_stated_by_joint(arm: Path, fitted: Calibration) -> None:
+    """Each joint has its own; no source that uses the model has a narrower interval, nor have all together."""
+    stated = {"shoulder_yaw": 0.01, "shoulder_pitch": 0.5, "shoulder_roll": 0.1}
+    table = ", ".join(f"{joint} = {value}" for joint, value in stated.items())
+    file = edit(with_motors(arm), "model_deviation = 0.02", f"model_deviation = {{ {table} }}")
+    fusion = _fused(file, fitted).fusion
+    assert fusion is not None
+    rows = [row for row in fusion.torques if row.source in ("ft", "fused")]
+    assert len(rows) == 12
+    for row in rows:
+        assert (row.half_width_95 or 0.0) > 1.95 * stated[row.joint]
+        assert (row.half_width_95 or 0.0) < 1.95 * stated[row.joint] + 0.5
+    text = file.read_text(encoding="utf-8")
+    file.write_text(text.replace("shoulder_roll = 0.1", "shoulder_rol = 0.1"), encoding="utf-8")
+    with pytest.raises(ExperimentError, match="got none for shoulder_roll and unknown joints shoulder_rol;"):
+        _fused(file, fitted)
+
+
 def test_currents_of_another_time_are_refused(arm: Path, fitted: Calibration) -> None:
     """A stream that does not overlap says nothing about these instants."""
     file = with_motors(arm)

@@ -13,6 +13,7 @@ import pytest
 from forcetorque.analysis import BenchRecording, Workbench, read_acceptance, read_bench, workbench
 from forcetorque.calibration import read_calibration
 from forcetorque.errors import ExperimentError, FitError, ForceTorqueError, FormatError, UnitError
+from forcetorque.exchange.icub import encode_matrix, write_matrix_file
 from forcetorque.exsitu import BenchFaults
 from forcetorque.spatial import MeasureDirection
 from tests.exsitu.trials import specimens
@@ -188,6 +189,49 @@ def test_the_guide_asks_for_the_next_position(tmp_path: Path) -> None:
     assert (asked(empty).next or "").startswith("next: position 1 ")
     swapped = write_bench(tmp_path, serial="SIM003", faults=BenchFaults(swapped=(3, 8)))[0]
     assert (asked(swapped, only_next=True).next or "").startswith("again: position 4 ")
+
+
+@pytest.mark.parametrize("factor", [2.0, 3.0, 0.1, -1.0])
+def test_a_prior_that_no_sensor_differs_by_is_refused_or_doubted(factor: float, tmp_path: Path) -> None:
+    """As `calibrate` refuses it, in words of a workbench; twice the forces alone are said, and fitted all right."""
+    path, specimen = write_bench(tmp_path, positions=24)
+    assert specimen.bench.prior is not None
+    prior = specimen.bench.prior * np.repeat([factor, 1.0], 3)[:, None]
+    write_matrix_file(tmp_path / "nominal.txt", encode_matrix(prior))
+    answer = asked(path)
+    if factor == 2.0:
+        error = answer.calibrations[0].matrix @ specimen.response - np.eye(6)
+        assert np.abs(error[:3, :3]).max() < 0.003
+        (doubt,) = (words for words in answer.calibrations[0].doubts if "the gain changed by +" in words)
+        assert f"SIM001: {doubt}" in answer.warnings
+        return
+    assert (answer.calibrations, answer.sensors[0].fitted) == ((), False)
+    said = [words for words in answer.warnings if "the prior's reading" in words]
+    assert said == [f"SIM001: {answer.sensors[0].reason}"]
+    assert "[sensor]" in said[0]
+    assert "[robot]" not in said[0] + answer.sensors[0].reason
+    assert not answer.faults  # loads of rank 6 are held against each other without a prior
+    with pytest.raises(FitError, match="the prior's reading"):
+        asked(path, full_matrix=True)
+
+
+@pytest.mark.parametrize("positions", [2, 7])
+def test_a_sound_sensor_raises_no_doubt(positions: int, sound: Workbench, tmp_path: Path) -> None:
+    """Negative control, of few positions and of all: sensors are up to a fifth off the nominal matrix."""
+    for seed in range(3):
+        answer = asked(write_bench(tmp_path, seed=seed, positions=positions)[0])
+        assert answer.calibrations[0].doubts == ()
+    assert sound.calibrations[0].doubts == ()
+
+
+def test_readings_in_another_order_than_their_loads_are_refused(bench: Path, tmp_path: Path) -> None:
+    """Such as files that were named in another order; two that are swapped are named instead."""
+    for k in range(24):
+        (tmp_path / f"SIM001_output{24 - k}.dat").write_bytes((bench.parent / f"SIM001_output{k + 1}.dat").read_bytes())
+    for name in ("nominal.txt", "SIM001.toml"):
+        (tmp_path / name).write_bytes((bench.parent / name).read_bytes())
+    (row,) = asked(tmp_path / "SIM001.toml").sensors
+    assert "check that the readings are in the order of the loads" in row.reason
 
 
 def test_five_directions_are_named_as_they_come(tmp_path: Path) -> None:

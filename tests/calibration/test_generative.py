@@ -368,3 +368,36 @@ def test_no_data_and_data_that_differ_are_refused() -> None:
     stretches: list[WindowMeans] = [read_by(anyhow()), read_by(anyhow(), response=EIGHT)]
     with pytest.raises(ValueError, match="expected one number of raw channels"):
         fit_generative(stretches, PRIOR, assumptions())
+
+
+def _wandering(rng: np.random.Generator, n: int, forgets_in_s: float) -> FloatArray:
+    """Ornstein-Uhlenbeck errors of size 1 every second; shape (n, 6)."""
+    kept = np.exp(-1.0 / forgets_in_s)
+    steps = rng.normal(size=(n, 6)) * np.sqrt(1.0 - kept**2)
+    steps[0] = rng.normal(size=6)
+    values = [steps[0]]
+    for step in steps[1:]:
+        values.append(kept * values[-1] + step)
+    return np.array(values)
+
+
+@pytest.mark.parametrize("with_prior", [True, False])
+@pytest.mark.parametrize("forgets_in_s", [15.0, 50.0])
+def test_an_accuracy_in_wrenches_is_no_error_of_each_channel_by_itself(forgets_in_s: float, with_prior: bool) -> None:
+    """References that wander by 0.9 N and 0.2 N m: pushes err as predicted, in force and in moment, prior or not.
+
+    Six channels without a prior took the moment for errors of the channels, which came back as errors of force,
+    10 to 20 times too large.
+    """
+    accuracy = np.repeat([0.9, 0.2], 3)
+    push = np.random.default_rng(0).normal(size=(50, 6)) * [50.0, 50.0, 50.0, 5.0, 5.0, 5.0]
+    ratios = []
+    for seed in range(4):
+        loads = np.repeat(anyhow(n=24, seed=seed), 10, axis=0)
+        reference = loads + accuracy * _wandering(np.random.default_rng(seed), len(loads), forgets_in_s)
+        data = replace(read_by(loads, seed=seed), reference=reference)
+        fit = fit_generative([data], PRIOR if with_prior else None, assumptions(accuracy=accuracy))
+        predicted = np.einsum("nii->i", fit.posterior.error_covariance(push)) / len(push)
+        error = ((push @ _excess(fit.model.matrix).T) ** 2).mean(axis=0)
+        ratios.append([error[part].sum() / predicted[part].sum() for part in (slice(3), slice(3, 6))])
+    assert (np.abs(np.log(np.sqrt(np.mean(ratios, axis=0)))) < np.log(1.6)).all()  # 36 coefficients, four times

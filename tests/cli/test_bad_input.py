@@ -205,7 +205,7 @@ BAD: dict[str, tuple[str, Callable[[], object], str]] = {
 def test_bad_input_is_one_line_and_no_file(arm: Path, run: Run, name: str, output: str) -> None:
     """The line says file and line or key; an earlier result keeps its bytes, a new one does not begin to exist."""
     form, damage, message = BAD[name]
-    Path(KEPT).write_text("an earlier result", encoding="utf-8")
+    Path(KEPT).write_text('{"schema": "forcetorque/calibration/1", "of": "an earlier result"}', encoding="utf-8")
     damage()
     before = snapshot(arm)
     assert message in run("calibrate", form, "-o", output).error()

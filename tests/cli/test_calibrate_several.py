@@ -73,7 +73,7 @@ def test_a_file_of_moments_is_no_place_to_write_to(days: Path, run: Run) -> None
     (kept,) = Path("kept").iterdir()
     before = kept.read_bytes()
     error = run("calibrate", CALIBRATION[1], str(kept), "-o", str(kept)).error()
-    assert "this is a file to read; choose another --output" in error
+    assert "expected a file to write that is not read, got an input" in error
     assert kept.read_bytes() == before
 
 

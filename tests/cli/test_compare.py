@@ -258,7 +258,7 @@ def test_a_figure_that_could_not_be_drawn_is_not_named(trials: Path, run: Run, m
     def refuse(groups: object) -> bytes:
         raise OSError("no room")
 
-    (trials / "compare.png").write_bytes(b"of another day")
+    (trials / "compare.png").write_bytes(b"\x89PNG\r\n\x1a\n of another day")
     monkeypatch.setattr(figures, "index_figure", refuse)
     words = ("compare", FIRST, SECOND, "--figure", "compare.png")
     result = _ended_with_failures(run(*words, "--format", "json"))

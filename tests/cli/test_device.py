@@ -88,6 +88,23 @@ def test_two_loads_tell_the_matrix(run: Run, folder: Path, tmp_path: Path) -> No
     assert (np.abs(matrix - truth) / np.abs(truth).max(axis=1, keepdims=True)).max() < MATRIX
 
 
+def test_the_documented_example_may_be_used(run: Run, folder: Path, tmp_path: Path) -> None:
+    """Pushes err by 0.2 N; the accuracy of the reference, 0.9 N and 0.2 N m, is no error of 19 N."""
+    new = tmp_path / "new.json"
+    assert run("calibrate", str(folder / "35_kg.toml"), str(folder / "15_kg.toml"), "-o", str(new)).code == 0
+    asked = run("evaluate", str(folder / "25_kg.toml"), "-c", str(new), "--format", "json")
+    (use,) = asked.result()["uses"]
+    assert use["decision"] == "use"
+    force = next(error for error in use["errors"] if error["quantity"] == "force")
+    truth = np.array(json.loads((folder / "truth.json").read_text())["sensors"]["ft_1"]["matrix"])
+    push = np.random.default_rng(0).normal(size=(200, 3))
+    push *= force["load"] / np.linalg.norm(push, axis=1, keepdims=True)
+    lever = np.random.default_rng(1).uniform(-0.17, 0.17, size=(200, 3))
+    load = np.hstack([push, np.cross(lever, push)])
+    error = load @ (read_calibration(new).matrix @ np.linalg.inv(truth) - np.eye(6))[:3].T
+    assert np.sqrt((error**2).sum(axis=1).mean()) < force["after_at_most"] < force["allowed"]
+
+
 def test_one_load_does_not(run: Run, folder: Path, tmp_path: Path) -> None:
     """Gravity makes no moment about the line through its two centres of mass: calibrate names it and stops."""
     asked = run("calibrate", str(folder / "35_kg.toml"), "-o", str(tmp_path / "new.json"))

@@ -175,7 +175,7 @@ def test_a_robot_may_be_told_of_a_jump_and_that_nothing_hangs_there(run: Run, tm
     outcome = run("payload", jumped, "--to", "hrpsys", "-o", tmp_path / "load")
     assert (outcome.code, "jump: the bias jumps in fz" in outcome.err) == (0, True)
     jumped.write_text(text.replace(f"mass_kg = {MASS}", "mass_kg = 0.0"))
-    outcome = run("payload", jumped, "--to", "hrpsys", "-o", tmp_path / "load")
+    outcome = run("payload", jumped, "--to", "hrpsys", "-o", tmp_path / "load", "--force")
     assert (outcome.code, "all masses are stated as 0" in outcome.err) == (0, True)
 
 

@@ -51,7 +51,7 @@ def test_what_is_exported_of_them_is_the_same(run: Run, files: tuple[str, str], 
     """The written files agree byte by byte."""
     written = []
     for file in files:
-        done = run("export", file, "--to", to.value, "-o", "out.file", "--format", "json")
+        done = run("export", file, "--to", to.value, "-o", "out.file", "--force", "--format", "json")
         written.append((Path("out.file").read_bytes(), done))
     (first, new), (second, old) = written
     assert first == second

@@ -379,7 +379,7 @@ def test_other_kinds_of_files_are_refused_before_anything_is_read(arm: Path, run
 @pytest.mark.parametrize(
     ("outputs", "message"),
     [
-        (["limits.html"], "limits.numbers.json: this is a file to read; choose another --output"),
+        (["limits.html"], "limits.numbers.json: expected a file to write that is not read, got an input"),
         (["none/report.html"], "none/report.html: expected an existing folder to write to, got none"),
     ],
 )

@@ -69,7 +69,8 @@ def test_without_a_recording_that_was_kept_back_it_says_so(run: Run, palm: Path)
 
 def test_bad_input_is_one_line(run: Run, palm: Path) -> None:
     """Outputs are refused before anything is read, a message of zeros by its row, a file twice by its name."""
-    assert "this is a file to read" in run("skin", "calibrate", "fit.toml", "-o", "fit.toml").error()
+    forced = run("skin", "calibrate", "fit.toml", "-o", "fit.toml", "--force")
+    assert "fit.toml: expected a file to write that is not read, got an input" in forced.error()
     assert "expected an existing folder" in run("skin", "calibrate", "fit.toml", "-o", "none/palm.json").error()
     assert "ends in .png" in run(*CALIBRATE, "--figure", "palm.jpg").error()
     assert "fit.toml" in run("skin", "calibrate", "fit.toml", "fit.toml", "-o", "palm.json").error()

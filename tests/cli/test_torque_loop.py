@@ -58,6 +58,8 @@ def test_errors_cost_tracking(loop: TorqueLoopStudy) -> None:
     [
         ("seeds = 1\n", "seeds"),
         ("[estimator]\ndelay_s = 0.0015\n", "expected a whole number of periods of the controller, 1 ms, got 1.5"),
+        ("[estimator]\ndelay_s = 1e306\n", "loop.toml: estimator.delay_s"),
+        ("[estimator]\nrate_hz = 1e-306\n", "loop.toml: estimator.rate_hz"),
         ("tilt_deg = [30.0]\n", "tilt_deg"),
         ("[drive]\nstiction = 1.0\n", "stiction"),
     ],

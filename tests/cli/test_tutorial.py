@@ -115,4 +115,4 @@ def test_the_file_itself_goes_to_standard_output(tmp_path: Path, monkeypatch: py
     content = tomllib.loads(run(*words, "-o", "-").out)
     assert (content["robot"]["urdf"], content["recording"]["path"]) == ("robot.urdf", ".")
     assert run(*words, "--format", "json").result()["questions"][0]["key"] == "serial"
-    assert "experiment.toml: there is such a file already" in run(*words).error()
+    assert "experiment.toml: expected a new file, or a result or figure to replace, got another" in run(*words).error()

@@ -3,8 +3,8 @@
 
 `python -m tests.estimation.fusion_trials` prints the figures of docs/fusion.md. Something pushes the forearm of the
 moving arm. Its joints' currents bear friction, which is fitted on a recording of its own, with nothing touching and the
-FT sensor trusted. Masses and motion are exact: errors of the model, which FT and skin would share, are not in these
-figures.
+FT sensor trusted. Masses and motion are exact here; `tests/estimation/model_error_trials.py` has arms that differ from
+their model.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ from forcetorque.estimation.fusion import (
     wrench_source,
 )
 from forcetorque.estimation.uncertain import Uncertainty
-from forcetorque.robot import JointMotion, RootMotion, Wrenches, build_tree, read_urdf
+from forcetorque.robot import JointMotion, RobotModel, RootMotion, Wrenches, build_tree, read_urdf
 from forcetorque.simulation import ARM_URDF, SimulatedMotor, Stand, random_movement
 from tests.estimation.fusion.sources import three
 
@@ -57,6 +57,8 @@ SKIN_PLACE_M: Final = 2e-3
 """Of the centre of pressure, sample by sample."""
 FLOOR_NM: Final = 0.01
 """Of what encoders leave open, sample by sample, in FT and skin each."""
+POSTURE_S: Final = 1.0
+"""Time over which errors of the model repeat themselves, where it has any; s; the default of `[fusion]`."""
 STANDSTILL: Final = 0.02
 VELOCITY_NOISE: Final = 2e-3
 
@@ -136,7 +138,11 @@ class Arm:
 
     def __init__(self, seed: int) -> None:
         self.rng = np.random.default_rng(seed)
-        self.stand = Stand(model=read_urdf(ARM_URDF), support="base", gravity_direction=np.array([0.0, 0.0, -1.0]))
+        self.model = read_urdf(ARM_URDF)
+        self.robot = self.model
+        self.model_deviation = np.full(len(JOINTS), FLOOR_NM)
+        self.noise_time_s = 0.0
+        self.stand = Stand(model=self.model, support="base", gravity_direction=np.array([0.0, 0.0, -1.0]))
         self.motors = [replace(MOTOR, offset_a=OFFSET_A * self.rng.standard_normal()) for _ in JOINTS]
         self.root = RootMotion.fixed(self.stand.gravity_direction, gravity=self.stand.gravity)
         self.push = Contact(link=LINK, name="push", type=ContactType.KNOWN)
@@ -144,9 +150,20 @@ class Arm:
         self.seconds = np.arange(round(DURATION_S * RATE_HZ)) / RATE_HZ
         self.stamp_ns = np.rint(self.seconds * 1e9).astype(np.int64)
 
+    def with_robot(self, robot: RobotModel) -> Arm:
+        """Let the arm be another one than its model, whose errors change with the posture."""
+        self.robot = robot
+        self.noise_time_s = POSTURE_S
+        return self
+
+    def stating(self, model_deviation: FloatArray) -> Arm:
+        """State other deviations of the model; shape (j,); N m."""
+        self.model_deviation = model_deviation
+        return self
+
     def question(self, *contacts: Contact, ft: bool = False) -> Question:
         """Ask for the torques; the base takes up what else there is."""
-        tree = build_tree(self.stand.model, "base")
+        tree = build_tree(self.model, "base")
         measured = ("arm_ft",) if ft else ()
         return Question(
             tree=tree,
@@ -165,7 +182,7 @@ class Arm:
         frictions = self._frictions()
         motion = self.motion()
         normal = 15.0 + 5.0 * np.sin(0.5 * self.seconds + self.rng.uniform(0.0, 6.0))
-        truth, ft_true = self._truth(motion, self._pushes(normal, SKIN_TANGENT * self.rng.standard_normal(2)))
+        truth, ft_true = self.truth(motion, self.pushes(normal, SKIN_TANGENT * self.rng.standard_normal(2)))
         ft = self._ft(motion, ft_true, faults.ft_n)
         skin = self._skin(motion, normal, faults.hot_n)
         current = self._current(motion, truth, frictions, faults.friction)
@@ -175,14 +192,14 @@ class Arm:
         )
         return Trial(truth=truth, sources=sources, fusion=fuse(sources))
 
-    def _pushes(self, normal: FloatArray, tangent: FloatArray) -> FloatArray:
+    def pushes(self, normal: FloatArray, tangent: FloatArray) -> FloatArray:
         """The push as a wrench about the origin of the link; shape (n, 6)."""
         force = normal[:, None] * (NORMAL + np.array([0.0, *tangent]))
         return np.hstack([force, np.cross(TOUCHED_M, force)])
 
-    def _truth(self, motion: JointMotion, pushes: FloatArray) -> tuple[FloatArray, FloatArray]:
+    def truth(self, motion: JointMotion, pushes: FloatArray) -> tuple[FloatArray, FloatArray]:
         """True torques, and what a perfect FT sensor reads."""
-        tree = build_tree(self.stand.model, "base")
+        tree = build_tree(self.robot, "base")
         asked = Question(tree=tree, contacts=(self.push,), torques=JOINTS, expected=("arm_ft",), equations=())
         answer = estimate(asked, motion, self.root, known=Wrenches.of({"push": pushes}))
         return answer.torques, answer.expected_of("arm_ft")
@@ -199,7 +216,8 @@ class Arm:
             self.root,
             self.stamp_ns,
             uncertainty=Uncertainty(measured={"arm_ft": FT_NOISE}, lasting={"arm_ft": FT_OFFSET}),
-            floor=FLOOR_NM,
+            model_deviation=self.model_deviation,
+            noise_time_s=self.noise_time_s,
             measured=Wrenches.of({"arm_ft": reading}),
         )
         return replace(source, torque=source.torque + FLOOR_NM * self.rng.standard_normal(source.torque.shape))
@@ -209,10 +227,10 @@ class Arm:
         gain = 1.0 + SKIN_GAIN * self.rng.standard_normal()
         hot = np.linspace(0.5, 1.0, n) * hot_n
         felt = gain * normal + hot + SKIN_NOISE_N * self.rng.standard_normal(n)
-        wrench = self._pushes(felt, np.zeros(2))
+        wrench = self.pushes(felt, np.zeros(2))
         shift = SKIN_PLACE_M * self.rng.standard_normal((n, 2))
         wrench[:, 4:] += np.stack([-shift[:, 1] * felt, shift[:, 0] * felt], axis=1)
-        unit = np.stack([self._pushes(np.ones(1), t)[0] for t in np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]])])
+        unit = np.stack([self.pushes(np.ones(1), t)[0] for t in np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]])])
         columns = np.vstack([unit[0], unit[1:] - unit[0]])
         lasting = felt[:, None, None] * (columns * np.array([[SKIN_GAIN], [SKIN_TANGENT], [SKIN_TANGENT]])).T
         place = np.zeros((6, 6))
@@ -225,7 +243,8 @@ class Arm:
             self.root,
             self.stamp_ns,
             uncertainty=Uncertainty(known={"push": noise}, lasting={"push": lasting}),
-            floor=FLOOR_NM,
+            model_deviation=self.model_deviation,
+            noise_time_s=self.noise_time_s,
             known=Wrenches.of({"push": wrench}),
         )
         return replace(source, torque=source.torque + FLOOR_NM * self.rng.standard_normal(source.torque.shape))
@@ -249,7 +268,7 @@ class Arm:
     def _frictions(self) -> list[Friction]:
         """Fit every joint while nothing touches and the FT sensor is trusted."""
         motion = self.motion()
-        truth, reading = self._truth(motion, np.zeros((len(self.seconds), 6)))
+        truth, reading = self.truth(motion, np.zeros((len(self.seconds), 6)))
         trusted = self._ft(motion, reading, 0.0)
         drive, (velocity, acceleration) = self._drive_torques(motion, truth, 1.0), self._seen(motion)
         return [
@@ -263,6 +282,7 @@ class Arm:
                 standstill=STANDSTILL,
                 trusted_variance=trusted.noise[:, k, k],
                 trusted_lasting=trusted.lasting[:, k],
+                trusted_shared=trusted.shared[:, k],
             )
             for k, joint in enumerate(JOINTS)
         ]
@@ -278,7 +298,8 @@ def _restated(source: TorqueSource, factor: float) -> TorqueSource:
     """The same source with another variance."""
     if factor == 1.0:
         return source
-    return replace(source, noise=factor * source.noise, lasting=np.sqrt(factor) * source.lasting)
+    root = np.sqrt(factor)
+    return replace(source, noise=factor * source.noise, lasting=root * source.lasting, shared=root * source.shared)
 
 
 def trials(faults: Faults, seeds: int = SEEDS, first: int = JUDGED) -> Iterator[Trial]:

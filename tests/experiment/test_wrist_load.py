@@ -17,7 +17,8 @@ from forcetorque.analysis import (
     weigh_load,
 )
 from forcetorque.analysis.inspect.findings import inspect_experiment
-from forcetorque.analysis.payload.contradictions import overweight_loads
+from forcetorque.analysis.payload import sense
+from forcetorque.analysis.payload.contradictions import overweight_loads, reference_doubts
 from forcetorque.calibration import ESTIMATION_TYPES, EstimationType
 from forcetorque.errors import ExperimentError, FitError, ForceTorqueError
 from forcetorque.experiment import load_experiment
@@ -419,6 +420,31 @@ def test_a_calibration_says_which_statement_the_readings_contradict(
     experiment = load_experiment(_write(tmp_path, text=TEXT.replace('["x", "y", "z"]', columns)))
     doubts = data_doubts(SensorRun(experiment, experiment.sensors[0]), by_model=False)
     assert any("the sensor is turned against the axes of the motion" in words for words in doubts) == contradicted
+
+
+def test_a_bias_that_steps_is_said_and_does_not_speak_against_the_calibration(tmp_path: Path) -> None:
+    """`calibrate` warns of it; in the file, of which verdicts are made, it is no doubt: the load is hardly changed."""
+    path = _write(tmp_path)
+    table = np.loadtxt(tmp_path / "poses.csv", delimiter=",", skiprows=1)
+    header = (tmp_path / "poses.csv").read_text().splitlines()[0]
+    table[20:, header.split(",").index("c")] += 3.0
+    np.savetxt(tmp_path / "poses.csv", table, delimiter=",", header=header, comments="")
+    experiment = load_experiment(path)
+    run = SensorRun(experiment, experiment.sensors[0])
+    jumps = [one.severity for one in _solution(path).hypotheses if one.name == "jump"]
+    assert jumps == ["caution"]
+    assert any("the bias jumps" in words for words in data_doubts(run, by_model=False))
+    assert not any("the bias jumps" in words for words in reference_doubts(run))
+
+
+def test_the_sense_of_a_reading_is_compared_once_for_a_fit(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Warnings of a fit and doubts in its file come from one computation."""
+    experiment = load_experiment(_write(tmp_path))
+    run, asked = SensorRun(experiment, experiment.sensors[0]), []
+    monkeypatch.setattr(sense, "_reversed_sense", lambda own: asked.append(own) or ["another sense"])
+    for doubts in ([*data_doubts(run, by_model=False)], reference_doubts(run)):
+        assert "another sense" in doubts
+    assert asked == [run]
 
 
 @pytest.mark.parametrize(("full_scale", "heavy"), [("100.0, 100.0, 200.0", False), ("8.0, 8.0, 8.0", True)])

@@ -110,6 +110,15 @@ def test_tables_that_are_none(tmp_path: Path, text: str, kind: type[Exception], 
         read_loads(path, measure_direction=MeasureDirection.CHILD_TO_PARENT)
 
 
+def test_a_table_that_is_no_text_is_refused(tmp_path: Path) -> None:
+    """With the byte where it ends to be one."""
+    (tmp_path / "loads.csv").write_bytes(b"# gravity_m_per_s2: 9.81\nname,\xb5\n")
+    with pytest.raises(
+        FormatError, match=r"loads\.csv: expected a table of loads.* no text at byte 30; save it as UTF-8"
+    ):
+        read_loads(tmp_path / "loads.csv", measure_direction=MeasureDirection.CHILD_TO_PARENT)
+
+
 def test_a_missing_table_leads_to_the_bundled_one(tmp_path: Path) -> None:
     """Its name stands in the message."""
     with pytest.raises(MissingFileError, match=THESIS_TABLE):

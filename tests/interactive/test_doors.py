@@ -18,7 +18,7 @@ from forcetorque.analysis import calibrate_skin as calibrate_skin_of_recordings
 from forcetorque.analysis import draft_experiment, evaluate, inspect_log, read_acceptance
 from forcetorque.analysis import workbench as workbench_of_recordings
 from forcetorque.cli.main import app
-from forcetorque.errors import ExperimentError, FitError, ForceTorqueError
+from forcetorque.errors import ExperimentError, FitError, ForceTorqueError, OutputError
 from forcetorque.interactive import (
     Run,
     calibrate_jointly,
@@ -33,7 +33,7 @@ from forcetorque.report import report
 from tests.interactive.arrays import arrays_of
 from tests.scenes.benches import write_bench
 from tests.scenes.experiment_folders import arm, intact
-from tests.scenes.experiments import PARQUET
+from tests.scenes.experiments import PARQUET, snapshot
 
 __all__ = ["arm", "intact"]
 
@@ -214,3 +214,38 @@ def test_a_page_of_posture_and_forces_is_written_from_what_a_script_holds(
         experiment.view(tmp_path / "leg.html", sensors=["leg"])
     with pytest.raises(ExperimentError, match="expected a Calibration"):
         experiment.view(tmp_path / "leg.html", "arm.json")  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("force", [False, True])
+@pytest.mark.parametrize("name", ["recording/arm_ft.parquet", "arm.urdf", PARQUET, "matrix_SIM001.txt"])
+def test_no_method_writes_over_what_it_has_read(arm: Path, name: str, force: bool) -> None:
+    """Not even by force, and not through a link."""
+    experiment = load_experiment(arm / PARQUET)
+    calibration = experiment["arm_ft"].calibrate()
+    document = experiment["arm_ft"].report(calibration)
+    for link in ("link.html", "link.csv"):
+        (arm / link).symlink_to(name)
+    before = snapshot(arm)
+    writers: tuple[Callable[[], object], ...] = (
+        lambda: calibration.save(arm / name, force=force),
+        lambda: document.save(arm / "link.html", force=force),
+        lambda: experiment.estimate(output=arm / "link.csv", force=force),
+        lambda: experiment.view(arm / name, force=force),
+        lambda: analysis.export_table({"new": calibration}, arm / name, force=force),
+    )
+    for write in writers:
+        with pytest.raises(OutputError, match="got an input of the result"):
+            write()
+    assert snapshot(arm) == before
+
+
+def test_a_method_replaces_a_result_and_needs_force_for_anything_else(arm: Path) -> None:
+    """A file of parameters that nobody here wrote stays as it is."""
+    calibration = load_experiment(arm / PARQUET)["arm_ft"].calibrate()
+    for _ in range(2):
+        calibration.save(arm / "new.json")
+    (arm / "mine.json").write_text('{"name": "mine"}')
+    with pytest.raises(OutputError, match="expected a new file, or a result or figure to replace"):
+        calibration.save(arm / "mine.json")
+    calibration.save(arm / "mine.json", force=True)
+    assert read_calibration(arm / "mine.json").sensor == calibration.sensor

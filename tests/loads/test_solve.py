@@ -148,6 +148,19 @@ def test_the_tilt_of_a_floor_is_found() -> None:
     assert np.rad2deg(solution.tilt_half_width).max() < 0.1
 
 
+def test_an_unknown_tilt_leaves_the_mass_of_a_sensor_that_turns() -> None:
+    """Each row is a mean over a turn of 0.6 rad, whose mean orientation is no rotation; a level world has no tilt."""
+    rng = np.random.default_rng(9)
+    world_R_sensor = Rotation.random(40, random_state=6).as_matrix()[:, None] @ np.stack(
+        [Rotation.from_rotvec([angle, 0.0, 0.0]).as_matrix() for angle in np.linspace(-0.3, 0.3, 11)]
+    )
+    gravity = np.einsum("nkji,j->nki", world_R_sensor, [0.0, 0.0, -9.80665]).mean(axis=1)
+    reading = weight(gravity) + BIAS + 1e-3 * SIZES * rng.normal(size=(40, 6))
+    solution = solve(problem_of(reading, gravity, orientation=world_R_sensor.mean(axis=1), tilt=True))
+    assert solution.loads[0].mass == pytest.approx(MASS, rel=1e-4)
+    assert np.abs(solution.tilt).max() < 1e-4
+
+
 def test_a_matrix_that_is_known_in_part_widens_the_mass() -> None:
     """A gain of 2 % that nobody knows is 2 % of the mass; a stated mass then tells the gain."""
     rng = np.random.default_rng(7)

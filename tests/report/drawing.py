@@ -370,6 +370,7 @@ def use_of(
     force: float = 4.0,
     before: float | None = 20.0,
     allowed: float | None = 8.0,
+    measured: float | None = None,
     reasons: tuple[Reason, ...] = (),
     **changed: Any,
 ) -> UseVerdict:
@@ -388,6 +389,7 @@ def use_of(
             after_at_least=0.5 * scale * force,
             after_at_most=2.0 * scale * force,
             allowed=limit,
+            measured=None if measured is None else scale * measured,
             axes=(scale * force,) * 3,
             from_matrix=scale * force,
             from_offset=0.0,
@@ -416,7 +418,10 @@ def use_of(
 
 
 def _use(rng: np.random.Generator) -> Figure:
-    uses = [use_of(load_case=name, force=rng.uniform(0.5, 30.0)) for name in ("push", "weight of the robot", "tool")]
+    uses = [
+        use_of(load_case=name, force=rng.uniform(0.5, 30.0), measured=rng.uniform(0.5, 30.0))
+        for name in ("push", "weight of the robot", "tool")
+    ]
     return use_figure(uses, {"leg.json": "leg.json"})
 
 
@@ -462,9 +467,15 @@ def _coherence(rng: np.random.Generator) -> Figure:
             samples=100,
             force_N=error + [0.0, 0.0, 324.7],
             force_error_N=error,
-            force_half_width_95_N=None if phase == "double_3" else np.abs(rng.normal(size=3)),
+            force_half_width_95_N=(None, 0.5, None) if phase == "double_3" else (1.0, 0.3, 0.7),
+            force_deviation_N=(1.0, 2.0, 0.5),
+            force_smallest_N=error - 3.0,
+            force_largest_N=error + 3.0,
             moment_error_Nm=None,
             moment_half_width_95_Nm=None,
+            moment_deviation_Nm=None,
+            moment_smallest_Nm=None,
+            moment_largest_Nm=None,
             evidence=phase != interval,
         )
         for offset, interval in ((Offset.ONE_LINK_IMU, "hanging"), (Offset.NONE, None))

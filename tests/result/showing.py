@@ -31,7 +31,7 @@ def folded(result: Result, width: int) -> set[str]:
 def require_shown(result: Result) -> None:
     """Narrow text keeps its numbers, the page every table, both say the warnings; a first cell is short."""
     assert folded(result, NARROW) == set()
-    page = result._repr_html_()
+    page = result._repr_html_().replace("\N{NO-BREAK SPACE}", " ")
     tables = [block for block in result.blocks() if isinstance(block, Table)]
     assert page.count("<table>") == len(tables) > 0
     for table in tables:

@@ -30,6 +30,6 @@ def test_print_and_page_say_what_is_doubtful() -> None:
     doubtful = _Whole(warnings=("fx < fy in 3 % of it", "no offset", "no offset"))
     require_shown(doubtful)
     assert str(doubtful).startswith("warning: fx < fy in 3 % of it\nwarning: no offset (2 times)\n\n")
-    assert doubtful._repr_html_().startswith("<p><b>warning:</b> fx &lt; fy in 3 % of it</p>")
+    assert doubtful._repr_html_().startswith("<p><b>warning:</b> fx &lt; fy in 3\N{NO-BREAK SPACE}% of it</p>")
     assert "warning" not in doubtful.text()
     assert str(_Whole()) == _Whole().text()

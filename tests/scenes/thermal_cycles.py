@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Literal
 
 import numpy as np
 
@@ -69,17 +70,38 @@ use = "calibration"
 
 
 def record(
-    rng: np.random.Generator, *, cycles: float = 2.0, hours: float = 2.0, swing_degC: float = 20.0
+    rng: np.random.Generator,
+    *,
+    cycles: float = 2.0,
+    hours: float = 2.0,
+    swing_degC: float = 20.0,
+    late_s: float = 0.0,
+    form: Literal["even", "wave", "exponential"] = "even",
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Instants, temperatures and readings of even cycles; half a cycle is a rise."""
+    """Instants, temperatures by a thermometer that is late, and readings of cycles; half a cycle is a rise."""
     n = int(hours * 3600.0 * RATE_HZ)
     time = np.arange(n) / RATE_HZ
-    phase = (time / (time[-1] + 1.0 / RATE_HZ) * cycles) % 1.0
-    warmth = swing_degC * (np.where(phase < 0.5, 2.0 * phase, 2.0 - 2.0 * phase) - 0.5)
+    whole = time / (time[-1] + 1.0 / RATE_HZ) * cycles
+    phase = whole % 1.0
+    warmth = swing_degC * _warmth(whole, form)
+    late = swing_degC * _warmth(np.maximum(whole - late_s * cycles / (3600.0 * hours), 0.0), form)
     reading = np.outer(warmth, PER_DEGREE) + np.outer(np.where(phase < 0.5, 0.5, -0.5), HYSTERESIS)
     reading += np.outer((time - time.mean()) / 3600.0, PER_HOUR) + np.array([10.0, 5.0, 20.0, 1.0, 1.0, 1.0])
     reading += UNIT * (SLOW * slow(rng, n) + WHITE * rng.normal(size=(n, 6)))
-    return time, MIDDLE_DEGC + warmth + 0.05 * rng.normal(size=n), reading
+    return time, MIDDLE_DEGC + late + 0.05 * rng.normal(size=n), reading
+
+
+def _warmth(whole: FloatArray, form: str) -> FloatArray:
+    """Warmth over its range, about its middle, by cycles; exponential ones last two thirds of a branch."""
+    phase = whole % 1.0
+    if form == "wave":
+        return np.asarray(-0.5 * np.cos(2.0 * np.pi * phase))
+    if form == "even":
+        return np.asarray(np.where(phase < 0.5, 2.0 * phase, 2.0 - 2.0 * phase) - 0.5)
+    reached, branch = 1.0 / (1.0 + np.exp(-1.5)), 3.0 * (phase % 0.5)
+    start = 1.0 - reached  # of a cycle that repeats itself
+    heated = 1.0 - (1.0 - start) * np.exp(-branch)
+    return np.asarray(np.where(phase < 0.5, heated, reached * np.exp(-branch)) - 0.5)
 
 
 def slow(rng: np.random.Generator, n: int) -> FloatArray:

@@ -13,6 +13,7 @@ from forcetorque.arrays import FloatArray
 from forcetorque.exchange.skin import write_layout_table
 from forcetorque.recording import Recording, write_recording
 from forcetorque.simulation.skin import (
+    NOISE_COUNTS,
     REFERENCE_PA,
     REST_COUNTS,
     ContactTruth,
@@ -118,3 +119,16 @@ def write_warmed(folder: Path) -> WarmShank:
     write_log(folder, "held", shank.recorded(HELD, touched=True))
     write_log(folder, "hand", shank.recorded(HAND, touched=True))
     return shank
+
+
+def late_pads(shank: WarmShank, warmth: Warmth, lag_s: float, *, touched: bool = False, seed: int = 7) -> Recording:
+    """A recording of it while it warms from inside, with pads that follow heat by a first-order lag."""
+    recording = shank.recorded(warmth, touched=touched, seed=seed)
+    seconds, counts = counts_of(recording)
+    since, heating = np.maximum(seconds - warmth.rest_s, 0.0), warmth.inside_s
+    left = heating * np.exp(-since / heating) - (lag_s * np.exp(-since / lag_s) if lag_s else 0.0)
+    rise = warmth.inside_K * (1.0 - left / (heating - lag_s))
+    level = shank.heat.pad_rest - rise[:, None] * shank.heat.pads
+    noise = NOISE_COUNTS * np.random.default_rng([seed, 1]).standard_normal(level.shape)
+    counts[:, shank.layout.thermal_pads] = np.rint(level + noise)
+    return with_counts(recording, counts)

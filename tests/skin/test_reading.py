@@ -69,7 +69,7 @@ def test_pressures_and_what_they_are_worth(reader: PatchReader) -> None:
     frame = reader.frame(messages(20.0, 10))
     live = reader.live
     np.testing.assert_allclose(frame.pressures[live].mean(), 20.0 * SLOPE_PA, rtol=0.01)
-    noise = SLOPE_PA * reader.noise * np.sqrt(1.0 / 10.0 + 1.0 / 100.0)
+    noise = SLOPE_PA * reader.noise[reader.table.taxels] * np.sqrt(1.0 / 10.0 + 1.0 / 100.0)
     np.testing.assert_allclose(frame.sd_Pa[live], np.hypot(noise, 300.0)[live])
     np.testing.assert_allclose(frame.hysteresis_Pa[live], 1500.0)
     assert not frame.beyond_range.any()

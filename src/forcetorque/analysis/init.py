@@ -26,8 +26,10 @@ from forcetorque.atomic import STANDARD_OUTPUT, write_bytes_atomically
 from forcetorque.constants import STANDARD_GRAVITY
 from forcetorque.errors import ExperimentError, ForceTorqueError
 from forcetorque.exchange.formats import format_named
+from forcetorque.exchange.log_sketch import skipped_words
 from forcetorque.experiment.inputs import Inputs
 from forcetorque.experiment.log_context import ExperimentContext
+from forcetorque.output_file import refuse_output
 from forcetorque.recording import Recording
 from forcetorque.result import Result, Row, Shown, Table, table_of
 from forcetorque.robot import JointType, RobotModel, read_urdf
@@ -105,6 +107,7 @@ def draft_experiment(
     *,
     urdf: Path | str | None = None,
     log_format: str | None = None,
+    force: bool = False,
 ) -> Draft:
     """Write the first experiment file of a log.
 
@@ -114,20 +117,22 @@ def draft_experiment(
 
     Args:
         logs: A log of any format, or several tables of one recording.
-        output: File to write, which must not be there yet; None to write none.
+        output: File to write; None to write none.
         urdf: The robot; None for a wrist sensor whose pose is logged.
         log_format: Name of the format; it is recognised by what is there if None.
+        force: Whether a file that is there already may be replaced.
 
     Returns:
         The file, and its questions.
 
     Raises:
-        ExperimentError: If there is such a file already, or no log is given.
+        OutputError: If there is such a file already.
+        ExperimentError: If no log is given.
         FormatError: If the log is of no known format.
     """
     file = Path("experiment.toml") if output is None else Path(output)
-    if output is not None and file != STANDARD_OUTPUT and file.exists():
-        raise ExperimentError(f"{file}: there is such a file already; choose another name, or move it away")
+    if output is not None:
+        refuse_output(file, force=force)
     files = [logs] if isinstance(logs, Path | str) else logs
     if not files:
         raise ExperimentError("expected a log to begin an experiment file of, got none")
@@ -241,6 +246,8 @@ def _notes(log: DraftedLog, sensors: Sequence[DraftedSensor], model: RobotModel 
         yield f"{sensor.stream}: looks like {what}; sensor {'to be named' if sensor.tags else sensor.name}"
     if not sensors:
         yield "no stream looks like the reading of a force-torque sensor; without one a log is inspected and viewed"
+    if log.skipped_arrays:
+        yield f"cannot be read, for these are no arrays of real numbers: {skipped_words(log.skipped_arrays)}"
     if log.description is not None:
         left_out = [one.stream for one in log.description.reading.findings if one.kind == "not_read"]
         if left_out:

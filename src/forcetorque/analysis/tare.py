@@ -12,7 +12,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from forcetorque.analysis.runs.added import warns_of_additions
+from forcetorque.analysis.runs.added import with_recording_notes
 from forcetorque.analysis.runs.offsets import sensor_offset
 from forcetorque.analysis.runs.sensor_run import SensorRun
 from forcetorque.arrays import FloatArray
@@ -86,7 +86,7 @@ class Tare(Result):
         )
 
 
-@warns_of_additions
+@with_recording_notes
 def tare(run: SensorRun, interval: str, *, name: str | None = None, calibration: Calibration | None = None) -> Tare:
     """Find the offset with which a sensor at rest reads what the model says of its load in that posture.
 

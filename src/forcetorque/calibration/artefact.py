@@ -29,6 +29,7 @@ from forcetorque.calibration.sensor_identity import SensorIdentity
 from forcetorque.calibration.validity import Validity
 from forcetorque.calibration.wrench_model import WrenchModel
 from forcetorque.errors import FormatError, RecordingError, SerialNumberError, ShapeError
+from forcetorque.output_file import refuse_output
 from forcetorque.part import Part, checked_part, read_json
 from forcetorque.result import Table, html_table, html_warnings
 from forcetorque.spatial import WRENCH_COMPONENTS, WRENCH_UNITS
@@ -201,12 +202,17 @@ class Calibration(Part):
         learnt = "" if shares is None else f"<p>{_learnt(shares)}</p>"
         return html_warnings(self.doubts) + html_table(table) + learnt
 
-    def save(self, path: Path | str) -> None:
+    def save(self, path: Path | str, *, force: bool = False) -> None:
         """Write the calibration as JSON; on any error the file keeps what it held before.
 
         Args:
             path: File to write or to replace, in an existing folder.
+            force: Whether a file that is neither a result nor a figure may be replaced; an input never is.
+
+        Raises:
+            OutputError: If the file is an input of it, or a file that `force` is needed for.
         """
+        refuse_output(path, inputs_sha256=self.provenance.inputs_sha256.values(), force=force)
         write_calibration(path, self)
 
     def in_session(self, name: str) -> Calibration:

@@ -3,12 +3,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray, read_only
+from forcetorque.arrays import BoolArray, FloatArray, read_only
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -41,3 +41,21 @@ class DataSet:
         for field, shape in (("time_s", (len(raw),)), ("flattening", (len(raw), 6))):
             if getattr(self, field) is not None:
                 object.__setattr__(self, field, read_only(getattr(self, field), name=field, shape=shape))
+
+    def kept(self, marks: BoolArray) -> DataSet:
+        """Keep some of the samples.
+
+        Args:
+            marks: Which; shape (n,).
+
+        Returns:
+            The others left out.
+        """
+        return replace(
+            self,
+            raw=self.raw[marks],
+            reference=self.reference[marks],
+            variables=self.variables[marks],
+            time_s=None if self.time_s is None else self.time_s[marks],
+            flattening=None if self.flattening is None else self.flattening[marks],
+        )

@@ -40,7 +40,7 @@ class Posterior(Part):
     """Mean and covariance of all unknowns."""
 
     space: Literal["wrench", "channel"]
-    """Whether rows are components of the wrench by the prior matrix, or channels."""
+    """Whether rows are components of the wrench, by the prior matrix or a rough one, or channels."""
     variables: tuple[str, ...]
     """Names of the variables."""
     sessions: tuple[str, ...]

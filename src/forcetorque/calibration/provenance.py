@@ -6,6 +6,7 @@ from __future__ import annotations
 from pydantic import Field
 
 from forcetorque.part import Part
+from forcetorque.recording.sample_quality import UnusableCounts
 
 
 class Content(Part):
@@ -49,6 +50,8 @@ class Provenance(Part):
     """Number of fitted samples."""
     dropped: int = Field(ge=0)
     """Samples of the intervals that were left out."""
+    unusable: UnusableCounts = UnusableCounts()
+    """Those among them that say nothing of the load: frozen, saturated, repeated; zeros in earlier files."""
     inputs_sha256: dict[str, str]
     """SHA-256 of every input file, by its path as the experiment file names it."""
     added: tuple[str, ...] = ()

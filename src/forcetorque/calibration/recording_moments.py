@@ -23,7 +23,9 @@ from forcetorque.calibration.moments import Moments
 from forcetorque.calibration.provenance import FittedInterval
 from forcetorque.calibration.sensor_identity import SensorIdentity
 from forcetorque.errors import FitError
+from forcetorque.output_file import refuse_output
 from forcetorque.part import Part, read_part
+from forcetorque.recording.sample_quality import UnusableCounts
 
 SCHEMA: Final = "forcetorque/moments/1"
 """Name and version of the file's form."""
@@ -44,6 +46,8 @@ class IntervalMoments(Part):
     """Number of samples."""
     dropped: int = Field(ge=0)
     """Samples of the interval that were left out."""
+    unusable: UnusableCounts = UnusableCounts()
+    """Those among them that say nothing of the load: frozen, saturated, repeated; zeros in earlier files."""
     raw_minimum_counts: _Vector
     """Smallest reading per channel; counts."""
     raw_maximum_counts: _Vector
@@ -74,13 +78,21 @@ class IntervalMoments(Part):
     """Variables at the same samples."""
 
     @classmethod
-    def of(cls, data: DataSet, interval: FittedInterval, *, dropped: int) -> IntervalMoments:
+    def of(
+        cls,
+        data: DataSet,
+        interval: FittedInterval,
+        *,
+        dropped: int,
+        unusable: UnusableCounts = UnusableCounts(),  # noqa: B008
+    ) -> IntervalMoments:
         """Reduce the samples of an interval.
 
         Args:
             data: Samples with their instants.
             interval: Which interval they are.
             dropped: Samples of the interval that were left out.
+            unusable: Those among them that say nothing of the load.
 
         Returns:
             What is kept of them.
@@ -92,6 +104,7 @@ class IntervalMoments(Part):
             recording=data.recording,
             samples=moments.count,
             dropped=dropped,
+            unusable=unusable,
             raw_minimum_counts=data.raw.min(axis=0),
             raw_maximum_counts=data.raw.max(axis=0),
             variable_minimum=data.variables.min(axis=0),
@@ -249,12 +262,17 @@ class RecordingMoments(Part):
         """What is known beside data and prior."""
         return Assumptions(full_scale=self.full_scale, accuracy=self.accuracy, repeatability=self.repeatability)
 
-    def save(self, path: Path | str) -> None:
+    def save(self, path: Path | str, *, force: bool = False) -> None:
         """Write it as JSON; on any error the file keeps what it held before.
 
         Args:
             path: File to write or to replace, in an existing folder.
+            force: Whether a file that is neither a result nor a figure may be replaced; an input never is.
+
+        Raises:
+            OutputError: If the file is an input of it, or a file that `force` is needed for.
         """
+        refuse_output(path, inputs_sha256=self.inputs_sha256.values(), force=force)
         text = json.dumps(self.model_dump(mode="json", by_alias=True), allow_nan=False)
         write_bytes_atomically(Path(path), (text + "\n").encode())
 

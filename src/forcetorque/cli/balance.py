@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from forcetorque.cli.options import CalibrationsOption, FormatOption
+from forcetorque.cli.options import CalibrationsOption, ForceOption, FormatOption
 from forcetorque.cli.output import Format, show, start_logging
 from forcetorque.errors import ForceTorqueError
 
@@ -50,6 +50,7 @@ def balance(
         Path | None,
         typer.Option("--figure", help="PNG of phases, loads and points of the first interval that it stands in."),
     ] = None,
+    force: ForceOption = False,
     output_format: FormatOption = Format.TABLE,
 ) -> None:
     """Say which feet bear the robot, and where.
@@ -63,9 +64,9 @@ def balance(
     from forcetorque.estimation.balance import ForceLimit
 
     log = start_logging()
-    refuse_figure(figure)
+    refuse_figure(figure, force=force)
     refuse_a_file_twice(experiments)
-    _refuse_output(output)
+    _refuse_output(output, force=force)
     options = BalanceOptions(
         touch=ForceLimit.of(touch),
         release=ForceLimit.of(release),
@@ -111,13 +112,13 @@ def _answer(
     return analysis.balance(recordings, corrections, options)
 
 
-def _refuse_output(output: Path | None) -> None:
+def _refuse_output(output: Path | None, *, force: bool) -> None:
     """Say so before work is done for a file that cannot be written."""
-    from forcetorque.atomic import refuse_unwritable
     from forcetorque.exchange.sample_table import SUFFIXES
+    from forcetorque.output_file import declare_outputs
 
     if output is None:
         return
     if output.suffix not in SUFFIXES:
         raise ForceTorqueError(f"--output {output}: expected a name that ends in {' or '.join(SUFFIXES)}")
-    refuse_unwritable(output)
+    declare_outputs(output, force=force)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
-from forcetorque.cli.options import FormatOption, SensorOption
+from forcetorque.cli.options import ForceOption, FormatOption, SensorOption
 from forcetorque.cli.output import Format, refuse_standard_output, report_error, show, start_logging
 from forcetorque.errors import ExperimentError, FitError, ForceTorqueError, known_names
 
@@ -74,6 +74,7 @@ def calibrate(
             "left of the equation of every part.",
         ),
     ] = None,
+    force: ForceOption = False,
     output_format: FormatOption = Format.TABLE,
 ) -> None:
     """Fit matrix and offset of each sensor to any number of recordings.
@@ -86,23 +87,24 @@ def calibrate(
     from forcetorque import analysis
     from forcetorque.cli.calibrate_jointly import calibrate_together, refuse_beside_jointly
     from forcetorque.cli.figure_file import refuse_figure
-    from forcetorque.cli.reading import campaign_of, read_experiments, refuse_inputs, stored_moments
+    from forcetorque.cli.reading import campaign_of, read_experiments, stored_moments
     from forcetorque.created import created_now
     from forcetorque.experiment.inputs import stated_in
+    from forcetorque.output_file import declare_outputs
 
     log = start_logging()
     refuse_standard_output("--output", output)
-    refuse_figure(figure)
+    refuse_figure(figure, force=force)
     if jointly:
         alone = {"--lambda": regularisation, "--type": kind, "--nonlinear": nonlinear, "--moments": moments}
         refuse_beside_jointly(alone)
-        calibrate_together(experiments, output, sensor, figure, log, output_format)
+        calibrate_together(experiments, output, sensor, figure, log, output_format, force=force)
         return
     stored = stored_moments(experiments)
     contents = read_experiments([path for path in experiments if path.suffix != ".json"], log)
     names = _sensors(contents, stored, sensor)
     files = _files(output, names)
-    refuse_inputs(files, experiments)
+    declare_outputs(*filter(Path.exists, files), force=force)  # folders of the others are made when they are written
     fit = partial(
         analysis.calibrate_for_file,
         code_version=version("forcetorque"),
@@ -119,13 +121,13 @@ def calibrate(
         try:
             with stated_in(f"{experiments[0]}: sensor {name!r}" if len(experiments) == 1 else f"sensor {name!r}"):
                 if moments is not None and campaign is not None:
-                    analysis.store_moments(campaign, moments)
+                    analysis.store_moments(campaign, moments, force=force)
                 results.append(fit(campaign, file, moments=own))
         except ForceTorqueError as error:  # a limb that stands still says nothing against the others
             refusals.append(error)
             _warn_of_doubts(campaign, log)
     if results:
-        refusals += _show(analysis.SensorCalibrations.together(results).save(), figure, output_format)
+        refusals += _show(analysis.SensorCalibrations.together(results).save(force=force), figure, output_format)
     _end(refusals)
 
 

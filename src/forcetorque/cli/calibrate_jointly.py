@@ -11,9 +11,10 @@ from pathlib import Path
 from forcetorque.analysis import JOINT_FILE, SensorCalibrations, calibrate_jointly, calibration_file
 from forcetorque.atomic import write_bytes_atomically
 from forcetorque.cli.output import Format, show
-from forcetorque.cli.reading import read_experiments, refuse_inputs, sensors_named
+from forcetorque.cli.reading import read_experiments, sensors_named
 from forcetorque.created import created_now
 from forcetorque.errors import ExperimentError
+from forcetorque.output_file import declare_outputs
 
 
 def refuse_beside_jointly(options: Mapping[str, object]) -> None:
@@ -39,6 +40,8 @@ def calibrate_together(
     figure: Path | None,
     log: logging.Logger,
     output_format: Format,
+    *,
+    force: bool,
 ) -> None:
     """Calibrate all sensors at once, write and show what comes out.
 
@@ -49,6 +52,7 @@ def calibrate_together(
         figure: File for the figure of what is left of the equations; None for none.
         log: Where messages go.
         output_format: Form of the result.
+        force: As of `declare_outputs`.
 
     Raises:
         ExperimentError: If the output is not a folder.
@@ -60,7 +64,7 @@ def calibrate_together(
     contents = list(read_experiments(experiments, log).values())
     chosen = sensors_named(contents[0], sensors)
     files = [output / calibration_file(sensor.name, sensor.serial) for sensor in chosen]
-    refuse_inputs([*files, output / JOINT_FILE], experiments)
+    declare_outputs(*filter(Path.exists, [*files, output / JOINT_FILE]), force=force)  # as of one sensor alone
     result = calibrate_jointly(
         contents,
         output,
@@ -69,7 +73,7 @@ def calibrate_together(
         created=created_now(),
         progress=log.info,
     )
-    written = result.save()
+    written = result.save(force=force)
     show(_drawn(written, figure) if figure is not None else written, output_format)
 
 

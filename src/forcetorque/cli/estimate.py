@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from forcetorque.cli.options import CalibrationsOption, ExperimentsArgument, FormatOption, OffsetOption
+from forcetorque.cli.options import CalibrationsOption, ExperimentsArgument, ForceOption, FormatOption, OffsetOption
 from forcetorque.cli.output import Format, show, start_logging
 from forcetorque.errors import ForceTorqueError
 
@@ -59,6 +59,7 @@ def estimate(
             help="PNG of joint torques over time, by source with --fuse; of several experiments one each, as -o.",
         ),
     ] = None,
+    force: ForceOption = False,
     output_format: FormatOption = Format.TABLE,
 ) -> None:
     """Estimate contact wrenches, joint torques and expected readings.
@@ -70,16 +71,23 @@ def estimate(
     from forcetorque.cli.figure_file import refuse_figure
     from forcetorque.cli.reading import read_calibrations, read_touched_robot
     from forcetorque.exchange.sample_table import SUFFIXES
+    from forcetorque.experiment import load_touched_robot
     from forcetorque.experiment.inputs import stated_in
+    from forcetorque.output_file import declare_outputs
 
     log = start_logging()
     _refuse_ending(output, SUFFIXES)
-    refuse_figure(figure)
+    refuse_figure(figure, force=force)
     refuse_a_file_twice(experiments)
+    files, figures = _outputs(experiments, output), {} if figure is None else _outputs(experiments, figure)
+    written = [*files.values(), *(file for file in figures.values() if file != figure)]
+    declare_outputs(*written, force=force)
+    if len(experiments) > 1 and any(file.exists() for file in written):
+        for path in experiments:  # what is written first may be an input of what is read last
+            load_touched_robot(path)
     calibrations = read_calibrations(calibration)
-    figures = {} if figure is None else _outputs(experiments, figure)
     summaries = {}
-    for path, file in _outputs(experiments, output).items():
+    for path, file in files.items():
         # a recording goes when its estimates are written: there may be more of them than memory holds
         content = read_touched_robot(path, log)
         with stated_in(str(path)):

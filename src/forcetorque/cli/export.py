@@ -9,12 +9,12 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from forcetorque.atomic import STANDARD_OUTPUT, refuse_unwritable
-from forcetorque.cli.options import FormatOption
+from forcetorque.atomic import STANDARD_OUTPUT
+from forcetorque.cli.options import ForceOption, FormatOption
 from forcetorque.cli.output import Format, refuse_two_on_standard_output, show, show_warnings, start_logging
 from forcetorque.errors import ForceTorqueError
 from forcetorque.exchange.export_format import ExportFormat
-from forcetorque.paths import real_path
+from forcetorque.output_file import declare_outputs
 
 if TYPE_CHECKING:
     from forcetorque.analysis import Export
@@ -47,6 +47,7 @@ def export(
             "--stream", help="Calibration that the stream is already made with. Default: the prior matrix alone."
         ),
     ] = None,
+    force: ForceOption = False,
     output_format: FormatOption = Format.TABLE,
 ) -> None:
     """Write calibrations as files that a robot or another program reads.
@@ -59,7 +60,8 @@ def export(
 
     log = start_logging()
     _require_consistent(calibration, to=to, full_scale=full_scale, sensor_name=sensor_name, stream=stream)
-    _refuse_output(output, calibration, output_format)
+    refuse_two_on_standard_output(output, output_format)
+    declare_outputs(output, force=force)
     calibrations = read_calibrations(calibration)
     made_with = None if stream is None else read_calibration(stream)
     writers: dict[ExportFormat, Callable[[], Export]] = {
@@ -104,10 +106,3 @@ def _require_consistent(
             f"{for_one}: expected --to {ExportFormat.WHOLEBODYDYNAMICS} and one calibration, "
             f"got --to {to} and {len(paths)}"
         )
-
-
-def _refuse_output(output: Path, paths: Sequence[Path], output_format: Format) -> None:
-    refuse_two_on_standard_output(output, output_format)
-    refuse_unwritable(output)
-    if real_path(output) in [real_path(path) for path in paths]:
-        raise ForceTorqueError(f"--output {output}: expected another file, got a calibration that is to be exported")

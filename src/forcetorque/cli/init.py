@@ -9,8 +9,9 @@ from typing import Annotated
 import typer
 
 from forcetorque.atomic import STANDARD_OUTPUT
-from forcetorque.cli.options import FormatOption
+from forcetorque.cli.options import ForceOption, FormatOption
 from forcetorque.cli.output import Format, refuse_two_on_standard_output, show, start_logging
+from forcetorque.output_file import declare_outputs
 
 
 def init(
@@ -25,6 +26,7 @@ def init(
         str | None,
         typer.Option(help="Format of the log, such as ros or hdf5, as in [recording]. Default: by what is there."),
     ] = None,
+    force: ForceOption = False,
     output_format: FormatOption = Format.TABLE,
 ) -> None:
     """Begin an experiment file of a log: what it does not say is a question.
@@ -35,6 +37,7 @@ def init(
 
     start_logging().info("reading %s", ", ".join(map(str, log)))
     refuse_two_on_standard_output(output, output_format)
-    draft = analysis.draft_experiment(log, output, urdf=urdf, log_format=log_format)
+    declare_outputs(output, force=force)
+    draft = analysis.draft_experiment(log, output, urdf=urdf, log_format=log_format, force=force)
     if output != STANDARD_OUTPUT:  # else the file itself went there
         show(draft, output_format)

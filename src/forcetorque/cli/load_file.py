@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from forcetorque.atomic import refuse_unwritable
 from forcetorque.cli.output import Format, refuse_two_on_standard_output
 from forcetorque.errors import ForceTorqueError
 from forcetorque.exchange.load_format import LoadFormat
+from forcetorque.output_file import declare_outputs
 
 if TYPE_CHECKING:
     import logging
@@ -36,13 +36,14 @@ SensorPoseOption = Annotated[
 ]
 
 
-def refuse_load_file(output: Path | None, to: LoadFormat | None, output_format: Format) -> None:
+def refuse_load_file(output: Path | None, to: LoadFormat | None, output_format: Format, *, force: bool) -> None:
     """Say what is wrong with the file before anything is estimated.
 
     Args:
         output: File to write; None for none.
         to: Its form.
         output_format: Form of the result.
+        force: As of `declare_outputs`.
 
     Raises:
         ForceTorqueError: If one of file and form is missing, or the file cannot be written.
@@ -53,7 +54,7 @@ def refuse_load_file(output: Path | None, to: LoadFormat | None, output_format: 
         )
     if output is not None:
         refuse_two_on_standard_output(output, output_format)
-        refuse_unwritable(output)
+        declare_outputs(output, force=force)
 
 
 def write_load(

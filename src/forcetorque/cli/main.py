@@ -40,6 +40,7 @@ from forcetorque.cli.validate import validate
 from forcetorque.cli.view import view
 from forcetorque.cli.workbench import workbench
 from forcetorque.errors import ForceTorqueError
+from forcetorque.run_files import files_of_one_run
 
 app = typer.Typer(
     name="forcetorque",
@@ -125,7 +126,8 @@ def main() -> None:
     """Run the command line; a known error is one line on standard error and exit code 2."""
     spell_missing_letters()
     try:
-        _program(sys.argv[1:2])()
+        with files_of_one_run():
+            _program(sys.argv[1:2])()
     except (ForceTorqueError, OSError) as error:
         report_error(error)
         raise SystemExit(2) from None

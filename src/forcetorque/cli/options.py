@@ -15,6 +15,12 @@ ExperimentsArgument = Annotated[
     list[Path], typer.Argument(help="Experiment files (TOML) with the same sensors; see docs/recording.md.")
 ]
 FormatOption = Annotated[Format, typer.Option("--format", help="Form of the result on standard output.")]
+ForceOption = Annotated[
+    bool,
+    typer.Option(
+        "--force", help="Replace a file that is neither a result nor a figure. An input of the command never is."
+    ),
+]
 SensorOption = Annotated[
     list[str] | None, typer.Option("--sensor", help="Sensor of the experiment; repeat for more. Default: all.")
 ]

@@ -12,7 +12,7 @@ from forcetorque.cli.load_file import (
     refuse_load_file,
     write_load,
 )
-from forcetorque.cli.options import ExperimentsArgument, FormatOption
+from forcetorque.cli.options import ExperimentsArgument, ForceOption, FormatOption
 from forcetorque.cli.output import Format, show, show_warnings, start_logging
 
 
@@ -22,6 +22,7 @@ def payload(
     output: LoadFileOption = None,
     world_frame: WorldFrameOption = None,
     sensor_pose: SensorPoseOption = None,
+    force: ForceOption = False,
     output_format: FormatOption = Format.TABLE,
 ) -> None:
     """Estimate mass, centre of mass and bias of a wrist sensor's load.
@@ -34,7 +35,7 @@ def payload(
     from forcetorque.experiment.inputs import stated_in
 
     log = start_logging()
-    refuse_load_file(output, to, output_format)
+    refuse_load_file(output, to, output_format, force=force)
     refuse_a_file_twice(experiments)
     runs = []
     for path in experiments:

@@ -12,11 +12,10 @@ from forcetorque.analysis import Campaign, SensorRun
 from forcetorque.analysis.runs.added import ADDED
 from forcetorque.analysis.runs.campaign_recording import refuse_a_file_twice
 from forcetorque.calibration import Calibration, RecordingMoments, read_calibration, read_moments
-from forcetorque.errors import ExperimentError, ForceTorqueError
+from forcetorque.errors import ExperimentError
 from forcetorque.experiment import Experiment, ExperimentSensor, load_experiment, load_shown, load_touched_robot
 from forcetorque.experiment.inputs import stated_in
 from forcetorque.experiment.planned import load_planned
-from forcetorque.paths import real_path
 
 
 def read_experiment(path: Path, log: logging.Logger) -> Experiment:
@@ -208,19 +207,3 @@ def refuse_left_out(
         name = experiment.sensor(calibration.sensor.name).name
         if name not in names:
             raise ExperimentError(f"{file}: calibrates {name!r}, which --sensor leaves out")
-
-
-def refuse_inputs(outputs: Iterable[Path], inputs: Iterable[Path]) -> None:
-    """Refuse to write over a file that is read.
-
-    Args:
-        outputs: Files to write.
-        inputs: Files that are read.
-
-    Raises:
-        ForceTorqueError: If one is both.
-    """
-    read = {real_path(path) for path in inputs}
-    for path in outputs:
-        if real_path(path) in read:
-            raise ForceTorqueError(f"{path}: this is a file to read; choose another --output")

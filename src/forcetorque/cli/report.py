@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from forcetorque.cli.options import FormatOption, PopulationOption
+from forcetorque.cli.options import ForceOption, FormatOption, PopulationOption
 from forcetorque.cli.output import Format, say, show, start_logging
 
 if TYPE_CHECKING:
@@ -31,6 +31,7 @@ def report(
     viewer: Annotated[
         bool, typer.Option("--viewer", help="Put the viewer of each experiment into the HTML; some 1 MB and more.")
     ] = False,
+    force: ForceOption = False,
     output_format: FormatOption = Format.TABLE,
 ) -> None:
     """Write everything about sensors into one document, verdict first.
@@ -41,13 +42,14 @@ def report(
 
     from forcetorque import report as reports
     from forcetorque.analysis import Demands, read_population
-    from forcetorque.cli.reading import read_shown, refuse_inputs
+    from forcetorque.cli.reading import read_shown
     from forcetorque.created import created_now
+    from forcetorque.output_file import declare_outputs
 
     log = start_logging()
     reports.require_writable(output)
     files = [*output, output[0].with_suffix(".numbers.json")]
-    refuse_inputs(files, results)
+    declare_outputs(*files, force=force)
     sources = reports.sort_sources(results)
     demands = Demands(acceptance=sources.acceptance, population=read_population(population) if population else None)
     experiments = [(str(path), read_shown(path, log)) for path in sources.experiments]

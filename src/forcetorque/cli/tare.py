@@ -18,7 +18,7 @@ from forcetorque.cli.load_file import (
     refuse_load_file,
     write_load,
 )
-from forcetorque.cli.options import ExperimentArgument, FormatOption, SensorOption
+from forcetorque.cli.options import ExperimentArgument, ForceOption, FormatOption, SensorOption
 from forcetorque.cli.output import Format, show, show_warnings, start_logging
 from forcetorque.errors import ForceTorqueError
 
@@ -39,6 +39,7 @@ def tare(
     output: LoadFileOption = None,
     world_frame: WorldFrameOption = None,
     sensor_pose: SensorPoseOption = None,
+    force: ForceOption = False,
     output_format: FormatOption = Format.TABLE,
 ) -> None:
     """Find the offset that keeps the weight of a load, from a stretch at rest.
@@ -50,7 +51,7 @@ def tare(
     from forcetorque.experiment.inputs import stated_in
 
     log = start_logging()
-    refuse_load_file(output, to, output_format)
+    refuse_load_file(output, to, output_format, force=force)
     calibrations = read_calibrations(calibration)
     content = read_experiment(experiment, log)
     chosen = sensors_named(content, sensor)

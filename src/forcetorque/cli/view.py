@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from forcetorque.atomic import STANDARD_OUTPUT, refuse_unwritable
-from forcetorque.cli.options import CalibrationsOption, FormatOption, SensorOption
+from forcetorque.atomic import STANDARD_OUTPUT
+from forcetorque.cli.options import CalibrationsOption, ForceOption, FormatOption, SensorOption
 from forcetorque.cli.output import (
     Format,
     refuse_standard_output,
@@ -19,6 +19,7 @@ from forcetorque.cli.output import (
     start_logging,
 )
 from forcetorque.errors import ForceTorqueError
+from forcetorque.output_file import declare_outputs
 
 if TYPE_CHECKING:
     from forcetorque.viewer import BuiltScene
@@ -58,6 +59,7 @@ def view(
     browser: Annotated[
         Path | None, typer.Option("--browser", help="Program that draws the video. Default: chromium or chrome.")
     ] = None,
+    force: ForceOption = False,
     output_format: FormatOption = Format.TABLE,
 ) -> None:
     """Show robot pose and force space, linked in time, in the browser.
@@ -68,7 +70,7 @@ def view(
     from forcetorque.cli.reading import read_calibrations, read_shown
 
     log = start_logging()
-    _refuse_contradictions(output, port, video)
+    _refuse_contradictions(output, port, video, force=force)
     refuse_two_on_standard_output(output, output_format)
     path, files = viewer.view_source(experiment, calibration or ())
     if video is not None:
@@ -94,13 +96,11 @@ def view(
         show(shown, output_format)
 
 
-def _refuse_contradictions(output: Path | None, port: int | None, video: Path | None) -> None:
+def _refuse_contradictions(output: Path | None, port: int | None, video: Path | None, *, force: bool) -> None:
     if port is not None and (output is not None or video is not None):
         raise ForceTorqueError("--port belongs to a page that is served; leave out --output and --video, or --port")
     refuse_standard_output("--video", video)
-    for file in (output, video):
-        if file is not None:
-            refuse_unwritable(file)
+    declare_outputs(output, video, force=force)
 
 
 def _serve(path: Path, built: BuiltScene, port: int, open_browser: bool, output_format: Format) -> None:

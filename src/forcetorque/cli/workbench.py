@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from forcetorque.cli.options import FormatOption
+from forcetorque.cli.options import ForceOption, FormatOption
 from forcetorque.cli.output import (
     Format,
     refuse_two_on_standard_output,
@@ -40,6 +40,7 @@ def workbench(
     figure: Annotated[
         Path | None, typer.Option("--figure", help="PNG of forces on the spheres of their loads, and of errors.")
     ] = None,
+    force: ForceOption = False,
     output_format: FormatOption = Format.TABLE,
 ) -> None:
     """Calibrate sensors with known loads, and find faults of the workbench.
@@ -49,18 +50,16 @@ def workbench(
     from importlib.metadata import version
 
     from forcetorque import analysis
-    from forcetorque.atomic import refuse_unwritable
     from forcetorque.cli.figure_file import refuse_figure
-    from forcetorque.cli.reading import refuse_inputs
     from forcetorque.created import created_now
+    from forcetorque.output_file import declare_outputs
 
     start_logging()
-    refuse_figure(figure)
+    refuse_figure(figure, force=force)
     if output is not None:
         _require_one(files, next_only=next_only)
         refuse_two_on_standard_output(output, output_format)
-        refuse_unwritable(output)
-        refuse_inputs([output], files)
+        declare_outputs(output, force=force)
     answer = analysis.workbench(
         [analysis.read_bench(file) for file in files],
         code_version=version("forcetorque"),

@@ -25,8 +25,9 @@ class PaddedSamples:
     """Their stamps; shape (n,); ns."""
     inside: BoolArray
     """Which of them lie in the interval; shape (n,)."""
-    wanted: int
-    """All samples of the interval that are not to be ignored, also those whose stamps do not step forward."""
+    among: BoolArray
+    """Which samples of the stream lie in the interval and are not to be ignored, also those whose stamps do not step
+    forward; shape (N,)."""
     window: SavitzkyGolay | None
     """The filter; None for none, and then nothing lies around the interval."""
     grid: EvenGrid | None
@@ -73,7 +74,7 @@ def padded_samples(
     Raises:
         RecordingError: If it lies outside the log, no sample is left, or the window holds too few samples.
     """
-    picked, wanted = pick_samples(recording, source, interval)
+    picked, among = pick_samples(recording, source, interval)
     stamps, rows, grid = source.stamp_ns, picked, None
     if window is not None:
         held = np.zeros(len(stamps), dtype=bool)
@@ -89,7 +90,7 @@ def padded_samples(
         rows=rows,
         stamp_ns=stamps[rows],
         inside=np.isin(rows, picked),
-        wanted=wanted,
+        among=among,
         window=window,
         grid=grid,
     )
@@ -112,7 +113,7 @@ def _same(first: Support | MovingSupport | None, second: Support | MovingSupport
     return False
 
 
-def pick_samples(recording: Recording, source: Stream, interval: Interval) -> tuple[IntArray, int]:
+def pick_samples(recording: Recording, source: Stream, interval: Interval) -> tuple[IntArray, BoolArray]:
     """Find the samples of an interval that are not to be ignored.
 
     Args:
@@ -121,7 +122,8 @@ def pick_samples(recording: Recording, source: Stream, interval: Interval) -> tu
         interval: The interval.
 
     Returns:
-        Indices of its samples with increasing stamps, shape (k,), and the number of all its samples.
+        Indices of its samples with increasing stamps, shape (k,), and which samples of the stream are its at all,
+        shape (N,).
 
     Raises:
         RecordingError: If it lies outside the log, or no sample is left.
@@ -142,4 +144,4 @@ def pick_samples(recording: Recording, source: Stream, interval: Interval) -> tu
     picked = usable[inside[usable]]
     if not len(picked):
         raise RecordingError(f"interval {interval.label!r}: stream {source.name!r} has no sample in it to use")
-    return picked, int(np.count_nonzero(inside))
+    return picked, inside

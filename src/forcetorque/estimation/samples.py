@@ -29,6 +29,7 @@ from forcetorque.recording import (
 )
 from forcetorque.recording.alignment import interpolate, require_overlap
 from forcetorque.recording.joints import joint_motion_at
+from forcetorque.recording.sample_quality import SampleQuality, UnusableCounts, repeated_samples
 from forcetorque.robot import JointMotion, RobotModel, RootMotion, build_tree
 
 
@@ -70,8 +71,10 @@ class SensorSamples:
     variables: FloatArray
     """Linear variables, in the order asked for; shape (n, v)."""
     dropped: int
-    """Samples of the interval left out: missing values, gaps in a joint, stamps that do not step forward, values that
-    a saturated board held."""
+    """Samples of the interval left out: missing values, gaps in a joint, those that are unusable, and what a filter
+    would make of these."""
+    unusable: UnusableCounts
+    """Samples of the interval that say nothing of the load."""
 
     def __post_init__(self) -> None:
         stamps = np.array(self.stamp_ns, dtype=np.int64)
@@ -99,6 +102,7 @@ def sensor_samples(
     apart: Collection[str] = (),
     evaluator: Evaluator | None = None,
     applied: str | None = None,
+    quality: SampleQuality | None = None,
 ) -> SensorSamples:
     """Pair the readings of a sensor in an interval with the wrenches expected from the robot model.
 
@@ -116,6 +120,7 @@ def sensor_samples(
         apart: Labels of intervals in which other links touch: the filter takes nothing from them.
         evaluator: Who computes the reference; by the number of samples of the interval if None.
         applied: Stream with the `applied_wrench`, which is the reference in place of the model's; none if None.
+        quality: What is wrong with each sample of the stream; what the board and the stamps say if None.
 
     Returns:
         Samples of the interval that lie in no ignored interval and have a finite reading, reference and variables.
@@ -135,17 +140,22 @@ def sensor_samples(
         else _applied(recording, source, applied, at_ns)
     )
     reading = source.signal(quantity)
-    values = np.where(source.held[padded.rows, None], np.nan, reading.values[padded.rows])
+    if quality is None:
+        nothing = np.zeros(len(source), dtype=bool)
+        quality = SampleQuality(frozen=nothing, saturated=source.held, repeated=repeated_samples(source.stamp_ns))
+    values = np.where(quality.unusable[padded.rows, None], np.nan, reading.values[padded.rows])
     extra = _variables(recording, source, variables, at_ns)
     # together, because a sample that only one of them lacks would give them different filters
     whole = padded.smoothed(np.hstack([values, reference, flattening, extra]))
     values, reference, flattening, extra = np.split(whole, values.shape[1] + np.array([0, 6, 12]), axis=1)
     complete = np.isfinite(whole).all(axis=1)
+    unusable = quality.counted(padded.among)
     if not complete.any():
         needed = ", ".join((*joints, *(f"{v.stream} {v.column}" for v in variables))) or "motion of the support"
         raise RecordingError(
             f"interval {interval.label!r}: none of {len(whole)} samples of {stream!r} has both a reading and the "
-            f"joint(s) {needed}; the streams have gaps or missing values all over it"
+            f"joint(s) {needed}; the streams have gaps or missing values all over it, or samples that say nothing "
+            f"of the load: {unusable}"
         )
     return SensorSamples(
         label=interval.label,
@@ -154,8 +164,46 @@ def sensor_samples(
         reference=reference[complete],
         flattening=flattening[complete],
         variables=extra[complete],
-        dropped=padded.wanted - int(np.count_nonzero(complete)),
+        dropped=int(np.count_nonzero(padded.among)) - int(np.count_nonzero(complete)),
+        unusable=unusable,
     )
+
+
+def expected_wrench(
+    recording: Recording,
+    model: RobotModel,
+    *,
+    sensor: str,
+    stream: str,
+    interval: Interval,
+    at_ns: IntArray,
+    processing: Processing,
+    applied: str | None = None,
+) -> FloatArray:
+    """Give the wrench that a sensor is expected to read, whatever it read.
+
+    Args:
+        recording: As of `sensor_samples`.
+        model: As of `sensor_samples`.
+        sensor: As of `sensor_samples`.
+        stream: As of `sensor_samples`.
+        interval: As of `sensor_samples`.
+        at_ns: Instants; shape (n,); ns.
+        processing: As of `sensor_samples`.
+        applied: As of `sensor_samples`.
+
+    Returns:
+        Wrenches in the sensor's frame and direction; shape (n, 6); N, N m; NaN in gaps.
+
+    Raises:
+        RecordingError: If the interval has no support, a needed joint is in no stream, or streams do not overlap.
+    """
+    source = recording.stream(stream)
+    if applied is not None:
+        return _applied(recording, source, applied, at_ns)[0]
+    if interval.support is None:
+        raise RecordingError(f"interval {interval.label!r}: expected a support frame, got none")
+    return _expected(recording, model, sensor, source, interval.support, at_ns, processing, None)[0]
 
 
 def _variables(recording: Recording, source: Stream, variables: Sequence[ScalarSource], at_ns: IntArray) -> FloatArray:
@@ -185,13 +233,9 @@ def _reference(
     evaluator: Evaluator | None,
 ) -> tuple[FloatArray, FloatArray, tuple[str, ...]]:
     """Expected wrench of a sensor at given instants, what a longer window takes from it, and the joints it needed."""
-    name = model.sensor(sensor).name
-    question = Question(tree=build_tree(model, support.frame), expected=(name,), equations=())
-    needed = required_joints_of(question)
 
     def expected(how: Processing) -> tuple[FloatArray, tuple[str, ...]]:
-        joints, root = robot_motion_at(recording, model, support, needed, source, at_ns, processing=how)
-        return estimate(question, joints, root, evaluator=evaluator).expected_of(name), joints.names
+        return _expected(recording, model, sensor, source, support, at_ns, how, evaluator)
 
     reference, names = expected(processing)
     if processing.logged_derivatives:
@@ -200,6 +244,24 @@ def _reference(
     longer = replace(processing, derivative_window=replace(window, window_s=2.0 * window.window_s))
     # near the end of a log there may be no room for the longer window
     return reference, np.nan_to_num(reference - expected(longer)[0]), names
+
+
+def _expected(
+    recording: Recording,
+    model: RobotModel,
+    sensor: str,
+    source: Stream,
+    support: Support | MovingSupport,
+    at_ns: IntArray,
+    processing: Processing,
+    evaluator: Evaluator | None,
+) -> tuple[FloatArray, tuple[str, ...]]:
+    """Expected wrench of a sensor at given instants, and the joints it needed."""
+    name = model.sensor(sensor).name
+    question = Question(tree=build_tree(model, support.frame), expected=(name,), equations=())
+    needed = required_joints_of(question)
+    joints, root = robot_motion_at(recording, model, support, needed, source, at_ns, processing=processing)
+    return estimate(question, joints, root, evaluator=evaluator).expected_of(name), joints.names
 
 
 def robot_motion_at(

@@ -42,6 +42,8 @@ class GainChange(StrEnum):
     """The channel comes closer to a limit than the margin."""
     LOWER_AND_REPEAT = "lower_and_repeat"
     """The channel saturates, so that nobody knows how far it would have gone: repeat the motion with less gain."""
+    UNKNOWN = "unknown"
+    """The load did not move, so that nothing tells how far the channel goes in use."""
     NONE_FITS = "none_fits"
     """The channel saturates or lacks the margin, and no lower gain is allowed."""
 
@@ -62,6 +64,8 @@ class ChannelRange:
     """Largest magnitude of a reading; counts."""
     saturated_samples: int
     """Samples at the limit, as `saturation_findings` has it."""
+    moved: bool = True
+    """Whether the recording shows a load in this channel that moves."""
 
     @property
     def headroom_below(self) -> float:
@@ -93,10 +97,10 @@ class GainAdvice:
     present: float | None
     """Gain with which the recording was made; None if it is not known."""
     recommended: float | None
-    """Allowed gain to set; None if no gains are known, or none fits."""
+    """Allowed gain to set; None if no gains are known, none fits, or the load did not move."""
     largest_factor: float | None
     """Factor on the gain that would leave just the margin; where the channel saturates, an upper bound;
-    None for a channel that reads zero throughout."""
+    None for a channel that reads zero throughout, or whose load did not move."""
     factor: float
     """Factor on the counts that the expected readings are made with: that of the recommended gain, else the largest."""
     change: GainChange
@@ -169,7 +173,8 @@ def advise_gains(
 
     A channel that saturates gets a lower gain in any case, and is to be recorded again. Where no gain
     keeps the margin, the lowest one is taken if it is below the present one. Where present or allowed
-    gains are not known, the largest factor takes the place of a gain.
+    gains are not known, the largest factor takes the place of a gain. A channel in which no load moves and that
+    keeps the margin gets no advice.
 
     Args:
         ranges: What each channel read.
@@ -226,6 +231,17 @@ def _advice(channel: ChannelRange, present: float | None, allowed: Sequence[floa
     free = (1.0 - margin) * channel.limit_counts
     largest = free / channel.peak_counts if channel.peak_counts > 0.0 else None
     recommended = None
+    if not channel.moved and not channel.saturated_samples and channel.peak_counts <= free:
+        return GainAdvice(
+            channel=channel.channel,
+            present=present,
+            recommended=None,
+            largest_factor=None,
+            factor=1.0,
+            change=GainChange.UNKNOWN,
+            expected=channel,
+            keeps_margin=True,
+        )
     if present is not None and allowed:
         recommended = _choose(channel, present, allowed, largest)
         factor = 1.0 if recommended is None else recommended / present

@@ -25,6 +25,7 @@ from forcetorque.exchange.ros import RosFormat
 from forcetorque.exchange.tabular.hindrance import hindrance
 from forcetorque.exchange.tabular.log_format import TabularFormat
 from forcetorque.exchange.yarp.log_format import YarpFormat
+from forcetorque.input_file import accept_input
 from forcetorque.recording.joined import joined_stream
 
 LOG_FORMATS: tuple[LogFormat[Any], ...] = (
@@ -119,8 +120,9 @@ def recognised_format(path: Path) -> LogFormat[Any] | None:
         The format; None if no format knows it.
 
     Raises:
-        FormatError: If several do.
+        FormatError: If several do, or it is neither a file nor a folder.
     """
+    accept_input(path)
     formats = [known for known in LOG_FORMATS if known.recognises(path)]
     if len(formats) > 1:
         raise FormatError(

@@ -1,28 +1,32 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""HDF5 files: whatever h5py stumbles over is one error, and no dataset is larger than its file can fill."""
+"""HDF5 files: whatever h5py stumbles over is one error, and nothing is read that is not in the file itself.
+
+A file can name others: by external links, virtual datasets and external storage, which are any files of the machine.
+None is followed.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from forcetorque.arrays import FloatArray
-from forcetorque.errors import ForceTorqueError, FormatError, MissingExtraError, MissingFileError
+from forcetorque.errors import ForceTorqueError, FormatError, MissingExtraError
+from forcetorque.exchange.hdf5_layout import elsewhere
+from forcetorque.input_file import require_file, require_unpacked
 
 if TYPE_CHECKING:
     import h5py
 
 SIGNATURE = b"\x89HDF\r\n\x1a\n"
 """What the file begins with, or what stands at byte 512, 1024, 2048, ... behind a header of somebody else's."""
-LARGEST_DATASET = 1 << 28
-"""Numbers of one dataset, 2 GiB: an hour of 1 kHz with 70 columns."""
 LARGEST_RATIO = 1100
-"""Bytes of a dataset for each byte of its file: what gzip packs at most. A file that claims more is damaged, or made to
-fill the memory."""
+"""Bytes of a dataset for each byte of its file: what gzip packs at most. A file that claims more is damaged."""
 MOST_OBJECTS = 10_000
 """Groups and datasets of a file: the robots with most channels have hundreds."""
 DEEPEST = 32
@@ -76,8 +80,7 @@ def opened_hdf5(path: Path) -> Iterator[h5py.File]:
         import h5py
     except ImportError as error:
         raise MissingExtraError(f"{path}: HDF5 is read by h5py: pip install forcetorque[hdf5]") from error
-    if not path.is_file():
-        raise MissingFileError(f"{path}: expected an HDF5 file, there is none")
+    require_file(path, "an HDF5 file")
     if not is_hdf5_file(path):
         raise FormatError(f"{path}: expected an HDF5 file, got another one; name the file of the log")
     try:
@@ -90,14 +93,26 @@ def opened_hdf5(path: Path) -> Iterator[h5py.File]:
         raise FormatError(f"{path}: expected a whole HDF5 file, got one that cannot be read: {reason}") from error
 
 
-def datasets(group: h5py.Group) -> Iterator[h5py.Dataset]:
-    """Give all datasets below a group; links are not followed, nor what MATLAB keeps for itself.
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Member:
+    """A dataset of a file, or what stands in place of one."""
+
+    path: str
+    """Its path in the file."""
+    dataset: Any
+    """The dataset; None where its numbers are elsewhere."""
+    elsewhere: str | None
+    """Why its numbers are not in the file; None where they are."""
+
+
+def members(group: h5py.Group) -> Iterator[Member]:
+    """Give all datasets and links below a group; links are not followed, nor what MATLAB keeps for itself.
 
     Args:
         group: A group of an open file.
 
     Yields:
-        Its datasets.
+        Its datasets and links.
 
     Raises:
         FormatError: If it holds more than a log can.
@@ -113,19 +128,89 @@ def datasets(group: h5py.Group) -> Iterator[h5py.Dataset]:
                 raise FormatError(
                     f"{group.file.filename}: expected at most {MOST_OBJECTS} datasets, groups {DEEPEST} deep, got more"
                 )
-            hard = isinstance(here.get(name, getlink=True), h5py.HardLink)
-            entry = here[name] if hard and not name.startswith("#") else None
+            if name.startswith("#"):
+                continue
+            if not is_member(here, name):
+                yield Member(path=f"{here.name.rstrip('/')}/{name}", dataset=None, elsewhere="link")
+                continue
+            place = elsewhere(here, name)
+            if place is not None:
+                yield Member(path=f"{here.name.rstrip('/')}/{name}", dataset=None, elsewhere=place)
+                continue
+            entry = here[name]
             if isinstance(entry, h5py.Dataset):
-                yield entry
+                yield Member(path=entry.name, dataset=entry, elsewhere=None)
             elif isinstance(entry, h5py.Group):
                 pending.append((entry, depth + 1))
+
+
+def datasets(group: h5py.Group) -> Iterator[h5py.Dataset]:
+    """Give the datasets below a group whose numbers are in the file.
+
+    Args:
+        group: A group of an open file.
+
+    Yields:
+        Its datasets.
+
+    Raises:
+        FormatError: If it holds more than a log can.
+    """
+    yield from (entry.dataset for entry in members(group) if entry.elsewhere is None)
+
+
+def is_member(group: Any, name: str) -> bool:
+    """Tell whether a group has a member of its own, not a link to one.
+
+    Args:
+        group: A group of an open file.
+        name: Name of the member.
+
+    Returns:
+        Whether it has.
+    """
+    import h5py
+
+    return isinstance(group.get(name, getlink=True), h5py.HardLink)
+
+
+def member(group: h5py.Group, name: str) -> Any:
+    """Give a group or dataset by its name, which must be in the file itself.
+
+    Args:
+        group: A group of an open file.
+        name: Name in the group, or path below it.
+
+    Returns:
+        The group or dataset.
+
+    Raises:
+        FormatError: If it is not there, or a link.
+    """
+    import h5py
+
+    here = group
+    for part in name.split("/"):
+        if not isinstance(here, h5py.Group) or not is_member(here, part):
+            raise FormatError(
+                f"{group.file.filename}: {group.name}: expected {name} in the file itself, got none or a link; copy it "
+                "there"
+            )
+        place = elsewhere(here, part)
+        if place is not None:
+            raise FormatError(
+                f"{group.file.filename}: {group.name}: {name}: expected numbers in the file itself, got a {place}; "
+                "save them in one file"
+            )
+        here = here[part]
+    return here
 
 
 def is_numeric(dataset: Any) -> bool:
     """Tell whether a dataset holds real numbers; texts and objects of MATLAB are numbers too, but no samples.
 
     Args:
-        dataset: A dataset.
+        dataset: A dataset whose numbers are in the file.
 
     Returns:
         Whether it does.
@@ -144,29 +229,38 @@ def dataset_numbers(dataset: Any) -> FloatArray:
         Its numbers, in its shape.
 
     Raises:
-        FormatError: If it holds something else, or is larger than its file can fill.
+        FormatError: If it holds something else, or is not readable.
     """
-    require_size(dataset)
+    require_readable([dataset])
     if not is_numeric(dataset):
         raise FormatError(f"{_place(dataset)}: expected real numbers, got {dataset.dtype}; name another dataset")
     return np.asarray(dataset[()], dtype=np.float64)
 
 
-def require_size(dataset: Any) -> None:
-    """Refuse a dataset that claims to be larger than its file can fill, before it is read.
+def require_readable(several: Iterable[Any]) -> None:
+    """Refuse datasets that are more than their file may unpack to, before any is read.
 
     Args:
-        dataset: A dataset of an open file.
+        several: Datasets of an open file that are read together, by `members` or `member`.
 
     Raises:
-        FormatError: If it is.
+        FormatError: If they are too large.
     """
-    size, limit = dataset.size or 0, LARGEST_RATIO * Path(dataset.file.filename).stat().st_size
-    if size > LARGEST_DATASET or size * dataset.dtype.itemsize > limit:
-        raise FormatError(
-            f"{_place(dataset)}: expected at most {LARGEST_DATASET} numbers, and {LARGEST_RATIO} bytes for each of the "
-            f"file, got {size}; split the log, or copy the file again"
-        )
+    import h5py
+
+    unpacked = 0
+    for dataset in several:
+        if not isinstance(dataset, h5py.Dataset):
+            raise FormatError(f"{_place(dataset)}: expected a dataset, got a group; name another one")
+        path, size = Path(dataset.file.filename), dataset.size or 0
+        limit = LARGEST_RATIO * path.stat().st_size
+        if size * dataset.dtype.itemsize > limit:
+            raise FormatError(
+                f"{_place(dataset)}: expected at most {LARGEST_RATIO} bytes for each of the file, got "
+                f"{size * dataset.dtype.itemsize}; copy the file again"
+            )
+        unpacked += size * max(dataset.dtype.itemsize, np.dtype(np.float64).itemsize)
+        require_unpacked(path, unpacked, where=str(dataset.name)[:100])
 
 
 def _place(dataset: Any) -> str:

@@ -3,13 +3,16 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Protocol, runtime_checkable
 
 import numpy as np
 
 from forcetorque.arrays import FloatArray, IntArray
+
+_MOST_LISTED = 20
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -27,13 +30,13 @@ class SketchedColumns:
     is_number: bool = True
     """Whether it holds numbers, as far as it was looked at."""
     smallest: float | None = None
-    """Smallest of the numbers that were looked at; None for none."""
+    """Smallest of its numbers; None for none."""
     largest: float | None = None
-    """Largest of the numbers that were looked at; None for none."""
+    """Largest of its numbers; None for none."""
     mean: float | None = None
-    """Mean of the numbers that were looked at; None for none."""
+    """Mean of its numbers; None for none."""
     step: float | None = None
-    """Median step, in seconds of dates, where the numbers that were looked at rise as times do; else None."""
+    """Median step, in seconds of dates, where its first numbers rise as times do; else None."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -57,9 +60,18 @@ class LogSketch:
     has_headings: bool = True
     """Whether the file itself names them; without, they are called by their number, from 1."""
     quaternion: tuple[int, ...] = ()
-    """Places of the first columns of four that have norm 1 in every row, as quaternions do."""
-    rows_looked_at: int | None = None
-    """How many rows were looked at from the first; None where no number was."""
+    """Places of the first columns of four that have norm 1 in each of the first rows, as quaternions do."""
+    skipped_arrays: Mapping[str, str] = field(default_factory=dict)
+    """Of a file of arrays what no experiment file can state, such as `1 x 3 struct array`, by its name."""
+    ranged_rows: int | None = None
+    """How many rows, from the first, the smallest, largest and mean numbers are of; None for all."""
+    stopped: str | None = None
+    """Why they are not of all."""
+
+    @property
+    def range_words(self) -> str:
+        """Words about the rows that ranges are of, where these are not all; else empty."""
+        return "" if self.ranged_rows is None else f" in the first {self.ranged_rows} rows"
 
 
 def median_step(values: FloatArray | IntArray) -> float | None:
@@ -75,6 +87,19 @@ def median_step(values: FloatArray | IntArray) -> float | None:
     steps = np.diff(values)
     median = float(np.median(steps)) if len(steps) and (steps >= 0).all() else 0.0
     return median if median > 0.0 else None
+
+
+def skipped_words(skipped: Mapping[str, str]) -> str:
+    """List what of a file of arrays cannot be read.
+
+    Args:
+        skipped: As of a sketch.
+
+    Returns:
+        Names, each with what it is, of many the first; empty for none.
+    """
+    shown = [f"{name} ({content})" for name, content in list(skipped.items())[:_MOST_LISTED]]
+    return ", ".join(shown) + (f" and {len(skipped) - len(shown)} more" if len(skipped) > len(shown) else "")
 
 
 @runtime_checkable

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -20,6 +20,7 @@ from forcetorque.experiment.tables.fusion import FusionTable, MotorTable
 from forcetorque.experiment.tables.load_case import LoadCaseTable
 from forcetorque.experiment.tables.plan import PlanTable
 from forcetorque.recording import Interval, MovingSupport, Recording, ScalarSource, Stream, Support, Use
+from forcetorque.recording.sample_quality import SampleQuality
 from forcetorque.robot import RobotModel
 
 if TYPE_CHECKING:
@@ -206,6 +207,8 @@ class Experiment:
     """What hangs on a wrist sensor; None for a robot."""
     link_loads: LinkLoads | None = None
     """What hangs on links of a robot beside what its URDF says; None for nothing."""
+    qualities: dict[str, SampleQuality] = field(default_factory=dict, init=False)
+    """What is wrong with the samples of every sensor that was read, by its name; filled by `sample_quality`."""
 
     def __repr__(self) -> str:
         sensors = ", ".join(f"{sensor.name} ({sensor.serial})" for sensor in self.sensors)

@@ -9,6 +9,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from forcetorque.errors import ForceTorqueError
+from forcetorque.input_file import accept_input
 
 
 class Inputs:
@@ -26,8 +27,12 @@ class Inputs:
 
         Returns:
             Path to open.
+
+        Raises:
+            FormatError: If a pipe or a device is there.
         """
         path = self.folder / relative
+        accept_input(path)
         self._read[relative.as_posix()] = path
         return path
 
@@ -40,10 +45,14 @@ class Inputs:
 
         Returns:
             Path of the folder.
+
+        Raises:
+            FormatError: If one of the files is a pipe or a device.
         """
         path = self.folder / relative
         for pattern in patterns:
             for file in sorted(path.glob(pattern)):
+                accept_input(file)
                 self._read[(relative / file.name).as_posix()] = file
         return path
 

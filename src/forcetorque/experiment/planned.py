@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import tomllib
 from pathlib import Path
 from typing import Annotated, Literal
 
@@ -11,7 +10,7 @@ import numpy as np
 from pydantic import Field
 
 from forcetorque.calibration import LinearVariable
-from forcetorque.errors import ExperimentError
+from forcetorque.errors import ExperimentError, ForceTorqueError
 from forcetorque.experiment import schema
 from forcetorque.experiment.content import Experiment, ExperimentSensor, SensorVariable
 from forcetorque.experiment.inputs import Inputs
@@ -29,7 +28,7 @@ from forcetorque.experiment.tables.processing import ProcessingTable
 from forcetorque.experiment.tables.sensor import Sensor
 from forcetorque.recording import Recording, ScalarSource, Support
 from forcetorque.robot import RobotModel
-from forcetorque.toml_table import Table, Text, read_toml
+from forcetorque.toml_table import Table, Text, read_toml, toml_content
 
 
 class PlannedSensor(Sensor):
@@ -121,8 +120,8 @@ def load_planned(path: Path | str) -> Experiment:
 def _tables(file: Path) -> set[str] | None:
     """What the file states; None of one that cannot be read, which is left to the reader that says why."""
     try:
-        return set(tomllib.loads(file.read_text(encoding="utf-8")))
-    except (OSError, ValueError, RecursionError):
+        return set(toml_content(file)[1])
+    except (ForceTorqueError, OSError, ValueError, RecursionError):
         return None
 
 

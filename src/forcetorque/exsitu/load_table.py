@@ -11,8 +11,9 @@ from typing import Final
 
 import numpy as np
 
-from forcetorque.errors import FormatError, MissingFileError, UnitError, known_names
+from forcetorque.errors import FormatError, UnitError, known_names
 from forcetorque.exsitu.loads import BenchLoads, Weights
+from forcetorque.input_file import read_text
 from forcetorque.spatial import MeasureDirection
 
 THESIS_TABLE: Final = "thesis-6.1"
@@ -43,10 +44,8 @@ def read_loads(source: Path | str, *, measure_direction: MeasureDirection) -> Be
     """
     if str(source) == THESIS_TABLE:
         where, text = "Table 6.1", resources.files("forcetorque.exsitu").joinpath("table_6_1.csv").read_text("utf-8")
-    elif not Path(source).is_file():
-        raise MissingFileError(f"{source}: expected a table of loads, or {THESIS_TABLE!r} for the bundled one")
     else:
-        where, text = str(source), Path(source).read_text(encoding="utf-8")
+        where, text = str(source), read_text(Path(source), f"a table of loads, or {THESIS_TABLE!r} for the bundled one")
     gravity = _GRAVITY.search(text)
     if gravity is None:
         raise FormatError(f"{where}: expected a line `# gravity_m_per_s2: 9.81` above the heading, got none")

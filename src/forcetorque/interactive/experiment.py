@@ -22,6 +22,7 @@ from forcetorque.experiment.contacts import contact_in_words
 from forcetorque.experiment.content import Experiment as ExperimentContent
 from forcetorque.experiment.load import load_experiment as load_content
 from forcetorque.interactive.run import Run
+from forcetorque.output_file import refuse_output
 from forcetorque.result import Table, html_table, html_warnings
 
 if TYPE_CHECKING:  # what shows takes long to import, and most scripts do not
@@ -43,7 +44,7 @@ class Experiment(ExperimentContent):
         Returns:
             The same, with its sensors by name.
         """
-        return cls(**{field.name: getattr(content, field.name) for field in fields(content)})
+        return cls(**{field.name: getattr(content, field.name) for field in fields(content) if field.init})
 
     def __getitem__(self, sensor: str) -> Run:
         """Choose a sensor.
@@ -144,6 +145,7 @@ class Experiment(ExperimentContent):
         offset: OffsetPolicy | str = "fitted",
         fuse: bool = False,
         output: Path | str | None = None,
+        force: bool = False,
     ) -> analysis.EstimateSummary:
         """Estimate contact wrenches, joint torques and expected readings.
 
@@ -155,10 +157,16 @@ class Experiment(ExperimentContent):
             offset: Where offsets come from, such as `one-link-imu:hanging`.
             fuse: Whether joint torques of sensors, known contacts and motors are made one, beside each other.
             output: File for every sample, .parquet or .csv; none if left out.
+            force: Whether a file that is neither a result nor a figure may be replaced; an input never is.
 
         Returns:
             Mean norms of contacts and residuals, with every sample in `intervals`.
+
+        Raises:
+            OutputError: If the file is an input, or one that `force` is needed for.
         """
+        if output is not None:
+            refuse_output(output, inputs_sha256=self.inputs_sha256.values(), force=force)
         stated = [contact_in_words(words, self.model) for words in contacts] if contacts else None
         corrections = analysis.corrections_of(self, named(calibrations), offset=offset)
         patches = analysis.frames_of_patches(self)
@@ -175,7 +183,12 @@ class Experiment(ExperimentContent):
         return summary.model_copy(update={"intervals": tuple(spans)})
 
     def view(
-        self, output: Path | str, calibrations: Calibrations | None = None, *, sensors: Sequence[str] | None = None
+        self,
+        output: Path | str,
+        calibrations: Calibrations | None = None,
+        *,
+        sensors: Sequence[str] | None = None,
+        force: bool = False,
     ) -> View:
         """Write robot pose and force space, linked in time, as a page: `experiment.view("view.html", calibration)`.
 
@@ -183,15 +196,18 @@ class Experiment(ExperimentContent):
             output: File of the page, which works offline in any browser.
             calibrations: How sensors are read, beside their priors; of a sensor any number.
             sensors: Sensors to show; all if left out.
+            force: As of `estimate`.
 
         Returns:
             What the page shows. A robot from arrays is drawn without its looks, whose files only its URDF names.
 
         Raises:
             ForceTorqueError: If there are too many samples for one file; `forcetorque view` serves them.
+            OutputError: As of `estimate`.
         """
         from forcetorque.viewer import View, build_scene, write_page
 
+        refuse_output(output, inputs_sha256=self.inputs_sha256.values(), force=force)
         robot = parse_experiment(self.file).robot if self.file.is_file() else None
         urdf = None if robot is None else self.file.parent / robot.urdf
         built = build_scene(self, named(calibrations), urdf=urdf, sensors=sensors)

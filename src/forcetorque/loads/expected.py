@@ -12,11 +12,16 @@ from forcetorque.loads.guess import Guess, rotation_by
 from forcetorque.loads.load import Load
 from forcetorque.loads.problem import LoadProblem
 from forcetorque.loads.rows import LoadRows
-from forcetorque.loads.unknowns import OF_LOAD, Kind, places, six_of
+from forcetorque.loads.unknowns import OF_LOAD, Kind, inertia_of, places, six_of
 from forcetorque.spatial import reading_sign, skew
 
 _SMALL = 1e-5
 """rad: step of the differences that give derivatives by rotations; what is left is of the order of its square."""
+
+_SIX = np.array([inertia_of(six) for six in np.eye(6)])
+"""What each of the six numbers of an inertia is as a matrix; shape (6, 3, 3)."""
+_GYROSCOPIC = np.einsum("ijk,akl->iajl", -skew(np.eye(3)), _SIX)
+"""`w x I w` by the six numbers of I and the products of w; shape (3, 6, 3, 3)."""
 
 
 def load_columns(rows: LoadRows, rotation: FloatArray, tilt: FloatArray) -> FloatArray:
@@ -34,19 +39,21 @@ def load_columns(rows: LoadRows, rotation: FloatArray, tilt: FloatArray) -> Floa
         return turned_by(rotation) @ rows.columns
     acceleration = rows.proper_acceleration
     if len(tilt) and rows.orientation is not None:
+        # the change alone: a mean of orientations is no rotation, so that there and back would shorten the mean
         upwards = np.einsum("nij,nj->ni", rows.orientation, acceleration)
-        turned = upwards @ rotation_by(np.append(tilt, 0.0)).T
-        acceleration = np.einsum("nji,nj->ni", rows.orientation, turned)
+        change = upwards @ (rotation_by(np.append(tilt, 0.0)) - np.eye(3)).T
+        acceleration = acceleration + np.einsum("nji,nj->ni", rows.orientation, change)
     acceleration = acceleration @ rotation.T
     columns = np.zeros((len(rows), 6, 10))
     columns[:, :3, 0] = acceleration
     columns[:, 3:, 1:4] = -skew(acceleration)  # h x a
-    if rows.angular_velocity is None or rows.angular_acceleration is None:
+    if rows.angular_velocity_products is None or rows.angular_acceleration is None:
         return columns
-    velocity, turning = rows.angular_velocity @ rotation.T, rows.angular_acceleration @ rotation.T
-    hat = skew(velocity)
-    columns[:, :3, 1:4] = skew(turning) + hat @ hat
-    columns[:, 3:, 4:] = _second_columns(turning) + hat @ _second_columns(velocity)
+    turning = rows.angular_acceleration @ rotation.T
+    products = rotation @ rows.angular_velocity_products @ rotation.T
+    squared = np.trace(products, axis1=1, axis2=2)[:, None, None] * np.eye(3)
+    columns[:, :3, 1:4] = skew(turning) + products - squared  # w x (w x h) = (w w' - w'w) h
+    columns[:, 3:, 4:] = np.einsum("aij,nj->nia", _SIX, turning) + np.einsum("iajl,njl->nia", _GYROSCOPIC, products)
     return columns
 
 
@@ -62,14 +69,6 @@ def turned_by(rotation: FloatArray) -> FloatArray:
     turned = np.zeros((6, 6))
     turned[:3, :3] = turned[3:, 3:] = rotation
     return turned
-
-
-def _second_columns(vector: FloatArray) -> FloatArray:
-    """`I v` as columns of the six numbers of I; shape (n, 3, 6)."""
-    x, y, z = vector.T
-    none = np.zeros_like(x)
-    lines = [[x, none, none, y, z, none], [none, y, none, x, none, z], [none, none, z, none, x, y]]
-    return np.array(lines).transpose(2, 0, 1)
 
 
 def inertial(load: Load, number: int, guess: Guess) -> tuple[FloatArray, FloatArray]:

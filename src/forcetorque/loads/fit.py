@@ -169,6 +169,8 @@ def fit(problem: LoadProblem, *, drift: bool) -> Fit:
     weight = np.ones(len(problem.rows))
     for _ in range(_ROUNDS):
         fitted = _weighed_fit(problem, drift=drift, weight=weight)
+        if (np.abs(fitted.residual) <= _ROUNDING * noise_sizes(problem.rows.wrench)).all():
+            break
         lighter = row_weights(row_distances(fitted.groups, fitted.directions.basis, fitted.estimate, weight))
         if np.allclose(lighter, weight, rtol=0.02, atol=1e-4):
             break
@@ -181,8 +183,10 @@ def _weighed_fit(problem: LoadProblem, *, drift: bool, weight: FloatArray) -> Fi
     guess, residual = plain_fit(problem, drift=drift, weight=weight)
     shapes = SHAPES[:1] if rows.time_s is None else SHAPES
     linear = not any(one.kind in (Kind.MOUNT, Kind.TILT, Kind.MATRIX) for one in guess.parameters)
-    sizes = noise_sizes(residual * np.sqrt(rows.share * weight)[:, None])
-    for _ in range(2 if linear and rows.angular_velocity is None else 4):
+    # what exact rows leave is rounding, of which a part may be exactly zero
+    rounding = _ROUNDING * noise_sizes(rows.wrench)
+    sizes = noise_sizes(np.hypot(residual * np.sqrt(rows.share * weight)[:, None], rounding))
+    for _ in range(2 if linear and rows.angular_velocity_products is None else 4):
         design = changes(problem, guess)
         precision, sides = before(problem, guess)
         directions = directions_of(design / sizes[:, None], precision)
@@ -192,7 +196,7 @@ def _weighed_fit(problem: LoadProblem, *, drift: bool, weight: FloatArray) -> Fi
         answer = estimate(groups, basis, prior, shapes)
         guess = guess.moved(guess.values + basis @ answer.mean)
         residual = rows.wrench - expected(problem, guess)
-        used, sizes = sizes, sizes_under(groups_of(rows, design, residual, sizes, weight), answer, sizes)
+        used, sizes = sizes, sizes_under(groups_of(rows, design, residual, sizes, weight), answer, sizes, rounding)
     return Fit(
         problem=problem,
         guess=guess,

@@ -72,13 +72,14 @@ def noise_sizes(residual: FloatArray) -> FloatArray:
     return size
 
 
-def sizes_under(groups: tuple[Group, Group], estimate: Estimate, sizes: FloatArray) -> FloatArray:
+def sizes_under(groups: tuple[Group, Group], estimate: Estimate, sizes: FloatArray, rounding: FloatArray) -> FloatArray:
     """Give the size of the noise of each axis as it is where slow noise counts as little as it is worth.
 
     Args:
         groups: Forces and moments, with what is left as values.
         estimate: Shape of the noise.
         sizes: Sizes that the groups are over; shape (6,); N, N m.
+        rounding: Noise that exact rows have of rounding; shape (6,); N, N m.
 
     Returns:
         Shape (6,); N, N m.
@@ -87,4 +88,4 @@ def sizes_under(groups: tuple[Group, Group], estimate: Estimate, sizes: FloatArr
     for group, noise in zip(groups, estimate.shapes, strict=True):
         solved, _ = group.line.solve(group.values[:, None], noise)
         squares.append((group.values * solved[:, 0]).reshape(3, -1).mean(axis=1))
-    return noise_sizes(np.sqrt(np.maximum(np.concatenate(squares), 0.0))[None] * sizes)
+    return noise_sizes(np.hypot(np.sqrt(np.maximum(np.concatenate(squares), 0.0)) * sizes, rounding)[None])

@@ -9,13 +9,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
 from forcetorque.arrays import FloatArray
 from forcetorque.loads.expected import masses, turned_by
 from forcetorque.loads.fit import Fit, plain_fit
-from forcetorque.loads.guess import Guess
 from forcetorque.loads.jump import strongest_jump
 from forcetorque.loads.mounting import first_mount, quarter_turns, turn_words
 from forcetorque.loads.problem import LoadProblem
@@ -43,12 +43,19 @@ _EXPLAINED = 0.02
 """Where less than this part of the change of the readings is left, nothing but jumps and lags is looked for."""
 _TURNED = 0.1
 """Gravity turns if it is by this part of itself from its mean, on average."""
+_MOVED = 0.01
+"""The load moves if its acceleration is by this part of itself from its mean in each power-up."""
+_SURE = 2.0
+"""Half-widths of its interval by which a mass must be below 0 to contradict the sense of the reading."""
 _LAGS = np.concatenate([-np.arange(0.1, 2.05, 0.1), np.arange(0.1, 2.05, 0.1)])
 """Lags that are tried; s."""
 
 
 def hypotheses(fitted: Fit, *, drift: bool) -> tuple[Hypothesis, ...]:
     """Name what explains the rows better than the problem as stated.
+
+    Where the readings stay while the load moves, the log is frozen, and nothing else is looked for; where no load
+    moves, rows tell nothing of frames, clocks and units.
 
     Args:
         fitted: The problem as stated.
@@ -57,18 +64,34 @@ def hypotheses(fitted: Fit, *, drift: bool) -> tuple[Hypothesis, ...]:
     Returns:
         The best first.
     """
-    problem = fitted.problem
+    problem, rows = fitted.problem, fitted.problem.rows
+    if not _moves(rows):
+        return (*_unit_of_gravity(rows), *_stated_as_nothing(problem))
+    if np.abs(rows.moved(rows.wrench)).max() <= _ROUNDING * np.abs(rows.wrench).max():
+        words = f"all {len(rows)} rows have the same reading: the log is frozen, or nothing was read"
+        return (Hypothesis(name="frozen log", words=words, residual_share=1.0),)
     guess, residual = plain_fit(problem, drift=drift)
-    stated = unexplained(problem.rows, residual)
-    named = [*_of_sizes(problem, guess), *_of_short_levers(fitted), *_of_nothing(fitted), *_reversed(fitted)]
+    stated = unexplained(rows, residual)
+    named = [*_unit_of_gravity(rows), *_of_levers(fitted), *_stated_as_nothing(problem), *_reversed(fitted)]
     if stated > _EXPLAINED:
         for name, words, limit, other in _others(problem):
             share = unexplained(other.rows, plain_fit(other, drift=drift)[1]) / stated
             if share < limit:
                 named.append(Hypothesis(name=name, words=words, residual_share=share))
     named += scales(problem, guess, other_sizes=not named)
-    named += [*_lag(problem, residual, drift=drift), *_jump(fitted, residual, drift=drift)]
+    named += _lag(problem, residual, drift=drift)
+    named += _of_nothing(fitted) if not named else ()
+    named += _jump(fitted, residual, drift=drift)
     return tuple(sorted(named, key=lambda one: one.residual_share))
+
+
+def _moves(rows: LoadRows) -> bool:
+    """Whether the load moves within a power-up, or another one is hung."""
+    gravity = rows.proper_acceleration
+    moved = float(np.sqrt((rows.moved(gravity) ** 2).sum(axis=1).mean()))
+    if moved > _MOVED * float(np.linalg.norm(gravity, axis=1).max(initial=0.0)):
+        return True
+    return len(np.unique(np.stack([rows.session, rows.load]), axis=1).T) > len(np.unique(rows.session))
 
 
 def unexplained(rows: LoadRows, residual: FloatArray) -> float:
@@ -110,15 +133,15 @@ def _others(problem: LoadProblem) -> Iterator[tuple[str, str, float, LoadProblem
         turn = min(quarter_turns()[1:], key=lambda turn: float(((turn - first_mount(problem)) ** 2).sum()))
         words = f"the sensor is turned against the axes of the motion: {turn_words(turn)}; state the frames so"
         acceleration = rows.proper_acceleration @ turn.T
-        yield "turned axes", words, _CLEARLY, replace(problem, rows=_turned(rows, turn, acceleration))
+        turned = replace(problem, rows=_turned(rows, turn, acceleration), tilt=False)
+        yield "turned axes", words, _CLEARLY, turned
 
 
 def _turned(rows: LoadRows, turn: FloatArray, acceleration: FloatArray) -> LoadRows:
-    others = {
-        field: getattr(rows, field) @ turn.T
-        for field in ("angular_velocity", "angular_acceleration")
-        if getattr(rows, field) is not None
-    }
+    others: dict[str, Any] = {}
+    if rows.angular_velocity_products is not None and rows.angular_acceleration is not None:
+        others["angular_velocity_products"] = turn @ rows.angular_velocity_products @ turn.T
+        others["angular_acceleration"] = rows.angular_acceleration @ turn.T
     for field in ("columns", "known"):
         values = getattr(rows, field)
         if values is not None:
@@ -138,7 +161,7 @@ def _reversed(fitted: Fit) -> Iterator[Hypothesis]:
     )
     half = fitted.half_width
     for k, one in enumerate(fitted.guess.parameters):
-        if one.kind is Kind.MASS and fitted.guess.values[k] + half[k] < 0.0:
+        if one.kind is Kind.MASS and fitted.guess.values[k] + _SURE * half[k] < 0.0:
             yield Hypothesis(name="reversed direction", words=words, residual_share=1.0)
             return
     if all(load.mass is not None for load in problem.loads):
@@ -148,40 +171,37 @@ def _reversed(fitted: Fit) -> Iterator[Hypothesis]:
             yield Hypothesis(name="reversed direction", words=words, residual_share=turned / stated)
 
 
-def _of_sizes(problem: LoadProblem, guess: Guess) -> Iterator[Hypothesis]:
-    """Numbers of a size that no load has."""
-    rows = problem.rows
+def _unit_of_gravity(rows: LoadRows) -> Iterator[Hypothesis]:
+    """Gravity of another size."""
     gravity = float(np.median(np.linalg.norm(rows.proper_acceleration, axis=1)))
-    if rows.angular_velocity is None and not 9.0 < gravity < 10.6:
+    if rows.angular_velocity_products is None and not 9.0 < gravity < 10.6:
         words = f"gravity is {gravity:.4g} m/s2: its unit is another one, such as g; state the unit of the column"
         yield Hypothesis(name="unit of gravity", words=words, residual_share=1.0)
+
+
+def _of_levers(fitted: Fit) -> Iterator[Hypothesis]:
+    """Centres of mass that are surely farther from the sensor's origin, or nearer to it, than any load can be."""
+    problem, guess, half = fitted.problem, fitted.guess, fitted.half_width
     for number, (load, mass) in enumerate(zip(problem.loads, masses(problem, guess), strict=True)):
         first = guess.of(Kind.FIRST_MOMENT, number)
-        if len(first) and abs(mass) > 0.0 and np.linalg.norm(first) > _FAR_M * abs(mass):
-            far = float(np.linalg.norm(first) / abs(mass))
+        if not len(first) or not np.isfinite(mass):
+            continue
+        size, error = (
+            float(np.linalg.norm(values)) for values in (first, half[guess.index[Kind.FIRST_MOMENT, number]])
+        )
+        weighed = guess.index.get((Kind.MASS, number), [])
+        mass_error = float(half[weighed[0]]) if weighed else 0.0
+        if not np.isfinite(error + mass_error):
+            continue
+        nearest = (size - error) / (abs(mass) + mass_error)
+        if nearest > _FAR_M:
             words = (
-                f"the centre of mass of {load.name!r} is {far:.3g} m away: moments may be in N mm, or forces in kg; "
-                "state the units of the columns"
+                f"the centre of mass of {load.name!r} is at least {nearest:.3g} m away: moments may be in N mm, or "
+                "forces in kg; state the units of the columns"
             )
             yield Hypothesis(name="mixed units", words=words, residual_share=1.0)
-    still = ~(rows.wrench != rows.wrench[:1]).any()
-    if len(rows) > 1 and still:
-        words = f"all {len(rows)} rows have the same reading: the log is frozen, or nothing was read"
-        yield Hypothesis(name="frozen log", words=words, residual_share=1.0)
-
-
-def _of_short_levers(fitted: Fit) -> Iterator[Hypothesis]:
-    """Centres of mass that are told from the sensor's origin, and nearer to it than any load can be."""
-    problem, guess, half = fitted.problem, fitted.guess, fitted.half_width
-    if problem.rows.columns is not None:
-        return  # the frame of a load on a link has its origin anywhere, at the centre of mass too
-    for number, (load, mass) in enumerate(zip(problem.loads, masses(problem, guess), strict=True)):
-        first = guess.of(Kind.FIRST_MOMENT, number)
-        if not len(first):
-            continue
-        size = float(np.linalg.norm(first))
-        error = float(np.linalg.norm(half[guess.index[Kind.FIRST_MOMENT, number]]))
-        if error < size and size + error < _NEAR_M * abs(mass):
+        # the frame of a load on a link has its origin anywhere, at the centre of mass too
+        if problem.rows.columns is None and error < size and size + error < _NEAR_M * (abs(mass) - mass_error):
             words = (
                 f"the centre of mass of {load.name!r} is {1e3 * size / abs(mass):.2g} mm from the sensor's origin: "
                 "moments may be in N m where N mm is stated; state the units of the columns"
@@ -189,12 +209,16 @@ def _of_short_levers(fitted: Fit) -> Iterator[Hypothesis]:
             yield Hypothesis(name="mixed units", words=words, residual_share=1.0)
 
 
-def _of_nothing(fitted: Fit) -> Iterator[Hypothesis]:
-    """Loads that weigh nothing, by what is stated or by the readings."""
-    problem, half = fitted.problem, fitted.half_width
+def _stated_as_nothing(problem: LoadProblem) -> Iterator[Hypothesis]:
+    """Loads that weigh nothing by what is stated."""
     if all(load.mass == 0.0 for load in problem.loads):
         words = "all masses are stated as 0: state those of the weights, or leave them out to estimate them"
         yield Hypothesis(name="no load", words=words, residual_share=1.0)
+
+
+def _of_nothing(fitted: Fit) -> Iterator[Hypothesis]:
+    """Loads that weigh nothing by the readings."""
+    problem, half = fitted.problem, fitted.half_width
     gravity = problem.rows.proper_acceleration
     moved = np.linalg.norm(gravity - gravity.mean(axis=0), axis=1).mean()
     turns = bool(moved > _TURNED * np.linalg.norm(gravity, axis=1).max())
@@ -214,10 +238,12 @@ def _lag(problem: LoadProblem, residual: FloatArray, *, drift: bool) -> Iterator
     if not 0.0 < float(turned.max()) < _POSES * float(np.linalg.norm(rows.proper_acceleration, axis=1).max()):
         return  # poses one after the other say nothing of what was in between
     stated = unexplained(rows, residual)
+    if not stated > _ROUNDING:
+        return
     shares = []
     for lag in _LAGS:
         late = replace(problem, rows=_behind(rows, rows.time_s, lag), tilt=False)
-        shares.append(unexplained(rows, plain_fit(late, drift=drift)[1]) / stated if stated > 0.0 else 1.0)
+        shares.append(unexplained(rows, plain_fit(late, drift=drift)[1]) / stated)
     best = int(np.argmin(shares))
     if shares[best] < _BETTER:
         side = "behind" if _LAGS[best] > 0.0 else "ahead of"
@@ -225,7 +251,7 @@ def _lag(problem: LoadProblem, residual: FloatArray, *, drift: bool) -> Iterator
             f"the reading is about {abs(_LAGS[best]):.1f} s {side} the motion, as a filter or another clock makes it: "
             "shift the clock of the stream, or use rows in which nothing moves"
         )
-        yield Hypothesis(name="lag", words=words, residual_share=float(shares[best]))
+        yield Hypothesis(name="lag", words=words, residual_share=float(shares[best]), severity="caution")
 
 
 def _behind(rows: LoadRows, time_s: FloatArray, lag: float) -> LoadRows:
@@ -265,4 +291,4 @@ def _jump(fitted: Fit, residual: FloatArray, *, drift: bool) -> Iterator[Hypothe
     )
     share = unexplained(rows, left) / stated
     if share < _LESS_FOR_JUMP:
-        yield Hypothesis(name="jump", words=words, residual_share=share)
+        yield Hypothesis(name="jump", words=words, residual_share=share, severity="caution")

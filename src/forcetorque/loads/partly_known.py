@@ -63,12 +63,12 @@ class MatrixSpread:
         Returns:
             The spread.
         """
-        rows = rows_of(matrix, assumptions, with_prior=True) if matrix.shape[1] == _COMPONENTS else None
+        rows = rows_of(matrix, assumptions, in_wrench=True) if matrix.shape[1] == _COMPONENTS else None
         if rows is not None:
             roots = np.stack([rows.sensor_root, rows.frame_root]) * rows.unit[:, None, None]
             return cls(roots=roots, group=rows.group)
         # of other than six channels: what the deviations of the channels come to in the wrench that the prior reads
-        channels = rows_of(matrix, assumptions, with_prior=False)
+        channels = rows_of(matrix, assumptions, in_wrench=False)
         share = (matrix * channels.unit) ** 2
         squares = [
             np.einsum("ij,jab->iab", share, root @ root.transpose(0, 2, 1))

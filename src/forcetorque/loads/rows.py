@@ -21,10 +21,11 @@ class LoadRows:
     """Readings as wrenches in the sensor's frame and direction; shape (n, 6); N, N m."""
     proper_acceleration: FloatArray
     """Of the sensor's origin along its axes, `-g` where it is still; shape (n, 3); m/s2."""
-    angular_velocity: FloatArray | None = None
-    """Along the sensor's axes; shape (n, 3); rad/s; None where it stands still or turns slowly."""
+    angular_velocity_products: FloatArray | None = None
+    """Products `w w'` of the angular velocity w along the sensor's axes, as means over each row, because products of
+    means lose what varies within a row; shape (n, 3, 3); rad2/s2; None where it stands still or turns slowly."""
     angular_acceleration: FloatArray | None = None
-    """Along the sensor's axes; shape (n, 3); rad/s2; given if the angular velocity is."""
+    """Along the sensor's axes; shape (n, 3); rad/s2; given if the products of the angular velocity are."""
     time_s: FloatArray | None = None
     """Instants, not falling within a session; shape (n,); s; None for poses without instants, whose noise is taken for
     independent: their order counts for drift only."""
@@ -55,7 +56,7 @@ class LoadRows:
         object.__setattr__(self, "wrench", wrench)
         shapes: dict[str, tuple[int | None, ...]] = {
             "proper_acceleration": (n, 3),
-            "angular_velocity": (n, 3),
+            "angular_velocity_products": (n, 3, 3),
             "angular_acceleration": (n, 3),
             "columns": (n, 6, 10),
             "known": (n, 6),
@@ -71,8 +72,8 @@ class LoadRows:
             object.__setattr__(self, field, read_only_integers(getattr(self, field), name=field, shape=(n,)))
         if len(self.names) != n:
             raise ShapeError(f"names: expected {n}, one for each row, got {len(self.names)}")
-        if (self.angular_velocity is None) != (self.angular_acceleration is None):
-            raise FitError("angular_velocity and angular_acceleration: expected both or neither")
+        if (self.angular_velocity_products is None) != (self.angular_acceleration is None):
+            raise FitError("angular velocity and angular_acceleration: expected both or neither")
         self._require_finite()
 
     def __len__(self) -> int:
@@ -94,11 +95,17 @@ class LoadRows:
         return moved
 
     def _require_finite(self) -> None:
-        for field in ("wrench", "proper_acceleration", "angular_velocity", "angular_acceleration", "variables"):
+        for field in (
+            "wrench",
+            "proper_acceleration",
+            "angular_velocity_products",
+            "angular_acceleration",
+            "variables",
+        ):
             values = getattr(self, field)
             if values is None:
                 continue
-            lacking = ~np.isfinite(values).all(axis=1)
+            lacking = ~np.isfinite(values).all(axis=tuple(range(1, values.ndim)))
             if lacking.any():
                 first = int(np.flatnonzero(lacking)[0])
                 raise FitError(
@@ -108,13 +115,21 @@ class LoadRows:
 
     @classmethod
     def of_poses(
-        cls, wrench: Any, proper_acceleration: Any, *, session: Sequence[int] | None = None, **others: Any
+        cls,
+        wrench: Any,
+        proper_acceleration: Any,
+        *,
+        angular_velocity: Any = None,
+        session: Sequence[int] | None = None,
+        **others: Any,
     ) -> LoadRows:
         """Take still poses, or any rows that are counted alike.
 
         Args:
             wrench: As of the class.
             proper_acceleration: As of the class.
+            angular_velocity: Of rows that are single instants, along the sensor's axes; shape (n, 3); rad/s; None of
+                poses that are still.
             session: As of the class; one for all if left out.
             others: As of the class; blocks are the sessions, the load is the first, rows are numbered from 1.
 
@@ -129,4 +144,7 @@ class LoadRows:
             "share": np.ones(n),
             "names": tuple(f"row {k}" for k in range(1, n + 1)),
         }
+        if angular_velocity is not None:
+            velocity = read_only(angular_velocity, name="angular_velocity", shape=(n, 3))
+            default["angular_velocity_products"] = velocity[:, :, None] * velocity[:, None, :]
         return cls(wrench=wrench, proper_acceleration=proper_acceleration, session=number, **(default | others))

@@ -145,6 +145,8 @@ class Hypothesis:
     """What is to be changed, in a sentence."""
     residual_share: float
     """What it leaves of the residual of the problem as stated: root mean square over root mean square."""
+    severity: Literal["contradiction", "caution"] = "contradiction"
+    """`caution` where it changes a load little, such as a bias that steps or a reading that comes late."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)

@@ -22,7 +22,7 @@ from forcetorque.loads.solution import (
     SessionEstimate,
     VariableEstimate,
 )
-from forcetorque.loads.unknowns import Kind, inertia_of, places
+from forcetorque.loads.unknowns import Kind, inertia_of, places, six_of
 from forcetorque.spatial import skew
 
 _NAMED = 0.5
@@ -127,7 +127,7 @@ def _load(fitted: Fit, number: int, half: FloatArray) -> LoadEstimate:
         centre_of_mass=centre,
         centre_of_mass_half_width=_centre_half_width(load, covariance, mass, centre, widening),
         inertia=inertia,
-        inertia_half_width=_inertia_half_width(load, covariance, widening),
+        inertia_half_width=_inertia_half_width(load, covariance, mass, centre, widening),
         covariance=covariance,
         estimated=bool(own),
     )
@@ -157,10 +157,18 @@ def _centre_half_width(
     return half
 
 
-def _inertia_half_width(load: Load, covariance: FloatArray, widening: float) -> FloatArray:
+def _inertia_half_width(
+    load: Load, covariance: FloatArray, mass: float, centre: FloatArray, widening: float
+) -> FloatArray:
+    """Of the inertia about the centre of mass, `I + hat(h)^2 / m`, by its change with all ten; shape (3, 3); kg m2."""
     if not isinstance(load.inertia, str):
         return np.zeros((3, 3))
-    half: FloatArray = inertia_of(widening * np.sqrt(np.diag(covariance)[4:]))
+    if not np.isfinite(covariance).all() or mass == 0.0:
+        return np.full((3, 3), np.inf)
+    hat, axes = skew(centre), skew(np.eye(3))
+    by_first = six_of(axes @ hat + hat @ axes)
+    change = np.hstack([-six_of(hat @ hat)[:, None], by_first.T, np.eye(6)])
+    half: FloatArray = inertia_of(widening * np.sqrt(np.einsum("ia,ab,ib->i", change, covariance, change)))
     return half
 
 

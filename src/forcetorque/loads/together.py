@@ -13,7 +13,7 @@ from forcetorque.loads.problem import LoadProblem
 from forcetorque.loads.rows import LoadRows
 
 _OPTIONAL = (
-    "angular_velocity",
+    "angular_velocity_products",
     "angular_acceleration",
     "columns",
     "known",

@@ -15,7 +15,8 @@ from forcetorque.spatial import WRENCH_COMPONENTS
 AXES = ("x", "y", "z")
 SECOND_MOMENTS = ("xx", "yy", "zz", "xy", "xz", "yz")
 """Order in which the six numbers of an inertia are kept."""
-
+SIX_PLACES = ((0, 1, 2, 0, 0, 1), (0, 1, 2, 1, 2, 2))
+"""Their rows and columns in the matrix."""
 
 _LEAST_DRIFTING = 4
 """Rows that a session must have to have a drift: with fewer it would say nothing else."""
@@ -124,7 +125,7 @@ def six_of(inertia: np.ndarray) -> np.ndarray:
     Returns:
         xx, yy, zz, xy, xz, yz.
     """
-    first, second = [0, 1, 2, 0, 0, 1], [0, 1, 2, 1, 2, 2]
+    first, second = SIX_PLACES
     return inertia[..., first, second]
 
 

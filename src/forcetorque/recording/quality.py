@@ -8,12 +8,18 @@ import numpy as np
 from forcetorque.arrays import BoolArray, FloatArray
 from forcetorque.recording.alignment import gap_limit_ns, usable_samples
 from forcetorque.recording.finding import Finding
+from forcetorque.recording.sample_quality import (
+    SATURATION_SHARE,
+    Run,
+    at_limit,
+    equal_runs,
+    exceeds_limit,
+    noisy_runs,
+)
 from forcetorque.recording.stream import Signal, Stream
 
 STUCK_SECONDS = 1.0
 """A noisy channel that repeats one value for longer than this is stuck."""
-SATURATION_SHARE = 0.005
-"""Counts within this share of the limit of the converter are saturated."""
 
 _NOISY = ("wrench", "raw", "proper_acceleration", "angular_velocity")
 """Quantities whose noise changes them at every sample; encoders and thermometers may rest."""
@@ -56,14 +62,22 @@ def saturation_findings(
             offset that the electronics added moves them away from the limit.
 
     Returns:
-        One finding per stretch of time and channel; none where the board reports saturation itself, which is exact.
+        One finding per stretch of time and channel; none where the board reports saturation itself, which is exact;
+        one alone where raw readings go beyond the limit, which is then not that of their converter.
     """
     if "saturated" in stream.signals:
         return ()
+    if not recovered and exceeds_limit(counts, limit_counts):
+        largest = float(np.nanmax(np.abs(counts)))
+        message = (
+            f"readings reach {largest:.0f} counts, so {limit_counts:g} counts is not the limit of their converter: no "
+            "sample is taken for saturated; state limit_counts of [[sensor]]"
+        )
+        return (Finding(stream=stream.name, kind="saturation", message=message, count=0, size=largest, unit="counts"),)
     findings = []
+    reached = at_limit(counts, limit_counts, recovered=recovered)
     for channel in range(counts.shape[1]):
-        at_limit = np.abs(counts[:, channel]) >= (1.0 - SATURATION_SHARE) * limit_counts
-        for first, last in spans(at_limit):
+        for first, last in spans(reached[:, channel]):
             largest = float(np.abs(counts[first : last + 1, channel]).max())
             note = " (recovered counts)" if recovered else ""
             findings.append(
@@ -187,10 +201,15 @@ def _missing_values(stream: Stream, signal: Signal) -> list[Finding]:
 def _stuck_channels(stream: Stream, signal: Signal) -> list[Finding]:
     """Runs of one value; one finding where all channels rest together."""
     whole: BoolArray = (np.diff(signal.values, axis=0) == 0.0).all(axis=1)
-    text = f"the whole {signal.quantity} stays the same, as when a board saturates or loses its sensor"
-    findings = [
-        _finding(stream, "frozen", text, first, last, channel=signal.quantity, size=seconds, unit="s")
-        for first, last, seconds in _long_runs(stream, whole)
+    runs = equal_runs(stream.stamp_ns, signal.values)
+    frozen = noisy_runs(stream.stamp_ns, signal.values, runs)
+    findings = [frozen_finding(stream, signal.quantity, run) for run in frozen]
+    text = f"the whole {signal.quantity} stays the same, as of a load at rest whose noise is below the resolution"
+    findings += [
+        _finding(stream, "stuck", text, first, last, channel=signal.quantity, size=_seconds(stream, run), unit="s")
+        for run in runs
+        for first, last in [run]
+        if run not in frozen and _seconds(stream, run) > STUCK_SECONDS
     ]
     for name, unit, column in zip(signal.columns, signal.units, signal.values.T, strict=True):
         alone: BoolArray = (np.diff(column) == 0.0) & ~whole
@@ -208,6 +227,26 @@ def _stuck_channels(stream: Stream, signal: Signal) -> list[Finding]:
             for at, last, seconds in _long_runs(stream, alone)
         ]
     return findings
+
+
+def frozen_finding(stream: Stream, quantity: str, run: Run) -> Finding:
+    """Name a stretch in which a sensor repeats one reading in all channels.
+
+    Args:
+        stream: Its stream.
+        quantity: Quantity of the reading.
+        run: First and last index.
+
+    Returns:
+        The finding.
+    """
+    text = f"the whole {quantity} stays the same, as when a board saturates or loses its sensor"
+    first, last = run
+    return _finding(stream, "frozen", text, first, last, channel=quantity, size=_seconds(stream, run), unit="s")
+
+
+def _seconds(stream: Stream, run: Run) -> float:
+    return float(stream.stamp_ns[run[1]] - stream.stamp_ns[run[0]]) * 1e-9
 
 
 def _long_runs(stream: Stream, same_as_before: BoolArray) -> list[tuple[int, int, float]]:

@@ -21,7 +21,7 @@ import pyarrow as pa
 import pyarrow.parquet as pq
 
 from forcetorque.arrays import FloatArray, IntArray
-from forcetorque.arrow_numbers import arrow_numbers
+from forcetorque.arrow_numbers import arrow_numbers, require_small_parquet
 from forcetorque.errors import FormatError, MissingFileError, RecordingError, ShapeError
 from forcetorque.paths import real_path
 from forcetorque.recording.finding import Finding
@@ -29,6 +29,7 @@ from forcetorque.recording.interval import Interval, MovingSupport, Support, Use
 from forcetorque.recording.quantity import QUANTITIES
 from forcetorque.recording.recording import Recording
 from forcetorque.recording.stream import Signal, Stream
+from forcetorque.temporary import temporary_beside
 
 INDEX_FILE = "recording.json"
 """File that makes a folder a recording."""
@@ -54,16 +55,12 @@ def write_recording(folder: Path | str, recording: Recording) -> None:
         raise MissingFileError(f"{folder}: expected an existing folder to write to, got none; create {target.parent}")
     if target.exists():
         _require_replaceable(target)
-    fresh = target.with_name(f".{uuid4().hex}.tmp")
-    fresh.mkdir()
-    try:
+    with temporary_beside(target, folder=True) as fresh:
         for stream in recording.streams.values():
             _write_stream(fresh / _file_name(stream.name), stream)
         index = json.dumps(_index(recording), indent=2, default=whole_number)  # counts may be NumPy integers
         (fresh / INDEX_FILE).write_text(index + "\n", encoding="utf-8")
         _replace(target, fresh)
-    finally:
-        shutil.rmtree(fresh, ignore_errors=True)
 
 
 def read_recording(folder: Path | str) -> Recording:
@@ -211,7 +208,9 @@ def _read_stream(path: Path) -> Stream:
     if not path.is_file():
         raise MissingFileError(f"{path}: expected the Parquet file of a stream, there is no such file")
     try:
-        table = pq.read_table(path, page_checksum_verification=True).combine_chunks()
+        file = pq.ParquetFile(path, page_checksum_verification=True)
+        require_small_parquet(path, file.metadata, file.schema_arrow.names)
+        table = file.read().combine_chunks()
         header = json.loads(table.schema.metadata[_METADATA_KEY])
         signals = {}
         for quantity, described in header["signals"].items():

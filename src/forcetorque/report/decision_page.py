@@ -5,12 +5,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 
-from forcetorque.analysis import UseVerdict
+from forcetorque.analysis import UseVerdict, VerdictLine
 from forcetorque.calibration import Calibration
 from forcetorque.evaluation.use import CONFIDENCE
 from forcetorque.report import figures
 from forcetorque.report.calibration_sections import origin_words
 from forcetorque.report.document import Block, Figure, List, Picture, Place, Section, Tone, Verdict
+from forcetorque.report.figures.canvas import two_digits
 from forcetorque.report.next_steps import NextSteps
 from forcetorque.report.repeated import said_once
 from forcetorque.report.uses import Undecided
@@ -33,6 +34,7 @@ def decision_page(
     uses: Sequence[UseVerdict],
     undecided: Sequence[Undecided],
     calibrations: Mapping[str, Calibration],
+    assessed: Sequence[VerdictLine],
     *,
     explained: bool,
 ) -> Section:
@@ -43,17 +45,19 @@ def decision_page(
         uses: Verdicts on its calibrations.
         undecided: Calibrations on which there is none, or the sensor itself.
         calibrations: Its calibrations by name of their file.
+        assessed: What was found in its recordings.
         explained: Whether to say what the words mean.
 
     Returns:
-        A section with a page of its own: sentences, a figure, and what to do next; reasons and numbers where there is
-        room.
+        A section with a page of its own: sentences, all that speaks against them, a figure, and what to do next; other
+        reasons and numbers where there is room.
     """
     names = short_names(list(calibrations))
+    against = tuple(_against(uses, names, calibrations, assessed))
     spare = [
         Section(title=title, blocks=tuple(blocks), place=Place.SPARE)
         for title, blocks in (
-            ("What else speaks for and against it", _other_reasons(uses, names)),
+            ("What else was found", _other_reasons(uses, names, against)),
             ("The predicted errors in numbers", _numbers(uses, names)),
             ("What this rests on", _basis(calibrations, names)),
             ("How to read this page", [List(points=_WORDS)] if explained and uses else []),
@@ -63,7 +67,7 @@ def decision_page(
     next_section = Section(title="What to do next", blocks=(List(points=steps.steps, numbered=True),))
     return Section(
         title=f"{steps.sensor} ({steps.serial})",
-        blocks=(*_verdicts(uses, undecided, names), *_figure(uses, names)),
+        blocks=(*_verdicts(uses, undecided, names), *against, *_figure(uses, names)),
         sections=(next_section, *spare) if steps.steps else tuple(spare),
         place=Place.PAGE,
     )
@@ -79,6 +83,49 @@ def _verdicts(
     for row in undecided:
         name = "" if row.candidate is None else f"{names[row.candidate]}: "
         yield Verdict(tone=Tone.UNKNOWN, word="no verdict", text=f"{name}{row.reason}.")
+
+
+def _against(
+    uses: Sequence[UseVerdict],
+    names: Mapping[str, str],
+    calibrations: Mapping[str, Calibration],
+    assessed: Sequence[VerdictLine],
+) -> Iterator[Verdict | List]:
+    """All that speaks against what the sentences above predict: measured errors, what is bad, and other warnings."""
+    for text in said_once(_beyond_predicted(uses, names), names.values()):
+        yield Verdict(tone=Tone.CAUTION, word="measured", text=f"{text}.")
+    # doubts about fitted data are reasons of every verdict
+    reasoned = [doubt for one in calibrations.values() for doubt in one.doubts] if uses else []
+    lines = [line for line in assessed if not any(doubt in line.text for doubt in reasoned)]
+    for text in dict.fromkeys(line.text for line in lines if line.tone == "bad"):
+        yield Verdict(tone=Tone.BAD, word="warning", text=f"{text}.")
+    first = 1 if len(uses) <= _MOST_SENTENCES else 0
+    reasons = [
+        (names[verdict.candidate], reason.text)
+        for verdict in uses
+        for reason in verdict.reasons[first:]
+        if reason.against is not None and reason.remedy is not None
+    ]
+    warnings = [*said_once(reasons, names.values()), *(line.text for line in lines if line.tone == "caution")]
+    if warnings:
+        yield List(points=tuple(dict.fromkeys(f"warning: {text}" for text in warnings)))
+
+
+def _beyond_predicted(uses: Sequence[UseVerdict], names: Mapping[str, str]) -> Iterator[tuple[str, str]]:
+    """Calibrations that err by more on other data than is predicted for a use, with both."""
+    beyond: dict[tuple[str, str], list[str]] = {}
+    for verdict in uses:
+        rows = [row for row in verdict.errors if row.measured is not None and row.measured > row.after_at_most]
+        if rows:
+            errors = " and ".join(f"{two_digits(row.measured or 0.0)} {row.unit}" for row in rows)
+            most = ", ".join(f"{two_digits(row.after_at_most)} {row.unit}" for row in rows)
+            beyond.setdefault((verdict.candidate, errors), []).append(f"“{verdict.load_case}” ({most})")
+    for (candidate, errors), cases in beyond.items():
+        yield (
+            names[candidate],
+            f"on data that were not fitted it errs by {errors} (RMS), more than is predicted at most for "
+            f"{' and '.join(cases)}",
+        )
 
 
 def _briefly(verdict: UseVerdict) -> str:
@@ -99,19 +146,31 @@ def _figure(uses: Sequence[UseVerdict], names: Mapping[str, str]) -> Iterator[Bl
     yield Figure(
         picture=Picture(lambda: figures.use_figure(drawn, names)),
         caption="How much readings are predicted to err, root mean square over the loads of the use. Before: with the "
-        f"matrix that the calibration came from. After: with the calibration. Loads of “{cases}.{_beside(drawn)}",
-        description=f"Predicted force and moment errors with the prior and after calibration: {sizes}.",
+        "matrix that the calibration came from. After: with the calibration. Measured: with the calibration, on data "
+        f"that were not fitted, at their own loads. Loads of “{cases}.{_beside(drawn)}",
+        description=f"Predicted force and moment errors with the prior and after calibration: {sizes}."
+        f"{_measured_words(drawn, names)}",
     )
 
 
-def _other_reasons(uses: Sequence[UseVerdict], names: Mapping[str, str]) -> list[Block]:
-    """Reasons that neither a sentence above nor a step has."""
+def _measured_words(uses: Sequence[UseVerdict], names: Mapping[str, str]) -> str:
+    sizes = [
+        f"{names[verdict.candidate]} {' and '.join(f'{row.measured:.2g} {row.unit}' for row in verdict.errors)}"
+        for verdict in uses
+        if all(row.measured is not None for row in verdict.errors)
+    ]
+    return f" Measured on data that were not fitted: {', '.join(dict.fromkeys(sizes))}." if sizes else ""
+
+
+def _other_reasons(uses: Sequence[UseVerdict], names: Mapping[str, str], against: Sequence[Block]) -> list[Block]:
+    """Reasons for it, and what only informs, that stand nowhere else."""
+    shown = [point for block in against if isinstance(block, List) for point in block.points]
     first = 1 if len(uses) <= _MOST_SENTENCES else 0
     reasons = (
         (names[verdict.candidate], reason.text)
         for verdict in uses
         for reason in verdict.reasons[first:]
-        if reason.against is None or reason.remedy is not None
+        if reason.against is None and not any(reason.text in text for text in shown)
     )
     points = said_once(reasons, names.values())
     return [List(points=tuple(points))] if points else []

@@ -17,6 +17,7 @@ from forcetorque.calibration import Calibration
 from forcetorque.errors import ForceTorqueError
 from forcetorque.experiment import Experiment
 from forcetorque.experiment.inputs import stated_in
+from forcetorque.output_file import refuse_output
 from forcetorque.report.decision_page import decision_page
 from forcetorque.report.document import Document, Section, html_bytes, pdf_bytes
 from forcetorque.report.figures.canvas import new_figure
@@ -135,30 +136,35 @@ class Report(Result):
         def own(row: UseVerdict | Undecided) -> bool:
             return (row.sensor, row.serial) == (steps.sensor, steps.serial)
 
-        sensors = (sensor for experiment in self.experiments for sensor in experiment.sensors)
-        calibrations = {
-            file: one
-            for sensor in sensors
+        sensors = [
+            sensor
+            for experiment in self.experiments
+            for sensor in experiment.sensors
             if (sensor.sensor, sensor.serial) == (steps.sensor, steps.serial)
-            for file, one in sensor.calibrations.items()
-        }
+        ]
+        calibrations = {file: one for sensor in sensors for file, one in sensor.calibrations.items()}
         return decision_page(
             steps,
             [*filter(own, self.uses)],
             [*filter(own, self.undecided)],
             calibrations,
+            [line for sensor in sensors for line in sensor.verdict],
             explained=steps is self.next_steps[0],
         )
 
-    def save(self, *files: Path | str) -> None:
+    def save(self, *files: Path | str, force: bool = False) -> None:
         """Write the document, drawn once.
 
         Args:
             files: Files to write, each by the end of its name as .html, .pdf, or .json with the numbers alone.
+            force: Whether files that are neither results nor figures may be replaced; inputs never are.
         """
         paths = [Path(file) for file in files]
         drawn = [path for path in paths if path.suffix.lower() != ".json"]
         require_writable(drawn)
+        inputs = {digest for one in self.experiments for digest in one.inputs_sha256.values()}
+        for path in paths:
+            refuse_output(path, inputs_sha256=inputs, force=force)
         document = self.document if drawn else None
         for path in paths:
             if document is None or path not in drawn:

@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 import json
-import tomllib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -17,6 +16,8 @@ from forcetorque.calibration import Calibration, read_calibration
 from forcetorque.errors import ExperimentError, FormatError, MissingFileError
 from forcetorque.experiment import Experiment
 from forcetorque.result import result_classes
+from forcetorque.run_files import declare_input
+from forcetorque.toml_table import toml_content
 
 _KINDS = "an experiment file, a calibration, an acceptance file or the JSON result of a command"
 
@@ -120,10 +121,14 @@ def _content(path: Path) -> dict[str, Any]:
     if path.suffix not in (".toml", ".json"):  # so that no calibration is called as priors are in the tables
         raise FormatError(f"{path}: expected {_KINDS}, whose names end in .toml or .json")
     try:
-        text = path.read_text(encoding="utf-8")
-        content = tomllib.loads(text) if path.suffix == ".toml" else json.loads(text)
+        content = toml_content(path)[1] if path.suffix == ".toml" else _json(path)
     except ValueError as error:  # also what is no UTF-8, no TOML or no JSON
         raise FormatError(f"{path}: expected {_KINDS}: {error}") from error
     if not isinstance(content, dict):
         raise FormatError(f"{path}: expected {_KINDS}, got a {type(content).__name__}")
     return content
+
+
+def _json(path: Path) -> Any:
+    declare_input(path)
+    return json.loads(path.read_text(encoding="utf-8"))

@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import html
 import json
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
@@ -12,11 +11,13 @@ from typing import Any, ClassVar, Self
 from pydantic import Field
 
 from forcetorque.errors import ShapeError
-from forcetorque.result.html import html_table, html_warnings
+from forcetorque.result.html import html_table, html_text, html_warnings
 from forcetorque.result.row import Row
-from forcetorque.result.table import Table
+from forcetorque.result.table import Table, table_of
 from forcetorque.result.text import table_text, wrapped
+from forcetorque.result.unusable import UnusableSamples
 
+_UNUSABLE = "unusable_samples"
 NOTEBOOK_WIDTH = 100
 """Characters of a line where nobody says how wide the page is."""
 
@@ -27,8 +28,15 @@ class Result(Row):
     of_several: ClassVar[tuple[str, ...]] = ()
     """Fields that are not in the JSON where they are empty, such as those about each of several recordings."""
 
+    interval_uses: ClassVar[tuple[str, ...] | None] = None
+    """Uses of the intervals whose samples it is made from, all but ignored ones where it is empty; None for no samples,
+    or where it does not count what it leaves out."""
+
     warnings: tuple[str, ...] = Field(default=(), exclude=True)
     """What makes the answer doubtful, in sentences; messages, not part of the JSON."""
+
+    unusable_samples: tuple[UnusableSamples, ...] = Field(default=(), exclude=True)
+    """Samples that are left out because they say nothing of the load; in the JSON where there are any."""
 
     def blocks(self) -> Iterator[Table | str]:
         """Give what people read, in its order; every class has its own.
@@ -46,6 +54,8 @@ class Result(Row):
         """
         for name in type(self).model_fields:
             value = getattr(self, name)
+            if name == _UNUSABLE:
+                continue
             if isinstance(value, tuple) and value and all(isinstance(entry, Row) for entry in value):
                 return [entry.flat() for entry in value]
         return []
@@ -70,7 +80,7 @@ class Result(Row):
         """
         return "".join(
             f"{wrapped(block, width)}\n" if isinstance(block, str) else table_text(block, width)
-            for block in self.blocks()
+            for block in self._shown()
         )
 
     def json_text(self) -> str:
@@ -81,6 +91,8 @@ class Result(Row):
         """
         content = self.model_dump(mode="json", by_alias=True)
         stated = {name: value for name, value in content.items() if value or name not in self.of_several}
+        if self.unusable_samples:
+            stated[_UNUSABLE] = [row.model_dump(mode="json", by_alias=True) for row in self.unusable_samples]
         return json.dumps(stated, indent=2, allow_nan=False)
 
     def cautions(self) -> Iterator[str]:
@@ -99,8 +111,14 @@ class Result(Row):
 
     def _repr_html_(self) -> str:
         return html_warnings(self.cautions()) + "".join(
-            f"<p>{html.escape(block)}</p>" if isinstance(block, str) else html_table(block) for block in self.blocks()
+            f"<p>{html_text(block)}</p>" if isinstance(block, str) else html_table(block) for block in self._shown()
         )
+
+    def _shown(self) -> Iterator[Table | str]:
+        """What people read, and what is left out."""
+        yield from self.blocks()
+        if self.unusable_samples:
+            yield table_of(self.unusable_samples, "left out, as it says nothing of the load: samples")
 
     @classmethod
     def described(cls) -> dict[str, Any]:
@@ -111,6 +129,9 @@ class Result(Row):
         """
         schema = cls.model_json_schema(mode="serialization")
         schema["required"] = [name for name in schema.get("required", ()) if name not in cls.of_several]
+        if cls.interval_uses is not None:
+            rows = {"type": "array", "items": UnusableSamples.model_json_schema(mode="serialization")}
+            schema["properties"][_UNUSABLE] = rows | {"description": cls.model_fields[_UNUSABLE].description or ""}
         return schema
 
     @classmethod
@@ -135,7 +156,8 @@ class Result(Row):
             if isinstance(values[0], tuple):
                 # a warning or a sentence that several sensors share is said once
                 entries = [entry for value in values for entry in value]
-                joined[name] = tuple(dict.fromkeys(entries)) if _are_words(entries) else tuple(entries)
+                once = name == _UNUSABLE or _are_words(entries)
+                joined[name] = tuple(dict.fromkeys(entries)) if once else tuple(entries)
         return parts[0].model_copy(update=joined)
 
 

@@ -9,16 +9,19 @@ from io import StringIO
 from typing import TYPE_CHECKING, Literal
 
 from forcetorque.result.cells import is_number
+from forcetorque.result.quantity_text import NO_BREAK, with_joined_units
 
 if TYPE_CHECKING:
     from forcetorque.result.table import Table
 
 _WORD = 24
 """Characters of the longest word that a table is laid out for; a longer one, a path, may be folded."""
+_JOINED = "\ue000"
+"""Stands for a space at which no line ends: what lays out tables breaks at U+00A0 too."""
 
 
 def wrapped(sentence: str, width: int) -> str:
-    """Break a sentence into lines at its spaces.
+    """Break a sentence into lines at its spaces, but not between a number and its unit.
 
     Args:
         sentence: The sentence.
@@ -27,7 +30,8 @@ def wrapped(sentence: str, width: int) -> str:
     Returns:
         The lines.
     """
-    return textwrap.fill(sentence, width, break_long_words=False, break_on_hyphens=False)
+    lines = textwrap.fill(with_joined_units(sentence), width, break_long_words=False, break_on_hyphens=False)
+    return lines.replace(NO_BREAK, " ")  # a terminal is searched and copied from
 
 
 def table_text(table: Table, width: int) -> str:
@@ -53,17 +57,23 @@ class _Column:
     """A column, and how wide it must and would be."""
 
     def __init__(self, heading: str, cells: Sequence[str]) -> None:
-        self.heading, self.cells = heading, cells
         self.numeric = bool(cells) and all(is_number(cell) for cell in cells)
-        self.least = max(1, _least(heading, is_heading=True), *(_least(cell) for cell in cells))
+        self.heading, self.cells = _joined(heading), cells if self.numeric else [_joined(cell) for cell in cells]
+        self.least = max(1, _least(self.heading, is_heading=True), *(_least(cell) for cell in self.cells))
         self.wanted = max(len(heading), *(len(cell) for cell in cells), self.least)
+
+
+def _joined(cell: str) -> str:
+    return with_joined_units(cell).replace(NO_BREAK, _JOINED)
 
 
 def _least(cell: str, *, is_heading: bool = False) -> int:
     """Width at which no number, and no word of ordinary length, is folded."""
     if is_number(cell) and not is_heading:
         return len(cell)
-    return max((len(word) if is_number(word) else min(len(word), _WORD) for word in cell.split()), default=0)
+    return max(
+        (len(word) if is_number(word) or _JOINED in word else min(len(word), _WORD) for word in cell.split()), default=0
+    )
 
 
 def _fit(columns: Sequence[_Column], width: int) -> bool:
@@ -116,4 +126,4 @@ def _drawn(columns: Sequence[_Column], width: int) -> str:
     whole = max(width, sum(widths) + _between(columns))
     # no markup: names and labels of the user's may hold brackets
     Console(file=file, width=whole, highlight=False, markup=False, emoji=False, color_system=None).print(drawn)
-    return "\n".join(line.rstrip() for line in file.getvalue().splitlines() if line.strip())
+    return "\n".join(line.rstrip() for line in file.getvalue().replace(_JOINED, " ").splitlines() if line.strip())

@@ -15,6 +15,7 @@ from forcetorque.array_field import ArrayField
 from forcetorque.arrays import FloatArray
 from forcetorque.atomic import write_bytes_atomically
 from forcetorque.errors import FormatError
+from forcetorque.output_file import refuse_output
 from forcetorque.part import Part, checked_part, read_json
 from forcetorque.skin.pressure_table import ROWS, PressureTable
 from forcetorque.skin.taxels import CurveKind, TaxelCurve
@@ -143,12 +144,17 @@ class PatchCalibration(Part):
             return None
         return TaxelCurve(kind=self.curve, coefficients=taxel.coefficients, range_counts=taxel.range_counts)
 
-    def save(self, path: Path | str) -> None:
+    def save(self, path: Path | str, *, force: bool = False) -> None:
         """Write the calibration as JSON; on any error the file keeps what it held before.
 
         Args:
             path: File to write or to replace, in an existing folder.
+            force: Whether a file that is neither a result nor a figure may be replaced; an input never is.
+
+        Raises:
+            OutputError: If the file is an input of it, or a file that `force` is needed for.
         """
+        refuse_output(path, inputs_sha256=self.provenance.inputs_sha256.values(), force=force)
         text = json.dumps(self.model_dump(mode="json", by_alias=True), indent=2, allow_nan=False)
         write_bytes_atomically(Path(path), (text + "\n").encode())
 

@@ -17,6 +17,7 @@ import numpy.typing as npt
 
 from forcetorque.arrays import FloatArray
 from forcetorque.errors import FormatError, MissingExtraError
+from forcetorque.run_files import declare_input
 
 FORMATS = (".stl", ".obj", ".ply", ".glb", ".dae")
 """Suffixes of the forms that are read."""
@@ -112,6 +113,7 @@ def read_mesh(file: Path, scale: Sequence[float]) -> Triangles:
 def _load(file: Path) -> tuple[FloatArray, npt.NDArray[np.int64]]:
     import trimesh
 
+    declare_input(file)
     try:
         with file.open("rb") as stream:
             # without a resolver nothing beside the file, such as a texture, is read

@@ -10,6 +10,7 @@ from typing import Any, Literal
 from pydantic import BaseModel, Field, ValidationError
 
 from forcetorque.errors import ForceTorqueError, FormatError, MissingFileError
+from forcetorque.run_files import declare_input
 
 
 class _Sensor(BaseModel):
@@ -65,6 +66,7 @@ def view_source(path: Path, calibrations: Sequence[Path] = ()) -> tuple[Path, li
 
 
 def _read(path: Path) -> _Numbers:
+    declare_input(path)
     try:
         return _Numbers.model_validate_json(path.read_bytes())
     except ValidationError as error:

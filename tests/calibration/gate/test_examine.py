@@ -152,3 +152,44 @@ def test_no_sample_says_nothing_and_channels_that_differ_are_refused() -> None:
         examine([data, replace(data, raw=data.raw[:, :5])], None)
     with pytest.raises(ShapeError):
         examine([data], PRIOR[:, :5])
+
+
+def _poses(seed: int) -> DataSet:
+    """A table of still poses of one tool, a row for each: what neighbours share is chance."""
+    rng = np.random.default_rng(seed)
+    count = int(rng.choice([20, 24, 30, 40, 60]))
+    force = rng.normal(size=(count, 3))
+    force *= 13.7 / np.linalg.norm(force, axis=1, keepdims=True)
+    reference = np.hstack([force, np.cross([0.02, -0.01, 0.06], force)])
+    raw = reference @ np.linalg.inv(PRIOR).T + 500.0 + 3.0 * rng.normal(size=(count, 6))
+    return DataSet(label="poses", raw=raw, reference=reference, time_s=np.arange(float(count)))
+
+
+@pytest.mark.parametrize("prior", [None, PRIOR], ids=["no prior", "prior"])
+def test_still_poses_raise_no_doubt(prior: FloatArray | None) -> None:
+    """In any order: of independent rows no white noise can be told, and chance made that of some negative."""
+    negative = 0
+    for seed in range(100):
+        data = _poses(seed)
+        assert examine([data], prior) == ()
+        columns = np.hstack([data.raw, data.reference])
+        pairs = 0.5 * (columns[1:] + columns[:-1])
+        negative += int((2.0 * pairs.var(axis=0) - columns.var(axis=0))[:3].sum() < 0.0)
+    assert negative > 20
+
+
+def test_still_poses_of_another_load_are_refused() -> None:
+    """Rows in another order than the poses' follow them by chance alone."""
+    for seed in range(100):
+        data = _poses(seed)
+        turned = replace(data, reference=np.roll(data.reference, 7, axis=0))
+        with pytest.raises(FitError, match=r"explains \d+%|runs? against|times as much"):
+            examine([turned], PRIOR)
+
+
+def test_a_reading_of_noise_alone_is_refused() -> None:
+    """Whether chance makes what neighbours share positive or negative."""
+    for seed in range(40):
+        noise = 500.0 + 3.0 * np.random.default_rng(seed).normal(size=(len(TIME_S), 6))
+        with pytest.raises(FitError, match=r"explains \d+%|times as much|against"):
+            examine([replace(_data(), raw=noise)], PRIOR)

@@ -3,11 +3,13 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import cache
 
 import numpy as np
 import pytest
 
+from forcetorque.arrays import FloatArray
 from forcetorque.calibration.joint import (
     EXACT,
     UNITS,
@@ -20,6 +22,7 @@ from forcetorque.calibration.joint import (
     part_sums,
     part_windows,
 )
+from forcetorque.calibration.joint.spread import KINDS
 from forcetorque.errors import FitError
 from forcetorque.estimation.part_equations import untouched_parts
 from tests.calibration.joint.swaying import FEET, SENSORS, Swaying, swaying
@@ -139,3 +142,32 @@ def test_a_robot_that_hardly_moves_keeps_its_priors() -> None:
         assert np.abs((fit.change(name) - np.eye(6)) / UNITS[:, None] * UNITS).max() < 0.1
     with pytest.raises(FitError, match="no window of any part"):
         fit_jointly([])
+
+
+def test_evidence_widens_the_predicted_error_but_not_the_estimate(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Changes of 2.5 times the expected size: the estimate is that of the expected size, its error that of the true."""
+    motion = swaying(51, duration_s=8.0, noise=0.3, error=0.15)
+    sums = part_sums(part_windows(motion.stretch, untouched_parts(motion.stretch.tree, SENSORS, FEET), ()))
+    fit = fit_jointly(sums)
+    assert all(np.diag(fit.prior_covariance(name)).mean() > (2.0 * KINDS[0].expected) ** 2 for name in SENSORS)
+    monkeypatch.setattr("forcetorque.calibration.joint.fit.KINDS", [replace(kind, weight=1e12) for kind in KINDS])
+    held = fit_jointly(sums)
+    for name in SENSORS:
+        # noise is found by iteration, which begins elsewhere
+        np.testing.assert_allclose(_changes(fit, name), _changes(held, name), atol=0.01)
+    assert 0.7 < _error_over_predicted(fit, motion) < 1.3
+    # negative control: as if the changes were as small as expected
+    assert _error_over_predicted(held, motion) > 1.7
+
+
+def _changes(fit: JointFit, sensor: str) -> FloatArray:
+    return fit.mean[fit.places.changes(sensor)]
+
+
+def _error_over_predicted(fit: JointFit, motion: Swaying) -> float:
+    """Of all changes, root mean square."""
+    ratios = []
+    for name in SENSORS:
+        error = _changes(fit, name) - ((motion.change[name] - np.eye(6)) / UNITS[:, None] * UNITS).ravel()
+        ratios.append(error**2 / np.diag(fit.covariance)[fit.places.changes(name)])
+    return float(np.sqrt(np.mean(ratios)))

@@ -169,6 +169,51 @@ def test_of_two_sources_nobody_is_named() -> None:
     assert (fusion.half_width > agreed.half_width).all()
 
 
+def _with_model_error(seed: int, deviation: float, by_model: tuple[str, ...]) -> list[TorqueSource]:
+    """Sources of which some use a robot model that is off by one error per joint."""
+    rng = np.random.default_rng(seed)
+    shared = np.broadcast_to(deviation * np.eye(2), (SHORT, 2, 2))
+    error = shared @ rng.standard_normal(2)
+    return [
+        replace(one, torque=one.torque + error, shared=shared) if one.name in by_model else one
+        for one in three(seed, SHORT)
+    ]
+
+
+@pytest.mark.parametrize("deviation", [0.05, 1.0])
+@pytest.mark.parametrize("by_model", [("ft", "skin"), ("ft", "skin", "current")])
+def test_intervals_hold_where_sources_share_the_error_of_the_model(deviation: float, by_model: tuple[str, ...]) -> None:
+    """120 draws of two joints, errors small and large against the sources' own; 90 to 99 % of intervals."""
+    inside, squares, apart = [], [], []
+    for seed in range(300, 420):
+        sources = _with_model_error(seed, deviation, by_model)
+        fusion = fuse(sources)
+        inside.append(np.abs(fusion.torque - truth(SHORT)) <= fusion.half_width)
+        squares.append(np.mean((fusion.torque - truth(SHORT)) ** 2))
+        apart.append(np.mean((fuse([one.independent for one in sources]).torque - truth(SHORT)) ** 2))
+    assert 0.90 < np.mean(inside) < 0.99
+    # the point is no worse than that of the same sources taken as independent
+    assert np.mean(squares) < 1.02 * np.mean(apart)
+
+
+def test_a_shared_error_is_not_averaged_and_own_errors_are() -> None:
+    """By hand: of two sources with variance 1 each the mean has 1/2, and a shared variance of 4 stays 4."""
+    first, second = _single("a", [1.0], 1.0), _single("b", [3.0], 1.0)
+    shared = np.full((1, 1, 1), 2.0)
+    fusion = fuse([replace(first, shared=shared), replace(second, shared=shared)])
+    assert fusion.torque[0, 0] == pytest.approx(2.0)
+    assert fusion.covariance[0, 0, 0] == pytest.approx(4.5)
+    # negative control: errors that sources have alone average out
+    assert fuse([first, second]).covariance[0, 0, 0] == pytest.approx(0.5)
+    assert fuse([_single("a", [1.0], 5.0), _single("b", [3.0], 5.0)]).covariance[0, 0, 0] == pytest.approx(2.5)
+    # a third source without that error is worth more than both: 1 / (1 / 4.5 + 1)
+    assert fuse([replace(first, shared=shared), replace(second, shared=shared), _single("c", [2.0], 1.0)]).covariance[
+        0, 0, 0
+    ] == pytest.approx(1.0 / (1.0 / 4.5 + 1.0))
+    with pytest.raises(EstimationError, match="shared: expected the same errors in all sources"):
+        fuse([replace(first, shared=shared), replace(second, shared=np.ones((1, 1, 2)))])
+
+
 def test_one_source_is_itself() -> None:
     """Nothing to compare: its torques, and its covariance."""
     (ft, *_) = three(1)

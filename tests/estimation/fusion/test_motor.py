@@ -11,6 +11,7 @@ import pytest
 from forcetorque.arrays import FloatArray
 from forcetorque.errors import EstimationError, FitError
 from forcetorque.estimation.fusion import Friction, Motor, fit_friction, motor_source
+from forcetorque.estimation.fusion.friction import friction_terms
 from forcetorque.simulation import SimulatedMotor
 
 RATE_HZ = 50.0
@@ -86,6 +87,32 @@ def test_the_variance_of_friction_is_carried_to_torques() -> None:
     source = motor_source("current", [friction], np.arange(1), np.ones((1, 1)), np.full((1, 1), 0.5), np.ones((1, 1)))
     terms = np.array([1.0, 0.5, 1.0, 1.0])
     assert source.covariance[0, 0, 0] == pytest.approx(friction.variance + terms @ friction.covariance @ terms)
+
+
+def test_an_error_of_the_trusted_torque_comes_back_from_the_motors() -> None:
+    """A torque that is 0.5 N m too high while friction is fitted is as much too high in the motors' torques."""
+    rng = np.random.default_rng(8)
+    velocity, acceleration = _motion(rng)
+    torque = 2.0 * np.sin(np.arange(len(velocity)) / 70.0)
+    drive = torque + friction_terms(velocity, acceleration) @ TRUE
+    friction = fit_friction(
+        "knee",
+        drive,
+        torque + 0.5,
+        velocity,
+        acceleration,
+        period_s=1.0 / RATE_HZ,
+        standstill=STANDSTILL,
+        trusted_shared=np.full((len(torque), 1), 0.5),
+    )
+    moved = (drive[:, None], velocity[:, None], acceleration[:, None])
+    source = motor_source("current", [friction], np.arange(len(torque)), *moved)
+    known = np.isfinite(source.torque[:, 0])
+    np.testing.assert_allclose(source.torque[known, 0] - torque[known], 0.5, atol=1e-6)
+    np.testing.assert_allclose(source.shared[known, 0, 0], 0.5, atol=1e-9)
+    # it is no error of the motors alone
+    assert np.abs(source.lasting).max() < 0.01
+    assert friction.covariance[3, 3] == pytest.approx(0.25, rel=1e-3)
 
 
 @pytest.mark.parametrize("field", ["torque_constant", "gear_ratio"])

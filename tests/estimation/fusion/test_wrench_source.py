@@ -10,6 +10,7 @@ from forcetorque.arrays import FloatArray
 from forcetorque.errors import EstimationError
 from forcetorque.estimation import Contact, ContactType, MinimumNorm, Question, TorqueSum, estimate
 from forcetorque.estimation.fusion import TorqueSource, wrench_source
+from forcetorque.estimation.fusion.wrench_source import OWN_MODEL_SHARE
 from forcetorque.estimation.uncertain import Uncertainty
 from forcetorque.robot import JointMotion, RootMotion, Wrenches, build_tree, read_urdf
 from forcetorque.simulation import ARM_URDF
@@ -18,7 +19,8 @@ JOINTS = ("shoulder_yaw", "shoulder_pitch", "shoulder_roll", "elbow")
 SAMPLES = 5
 ROUNDING = 1e-12
 """Products of matrices of some newton metres, summed over six bodies, err by some 1e-15 each."""
-FLOOR = 0.02
+MODEL = np.array([0.02, 0.1, 0.05, 0.2])
+"""Deviations of the model, by joint; N m."""
 
 
 def _motion(rng: np.random.Generator) -> tuple[JointMotion, RootMotion]:
@@ -49,7 +51,7 @@ def _source(question: Question, name: str, wrench: FloatArray, uncertainty: Unce
         root,
         np.arange(SAMPLES) * 1_000_000,
         uncertainty=uncertainty,
-        floor=FLOOR,
+        model_deviation=MODEL,
         measured=given if name == "arm_ft" else None,
         known=None if name == "arm_ft" else given,
     )
@@ -77,8 +79,9 @@ def test_errors_go_to_torques_as_estimator_runs_say(name: str) -> None:
     before = torques(wrench)
     effects = np.stack([torques(wrench + unit) - before for unit in np.eye(6)], axis=2)  # (n, j, 6)
     np.testing.assert_allclose(source.torque, before, atol=ROUNDING)
-    floor = FLOOR**2 * np.eye(len(JOINTS))
-    np.testing.assert_allclose(source.noise, effects @ noise @ effects.transpose(0, 2, 1) + floor, atol=ROUNDING)
+    own = OWN_MODEL_SHARE * np.diag(MODEL**2)
+    np.testing.assert_allclose(source.noise, effects @ noise @ effects.transpose(0, 2, 1) + own, atol=ROUNDING)
+    np.testing.assert_allclose(source.shared, np.tile(np.diag(MODEL), (SAMPLES, 1, 1)), atol=ROUNDING)
     np.testing.assert_allclose(source.lasting, effects @ lasting, atol=ROUNDING)
     # negative control: an error there is seen in the torques
     assert np.abs(effects).max() > 0.1

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from forcetorque.errors import FitError
-from forcetorque.evaluation.thermal import Cycles, cycles_of, find_branches, find_load_step, fit_drift
-from forcetorque.evaluation.thermal.drift import MIXED_WITH_TIME
+from forcetorque.evaluation.thermal import Cycles, DriftFit, cycles_of, find_branches, find_load_step, fit_drift
+from forcetorque.evaluation.thermal.drift import LAG_UNTOLD_S, MIXED_WITH_TIME
 from forcetorque.noise import SHAPES, regress
 from forcetorque.simulation.effects.thermal import ThermalDrift
 from tests.scenes.thermal_cycles import HYSTERESIS, PER_DEGREE, PER_HOUR, UNIT, record
@@ -111,6 +111,56 @@ def test_what_tells_nothing_is_refused() -> None:
         cycles_of([(time[:4], degrees[:4], reading[:4])])
     with pytest.raises(FitError, match="expected more than 1[02] means"):
         fit_drift(cycles_of([(time[::80], degrees[::80], reading[::80])] * 2))
+
+
+LAGS_S = (0.0, 15.0, 60.0, 180.0)
+
+
+def _held(fit: DriftFit) -> np.ndarray:
+    """Whether intervals hold coefficient and drift in time; shape (2, 6)."""
+    assert fit.drift_per_hour is not None
+    assert fit.drift_half_width is not None
+    return np.array(
+        [
+            np.abs(fit.coefficient - PER_DEGREE) <= fit.coefficient_half_width,
+            np.abs(fit.drift_per_hour - PER_HOUR) <= fit.drift_half_width,
+        ]
+    )
+
+
+def test_a_late_thermometer_is_noticed_and_allowed_for() -> None:
+    """A minute late in a wave: the lag comes out, and the drift in time is told as well as by one that is not late.
+
+    Without a lag the interval of the drift of fz is 1.1 N/h wide either way, and its error as large.
+    """
+    late, prompt = (fit_drift(_cycles(1, form="wave", late_s=lag)) for lag in (60.0, 0.0))
+    assert late.lag_s == pytest.approx(60.0, abs=4.0)
+    assert prompt.lag_s == pytest.approx(0.0, abs=4.0)
+    assert max(late.lag_error_s, prompt.lag_error_s) < 2.0
+    assert late.drift_per_hour is not None
+    assert late.drift_half_width is not None
+    assert (np.abs(late.drift_per_hour - PER_HOUR) < ENOUGH * late.drift_half_width).all()
+    assert (late.drift_half_width < 0.2 * UNIT).all()
+
+
+def test_a_lag_that_cycles_do_not_tell_widens_what_it_would_change() -> None:
+    """Even heating turns it to hysteresis, and loses nothing; what slows down alike makes the coefficient uncertain."""
+    even, slowing = (fit_drift(_cycles(1, form=form)) for form in ("even", "exponential"))
+    assert (even.lag_s, even.lag_error_s) == (0.0, 0.0)
+    assert (even.coefficient_half_width < 0.01 * UNIT).all()
+    assert slowing.lag_error_s > LAG_UNTOLD_S
+    late = fit_drift(_cycles(1, form="exponential", late_s=180.0))
+    assert (np.abs(late.coefficient - PER_DEGREE) < late.coefficient_half_width).all()
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("form", ["even", "wave", "exponential"])
+def test_intervals_hold_the_truth_under_late_thermometers(form: str) -> None:
+    """Of 40 records for each lag, 95 % intervals hold 85 to 100 % of the coefficients and of the drifts in time."""
+    for late in LAGS_S:
+        held = [_held(fit_drift(_cycles(seed, form=form, late_s=late))) for seed in range(3000, 3040)]
+        coverage = np.mean(held, axis=(0, 2))
+        assert (coverage >= 0.85).all(), (late, coverage)
 
 
 @pytest.mark.long

@@ -114,6 +114,15 @@ def test_a_clock_that_is_not_there_is_not_found(file: Path) -> None:
             _read(file, COUNTS, PRESSURE | {"shift_rows": "estimated"})
 
 
+def test_rows_beside_none_of_the_others_are_refused(file: Path) -> None:
+    """A stream without samples has no times that a third one could take."""
+    for shift in (ROWS, -ROWS):
+        with pytest.raises(
+            FormatError, match=r"log\.mat: log\.P: expected rows beside some of the 3000 of 'counts', got"
+        ):
+            _read(file, COUNTS, PRESSURE | {"shift_rows": shift}, PRESSURE | {"name": "b", "rows_of": "chamber"})
+
+
 WRONG: list[tuple[dict[str, Any], dict[str, Any], type[ForceTorqueError], str]] = [
     (
         COUNTS | {"variable": "log.c"},
@@ -121,7 +130,7 @@ WRONG: list[tuple[dict[str, Any], dict[str, Any], type[ForceTorqueError], str]] 
         FormatError,
         r"stream\[0\]: .*no variable 'log.c'; did you mean \"log.C\"\?",
     ),
-    (COUNTS | {"variable": "note"}, PRESSURE, FormatError, "no variable 'note'"),
+    (COUNTS | {"variable": "note"}, PRESSURE, FormatError, "note: expected rows of real numbers, got 1 x 6 text"),
     (COUNTS | {"time": {"column": 9, "unit": "s"}}, PRESSURE, FormatError, "expected at least 9 columns, got 5"),
     (COUNTS | {"sequence": 2}, PRESSURE, FormatError, "row 2: expected a whole number to count by"),
     (COUNTS, PRESSURE | {"name": "counts"}, FormatError, "two streams are named 'counts'"),

@@ -16,8 +16,8 @@ from hypothesis import strategies as st
 
 from forcetorque.errors import ForceTorqueError
 from forcetorque.exchange.prior import StatedUnits, read_prior_file
+from tests.exchange.fuzzed import damaged
 from tests.exchange.prior.test_prior_files import write_priors
-from tests.exchange.test_damaged_files import damaged
 from tests.fuzzing import sampled
 
 SLOWEST_S = 5.0

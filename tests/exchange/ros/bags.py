@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 from rosbags.rosbag1 import Writer as Writer1
-from rosbags.rosbag2 import StoragePlugin
+from rosbags.rosbag2 import CompressionFormat, CompressionMode, StoragePlugin
 from rosbags.rosbag2 import Writer as Writer2
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 
@@ -129,8 +129,8 @@ class Types:
         return self.make(TF, transforms=message)
 
 
-def write_bag(folder: Path, form: str, topics: Mapping[str, tuple[str, list[Any]]]) -> Path:
-    """Write topics, each with its type and messages, and give the path of the bag."""
+def write_bag(folder: Path, form: str, topics: Mapping[str, tuple[str, list[Any]]], packed: str = "") -> Path:
+    """Write topics, each with its type and messages, packed by a method of the form, and give the path of the bag."""
     types = Types(form)
     path = folder / ("log.bag" if form == "bag" else form)
     writer: Any
@@ -139,6 +139,10 @@ def write_bag(folder: Path, form: str, topics: Mapping[str, tuple[str, list[Any]
     else:
         plugin = StoragePlugin.SQLITE3 if form == "sqlite3" else StoragePlugin.MCAP
         writer, serialize = Writer2(path, version=9, storage_plugin=plugin), types.store.serialize_cdr
+    if packed and form == "bag":
+        writer.set_compression(Writer1.CompressionFormat[packed])
+    elif packed:
+        writer.set_compression(CompressionMode[packed], CompressionFormat.ZSTD)
     with writer:
         for topic, (kind, messages) in topics.items():
             connection = writer.add_connection(topic, kind, typestore=types.store)

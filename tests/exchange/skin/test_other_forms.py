@@ -201,5 +201,28 @@ def test_a_file_of_no_form_and_none_are_refused(tmp_path: Path) -> None:
     with pytest.raises(MissingFileError, match="expected a file with a layout of skin, there is none"):
         describe_patch(tmp_path / "none.txt")
     (tmp_path / "bytes.txt").write_bytes(b"\xff\xfe\x00")
-    with pytest.raises(FormatError, match="expected a text"):
+    with pytest.raises(FormatError, match="in UTF-8, got bytes that are no text at byte 0"):
         describe_patch(tmp_path / "bytes.txt")
+
+
+@pytest.mark.parametrize("form", ["table", "message", "normal", "plan"])
+def test_taxels_beyond_all_bounds_are_refused_by_their_line(tmp_path: Path, form: str) -> None:
+    """Distances of such numbers overflow; what is only in another unit is still described."""
+    texts = {
+        "table": (TABLE.replace("0,6.5,1,0", "0,1e308,1,0"), r":6: position, m, of taxel 3: .* got 0 1e\+305 0.001"),
+        "normal": (TABLE.replace("6.5,0,1,0,0,1", "6.5,0,1,0,0,-1e200"), r":7: normal of taxel 1: .* got 0 0 -1e\+200"),
+        "message": (ECHO.replace("[0.0, 0.01]", "[0.0, 1e308]", 1), r": position, m, of taxel 1: .* got 1e\+308"),
+        "plan": (PLAN.replace("-16", "1e308"), r":8: position, m, of taxel "),
+    }
+    text, message = texts[form]
+    with pytest.raises(FormatError, match=message):
+        describe_patch(_written(tmp_path, "patch.txt", text))
+    describe_patch(_written(tmp_path, "patch.txt", TABLE.replace("x_mm,y_mm,z_mm", "x_m,y_m,z_m")))
+
+
+def test_a_plan_that_is_no_text_is_refused(tmp_path: Path) -> None:
+    """With the byte where it ends to be one."""
+    (tmp_path / "plan.ini").write_bytes(PLAN.encode() + b"\xff\xfe")
+    for read in (read_plan, describe_patch):
+        with pytest.raises(FormatError, match=f"plan.ini: .* no text at byte {len(PLAN)}; save it as UTF-8"):
+            read(tmp_path / "plan.ini")

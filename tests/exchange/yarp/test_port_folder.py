@@ -10,6 +10,7 @@ from pathlib import Path
 
 import pytest
 
+from forcetorque import input_file
 from forcetorque.errors import FormatError, MissingFileError
 from forcetorque.exchange.yarp import port_folder, port_log, read_analog, read_state_ext
 from tests.exchange.yarp.port_logs import INFO, write_port
@@ -179,9 +180,10 @@ def test_the_forms_of_lines_are_limited(tmp_path: Path, monkeypatch: pytest.Monk
 
 def test_what_a_file_may_unpack_to_is_limited(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Above the limit nothing more is read; a plain log of that size is on the disk anyway."""
-    monkeypatch.setattr(port_folder, "UNPACKED_LIMIT", len(_TEXT) - 1)
+    monkeypatch.setattr(input_file, "ALWAYS_UNPACKED", len(_TEXT) - 1)
+    monkeypatch.setattr(input_file, "UNPACKED_RATIO", 1)
     assert len(_read(write_port(tmp_path, _TEXT))) == 200
-    with pytest.raises(FormatError, match="unpack and split it"):
+    with pytest.raises(FormatError, match=r"data\.log\.gz: expected a file that unpacks to at most"):
         _read(write_port(tmp_path, _TEXT, packed=True))
 
 

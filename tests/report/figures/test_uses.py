@@ -39,6 +39,15 @@ def test_intervals_and_medians_lie_at_their_values(drawn: list[Figure]) -> None:
     assert [panel.get_title(loc="left") for panel in (force, moment)] == ["force error, N", "moment error, N m"]
 
 
+def test_what_was_measured_is_a_mark_of_its_own(drawn: list[Figure]) -> None:
+    """At its value, also far outside the interval; named in the legend."""
+    use_figure([use_of(force=4.0, measured=90.0)], NAMES)
+    for panel, value in zip(panels(drawn[0]), (90.0, 0.9), strict=True):
+        assert dict(_marks(panel))["D"] == pytest.approx(value)
+        assert panel.get_xlim()[0] < value < panel.get_xlim()[1]
+    assert "measured on other data" in legend_of(drawn[0])
+
+
 def test_what_may_be_too_much_differs_in_colour_marker_and_line(drawn: list[Figure]) -> None:
     """Up to the limit is enough; a hair above it is not. The legend names what is drawn, and nothing else."""
     for allowed in (8.0, 7.99):

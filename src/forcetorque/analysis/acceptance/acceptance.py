@@ -13,7 +13,7 @@ from forcetorque.analysis.acceptance.criteria import Subject, criteria_of
 from forcetorque.analysis.acceptance.criterion import Bound, Criterion, RecordingCriterion
 from forcetorque.analysis.acceptance.file import AcceptanceFile
 from forcetorque.analysis.acceptance.static_checks import RecordingChecks, StaticChecks, check
-from forcetorque.analysis.runs.added import warns_of_additions
+from forcetorque.analysis.runs.added import with_recording_notes
 from forcetorque.analysis.runs.campaign import Campaign, Runs
 from forcetorque.analysis.runs.unseen import doubts_about_choice
 from forcetorque.analysis.runs.validity import ReadingsOutside, readings_outside, sentences
@@ -27,6 +27,8 @@ class Acceptance(Result):
     """Which criteria sensors meet, and everything that was measured of them without one."""
 
     of_several: ClassVar[tuple[str, ...]] = ("recordings", "recordings_measured")
+
+    interval_uses = ()
 
     schema_name: Literal["forcetorque/accept/1"] = Field(default="forcetorque/accept/1", alias="schema")
     """Form of the result."""
@@ -116,7 +118,7 @@ def _cells(criterion: Criterion) -> tuple[str, ...]:
     )
 
 
-@warns_of_additions
+@with_recording_notes
 def accept(
     runs: Runs,
     spec: AcceptanceFile,

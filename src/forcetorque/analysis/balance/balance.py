@@ -24,13 +24,14 @@ from forcetorque.analysis.balance.rows import (
     phase_rows,
     robot_row,
 )
-from forcetorque.analysis.runs.added import warns_of_additions
+from forcetorque.analysis.runs.added import with_recording_notes
 from forcetorque.analysis.runs.reading import Correction
 from forcetorque.errors import ExperimentError
 from forcetorque.estimation.balance import NO_FOOT, require_support
 from forcetorque.exchange.sample_table import SampleSpan, write_samples
 from forcetorque.experiment import Experiment, FootForces
 from forcetorque.experiment.inputs import stated_in
+from forcetorque.output_file import refuse_output
 from forcetorque.result import Result, Table, table_of
 
 SAMPLES = "forcetorque/balance-samples/1"
@@ -42,6 +43,8 @@ _DOUBTED_SHARE = 0.1
 
 class Balance(Result):
     """How a robot stood over the intervals of experiments."""
+
+    interval_uses = ()
 
     schema_name: Literal["forcetorque/balance/1"] = Field(default="forcetorque/balance/1", alias="schema")
     """Form of the result."""
@@ -79,11 +82,13 @@ class Balance(Result):
         weight = "" if self.weight_N is None else f", weight {self.weight_N:.1f} N"
         yield table_of(
             self.phases,
-            f"support phases of {', '.join(self.experiments)}{weight}; net force: mean ± half its 95 % interval",
+            f"support phases of {', '.join(self.experiments)}{weight}; net force: mean, "
+            "± half its 95 % interval where it is stationary noise or the phase recurs",
         )
         if self.feet:
             yield table_of(
-                self.feet, "centre of pressure of each foot, on its sole; mean ± half the 95 % interval of one point"
+                self.feet,
+                "centre of pressure of each foot, on its sole; x, y: means; ± half a 95 % interval of one point",
             )
         if self.robot:
             yield table_of(self.robot, "centre of pressure and of mass of the robot, in the frame of a sole")
@@ -95,15 +100,17 @@ class Balance(Result):
             + (f"; no centre of pressure below {self.least_load_N:.3g} N" if self.feet else "")
         )
 
-    def write(self, path: Path | str) -> int:
+    def write(self, path: Path | str, *, force: bool = False) -> int:
         """Write every sample: the columns of `IntervalBalance.columns`, a row per instant.
 
         Args:
             path: File to write or to replace, ending in .parquet or .csv.
+            force: Whether a file that is neither a result nor a figure may be replaced.
 
         Returns:
             Number of rows.
         """
+        refuse_output(path, force=force)
         several = len(self.experiments) > 1
         spans = [
             SampleSpan(
@@ -117,7 +124,7 @@ class Balance(Result):
         return write_samples(path, spans, schema=SAMPLES)
 
 
-@warns_of_additions
+@with_recording_notes
 def balance(
     recordings: Sequence[Experiment | FootForces],
     corrections: Sequence[Mapping[str, Correction]] = (),

@@ -12,7 +12,7 @@ from forcetorque.analysis.balance.interval_balance import FootPressure, Interval
 from forcetorque.arrays import BoolArray, FloatArray
 from forcetorque.estimation.balance import ComAcceleration, PressureCentres
 from forcetorque.evaluation import autocorrelation
-from forcetorque.noise import mean_error, one_after_another
+from forcetorque.noise import one_after_another, sample_statistics
 from forcetorque.noise.regression import half_width
 from forcetorque.result import Row, Shown, finite_or_none
 
@@ -35,10 +35,14 @@ class SupportPhaseRow(Row):
     net_N: Annotated[float | None, Shown("net force", "N", digits=1, error="half_width_95_N")]
     """Mean upward force on all feet together."""
     half_width_95_N: float | None
-    """Half of its 95 % interval: the wider of that of noise that is white and slow, and of three stretches or more that
-    each have an offset of their own, as of another foothold; None where it cannot be told."""
+    """Half of its 95 % interval: of stationary noise, and of three stretches or more that each have an offset of their
+    own, as of another foothold, the wider; None where there are fewer and the force is no stationary noise."""
     deviation_N: Annotated[float | None, Shown("deviation", "N", digits=1)]
     """Standard deviation of a sample."""
+    smallest_N: Annotated[float | None, Shown("smallest", "N", digits=1)]
+    """Smallest sample."""
+    largest_N: Annotated[float | None, Shown("largest", "N", digits=1)]
+    """Largest sample."""
     independent: Annotated[float | None, Shown("independent", digits=0)]
     """How many independent samples they are worth."""
     from_weight_N: Annotated[float | None, Shown("from weight", "N", digits=1)]
@@ -60,13 +64,17 @@ class FootPressureRow(Row):
     """Samples with a centre of pressure."""
     load_N: Annotated[float | None, Shown("load", "N", digits=1)]
     """Mean force along the normal of the sole in them."""
-    x_mm: Annotated[float | None, Shown("x", "mm", digits=1, error="half_width_x_mm")]
+    x_mm: Annotated[float | None, Shown("x", "mm", digits=1)]
     """Mean of the centre of pressure along x of the sole."""
-    half_width_x_mm: float | None
+    half_width_x_mm: Annotated[float | None, Shown("± of a point, x", "mm", digits=1)]
     """Half of the 95 % interval of one point, root mean square; None where the sensors' errors are not stated."""
-    y_mm: Annotated[float | None, Shown("y", "mm", digits=1, error="half_width_y_mm")]
+    deviation_x_mm: Annotated[float | None, Shown("deviation x", "mm", digits=1)]
+    """Standard deviation of the points along x."""
+    y_mm: Annotated[float | None, Shown("y", "mm", digits=1)]
     """The same along y."""
-    half_width_y_mm: float | None
+    half_width_y_mm: Annotated[float | None, Shown("± of a point, y", "mm", digits=1)]
+    """The same along y."""
+    deviation_y_mm: Annotated[float | None, Shown("deviation y", "mm", digits=1)]
     """The same along y."""
     outside_percent: Annotated[float | None, Shown("outside", "%", digits=1)]
     """Share of points outside the outline; None where it is not stated."""
@@ -88,13 +96,17 @@ class RobotPressureRow(Row):
     """Sole whose plane is the ground."""
     samples: Annotated[int, Shown("points")]
     """Samples with a centre of pressure."""
-    x_mm: Annotated[float | None, Shown("x", "mm", digits=1, error="half_width_x_mm")]
+    x_mm: Annotated[float | None, Shown("x", "mm", digits=1)]
     """Mean of the centre of pressure along x."""
-    half_width_x_mm: float | None
+    half_width_x_mm: Annotated[float | None, Shown("± of a point, x", "mm", digits=1)]
     """Half of the 95 % interval of one point, root mean square; None where the sensors' errors are not stated."""
-    y_mm: Annotated[float | None, Shown("y", "mm", digits=1, error="half_width_y_mm")]
+    deviation_x_mm: Annotated[float | None, Shown("deviation x", "mm", digits=1)]
+    """Standard deviation of the points along x."""
+    y_mm: Annotated[float | None, Shown("y", "mm", digits=1)]
     """The same along y."""
-    half_width_y_mm: float | None
+    half_width_y_mm: Annotated[float | None, Shown("± of a point, y", "mm", digits=1)]
+    """The same along y."""
+    deviation_y_mm: Annotated[float | None, Shown("deviation y", "mm", digits=1)]
     """The same along y."""
     from_zmp_mm: Annotated[float | None, Shown("from ZMP", "mm", digits=1)]
     """Root mean square distance to the zero moment point of the joints' motion."""
@@ -147,25 +159,29 @@ def phase_rows(intervals: Sequence[IntervalBalance]) -> Iterator[SupportPhaseRow
         time = one_after_another([interval.time_s[inside] for interval, inside in parts])
         weights = {interval.weight_N for interval, _ in parts}
         weight_N = weights.pop() if len(weights) == 1 else None
-        mean = float(net.mean())
-        half = max(float(mean_error(net[:, None], time).half_width[0]), _half_width_of_stretches(stretches))
+        force = sample_statistics(net[:, None], time)
+        mean = float(force.mean[0])
+        # of noise, or of stretches, NaN where there is none
+        half = np.fmax(float(force.half_width[0]), _half_width_of_stretches(stretches))
         yield SupportPhaseRow(
             phase=name,
             stretches=len(phases),
             duration_s=sum(phase.duration_s for _, phase in phases),
             samples=len(net),
             net_N=mean,
-            half_width_95_N=finite_or_none(half),
-            deviation_N=float(net.std(ddof=1)) if len(net) > 1 else None,
+            half_width_95_N=finite_or_none(float(half)),
+            deviation_N=finite_or_none(float(force.deviation[0])),
+            smallest_N=float(force.smallest[0]),
+            largest_N=float(force.largest[0]),
             independent=finite_or_none(autocorrelation(net, time).effective_count) if len(net) > 1 else None,
             from_weight_N=None if weight_N is None else mean - weight_N,
         )
 
 
 def _half_width_of_stretches(stretches: Sequence[FloatArray]) -> float:
-    """Half of the 95 % interval of the mean over all samples if every stretch has an offset of its own; 0 for few."""
+    """Half of the 95 % interval of the mean over all samples if every stretch has an offset of its own; NaN for few."""
     if len(stretches) < _FEWEST_STRETCHES:
-        return 0.0
+        return np.nan
     means, shares = np.array([(net.mean(), len(net)) for net in stretches]).T
     # the deviation of means has their own noise in it too, so that it is rather too wide than too narrow
     error = means.std(ddof=1) * np.linalg.norm(shares / shares.sum())
@@ -258,13 +274,16 @@ def pendulum_row(interval: IntervalBalance, pendulum: ComAcceleration, of_joints
 def _points(pressure: PressureCentres) -> Mapping[str, float | None]:
     known = pressure.known
     if not known.any():
-        return dict.fromkeys(("x_mm", "y_mm", "half_width_x_mm", "half_width_y_mm"))
+        return dict.fromkeys(f"{number}{axis}_mm" for axis in "xy" for number in ("", "half_width_", "deviation_"))
     x, y = _MM * pressure.points[known].mean(axis=0)
     numbers: dict[str, float | None] = {"x_mm": float(x), "y_mm": float(y)}
     half = None if pressure.covariance is None else half_widths(pressure.covariance[known])
     for k, axis in enumerate("xy"):
         size = None if half is None else _rms(half[:, k])
         numbers[f"half_width_{axis}_mm"] = None if size is None else _MM * size
+        numbers[f"deviation_{axis}_mm"] = (
+            _MM * float(pressure.points[known, k].std(ddof=1)) if known.sum() > 1 else None
+        )
     return numbers
 
 

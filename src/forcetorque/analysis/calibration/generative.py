@@ -33,6 +33,7 @@ from forcetorque.calibration import (
     try_correction,
 )
 from forcetorque.calibration.load_error import LoadError
+from forcetorque.recording.sample_quality import UnusableCounts
 
 _RULE = "readings regressed on loads; sizes of prior deviations and slow noise by evidence"
 
@@ -120,6 +121,7 @@ def _provenance(recordings: Sequence[RecordingMoments], *, code_version: str, cr
         intervals=tuple(interval.interval for interval in intervals),
         samples=sum(interval.samples for interval in intervals),
         dropped=sum(interval.dropped for interval in intervals),
+        unusable=UnusableCounts.total(interval.unusable for interval in intervals),
         inputs_sha256=_inputs(recordings),
         added=tuple(dict.fromkeys(sentence for recording in recordings for sentence in recording.added)),
     )

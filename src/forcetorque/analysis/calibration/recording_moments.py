@@ -10,10 +10,12 @@ from urllib.parse import quote
 from forcetorque.analysis.calibration.load_error import load_error_of
 from forcetorque.analysis.payload.contradictions import reference_doubts
 from forcetorque.analysis.runs.campaign import Campaign, Runs
+from forcetorque.analysis.runs.campaign_interval import CampaignInterval
 from forcetorque.analysis.runs.campaign_recording import CampaignRecording
 from forcetorque.analysis.runs.sensor_run import SensorRun
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration import IntervalMoments, LinearVariable, RecordingMoments, VariableDescription, gate
+from forcetorque.calibration.generative import Assumptions, agreeing_samples
 from forcetorque.calibration.load_error import LoadError
 from forcetorque.experiment.full_scale import full_scale_of
 from forcetorque.recording import Use
@@ -42,12 +44,46 @@ def recording_moments(runs: Runs) -> list[RecordingMoments]:
         own = [interval for interval in intervals if interval.recording == recording]
         if not own:
             continue
-        kept = [IntervalMoments.of(i.data_set, i.fitted, dropped=i.part.samples.dropped) for i in own]
         stated_by = CampaignRecording.of(run)
-        said = [*(doubt.message for doubt in doubts), *reference_doubts(run)]
+        kept, left_out = agreeing_moments(stated_by, own, variables=variables)
+        said = [*(doubt.message for doubt in doubts), *reference_doubts(run), *left_out]
         moments = moments_of(stated_by, kept, variables=variables, doubts=said)
         results.append(moments.model_copy(update={"load_error": _load_error(run)}))
     return results
+
+
+def agreeing_moments(
+    recording: CampaignRecording, intervals: Sequence[CampaignInterval], *, variables: Sequence[LinearVariable]
+) -> tuple[list[IntervalMoments], list[str]]:
+    """Reduce intervals of a recording, without the samples that disagree with all others.
+
+    Args:
+        recording: The recording.
+        intervals: Samples of its calibration intervals.
+        variables: Linear variables that are fitted.
+
+    Returns:
+        What is kept of the intervals, and a sentence per span that was left out.
+    """
+    options, data_sets = recording.options, [interval.data_set for interval in intervals]
+    agree, spans = agreeing_samples(
+        data_sets, recording.sensor.prior, _assumptions(recording), variables=variables, drift=options.drift
+    )
+    kept = [interval.moments(marks) for interval, marks in zip(intervals, agree, strict=True) if marks.any()]
+    start_s = recording.start_ns * 1e-9
+    return kept, [
+        f"interval {span.label!r}: {span.start_s - start_s:.2f} to {span.end_s - start_s:.2f} s is left out: the "
+        f"readings disagree there with all others, by up to {span.force_N:.2g} N and {span.moment_Nm:.2g} N m, as if "
+        "something touched the distal links; `inspect` shows contacts"
+        for span in spans
+    ]
+
+
+def _assumptions(recording: CampaignRecording) -> Assumptions:
+    options = recording.options
+    return Assumptions(
+        full_scale=channel_full_scale(recording), accuracy=options.accuracy, repeatability=options.repeatability
+    )
 
 
 def _load_error(run: SensorRun) -> LoadError | None:
@@ -110,12 +146,13 @@ def channel_full_scale(recording: CampaignRecording) -> FloatArray:
     return full_scale_of(recording.sensor, recording.options.accuracy, channels=recording.channels)
 
 
-def store_moments(runs: Runs, folder: Path | str) -> list[Path]:
+def store_moments(runs: Runs, folder: Path | str, *, force: bool = False) -> list[Path]:
     """Keep what a calibration needs of every recording of a sensor.
 
     Args:
         runs: The sensor, in one experiment or several.
         folder: Where the files go; made where it is missing.
+        force: As of `RecordingMoments.save`.
 
     Returns:
         The files, one per recording.
@@ -126,5 +163,5 @@ def store_moments(runs: Runs, folder: Path | str) -> list[Path]:
     for recording in recording_moments(runs):
         name = f"{recording.sensor.name}_{recording.sensor.serial}_{recording.intervals[0].recording}"
         files.append(place / f"{quote(name, safe=' ')}.json")
-        recording.save(files[-1])
+        recording.save(files[-1], force=force)
     return files

@@ -18,13 +18,13 @@ from forcetorque.analysis.calibration.tables import calibration_blocks, componen
 from forcetorque.analysis.inspect.findings import doubtful_spans
 from forcetorque.analysis.payload.contradictions import contradicted_statements
 from forcetorque.analysis.payload.load_doubts import load_doubts
-from forcetorque.analysis.runs.added import added_to, warns_of_additions
+from forcetorque.analysis.runs.added import added_to, with_recording_notes
 from forcetorque.analysis.runs.campaign import Campaign, Runs
 from forcetorque.analysis.runs.possible_touch import possible_touch
 from forcetorque.analysis.runs.sensor_run import SensorRun
 from forcetorque.array_field import ArrayField
 from forcetorque.arrays import FloatArray
-from forcetorque.calibration import Calibration, EstimationType, RecordingMoments, write_calibration
+from forcetorque.calibration import Calibration, EstimationType, RecordingMoments
 from forcetorque.calibration.joint import JointPosterior
 from forcetorque.recording import Use
 from forcetorque.result import Result, Row, Table, table_of
@@ -49,6 +49,8 @@ class SensorCalibration(Row):
 class SensorCalibrations(Result):
     """Calibrations of the sensors of an experiment."""
 
+    interval_uses = ("calibration",)
+
     schema_name: Literal["forcetorque/calibrate/1"] = Field(default="forcetorque/calibrate/1", alias="schema")
     """Form of the result."""
     experiment: str
@@ -62,8 +64,11 @@ class SensorCalibrations(Result):
     saved: bool = Field(default=False, exclude=True, repr=False)
     """Whether the files are written; nothing is until `save`."""
 
-    def save(self) -> Self:
+    def save(self, *, force: bool = False) -> Self:
         """Write every calibration to its file, in folders that are made where they are missing.
+
+        Args:
+            force: As of `Calibration.save`.
 
         Returns:
             The same, which says that it is written.
@@ -71,10 +76,12 @@ class SensorCalibrations(Result):
         for entry in self.calibrations:
             file = Path(entry.file)
             file.parent.mkdir(parents=True, exist_ok=True)
-            write_calibration(file, entry.calibration)
+            entry.calibration.save(file, force=force)
         if self.joint is not None and self.joint.file is not None:
             sensors = [entry.calibration.sensor for entry in self.calibrations]
-            JointPosterior.of(self.joint.fit, {one.name: one.serial for one in sensors}).save(self.joint.file)
+            JointPosterior.of(self.joint.fit, {one.name: one.serial for one in sensors}).save(
+                self.joint.file, force=force
+            )
         return self.model_copy(update={"saved": True})
 
     def blocks(self) -> Iterator[Table | str]:
@@ -106,7 +113,7 @@ class SensorCalibrations(Result):
         return [line for entry in self.calibrations for line in component_records(entry.calibration)]
 
 
-@warns_of_additions
+@with_recording_notes
 def calibrate_for_file(
     runs: Runs | None,
     file: Path | str,

@@ -23,7 +23,8 @@ def calibration_blocks(calibration: Calibration) -> Iterator[Table | str]:
     sensor, source = calibration.sensor, calibration.provenance
     yield (
         f"{sensor.name} ({sensor.serial}): {source.samples} samples of "
-        f"{', '.join(interval.label for interval in source.intervals)}, {source.dropped} left out; "
+        f"{', '.join(interval.label for interval in source.intervals)}, {source.dropped} left out"
+        f"{f' ({source.unusable})' if source.unusable else ''}; "
         f"{_estimator_text(calibration)}"
     )
     yield _matrix_table(calibration)

@@ -31,6 +31,7 @@ from forcetorque.calibration import (
 )
 from forcetorque.experiment.content import ExperimentSensor
 from forcetorque.recording import Use
+from forcetorque.recording.sample_quality import UnusableCounts
 
 
 def thesis_calibration(
@@ -155,6 +156,7 @@ def artefact(
             intervals=tuple(interval.fitted for interval in intervals),
             samples=sum(len(p.samples) for p in parts),
             dropped=sum(p.samples.dropped for p in parts),
+            unusable=UnusableCounts.total(p.samples.unusable for p in parts),
             inputs_sha256=dict(inputs_sha256),
             added=tuple(added),
         ),

@@ -20,8 +20,9 @@ from forcetorque.analysis.coherence.rows import (
     CoherenceSummary,
     OffsetOfSensor,
     PhaseForce,
+    ThreeOrNull,
 )
-from forcetorque.analysis.runs.added import warns_of_additions
+from forcetorque.analysis.runs.added import with_recording_notes
 from forcetorque.analysis.runs.offsets import offset_policies
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration import Calibration
@@ -29,11 +30,12 @@ from forcetorque.errors import ExperimentError
 from forcetorque.evaluation import Offset, OffsetPolicy
 from forcetorque.experiment import Experiment
 from forcetorque.experiment.contacts import contacts_in
-from forcetorque.noise import mean_error
+from forcetorque.noise import sample_statistics
 from forcetorque.recording import Interval, MovingSupport, Use
+from forcetorque.result import finite_or_none
 
 
-@warns_of_additions
+@with_recording_notes
 def coherence(
     experiment: Experiment,
     candidates: Mapping[str, Mapping[str, Calibration]] | None = None,
@@ -133,10 +135,9 @@ def _rows(experiment: Experiment, reader: Reader, phases: Sequence[NetContact], 
         if not whole.any():
             raise ExperimentError(f"interval {label!r}: expected a sample in which all sensors read, got none")
         error = error[whole, :columns]
-        noise = mean_error(error, phase.time_s[whole]).half_width
+        samples = sample_statistics(error, phase.time_s[whole])
         by_offset = _offset_half_width(experiment, reader, phase, int(np.flatnonzero(whole)[whole.sum() // 2]))
-        half_width = np.hypot(noise, by_offset[:columns])
-        mean = error.mean(axis=0)
+        half_width = np.hypot(samples.half_width, by_offset[:columns])
         yield PhaseForce(
             phase=label,
             touching=phase.touching,
@@ -145,10 +146,16 @@ def _rows(experiment: Experiment, reader: Reader, phases: Sequence[NetContact], 
             offset_interval=reader.policy.interval,
             samples=int(whole.sum()),
             force_N=wrench[whole, :3].mean(axis=0),
-            force_error_N=mean[:3],
-            force_half_width_95_N=_finite(half_width[:3]),
-            moment_error_Nm=mean[3:] if columns == 6 else None,
-            moment_half_width_95_Nm=_finite(half_width[3:]) if columns == 6 else None,
+            force_error_N=samples.mean[:3],
+            force_half_width_95_N=_axes(half_width[:3]),
+            force_deviation_N=_axes(samples.deviation[:3]),
+            force_smallest_N=samples.smallest[:3],
+            force_largest_N=samples.largest[:3],
+            moment_error_Nm=samples.mean[3:] if columns == 6 else None,
+            moment_half_width_95_Nm=_axes(half_width[3:]) if columns == 6 else None,
+            moment_deviation_Nm=_axes(samples.deviation[3:]) if columns == 6 else None,
+            moment_smallest_Nm=samples.smallest[3:] if columns == 6 else None,
+            moment_largest_Nm=samples.largest[3:] if columns == 6 else None,
             evidence=reader.evidence(experiment, phase.asked.interval),
         )
 
@@ -180,6 +187,11 @@ def _offset_half_width(experiment: Experiment, reader: Reader, phase: NetContact
             squares += (np.where(np.abs(gain) > 1e-12, gain * half, 0.0) ** 2).sum(axis=1)
     root: FloatArray = np.sqrt(squares)
     return root
+
+
+def _axes(values: FloatArray) -> ThreeOrNull:
+    x, y, z = (finite_or_none(float(value)) for value in values)
+    return x, y, z
 
 
 def _finite(values: FloatArray) -> FloatArray | None:

@@ -10,12 +10,14 @@ from pydantic import Field
 
 from forcetorque.evaluation import Offset
 from forcetorque.result import AxisValues, Result, Row, Table, WrenchValues
-from forcetorque.result.cells import number, with_error
+from forcetorque.result.cells import interval, number, with_error
 from forcetorque.result.names import short_names
 
 NOT_EVIDENCE = "not evidence"
 """What a table says of a phase that gave the offset, or the matrix."""
 _NAMES = "xyz"
+ThreeOrNull = tuple[float | None, float | None, float | None]
+"""x, y, z; null where there is none."""
 
 
 class PhaseForce(Row):
@@ -37,13 +39,26 @@ class PhaseForce(Row):
     """Mean of the forces of all contacts together."""
     force_error_N: AxisValues
     """The same less the weight, which points down and is borne upwards."""
-    force_half_width_95_N: AxisValues | None
-    """Half-width of its 95 % interval, of noise in phase and offset; null where it cannot be told."""
+    force_half_width_95_N: ThreeOrNull
+    """Half-width of its 95 % interval, of noise in phase and offset; null along an axis where the error of the phase is
+    no stationary noise (`noise.is_stationary`), or the offset has no interval."""
+    force_deviation_N: ThreeOrNull
+    """Standard deviation of the error from sample to sample."""
+    force_smallest_N: AxisValues
+    """Smallest error of a sample, with its sign."""
+    force_largest_N: AxisValues
+    """Largest error of a sample, with its sign."""
     moment_error_Nm: AxisValues | None
     """Mean moment of all contacts together, less that which mechanics demands, about the point of the support's level
     that is below the centre of mass; null where a joint or the offset of a moment is not known."""
-    moment_half_width_95_Nm: AxisValues | None
-    """Half-width of its 95 % interval; null where it cannot be told."""
+    moment_half_width_95_Nm: ThreeOrNull | None
+    """Half-width of its 95 % interval; null as that of the force, and where the moment is not known."""
+    moment_deviation_Nm: ThreeOrNull | None
+    """Standard deviation of the error from sample to sample."""
+    moment_smallest_Nm: AxisValues | None
+    """Smallest error of a sample, with its sign."""
+    moment_largest_Nm: AxisValues | None
+    """Largest error of a sample, with its sign."""
     evidence: bool
     """Whether the phase tells anything: in one that gave the offset, or the matrix, the error is near zero by
     construction."""
@@ -92,6 +107,8 @@ class CoherenceSummary(Row):
 class Coherence(Result):
     """Whether the contacts together bear the weight, whichever of them touch (thesis 5.6)."""
 
+    interval_uses = ()
+
     schema_name: Literal["forcetorque/coherence/1"] = Field(default="forcetorque/coherence/1", alias="schema")
     """Form of the result."""
     experiment: str
@@ -120,12 +137,13 @@ class Coherence(Result):
             yield _table(rows, self.weight_N)
             if any(row.moment_error_Nm is not None for row in rows):
                 yield _moment_table(rows)
+            yield _samples_table(rows)
         yield _summary_table(self.summary)
         yield (
-            "F: mean net contact force, z up; E: F less (0, 0, weight), ± half a 95 % interval in which all "
-            "that changes within the phase counts as noise; M: error of the net moment about the ground below the "
-            f"centre of mass. {NOT_EVIDENCE}: the phase gave offset or matrix, so its error is near zero by "
-            "construction. Forces of one foot against the other cancel in F: their size is not judged."
+            "F: mean net contact force, z up; E: F less (0, 0, weight), ± half a 95 % interval of the mean where the "
+            "phase is stationary noise (without ± it bears the error of the offset too); M: error of the net moment "
+            f"about the ground below the centre of mass. {NOT_EVIDENCE}: the phase gave offset or matrix, so its error "
+            "is near zero by construction. Forces of one foot against the other cancel in F: their size is not judged."
         )
         if self.figure is not None:
             yield f"errors drawn to {self.figure}"
@@ -193,10 +211,36 @@ def _moment_table(rows: Sequence[PhaseForce]) -> Table:
     )
 
 
-def _cells(values: AxisValues | None, half_widths: AxisValues | None, digits: int) -> tuple[str, ...]:
+def _samples_table(rows: Sequence[PhaseForce]) -> Table:
+    names, first = short_names([row.candidate for row in rows]), rows[0]
+    moments = any(row.moment_error_Nm is not None for row in rows)
+    headings = [f"E{axis}, N" for axis in _NAMES] + [f"M{axis}, N m" for axis in _NAMES if moments]
+    table = []
+    for row in rows:
+        cells = [*_ranges(row.force_deviation_N, row.force_smallest_N, row.force_largest_N)]
+        if moments:
+            cells += _ranges(row.moment_deviation_Nm, row.moment_smallest_Nm, row.moment_largest_Nm)
+        table.append((row.phase, names[row.candidate], *cells))
+    return Table(
+        caption="samples within the phase: standard deviation (smallest to largest), offset "
+        + policy_words(first.offset, first.offset_interval),
+        headings=("phase", "read by", *headings),
+        rows=tuple(table),
+    )
+
+
+def _ranges(deviations: ThreeOrNull | None, smallest: AxisValues | None, largest: AxisValues | None) -> Iterator[str]:
+    if deviations is None or smallest is None or largest is None:
+        yield from ("-",) * 3
+        return
+    for deviation, low, high in zip(deviations, smallest, largest, strict=True):
+        yield f"{number(deviation, 2)} ({interval(float(low), float(high), digits=2)})"
+
+
+def _cells(values: AxisValues | None, half_widths: ThreeOrNull | None, digits: int) -> tuple[str, ...]:
     if values is None:
         return ("-",) * 3
-    errors = [None] * 3 if half_widths is None else half_widths.tolist()
+    errors = half_widths or (None,) * 3
     return tuple(with_error(float(value), error, digits=digits) for value, error in zip(values, errors, strict=True))
 
 

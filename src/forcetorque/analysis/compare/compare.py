@@ -13,7 +13,7 @@ from forcetorque.analysis.compare.rows import GroupFitRow, GroupRow, TrialRow, g
 from forcetorque.analysis.compare.tables import FITS, comparison_blocks
 from forcetorque.analysis.compare.trial_group import TrialGroup, group_trials
 from forcetorque.analysis.compare.trials import read_trials
-from forcetorque.analysis.runs.added import warns_of_additions
+from forcetorque.analysis.runs.added import with_recording_notes
 from forcetorque.analysis.sphere.rows import EllipsoidRow, FailureRow
 from forcetorque.calibration import Calibration
 from forcetorque.evaluation.sphere import RULE, TOLERANCE
@@ -83,7 +83,7 @@ class Comparison(Result):
         return lines + [{"row": "failure", **failure.flat()} for failure in self.failures]
 
 
-@warns_of_additions
+@with_recording_notes
 def compare(
     paths: Sequence[Path | str],
     *,

@@ -22,7 +22,7 @@ from forcetorque.analysis.contest.rows import (
     score_rows,
 )
 from forcetorque.analysis.contest.trials import Phases, trials_of
-from forcetorque.analysis.runs.added import warns_of_additions
+from forcetorque.analysis.runs.added import with_recording_notes
 from forcetorque.arrays import BoolArray
 from forcetorque.errors import ExperimentError, FitError, SensorError, SerialNumberError, ShapeError
 from forcetorque.evaluation.contest import (
@@ -120,7 +120,7 @@ def _ends(pair: ContestPairRow) -> str:
     return f"{pair.ratio_low:.2f} to {pair.ratio_high:.2f}"
 
 
-@warns_of_additions
+@with_recording_notes
 def contest(entries: Entries, *, code_version: str, created: str) -> Contest:
     """Let sensors and methods meet on the same loads.
 

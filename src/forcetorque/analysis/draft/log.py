@@ -58,6 +58,7 @@ def draft_log(paths: Sequence[Path], model: RobotModel | None, log_format: str |
             format=format_name(known),
             streams=array_streams(sketches[0], joints),
             arrays=sketches[0].columns,
+            skipped_arrays=sketches[0].skipped_arrays,
         )
     description = known.describe(paths[0])
     streams = tuple(

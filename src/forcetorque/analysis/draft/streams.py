@@ -3,7 +3,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from pathlib import Path
 
 from forcetorque.analysis.draft.likeness import Likeness
@@ -46,5 +47,7 @@ class DraftedLog:
     """Its streams."""
     arrays: tuple[SketchedColumns, ...] = ()
     """All arrays of a file of arrays, whether they look like something or not."""
+    skipped_arrays: Mapping[str, str] = field(default_factory=dict)
+    """What of a file of arrays cannot be read, by its name."""
     description: LogDescription | None = None
     """What it says of itself; None for tables and arrays."""

@@ -231,9 +231,9 @@ def _largest(sketch: LogSketch, group: Likeness) -> float | None:
 def _range_words(sketch: LogSketch, group: Likeness) -> str:
     if group.quantity != "wrench":
         extent = _extent(sketch, group.columns)
-        return f"; they run {extent}" if extent else ""
+        return f"; they run {extent}{sketch.range_words}" if extent else ""
     force, moment = (_extent(sketch, places) for places in (group.columns[:3], group.columns[3:]))
-    return f"; forces run {force}, moments {moment}" if force and moment else ""
+    return f"; forces run {force}, moments {moment}{sketch.range_words}" if force and moment else ""
 
 
 def _extent(sketch: LogSketch, places: Sequence[int]) -> str:

@@ -12,15 +12,15 @@ from pydantic import Field
 
 from forcetorque.analysis.estimate.estimate import IntervalEstimates
 from forcetorque.analysis.estimate.skin_summary import SkinContactSummary, skin_doubts, skin_rows
-from forcetorque.analysis.runs.added import warns_of_additions
+from forcetorque.analysis.runs.added import with_recording_notes
 from forcetorque.analysis.runs.reading import Correction
 from forcetorque.analysis.runs.validity import ReadingsOutside, outside_row, sentences
 from forcetorque.analysis.torque.fusion import IntervalFusion, TorqueFusion, summarise_fusion
-from forcetorque.arrays import FloatArray, IntArray
+from forcetorque.arrays import FloatArray
 from forcetorque.estimation.fusion import Friction
-from forcetorque.evaluation import WrenchErrors, wrench_errors
 from forcetorque.exchange.estimates_table import EstimatedSpan, write_estimates
 from forcetorque.experiment import Experiment
+from forcetorque.noise import sample_statistics
 from forcetorque.recording.alignment import seconds_since
 from forcetorque.result import Result, Row, Shown, Table, finite_or_none, table_of
 
@@ -37,9 +37,13 @@ class ContactSummary(Row):
     force_mean_N: Annotated[float | None, Shown("force", "N", digits=2, error="force_half_width_95_N")]
     """Mean norm of the force."""
     force_standard_error_N: float | None
-    """Standard error of that mean; none for one sample."""
+    """Standard error of that mean; none where the norm is no stationary noise (`noise.is_stationary`)."""
     force_half_width_95_N: float | None
-    """Half-width of its 95 % interval; none where it cannot be told."""
+    """Half-width of its 95 % interval; none likewise."""
+    force_deviation_N: Annotated[float | None, Shown("deviation", "N", digits=2)]
+    """Standard deviation of the norm from sample to sample; none for one sample."""
+    force_smallest_N: Annotated[float | None, Shown("smallest", "N", digits=2)]
+    """Smallest norm of the force."""
     force_largest_N: Annotated[float | None, Shown("largest", "N", digits=2)]
     """Largest norm of the force."""
     moment_mean_Nm: Annotated[float | None, Shown("moment", "N m", digits=3)]
@@ -97,6 +101,8 @@ class EstimateSummary(Result):
 
     of_several: ClassVar[tuple[str, ...]] = ("recordings",)
 
+    interval_uses = ()
+
     schema_name: Literal["forcetorque/estimate/1"] = Field(default="forcetorque/estimate/1", alias="schema")
     """Form of the result."""
     experiment: str
@@ -136,7 +142,7 @@ class EstimateSummary(Result):
             yield from _tables(recording)
         yield (
             "force and moment: mean norms of what the environment does to the robot, in the contact frame, "
-            "± half a 95 % interval"
+            "± half a 95 % interval of the mean where the norm is stationary noise; deviation: of a sample"
         )
         for recording in self.recordings or (self,):
             if recording.file is not None:
@@ -180,7 +186,7 @@ def _tables(recording: EstimateSummary | EstimatedRecording) -> Iterator[Table |
         yield from recording.fusion.blocks()
 
 
-@warns_of_additions
+@with_recording_notes
 def estimates_of_recordings(summaries: Mapping[str, EstimateSummary]) -> EstimateSummary:
     """Put what several recordings amount to together; nothing is pooled, as every one has samples of its own.
 
@@ -206,7 +212,7 @@ def estimates_of_recordings(summaries: Mapping[str, EstimateSummary]) -> Estimat
     )
 
 
-@warns_of_additions
+@with_recording_notes
 def summarise_estimates(
     experiment: Experiment,
     corrections: Mapping[str, Correction],
@@ -302,16 +308,21 @@ def _for_table(experiment: Experiment, span: IntervalEstimates, fused: IntervalF
 
 def _contacts(span: IntervalEstimates) -> Iterator[ContactSummary]:
     for name in span.estimates.layout.contacts:
-        samples, norms = _norms(span.estimates.contact(name), span.stamp_ns)
+        wrench = span.estimates.contact(name)
+        norms = _norms(wrench)
+        time_s = seconds_since(span.stamp_ns, int(span.stamp_ns[0]))[np.isfinite(wrench).all(axis=1)]
+        force = None if norms is None else sample_statistics(norms[:, :1], time_s)
         yield ContactSummary(
             interval=span.interval.label,
             contact=name,
-            samples=samples,
-            force_mean_N=None if norms is None else norms.force_mean,
-            force_standard_error_N=None if norms is None else finite_or_none(norms.force_mean_error),
-            force_half_width_95_N=None if norms is None else finite_or_none(norms.force_mean_half_width),
-            force_largest_N=None if norms is None else norms.force_largest,
-            moment_mean_Nm=None if norms is None else norms.moment_mean,
+            samples=0 if norms is None else len(norms),
+            force_mean_N=None if force is None else float(force.mean[0]),
+            force_standard_error_N=None if force is None else finite_or_none(float(force.standard_error[0])),
+            force_half_width_95_N=None if force is None else finite_or_none(float(force.half_width[0])),
+            force_deviation_N=None if force is None else finite_or_none(float(force.deviation[0])),
+            force_smallest_N=None if force is None else float(force.smallest[0]),
+            force_largest_N=None if force is None else float(force.largest[0]),
+            moment_mean_Nm=None if norms is None else float(norms[:, 1].mean()),
         )
 
 
@@ -319,23 +330,21 @@ def _parts(span: IntervalEstimates) -> Iterator[SubModelSummary]:
     estimates = span.estimates
     for k, name in enumerate(estimates.layout.parts):
         whole = np.isfinite(estimates.residual[:, k]).all(axis=1)
-        _, norms = _norms(estimates.residual[:, k], span.stamp_ns)
+        norms = _norms(estimates.residual[:, k])
+        mean = None if norms is None else norms.mean(axis=0)
         condition = estimates.condition[:, k][np.isfinite(estimates.condition[:, k])]
         yield SubModelSummary(
             interval=span.interval.label,
             part=name,
             rank=int(estimates.rank[whole, k].min()) if whole.any() else 0,
             condition_largest=float(condition.max()) if len(condition) else None,
-            residual_force_mean_N=None if norms is None else norms.force_mean,
-            residual_moment_mean_Nm=None if norms is None else norms.moment_mean,
+            residual_force_mean_N=None if mean is None else float(mean[0]),
+            residual_moment_mean_Nm=None if mean is None else float(mean[1]),
             ambiguous=span.ambiguous.get(name, ()),
         )
 
 
-def _norms(wrench: FloatArray, stamp_ns: IntArray) -> tuple[int, WrenchErrors | None]:
-    """Number of samples without a gap, and their norms: errors against nothing touching."""
-    complete = np.isfinite(wrench).all(axis=1)
-    whole, stamps = wrench[complete], stamp_ns[complete]
-    if not len(whole):
-        return 0, None
-    return len(whole), wrench_errors(whole, np.zeros_like(whole), seconds_since(stamps, int(stamps[0])))
+def _norms(wrench: FloatArray) -> FloatArray | None:
+    """Norms of force and moment in samples without a gap; shape (n, 2); N, N m; None if every sample has one."""
+    whole = wrench[np.isfinite(wrench).all(axis=1)]
+    return np.linalg.norm(whole.reshape(-1, 2, 3), axis=2) if len(whole) else None

@@ -12,7 +12,7 @@ from pydantic import Field
 
 from forcetorque.analysis.evaluate.tables import ERROR_WORDS, error_tables, smoothing_words
 from forcetorque.analysis.payload.load_doubts import circular_loads
-from forcetorque.analysis.runs.added import warns_of_additions
+from forcetorque.analysis.runs.added import with_recording_notes
 from forcetorque.analysis.runs.campaign import Campaign, Runs
 from forcetorque.analysis.runs.candidate import JudgedCandidate, JudgedRow
 from forcetorque.analysis.runs.judged import JudgedWrenches
@@ -101,6 +101,8 @@ class Evaluation(Result):
 
     of_several: ClassVar[tuple[str, ...]] = ("recordings",)
 
+    interval_uses = ()
+
     schema_name: Literal["forcetorque/evaluate/1"] = Field(default="forcetorque/evaluate/1", alias="schema")
     """Form of the result."""
     experiment: str
@@ -171,7 +173,7 @@ class _Judged:
     time_s: FloatArray
 
 
-@warns_of_additions
+@with_recording_notes
 def evaluate(runs: Runs, calibrations: Calibrations) -> Evaluation:
     """Judge calibrations, and the priors that they came from, on data that was not fitted.
 

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -18,10 +18,16 @@ from forcetorque.exchange.export_format import ExportFormat
 from forcetorque.exchange.icub import encode_matrix, serial_number_in_name, write_matrix_file
 from forcetorque.exchange.wholebodydynamics import from_calibration, write_groups
 from forcetorque.experiment.inputs import stated_in
+from forcetorque.output_file import refuse_output
 
 
 def export_icub_matrix(
-    name: str, calibration: Calibration, output: Path | str, *, full_scale: Sequence[int] | None = None
+    name: str,
+    calibration: Calibration,
+    output: Path | str,
+    *,
+    full_scale: Sequence[int] | None = None,
+    force: bool = False,
 ) -> Export:
     """Write the matrix file of a sensor's DSP, which has no place for an offset.
 
@@ -30,6 +36,7 @@ def export_icub_matrix(
         calibration: The calibration.
         output: File to write or to replace.
         full_scale: Full scales for fx, fy, fz, tx, ty, tz; N, N m; None to choose them.
+        force: Whether a file that is neither a result nor a figure may be replaced; an input never is.
 
     Returns:
         What the file holds.
@@ -39,6 +46,7 @@ def export_icub_matrix(
         ExperimentError: If the matrix is not per count.
         FormatError: If a full scale cannot hold its row.
     """
+    _refuse_output(output, [calibration], force=force)
     _require_linear({name: calibration}, ExportFormat.ICUB_MATRIX)
     with stated_in(name):
         if (serial := serial_number_in_name(output)) is not None:
@@ -62,6 +70,7 @@ def export_wholebodydynamics(
     *,
     sensor_name: str | None = None,
     stream: Calibration | None = None,
+    force: bool = False,
 ) -> Export:
     """Write the groups of a wholebodydynamics configuration, which correct streams that are calibrated already.
 
@@ -70,10 +79,12 @@ def export_wholebodydynamics(
         output: File to write or to replace.
         sensor_name: Name of the sensor in the robot's configuration; that of the calibration if None.
         stream: Calibration that the robot's stream is already made with; the prior matrix alone if None.
+        force: Whether a file that is neither a result nor a figure may be replaced; an input never is.
 
     Returns:
         What the file holds.
     """
+    _refuse_output(output, calibrations.values(), force=force)
     _require_linear(calibrations, ExportFormat.WHOLEBODYDYNAMICS)
     if stream is not None:
         _require_linear({"the stream's calibration": stream}, ExportFormat.WHOLEBODYDYNAMICS)
@@ -92,32 +103,36 @@ def export_wholebodydynamics(
     return _export(ExportFormat.WHOLEBODYDYNAMICS, output, entries)
 
 
-def export_table(calibrations: Mapping[str, Calibration], output: Path | str) -> Export:
+def export_table(calibrations: Mapping[str, Calibration], output: Path | str, *, force: bool = False) -> Export:
     """Write matrices, offsets and coefficients into a plain table.
 
     Args:
         calibrations: Calibrations by name.
         output: File to write or to replace.
+        force: Whether a file that is neither a result nor a figure may be replaced; an input never is.
 
     Returns:
         What the file holds.
     """
+    _refuse_output(output, calibrations.values(), force=force)
     _require_linear(calibrations, ExportFormat.CSV)
     write_calibration_table(output, calibrations.values())
     entries = [_entry(name, calibration, matrix=calibration.matrix) for name, calibration in calibrations.items()]
     return _export(ExportFormat.CSV, output, entries)
 
 
-def export_coefficients(calibrations: Mapping[str, Calibration], output: Path | str) -> Export:
+def export_coefficients(calibrations: Mapping[str, Calibration], output: Path | str, *, force: bool = False) -> Export:
     """Write the coefficients of temperature and other variables by themselves.
 
     Args:
         calibrations: Calibrations by name, one of them with a variable.
         output: File to write or to replace.
+        force: Whether a file that is neither a result nor a figure may be replaced; an input never is.
 
     Returns:
         What the file holds.
     """
+    _refuse_output(output, calibrations.values(), force=force)
     _require_linear(calibrations, ExportFormat.COEFFICIENTS)
     write_coefficient_table(output, calibrations.values())
     entries = [
@@ -125,6 +140,11 @@ def export_coefficients(calibrations: Mapping[str, Calibration], output: Path | 
         for name, calibration in calibrations.items()
     ]
     return _export(ExportFormat.COEFFICIENTS, output, entries)
+
+
+def _refuse_output(output: Path | str, calibrations: Iterable[Calibration], *, force: bool) -> None:
+    inputs = {digest for calibration in calibrations for digest in calibration.provenance.inputs_sha256.values()}
+    refuse_output(output, inputs_sha256=inputs, force=force)
 
 
 def _require_linear(calibrations: Mapping[str, Calibration], form: ExportFormat) -> None:

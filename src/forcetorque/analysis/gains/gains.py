@@ -4,15 +4,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
 from pydantic import Field
 
+from forcetorque.analysis.gains.movement import has_contact, moved_channels
 from forcetorque.analysis.gains.rows import ChannelRow, ResolutionRow, SensorRow
 from forcetorque.analysis.gains.strongest import strongest_rows
-from forcetorque.analysis.runs.added import warns_of_additions
+from forcetorque.analysis.runs.added import with_recording_notes
 from forcetorque.analysis.runs.raw_counts import RawCounts, raw_counts
 from forcetorque.analysis.runs.sensor_run import SensorRun
 from forcetorque.arrays import FloatArray, read_only, require_shape
@@ -100,7 +101,7 @@ class SensorGains:
         return np.array([advised.factor for advised in self.advice])
 
 
-@warns_of_additions
+@with_recording_notes
 def select_gains(
     run: SensorRun, *, margin: float = MARGIN, calibration: tuple[str, Calibration] | None = None
 ) -> Gains:
@@ -131,6 +132,7 @@ def select_gains(
         frozen=counts.frozen,
         recovered=counts.recovered,
         limit_counts=run.sensor.limit_counts,
+        contact_recorded=has_contact(run),
         repeat=counts.frozen > 0 or any(channel.saturated_samples for channel in ranges),
         channels=tuple(_channel_row(channel, advised) for channel, advised in zip(ranges, advice, strict=True)),
         matrix=source,
@@ -179,6 +181,8 @@ def _advised(
         limit_counts=sensor.limit_counts,
         recovered=counts.recovered,
     )
+    moved = moved_channels(run, counts)
+    ranges = tuple(replace(channel, moved=bool(one)) for channel, one in zip(ranges, moved, strict=True))
     return ranges, advise_gains(ranges, margin=margin, present=sensor.amplifier_gain, allowed=sensor.allowed_gains)
 
 
@@ -239,6 +243,12 @@ def _doubts(row: SensorRow, prior: str | None) -> Iterator[str]:
         yield (
             f"{row.sensor}: {row.frozen} samples repeat one reading, as a board does that saturates; its range may be "
             "larger, repeat the motion with less gain"
+        )
+    still = [channel.channel for channel in row.channels if channel.change is GainChange.UNKNOWN]
+    if still:
+        yield (
+            f"{row.sensor}: the load of {', '.join(still)} did not move, so that nothing tells how far they go in use, "
+            "and no gain is advised; record the motions and contacts of use"
         )
     for channel in row.channels:
         if channel.saturated_share > 0.0:

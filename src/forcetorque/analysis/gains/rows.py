@@ -47,6 +47,8 @@ class ChannelRow(Row):
     @property
     def advice(self) -> str:
         """What to do, in a word or two."""
+        if self.change is GainChange.UNKNOWN:
+            return "none: still"
         words = self.change.value.replace("_", " ")
         if self.change in {GainChange.KEEP, GainChange.NONE_FITS}:
             return words
@@ -91,6 +93,8 @@ class SensorRow(Row):
     """Whether counts came through the inverse of the prior; an offset of the electronics is not in them."""
     limit_counts: float
     """Largest magnitude of a reading."""
+    contact_recorded: bool
+    """Whether the file says of any interval that something touches the robot beyond the sensor."""
     repeat: bool
     """Whether the motion is to be repeated because a channel saturated or the reading froze."""
     channels: tuple[ChannelRow, ...]
@@ -109,6 +113,12 @@ class SensorRow(Row):
             Tables and sentences.
         """
         yield _channel_table(self)
+        if not self.contact_recorded and any(channel.change is GainChange.RAISE for channel in self.channels):
+            yield (
+                "no contact was in the log: loads of use were not recorded, and head-room under contact is unknown; "
+                "raise a gain only if nothing will touch the limb, or record the contacts of use and state them as "
+                "[[contact]]"
+            )
         if self.resolution:
             yield _resolution_table(self.resolution)
             yield (

@@ -14,8 +14,9 @@ from forcetorque.calibration import recover_raw
 from forcetorque.errors import ForceTorqueError
 from forcetorque.evaluation import model_findings
 from forcetorque.experiment.content import Experiment, ExperimentSensor
+from forcetorque.experiment.sample_quality import sample_quality
 from forcetorque.recording import Finding, Interval, Recording, Use
-from forcetorque.recording.quality import saturation_findings, stream_findings
+from forcetorque.recording.quality import frozen_finding, saturation_findings, spans, stream_findings
 
 _DOUBTFUL = {"contact", "light_contact", "off_level", "step", "saturation", "frozen", "stuck", "gap", "backward_stamp"}
 """Kinds of findings that make the samples of their span doubtful."""
@@ -49,6 +50,7 @@ def inspect_experiment(experiment: Experiment, *, by_model: bool = True) -> tupl
     """
     findings = list(inspect_recording(experiment.recording))
     for sensor in experiment.sensors:
+        findings = _with_all_frozen(experiment, sensor, findings)
         try:
             findings += _saturation(experiment, sensor)
         except ForceTorqueError as error:
@@ -81,6 +83,20 @@ def doubtful_spans(experiment: Experiment, use: Use, *, by_model: bool = True) -
         and finding.start_ns < interval.end_ns
         and finding.end_ns >= interval.start_ns
     )
+
+
+def _with_all_frozen(experiment: Experiment, sensor: ExperimentSensor, findings: Sequence[Finding]) -> list[Finding]:
+    """Name the stretches that fits leave out, also those that only the model finds frozen."""
+    stream = experiment.recording.stream(sensor.stream)
+    named = [frozen_finding(stream, sensor.quantity, run) for run in spans(sample_quality(experiment, sensor).frozen)]
+    frozen = [replace(one, message=f"{one.message}; left out of every fit and evaluation") for one in named]
+
+    def is_named(finding: Finding) -> bool:
+        return (finding.stream, finding.channel) == (stream.name, sensor.quantity) and any(
+            finding.start_ns == one.start_ns or finding.kind == "frozen" for one in frozen
+        )
+
+    return [*(finding for finding in findings if not is_named(finding)), *frozen]
 
 
 def _saturation(experiment: Experiment, sensor: ExperimentSensor) -> tuple[Finding, ...]:

@@ -23,10 +23,10 @@ from forcetorque.analysis.inspect.inspected_file import (
 )
 from forcetorque.analysis.inspect.inspected_streams import StreamRow, stream_rows, stream_table
 from forcetorque.analysis.inspect.skin_findings import inspect_patches, taxel_findings
-from forcetorque.analysis.runs.added import warns_of_additions
+from forcetorque.analysis.runs.added import with_recording_notes
 from forcetorque.errors import FormatError, MissingFileError, RecordingError
 from forcetorque.exchange.formats import format_named, not_recognised, recognised_format
-from forcetorque.exchange.log_sketch import SketchingFormat
+from forcetorque.exchange.log_sketch import SketchingFormat, skipped_words
 from forcetorque.exchange.prior import PriorFile, StatedUnits, holds_prior, read_prior_file
 from forcetorque.experiment import (
     Experiment,
@@ -92,6 +92,10 @@ class Inspection(Result):
     """Clocks that the experiment file brings to one, in its order, of which findings say the same in words."""
     unread: tuple[ColumnRow, ...] = ()
     """Columns or arrays of a log that does not say what it holds, in place of streams."""
+    skipped_arrays: dict[str, str] = {}
+    """Of a file of arrays what no experiment file can state, such as `1 x 3 struct array`, by its name."""
+    ranges_of: str | None = None
+    """Of which rows the smallest, largest and mean numbers are, where these are not all, and why."""
     calibration: SeenCalibration | None = None
     """The calibration that a sensor came with, where the file is one."""
 
@@ -107,6 +111,10 @@ class Inspection(Result):
             return
         if self.unread:
             yield table_of(self.unread, f"{self.source}: what is in it")
+            if self.ranges_of is not None:
+                yield f"smallest, largest and mean are {self.ranges_of}"
+            if self.skipped_arrays:
+                yield f"cannot be read, for these are no arrays of real numbers: {skipped_words(self.skipped_arrays)}"
             yield sketch_words(self.unread, self.source)
             return
         yield stream_table(self.streams, f"{self.source}: streams")
@@ -135,7 +143,7 @@ class Inspection(Result):
         return super().columns() or list(FindingRow.model_fields)
 
 
-@warns_of_additions
+@with_recording_notes
 def inspect_log(path: Path | str, *, log_format: str | None = None) -> Inspection:
     """Inspect an experiment file, a log of any format that is recognised by what is there, or a sensor's calibration.
 
@@ -153,7 +161,7 @@ def inspect_log(path: Path | str, *, log_format: str | None = None) -> Inspectio
     return _inspection(str(source), *_recorded(source, log_format))
 
 
-@warns_of_additions
+@with_recording_notes
 def inspected(experiment: Experiment) -> Inspection:
     """Inspect the recording of an experiment that is read already, or was made from arrays.
 
@@ -190,7 +198,15 @@ def _without_experiment(source: Path, name: str | None) -> Inspection | None:
         return None
     sketch = known.sketch(source)
     unread = column_rows(sketch, looks(sketch))
-    return Inspection(source=str(source), streams={}, duration_s=0.0, findings=(), unread=unread)
+    return Inspection(
+        source=str(source),
+        streams={},
+        duration_s=0.0,
+        findings=(),
+        unread=unread,
+        skipped_arrays=dict(sketch.skipped_arrays),
+        ranges_of=f"of those{sketch.range_words} alone: {sketch.stopped}" if sketch.range_words else None,
+    )
 
 
 def _prior(source: Path) -> PriorFile:

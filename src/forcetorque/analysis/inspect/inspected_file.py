@@ -89,11 +89,11 @@ class ColumnRow(Row):
     unit: Annotated[str | None, Shown("unit")]
     """Unit that its heading states; None for none."""
     smallest: Annotated[float | None, Shown("smallest", digits=4)]
-    """Smallest of the numbers that were looked at; None where none was."""
+    """Smallest of its numbers; None where none was read."""
     largest: Annotated[float | None, Shown("largest", digits=4)]
-    """Largest of the numbers that were looked at; None where none was."""
+    """Largest of its numbers; None where none was read."""
     mean: Annotated[float | None, Shown("mean", digits=4)]
-    """Mean of the numbers that were looked at; None where none was."""
+    """Mean of its numbers; None where none was read."""
     looks_like: Annotated[str | None, Shown("looks like")]
     """What it looks like by its name; None for nothing. Nothing is read by that."""
 

@@ -27,8 +27,11 @@ from forcetorque.calibration import (
     pooled,
 )
 from forcetorque.calibration.joint import JointFit, JointResult, PartResidual, sensor_posterior
+from forcetorque.recording.sample_quality import UnusableCounts
 
-_RULE = "parts of the robot between sensors that nothing touches; sizes of changes by evidence"
+_RULE = (
+    "parts of the robot between sensors that nothing touches; sizes of changes by evidence, at most the expected ones"
+)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -120,6 +123,7 @@ def sensor_artefact(
             intervals=tuple(one.interval for one in data),
             samples=sum(one.samples for one in raw),
             dropped=sum(one.missing for one in raw),
+            unusable=UnusableCounts.total(one.unusable for one in raw),
             inputs_sha256=campaign.inputs_sha256,
             added=campaign.added,
         ),

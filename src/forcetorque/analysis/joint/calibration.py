@@ -12,13 +12,13 @@ from forcetorque.analysis.calibration.joint_outcome import JointOutcome
 from forcetorque.analysis.calibration.learnt import learnt_directions
 from forcetorque.analysis.calibration.sensor_calibration import SensorCalibration, SensorCalibrations, data_doubts
 from forcetorque.analysis.joint.data import JOINT_FILE, JointData
-from forcetorque.analysis.runs.added import warns_of_additions
+from forcetorque.analysis.runs.added import with_recording_notes
 from forcetorque.calibration.joint import ModelTolerance
 from forcetorque.errors import FitError
 from forcetorque.experiment import Experiment
 
 
-@warns_of_additions
+@with_recording_notes
 def calibrate_jointly(
     experiments: Sequence[Experiment],
     folder: Path | str,

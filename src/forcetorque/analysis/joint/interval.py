@@ -23,8 +23,10 @@ from forcetorque.estimation.root_motion import imu_frame
 from forcetorque.estimation.samples import robot_motion_at
 from forcetorque.experiment import Experiment, ExperimentSensor
 from forcetorque.experiment.contacts import contacts_in
+from forcetorque.experiment.sample_quality import unusable_in
 from forcetorque.recording import Interval, MovingSupport
 from forcetorque.recording.alignment import require_overlap, seconds_since
+from forcetorque.recording.sample_quality import UnusableCounts
 from forcetorque.robot import build_tree
 
 
@@ -44,14 +46,17 @@ class RawWindows:
     """Samples with a reading."""
     missing: int
     """Samples without."""
+    unusable: UnusableCounts
+    """Samples of the sensor that say nothing of its load, among those of the interval."""
 
     @classmethod
-    def of(cls, stretch: Stretch, raw: FloatArray) -> Self:
+    def of(cls, stretch: Stretch, raw: FloatArray, unusable: UnusableCounts) -> Self:
         """Average raw readings.
 
         Args:
             stretch: The stretch that they are of.
             raw: Readings at its instants; shape (n, c); counts; NaN in gaps.
+            unusable: Samples of the sensor that say nothing of its load, among those of the interval.
 
         Returns:
             The same over its windows.
@@ -66,6 +71,7 @@ class RawWindows:
             maximum=raw[whole].max(axis=0) if whole.any() else nothing,
             samples=int(np.count_nonzero(whole)),
             missing=int(np.count_nonzero(~whole)),
+            unusable=unusable,
         )
 
 
@@ -154,7 +160,10 @@ def joint_interval(
         untouched=UntouchedStretch(
             stretch=stretch, parts=logged.parts, weighed=logged.weighed, left_out=logged.left_out
         ),
-        raw={name: RawWindows.of(stretch, values) for name, values in raw.items()},
+        raw={
+            name: RawWindows.of(stretch, values, unusable_in(experiment, experiment.sensor(name), interval))
+            for name, values in raw.items()
+        },
     )
 
 

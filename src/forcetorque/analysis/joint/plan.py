@@ -13,7 +13,7 @@ from pydantic import Field
 from forcetorque.analysis.calibration.joint_outcome import JointOutcome
 from forcetorque.analysis.joint.data import JointData
 from forcetorque.analysis.joint.plan_rows import JointPlanStep, SensorForecast
-from forcetorque.analysis.runs.added import warns_of_additions
+from forcetorque.analysis.runs.added import with_recording_notes
 from forcetorque.analysis.use.loads_of_use import loads_of_use
 from forcetorque.calibration import Calibration
 from forcetorque.errors import ExperimentError, FitError
@@ -71,7 +71,7 @@ class _Outcome:
         return float(np.exp(np.mean([np.log(row.excess_before) for row in self.forecasts])))
 
 
-@warns_of_additions
+@with_recording_notes
 def plan_jointly(
     experiments: Sequence[Experiment],
     sensors: Sequence[str] | None = None,

@@ -13,7 +13,7 @@ from pydantic import Field
 
 from forcetorque.analysis.motion.rows import MotionCurve, OscillationRow, SettlingRow, TrackingRow
 from forcetorque.analysis.motion.signals import MotionSignal
-from forcetorque.analysis.runs.added import warns_of_additions
+from forcetorque.analysis.runs.added import with_recording_notes
 from forcetorque.arrays import FloatArray
 from forcetorque.errors import ExperimentError, RecordingError
 from forcetorque.evaluation.oscillation import (
@@ -87,7 +87,7 @@ class Motion(Result):
         return [{"kind": kind, **row.flat()} for kind, rows in kinds for row in rows]
 
 
-@warns_of_additions
+@with_recording_notes
 def motion(signals: Sequence[MotionSignal], *, steps_s: Sequence[float] = (), band_share: float = BAND_SHARE) -> Motion:
     """Say how columns move: `motion(motion_signals("walk.toml", ["com.y"]))`.
 

@@ -19,25 +19,28 @@ def reference_doubts(run: SensorRun) -> tuple[str, ...]:
         run: The sensor.
 
     Returns:
-        A sentence for each statement that the readings contradict, and for each load that the sensor itself weighed.
+        A sentence for each statement that the readings contradict, and for each load that the sensor itself weighed;
+        none for a bias that steps or a reading that comes late, which change a load little.
     """
-    return (*contradicted_statements(run), *circular_loads(run))
+    return (*contradicted_statements(run, cautions=False), *circular_loads(run))
 
 
-def contradicted_statements(run: SensorRun) -> Iterator[str]:
+def contradicted_statements(run: SensorRun, *, cautions: bool = True) -> Iterator[str]:
     """Name frames, senses and clocks with whose opposite the readings go better, where a load was estimated.
 
     Without this a load takes up part of a wrong statement, and a fit on it looks like any other.
 
     Args:
         run: The sensor.
+        cautions: Whether accounts count that change a load little.
 
     Yields:
         A sentence for each.
     """
     solution = _estimated(run)
     for hypothesis in () if solution is None else solution.hypotheses:
-        yield f"the load was estimated, and the readings contradict the file: {hypothesis.words}"
+        if cautions or hypothesis.severity == "contradiction":
+            yield f"the load was estimated, and the readings contradict the file: {hypothesis.words}"
     yield from overweight_loads(run)
     yield from reversed_sense(run)
 

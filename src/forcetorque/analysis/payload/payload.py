@@ -25,8 +25,15 @@ from forcetorque.analysis.payload.rows import (
 )
 from forcetorque.analysis.payload.sense import reversed_sense
 from forcetorque.analysis.payload.weighing import hanging_on, links_of, problem_among, weighed, weighed_alone
-from forcetorque.analysis.payload.words import bias_words, disagreements, drift_words, load_words, payload_doubts
-from forcetorque.analysis.runs.added import warns_of_additions
+from forcetorque.analysis.payload.words import (
+    bias_words,
+    disagreements,
+    drift_words,
+    inertia_words,
+    load_words,
+    payload_doubts,
+)
+from forcetorque.analysis.runs.added import with_recording_notes
 from forcetorque.analysis.runs.campaign import Campaign, Runs
 from forcetorque.analysis.runs.sensor_run import SensorRun
 from forcetorque.loads import LoadSolution, instants, load_wrench
@@ -44,6 +51,8 @@ class WeighedLoad(Result):
     """What hangs on a wrist sensor or on a robot, and the sensor's biases."""
 
     of_several: ClassVar[tuple[str, ...]] = ("recordings", "disagreements")
+    interval_uses = ()
+
     schema_name: Literal["forcetorque/payload/2"] = Field(default="forcetorque/payload/2", alias="schema")
     """Form of the result."""
     experiment: str
@@ -96,6 +105,8 @@ class WeighedLoad(Result):
         source = f"{self.sensor} ({self.serial}), {self.rows} rows"
         for load in self.loads:
             yield f"{source}: {load_words(load)}"
+            if (inertia := inertia_words(load)) is not None:
+                yield inertia
         yield table_of(self.sessions, "bias: reading without load")
         if self.variables:
             yield table_of(self.variables, "what variables add to the reading, per unit")
@@ -121,7 +132,7 @@ class WeighedLoad(Result):
         return [load.flat() | session.flat() for load in self.loads for session in self.sessions]
 
 
-@warns_of_additions
+@with_recording_notes
 def weigh_load(runs: Runs) -> WeighedLoad:
     """Give the loads that the calibration intervals of one or several experiments tell.
 

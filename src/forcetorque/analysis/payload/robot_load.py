@@ -18,11 +18,9 @@ from forcetorque.exchange.load import RobotLoad, write_load_file
 from forcetorque.exchange.load_format import LoadFormat
 from forcetorque.experiment.loads.wrist_load import LOAD_LINK, WristLoads
 from forcetorque.loads import Hypothesis
+from forcetorque.output_file import refuse_output
 from forcetorque.recording import Use
 from forcetorque.spatial import WRENCH_COMPONENTS
-
-_CAUTIONS = {"jump", "lag"}
-"""Accounts of the rows that change a load little: its bias steps, or its readings come late."""
 
 
 def robot_load(
@@ -96,8 +94,9 @@ def _contradictions(run: SensorRun, hanging: WristLoads, weighed: WeighedLoad | 
     elif run.has(Use.CALIBRATION) and hanging.table.applied is None:
         accounts = hanging.solution(run.experiment).hypotheses
     # a mass that is stated as 0 is no mistake: a robot may be told that nothing hangs there
-    spared = _CAUTIONS | ({"no load"} if hanging.are_stated else set())
-    yield from (f"{account.name}: {account.words}" for account in accounts if account.name not in spared)
+    spared = {"no load"} if hanging.are_stated else set()
+    against = (account for account in accounts if account.severity == "contradiction")
+    yield from (f"{account.name}: {account.words}" for account in against if account.name not in spared)
     yield from overweight_loads(run)
 
 
@@ -108,6 +107,7 @@ def export_load(
     *,
     world_frame: str | None = None,
     body_H_sensor: FloatArray | None = None,
+    force: bool = False,
 ) -> str:
     """Write the file in which a robot is told what hangs on its sensor.
 
@@ -117,9 +117,11 @@ def export_load(
         form: Form of the file.
         world_frame: For `gravity-filter`, the frame of tf whose z axis points up.
         body_H_sensor: For `mc-rtc`, pose of the sensor in its parent body; shape (4, 4); m.
+        force: Whether a file that is neither a result nor a figure may be replaced.
 
     Returns:
         What the program does with it, in words.
     """
+    refuse_output(output, force=force)
     write_load_file(output, load, form, world_frame=world_frame, body_H_sensor=body_H_sensor)
     return form.convention

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Annotated, Any, Self
+from typing import Annotated, Any, Literal, Self
 
 import numpy as np
 
@@ -278,6 +278,8 @@ class HypothesisRow(Row):
     """What is to be changed."""
     residual_share: float
     """What it leaves of the residual of the file as it is; 1 where it is told by sizes alone."""
+    severity: Literal["contradiction", "caution"]
+    """`caution` where it changes a load little, such as a bias that steps or a reading that comes late."""
 
     @classmethod
     def of(cls, hypothesis: Hypothesis) -> Self:
@@ -289,7 +291,12 @@ class HypothesisRow(Row):
         Returns:
             Its row.
         """
-        return cls(name=hypothesis.name, words=hypothesis.words, residual_share=hypothesis.residual_share)
+        return cls(
+            name=hypothesis.name,
+            words=hypothesis.words,
+            residual_share=hypothesis.residual_share,
+            severity=hypothesis.severity,
+        )
 
 
 class JudgedLoadRow(Row):

@@ -26,6 +26,10 @@ def reversed_sense(run: SensorRun) -> Iterator[str]:
     Yields:
         A sentence where they do; none where the arm moves too slowly to tell, where the base moves, or for raw counts.
     """
+    yield from run.once("reversed sense", lambda: tuple(_reversed_sense(run)))
+
+
+def _reversed_sense(run: SensorRun) -> Iterator[str]:
     experiment = run.experiment
     if experiment.link_loads is None or run.sensor.quantity != "wrench" or not run.has(Use.CALIBRATION):
         return

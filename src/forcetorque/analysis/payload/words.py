@@ -5,15 +5,18 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from itertools import combinations
-from math import hypot
+from math import floor, hypot, log10
 from typing import TYPE_CHECKING
 
 from forcetorque.analysis.payload.rows import BiasTestRow, DriftRow, LoadRow, RecordingLoadRow
+from forcetorque.loads.unknowns import SECOND_MOMENTS, SIX_PLACES
 from forcetorque.result import with_error
 
 if TYPE_CHECKING:
     from forcetorque.analysis.payload.payload import WeighedLoad
 
+_MOST_DIGITS = 9
+"""Digits behind the point of an inertia; kg m2."""
 _RARE = 0.01
 """Differences of biases that come from one bias more seldom are a warning."""
 
@@ -36,6 +39,26 @@ def load_words(load: LoadRow) -> str:
     name = "" if load.load == "load" else f"{load.load}: "
     half = "± half a 95 % interval" if load.estimated else "as stated"
     return f"{name}{mass} kg at ({centre}) mm, {half}"
+
+
+def inertia_words(load: LoadRow) -> str | None:
+    """Say what the inertia of a load is.
+
+    Args:
+        load: The load.
+
+    Returns:
+        A sentence; None where the inertia was not asked for.
+    """
+    values, halves = load.inertia_kgm2, load.inertia_half_width_95_kgm2
+    if values is None or halves is None or all(half == 0.0 for row in halves for half in row):
+        return None
+    pairs = {SECOND_MOMENTS[k]: (values[i][j], halves[i][j]) for k, (i, j) in enumerate(zip(*SIX_PLACES, strict=True))}
+    known = [half for _, half in pairs.values() if half]
+    digits = min(max(1 - floor(log10(min(known))), 0), _MOST_DIGITS) if known else 0
+    numbers = ", ".join(f"{pair} {with_error(*both, digits=digits)}" for pair, both in pairs.items())
+    name = "" if load.load == "load" else f"{load.load}: "
+    return f"{name}inertia about the centre of mass {numbers} kg m2"
 
 
 def drift_words(drift: DriftRow) -> str:

@@ -14,7 +14,7 @@ from forcetorque.analysis.plan.proposal import TEMPERATURE, Demand, Effort, Prop
 from forcetorque.analysis.plan.rows import PlannedPosture, PlannedRecording, posture_rows, recording_row
 from forcetorque.analysis.plan.words import advice, limits_of, posture_tables, recordings_table
 from forcetorque.analysis.plan.workplace import supports_of, workplaces
-from forcetorque.analysis.runs.added import warns_of_additions
+from forcetorque.analysis.runs.added import with_recording_notes
 from forcetorque.analysis.runs.campaign import Campaign, Runs
 from forcetorque.analysis.runs.sensor_run import SensorRun
 from forcetorque.analysis.use.loads_of_use import loads_of_use
@@ -74,7 +74,7 @@ class Plan(Result):
         yield from self.limits
 
 
-@warns_of_additions
+@with_recording_notes
 def plan(
     runs: Runs,
     calibration: Calibration | None = None,

@@ -15,7 +15,7 @@ from forcetorque.analysis.response.force import driven_response
 from forcetorque.analysis.response.numbers import numbers
 from forcetorque.analysis.response.records import ExcitedRecord, component_index, excited_records
 from forcetorque.analysis.response.rows import DecayCurve, EventRow, InverseRow, ResponseCurve, ResponseNumber
-from forcetorque.analysis.runs.added import warns_of_additions
+from forcetorque.analysis.runs.added import with_recording_notes
 from forcetorque.analysis.runs.sensor_run import SensorRun
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration import Calibration
@@ -126,7 +126,7 @@ class Response(Result):
         return self.inverse.apply(reading)
 
 
-@warns_of_additions
+@with_recording_notes
 def response(
     runs: SensorRun | Sequence[SensorRun],
     excitation: ExcitationKind | str,

@@ -8,9 +8,12 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+import numpy as np
+
 from forcetorque.analysis.runs.campaign_recording import CampaignRecording, refuse_a_file_twice, require_one_sensor
 from forcetorque.analysis.runs.samples import IntervalSamples
-from forcetorque.calibration import DataSet, FittedInterval
+from forcetorque.arrays import BoolArray
+from forcetorque.calibration import DataSet, FittedInterval, IntervalMoments
 from forcetorque.experiment.recording_names import distinct_files, recording_name
 from forcetorque.recording import Interval
 from forcetorque.study import ValidationSet
@@ -51,6 +54,19 @@ class CampaignInterval:
             experiment=self.experiment,
             content=self.part.content,
         )
+
+    def moments(self, agree: BoolArray) -> IntervalMoments:
+        """Reduce the samples that agree with all others to what a fit needs of them.
+
+        Args:
+            agree: Marks of these samples; shape (n,).
+
+        Returns:
+            Their moments, with the number of those that were left out.
+        """
+        samples = self.part.samples
+        dropped = samples.dropped + int(np.count_nonzero(~agree))
+        return IntervalMoments.of(self.data_set.kept(agree), self.fitted, dropped=dropped, unusable=samples.unusable)
 
     @property
     def validation_set(self) -> ValidationSet:

@@ -7,13 +7,13 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from forcetorque.analysis.runs.reading import Readings
 from forcetorque.analysis.runs.sensor_run import SensorRun
 from forcetorque.arrays import BoolArray, IntArray
 from forcetorque.estimation.picked import pick_samples
 from forcetorque.experiment.content import ExperimentSensor
+from forcetorque.experiment.sample_quality import sample_quality
 from forcetorque.recording import Interval, Stream
-from forcetorque.recording.quality import SATURATION_SHARE, stream_findings
+from forcetorque.recording.quality import stream_findings
 from forcetorque.result import Row
 
 
@@ -44,11 +44,13 @@ def interval_qualities(run: SensorRun, intervals: Iterable[Interval]) -> tuple[I
         One row per interval.
     """
     stream, sensor = run.stream, run.sensor
-    saturated, lost = _saturated(stream, sensor), _lost(stream)
+    quality, lost = sample_quality(run.experiment, sensor), _lost(stream)
+    saturated: BoolArray = quality.saturated | quality.frozen
     gaps: BoolArray = np.logical_not(np.isfinite(stream.signal(sensor.quantity).values).all(axis=1))
     rows = []
     for interval in intervals:
-        picked, samples = pick_samples(run.experiment.recording, stream, interval)
+        picked, among = pick_samples(run.experiment.recording, stream, interval)
+        samples = int(np.count_nonzero(among))
         missing = samples - len(picked) + int(np.count_nonzero(gaps[picked]))
         messages = None if lost is None else int(lost[picked].sum())
         rows.append(
@@ -73,21 +75,6 @@ def has_counts(sensor: ExperimentSensor) -> bool:
         False where the logged wrench takes their place.
     """
     return sensor.quantity == "raw" or sensor.prior_source != "identity"
-
-
-def _saturated(stream: Stream, sensor: ExperimentSensor) -> BoolArray:
-    """Whether each sample of the whole log is held, or at the limit."""
-    if "saturated" in stream.signals:
-        return stream.held
-    values = stream.signal(sensor.quantity).values
-    saturated = np.zeros(len(stream), dtype=bool)
-    if has_counts(sensor):
-        counts = Readings.of(sensor, values, {}).raw
-        saturated |= (np.abs(counts) >= (1.0 - SATURATION_SHARE) * sensor.limit_counts).any(axis=1)
-    for finding in stream_findings(stream):
-        if finding.kind == "frozen" and finding.start_ns is not None and finding.end_ns is not None:
-            saturated |= (stream.stamp_ns >= finding.start_ns) & (stream.stamp_ns <= finding.end_ns)
-    return saturated
 
 
 def _lost(stream: Stream) -> IntArray | None:

@@ -8,13 +8,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from forcetorque.analysis.runs.sensor_run import SensorRun
-from forcetorque.arrays import FloatArray, IntArray, read_only
+from forcetorque.arrays import FloatArray, read_only
 from forcetorque.calibration import recover_raw
 from forcetorque.errors import ExperimentError
 from forcetorque.estimation.picked import pick_samples
 from forcetorque.experiment.content import ExperimentSensor
+from forcetorque.experiment.sample_quality import sample_quality
 from forcetorque.recording import Stream, Use
-from forcetorque.recording.quality import stream_findings
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -32,7 +32,7 @@ class RawCounts:
     missing: int
     """Samples without a reading."""
     frozen: int
-    """Samples that a saturated board held, by its status; without one, samples in long stretches of one reading."""
+    """Samples that a saturated board held, by its status, or that repeat one reading while the log is noisy."""
 
     def __post_init__(self) -> None:
         shape = (len(self.stream), len(self.channels))
@@ -74,14 +74,8 @@ def raw_counts(run: SensorRun) -> RawCounts:
         values=values,
         recovered=recovered,
         missing=len(rows) - len(kept),
-        frozen=_frozen(stream, rows, picked),
+        frozen=int(np.count_nonzero((stream.held | sample_quality(experiment, sensor).frozen)[rows])),
     )
-
-
-def _frozen(stream: Stream, rows: IntArray, picked: Stream) -> int:
-    if "saturated" in stream.signals:
-        return int(np.count_nonzero(stream.held[rows]))
-    return sum(finding.count for finding in stream_findings(picked) if finding.kind == "frozen")
 
 
 def _counts(sensor: ExperimentSensor, values: FloatArray) -> FloatArray:

@@ -13,6 +13,7 @@ from forcetorque.arrays import BoolArray, FloatArray, IntArray, require_shape
 from forcetorque.calibration import Calibration, Prior, SessionOffset, WrenchModel, recover_raw
 from forcetorque.errors import ExperimentError
 from forcetorque.experiment import Experiment, ExperimentSensor
+from forcetorque.experiment.sample_quality import usable_readings
 from forcetorque.recording import Interval
 from forcetorque.recording.alignment import interpolate
 
@@ -242,10 +243,10 @@ def readings_at(
         at_ns: Instants; shape (n,); ns.
 
     Returns:
-        Its readings; NaN in gaps and while the board is saturated.
+        Its readings; NaN in gaps and where samples say nothing of the load.
     """
     stream = experiment.recording.stream(sensor.stream)
-    logged = np.where(stream.held[:, None], np.nan, stream.signal(sensor.quantity).values)
+    logged = usable_readings(experiment, sensor)
     values = {name: sensor.variable(name).source.at(experiment.recording, at_ns) for name in variables}
     return Readings.of(sensor, interpolate(stream, logged, at_ns), values)
 
@@ -269,7 +270,8 @@ def wrench_at(
             go by the interval that each instant lies in.
 
     Returns:
-        Wrenches in its frame and direction; shape (n, 6); N, N m; NaN in gaps and while the board is saturated.
+        Wrenches in its frame and direction; shape (n, 6); N, N m; NaN in gaps and where samples say nothing of
+        the load.
     """
     readings = readings_at(experiment, sensor, correction.variables, at_ns)
     if interval is not None:

@@ -17,6 +17,7 @@ from forcetorque.estimation import SensorSamples, evaluator_of_samples, sensor_s
 from forcetorque.estimation.picked import padded_samples
 from forcetorque.experiment.contacts import touched_otherwise
 from forcetorque.experiment.content import Experiment, ExperimentSensor
+from forcetorque.experiment.sample_quality import sample_quality, usable_readings
 from forcetorque.recording import Interval, Recording, Use
 
 
@@ -86,6 +87,7 @@ def samples_over(
         apart=touched_otherwise(interval, recording, experiment.contacts),
         evaluator=evaluator,
         applied=None if experiment.wrist is None else experiment.wrist.table.applied,
+        quality=sample_quality(experiment, sensor),
     )
     readings = Readings.of(sensor, samples.reading.values, dict(zip(variables, samples.variables.T, strict=True)))
     content = logged_content(experiment, sensor, interval) if interval.use is Use.CALIBRATION else None
@@ -120,7 +122,7 @@ def readings_over(
     apart = touched_otherwise(interval, recording, experiment.contacts)
     padded = padded_samples(recording, stream, interval, experiment.processing.smoothing, apart=apart)
     rows, at_ns = padded.rows, padded.stamp_ns
-    logged = np.where(stream.held[rows, None], np.nan, stream.signal(sensor.quantity).values[rows])
+    logged = usable_readings(experiment, sensor)[rows]
     columns = [sensor.variable(name).source.at(recording, at_ns)[:, None] for name in variables]
     values = padded.smoothed(np.hstack([logged, *columns]))
     complete = values[np.isfinite(values).all(axis=1)]

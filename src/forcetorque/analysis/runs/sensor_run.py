@@ -111,7 +111,7 @@ class SensorRun:
         support = interval.support
         if not present or not isinstance(support, MovingSupport):
             return ()
-        return self._once(("touched", _key(interval)), lambda: self._beyond(support, present))
+        return self.once(("touched", _key(interval)), lambda: self._beyond(support, present))
 
     def possibly_touched(self, interval: Interval) -> tuple[str, ...]:
         """Name the contacts beyond the sensor that may come while the support stands still.
@@ -163,7 +163,7 @@ class SensorRun:
             The samples.
         """
         names = self._in_order(variables)
-        return self._once(
+        return self.once(
             ("samples", _key(interval), names, smoothed),
             lambda: samples_over(self.experiment, self.sensor, interval, variables=names, smoothed=smoothed),
         )
@@ -179,7 +179,7 @@ class SensorRun:
             The readings, through the filter of the experiment.
         """
         names = self._in_order(variables)
-        return self._once(
+        return self.once(
             ("readings", _key(interval), names),
             lambda: readings_over(self.experiment, self.sensor, interval, variables=names),
         )
@@ -211,7 +211,7 @@ class SensorRun:
             apart = touched_otherwise(interval, recording, self.experiment.contacts)
             return JudgedInstants(samples=padded_samples(recording, self.stream, interval, smoothing, apart=apart))
 
-        return self._once(("instants", _key(interval)), padded_instants)
+        return self.once(("instants", _key(interval)), padded_instants)
 
     def motion(self, interval: Interval, joints: Sequence[str]) -> tuple[JointMotion, RootMotion]:
         """Give the motion of joints and support at the instants of an interval.
@@ -279,7 +279,7 @@ class SensorRun:
         Returns:
             The correction, with the offset that the calibration intervals give.
         """
-        return self._once("uncalibrated", lambda: uncalibrated(self))
+        return self.once("uncalibrated", lambda: uncalibrated(self))
 
     def read_by(self, name: str | None, calibration: Calibration | None) -> Correction:
         """Read the sensor by one calibration, or, with whatever offset it has, by its prior or as logged.
@@ -305,7 +305,7 @@ class SensorRun:
         Returns:
             The candidates, priors first; a prior that several calibrations share comes once.
         """
-        return self._once(("candidates", _names(calibrations)), lambda: judged_candidates(self, calibrations))
+        return self.once(("candidates", _names(calibrations)), lambda: judged_candidates(self, calibrations))
 
     def judged(self, calibrations: Mapping[str, Calibration]) -> JudgedWrenches:
         """Read the sensor by every candidate on the validation intervals.
@@ -316,7 +316,7 @@ class SensorRun:
         Returns:
             Wrenches of all candidates at the same instants, and the reference.
         """
-        return self._once(("judged", _names(calibrations)), lambda: judged_wrenches(self, calibrations))
+        return self.once(("judged", _names(calibrations)), lambda: judged_wrenches(self, calibrations))
 
     def require_fit(self, name: str, calibration: Calibration) -> None:
         """Refuse a calibration of another sensor, or of one that is read in another way.
@@ -342,7 +342,16 @@ class SensorRun:
     def _in_order(self, variables: Collection[str]) -> tuple[str, ...]:
         return tuple(v.linear.name for v in self.sensor.variables if v.linear.name in variables)
 
-    def _once(self, key: Hashable, compute: Callable[[], _Answer]) -> _Answer:
+    def once(self, key: Hashable, compute: Callable[[], _Answer]) -> _Answer:
+        """Compute what several analyses need of the sensor, when it is first needed.
+
+        Args:
+            key: What it is, other than all else that is kept.
+            compute: Computes it.
+
+        Returns:
+            What was computed.
+        """
         if key not in self._known:
             self._known[key] = compute()
         return cast("_Answer", self._known[key])

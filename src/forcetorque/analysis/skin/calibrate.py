@@ -9,7 +9,7 @@ from typing import Literal
 
 from pydantic import Field
 
-from forcetorque.analysis.runs.added import added_to, warns_of_additions
+from forcetorque.analysis.runs.added import added_to, with_recording_notes
 from forcetorque.analysis.runs.campaign_recording import refuse_a_file_twice
 from forcetorque.analysis.skin.comparison import compare_curves
 from forcetorque.analysis.skin.fit import FittedSamples, fitted_samples
@@ -99,7 +99,7 @@ class SkinCalibration(Result):
                 yield f"{name} {file}"
 
 
-@warns_of_additions
+@with_recording_notes
 def calibrate_skin(
     experiments: Sequence[Path | str | PatchExperiment],
     *,

@@ -9,7 +9,7 @@ from typing import Final
 
 import numpy as np
 
-from forcetorque.analysis.skin.messages import resting_reader
+from forcetorque.analysis.skin.messages import resting_reader, stuck_taxels, touched_at_rest
 from forcetorque.arrays import BoolArray, FloatArray, IntArray
 from forcetorque.errors import SkinError, known_names
 from forcetorque.skin import PatchCalibration
@@ -66,6 +66,12 @@ class SkinFrames:
     """Columns of thermal pads that are dead in this recording."""
     untold: IntArray
     """Columns of taxels that follow no living pad, and are left out for it."""
+    touched_at_rest: IntArray
+    """Columns of taxels that something touched while rest was taken."""
+    stuck: IntArray
+    """Columns of taxels that send one number while others are noisy."""
+    heating: float
+    """Steepest minute of heat, over that of the warm-up; 0 where heat is not followed."""
 
 
 def skin_frames(
@@ -112,6 +118,9 @@ def skin_frames(
         releases=() if follower is None else tuple(follower.releases),
         dead_pads=dead,
         untold=table.taxels[~told],
+        touched_at_rest=touched_at_rest(reader, seconds, counts, rest_s=chosen.rest_s),
+        stuck=stuck_taxels(reader, counts),
+        heating=0.0 if follower is None else follower.heating,
     )
 
 

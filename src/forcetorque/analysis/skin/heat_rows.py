@@ -14,6 +14,8 @@ from forcetorque.skin.temperature import HeatRule
 
 OFFERED: Final = "offered"
 """Said of a release after which rest may be taken anew."""
+HEATING: Final = 1.25
+"""Heat that comes faster than in the warm-up by more is said: the limits of drift are told from its steepest minute."""
 
 
 class ReleaseRow(Row):
@@ -74,6 +76,11 @@ def heat_warnings(looked: SkinFrames, rows: Sequence[SkinContactRow], *, has_pad
             hot > 0,
             f"{hot} of {len(rows)} contacts lasted so long that heat through them, which no thermal pad tells, may be "
             "all of their force; take rest anew where they are let go",
+        ),
+        (
+            looked.heating > HEATING,
+            f"heat came {looked.heating:.1f} times as fast as in the warm-up: limits of drift do not hold, and what "
+            "pads do not tell in time may read as contacts; learn from a warm-up that is as fast",
         ),
         (
             len(looked.dead_pads) > 0,

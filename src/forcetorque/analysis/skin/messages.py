@@ -20,6 +20,15 @@ from forcetorque.skin.taxels.health import FULL_COUNTS
 
 _SICK: Final = (Ailment.WRAPS, Ailment.RAILS, Ailment.NOISE)
 """What makes a taxel useless in a recording of contacts; jumps may be blows, and many are never touched."""
+MOST_LEFT_OUT: Final = 0.5
+"""Share of taxels left out above which contacts between the others are missed, and a recording says nothing."""
+STEP_COUNTS: Final = 2.5
+"""A change within `_STEP_S` that is larger is no heat, and not noise of means over a fifth of that."""
+_STEP_S: Final = 2.0
+_FEWEST: Final = 2
+"""Taxels that make a contact, as elsewhere."""
+_MANY_MESSAGES, _NOISY_COUNTS = 100, 0.5
+"""Of so many messages with so much noise none is as all others by chance."""
 _NAMED: Final = 8
 """So many columns are named in a message."""
 
@@ -83,6 +92,9 @@ def resting_reader(
 
     Returns:
         The reader.
+
+    Raises:
+        SkinError: If more than half of the taxels are left out.
     """
     resting = seconds < seconds[0] + rest_s
     own = counts[:, table.taxels]
@@ -90,7 +102,70 @@ def resting_reader(
     # noise is judged at rest: under a hand that moves every taxel is noisy
     reasons = zip(taxel_ailments(own, never_judged), taxel_ailments(own[resting], never_judged), strict=True)
     sick = np.array([_is_sick(whole, rest) for whole, rest in reasons])
-    return PatchReader.at_rest(table, counts[resting], live=table.live & ~sick & told)
+    live = table.live & ~sick & told
+    if np.count_nonzero(~live) > MOST_LEFT_OUT * len(live):
+        raise SkinError(
+            f"expected at least half of {len(live)} taxels to be live, got {np.count_nonzero(live)}: "
+            f"{np.count_nonzero(~table.live)} have no curve, {np.count_nonzero(sick)} are at a rail, wrap or are noisy "
+            f"here, {np.count_nonzero(~told)} follow no thermal pad; contacts between the others would be missed; "
+            "look at the cables of the boards, or calibrate again"
+        )
+    return PatchReader.at_rest(table, counts[resting], live=live)
+
+
+def touched_at_rest(reader: PatchReader, seconds: FloatArray, counts: FloatArray, *, rest_s: float) -> IntArray:
+    """Find taxels that something touched while rest was taken, so that they read too little from then on.
+
+    They change at once during the rest, or jump later to more than 2.5 counts above it, as something is let go.
+
+    Args:
+        reader: Reader with the rest.
+        seconds: Times of the messages; shape (k,); s.
+        counts: Messages; shape (k, columns); counts.
+        rest_s: Time at the beginning in which nothing should touch the patch.
+
+    Returns:
+        Their columns; none where fewer than two do so together.
+    """
+    period = max(float(np.median(np.diff(seconds))), 1e-6)
+    averaged = max(1, round(0.2 * _STEP_S / period))
+    whole = len(counts) // averaged * averaged
+    means = counts[:whole, reader.table.taxels].reshape(-1, averaged, len(reader.table)).mean(axis=1)
+    step = max(1, round(_STEP_S / (averaged * period)))
+    resting = max(2, int(rest_s / (averaged * period)))
+    within = np.ptp(means[:resting], axis=0)
+    least = np.maximum(STEP_COUNTS, 8.0 * _short_noise(counts[:, reader.table.taxels]) / np.sqrt(averaged))
+    begun = (within > least) & reader.live
+    freed = (means[step:] - means[:-step] > least) & (means[step:] - reader.rest[reader.table.taxels] > least)
+    together = (freed & reader.live).sum(axis=1) >= _FEWEST
+    let_go = (freed[together] & reader.live).any(axis=0)
+    touched = let_go | (begun if np.count_nonzero(begun) >= _FEWEST else np.zeros(len(begun), dtype=np.bool_))
+    columns: IntArray = reader.table.taxels[touched]
+    return columns
+
+
+def stuck_taxels(reader: PatchReader, counts: FloatArray) -> IntArray:
+    """Find live taxels that send one number in all messages while the others are so noisy that none could by chance.
+
+    Args:
+        reader: Reader with the noise at rest.
+        counts: Messages; shape (k, columns); counts.
+
+    Returns:
+        Their columns; none where the others are quiet.
+    """
+    columns = reader.table.taxels
+    constant = np.ptp(counts[:, columns], axis=0) == 0.0
+    noise = reader.noise[columns][reader.live & ~constant]
+    plain = len(counts) >= _MANY_MESSAGES and len(noise) > 0 and float(np.median(noise)) > _NOISY_COUNTS
+    stuck: IntArray = columns[constant & reader.live & plain]
+    return stuck
+
+
+def _short_noise(counts: FloatArray) -> FloatArray:
+    """Noise from one message to the next, by a mean that few large changes hardly move; shape (n,); counts."""
+    noise: FloatArray = np.sqrt(np.mean(np.minimum(np.abs(np.diff(counts, axis=0)), 5.0) ** 2, axis=0) / 2.0)
+    return noise
 
 
 def _is_sick(whole: Sequence[Ailment], resting: Sequence[Ailment]) -> bool:

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Final
 
 import numpy as np
 
@@ -17,7 +17,11 @@ from forcetorque.experiment.inputs import stated_in
 from forcetorque.recording import Use
 from forcetorque.result import Row, Shown
 from forcetorque.skin import rebuilt_normals
+from forcetorque.skin.contact.following import FASTER
 from forcetorque.skin.temperature import HeatGains, WarmUp, fit_warm_up
+
+UNEXPLAINED: Final = 0.5
+"""What pads may leave of a taxel unsaid: half of what wakes it in frames of ten messages; counts."""
 
 
 class WarmUpRow(Row):
@@ -41,6 +45,10 @@ class WarmUpRow(Row):
     """Standard deviation of them from taxel to taxel."""
     misfit_counts: Annotated[float, Shown("misfit", "counts", digits=2)]
     """Median of what the pads leave of a taxel's change."""
+    lag_s: Annotated[float, Shown("lag", "s", digits=1)]
+    """Median lag of pads behind taxels; negative where they lead."""
+    unexplained_counts: Annotated[float, Shown("unexplained", "counts", digits=1)]
+    """Most that pads, followed as they come, leave of a taxel."""
     rate_counts_per_min: Annotated[float, Shown("rate", "counts/min", digits=1)]
     """Median of their steepest changes, from which limits of drift are told."""
 
@@ -112,6 +120,21 @@ def _doubts(learned: WarmUp, patch: ExperimentPatch) -> tuple[str, ...]:
             f"{len(without)} taxels were not sound in the warm-up ({_listed(without)}): they have no gain, and are "
             "left out where heat is taken out by gains"
         )
+    lags = HeatGains.learned(learned.taxels).lags
+    if np.any(lags):
+        late, early = int(np.count_nonzero(lags > 0.0)), int(np.count_nonzero(lags < 0.0))
+        sentences.append(
+            f"{late} of {len(lags)} thermal pads feel heat later than their taxels and {early} sooner, by "
+            f"{np.median(lags):+.0f} s in the median: this is made up for once a trend is seen, not when heat begins"
+        )
+    unexplained = np.array([heat.unexplained_counts for heat in learned.taxels])
+    many = int(np.count_nonzero(unexplained > UNEXPLAINED))
+    if many > 1:
+        sentences.append(
+            f"thermal pads leave over {UNEXPLAINED:g} counts of {many} of {len(unexplained)} taxels unexplained when "
+            f"heat comes, at most {unexplained.max():.1f}: less than {FASTER:g} times that wakes no taxel, and "
+            f"heat that comes more than {FASTER:g} times as fast reads as contacts"
+        )
     return tuple(sentences)
 
 
@@ -142,5 +165,7 @@ def warm_up_row(learned: WarmUp) -> WarmUpRow:
         gain=float(np.median(gains)),
         gain_spread=float(gains.std()),
         misfit_counts=float(np.median([heat.misfit_counts for heat in taxels])),
+        lag_s=float(np.median(HeatGains.learned(learned.taxels).lags)),
+        unexplained_counts=max(heat.unexplained_counts for heat in taxels),
         rate_counts_per_min=60.0 * float(np.median(rates)),
     )

@@ -11,14 +11,14 @@ from typing import Final, Literal
 import numpy as np
 from pydantic import Field
 
-from forcetorque.analysis.runs.added import added_to, warns_of_additions
+from forcetorque.analysis.runs.added import added_to, with_recording_notes
 from forcetorque.analysis.skin.contact_rows import SkinContactRow, SkinWrenchPicture, contact_rows
 from forcetorque.analysis.skin.frames import SkinFrames, skin_frames
 from forcetorque.analysis.skin.heat_rows import OFFERED, ReleaseRow, heat_warnings, release_row
 from forcetorque.analysis.skin.life_rows import ContactLifeRow, life_rows
 from forcetorque.analysis.skin.messages import patch_messages
 from forcetorque.analysis.skin.wrench_choice import WrenchChoice, chosen_layout, chosen_patch
-from forcetorque.arrays import BoolArray, FloatArray
+from forcetorque.arrays import FloatArray
 from forcetorque.errors import ExperimentError, SkinError
 from forcetorque.experiment import ExperimentPatch, PatchExperiment, load_patches
 from forcetorque.experiment.inputs import stated_in
@@ -28,6 +28,8 @@ from forcetorque.skin.contact import PressureFrame, SkinContacts, find_contacts
 from forcetorque.skin.surface import unrolled
 from forcetorque.skin.wrench import SkinPatch, WrenchMethod
 
+MANY_LEFT_OUT: Final = 0.2
+"""Share of taxels left out above which forces are too low: by 15 % of a contact at 30 %, by 25 % at 60 %."""
 _SHOWN: Final = 12
 """Contacts of the table; JSON and CSV have all."""
 
@@ -107,7 +109,7 @@ class SkinWrench(Result):
         return super().columns() or list(SkinContactRow.model_fields)
 
 
-@warns_of_additions
+@with_recording_notes
 def skin_wrench(
     experiment: Path | str | PatchExperiment,
     calibration: Path | str | PatchCalibration,
@@ -209,7 +211,7 @@ def _answer(content: PatchExperiment, frames: PatchFrames, chosen: WrenchChoice)
         releases=releases,
         picture=_picture(own.name, skin, seconds, force, looked.frames, chosen),
         warnings=(
-            *_warnings(rows, looked.reader.live),
+            *_warnings(rows, looked, chosen),
             *heat_warnings(looked, rows, has_pads=len(skin.layout.thermal_pads) > 0),
             *added_to(content.recording),
         ),
@@ -242,12 +244,14 @@ def _picture(
     )
 
 
-def _warnings(rows: Sequence[SkinContactRow], live: BoolArray) -> tuple[str, ...]:
+def _warnings(rows: Sequence[SkinContactRow], looked: SkinFrames, chosen: WrenchChoice) -> tuple[str, ...]:
     """What makes contacts doubtful."""
     beyond = sum(row.beyond_range for row in rows)
     at_edge = sum(row.edge_share > 0.1 for row in rows)
     several = sum(row.lobes > 1 for row in rows)
+    live, touched = looked.reader.live, looked.touched_at_rest
     dead = int((~live).sum())
+    many = dead > MANY_LEFT_OUT * len(live)
     sentences = (
         (
             beyond,
@@ -258,6 +262,24 @@ def _warnings(rows: Sequence[SkinContactRow], live: BoolArray) -> tuple[str, ...
             f"{at_edge} of {len(rows)} contacts have over 10 % of their force at the edge: some is not felt",
         ),
         (several, f"{several} of {len(rows)} contacts have several hills of pressure: they may be contacts that touch"),
-        (dead, f"{dead} of {len(live)} taxels are left out; what they would read is told by those around them"),
+        (
+            len(looked.stuck),
+            f"{len(looked.stuck)} taxels send one number in all messages while others are noisy, the first in column "
+            f"{looked.stuck[0] if len(looked.stuck) else None}: they feel nothing, and forces on them are missed",
+        ),
+        (
+            len(touched),
+            f"{len(touched)} taxels, the first in column {touched[0] if len(touched) else None}, were touched in the "
+            f"first {chosen.rest_s:g} s, from which rest is taken: they read too little; begin without contact",
+        ),
+        (
+            dead,
+            f"{dead} of {len(live)} taxels are left out; "
+            + (
+                f"over {100.0 * MANY_LEFT_OUT:g} %: forces are too low, and small contacts are missed"
+                if many
+                else "what they would read is told by those around them"
+            ),
+        ),
     )
     return tuple(sentence for number, sentence in sentences if number)

@@ -8,7 +8,7 @@ from typing import Literal
 
 from pydantic import Field
 
-from forcetorque.analysis.runs.added import warns_of_additions
+from forcetorque.analysis.runs.added import with_recording_notes
 from forcetorque.analysis.runs.applicability import by_sensor
 from forcetorque.analysis.runs.named import Calibrations, named
 from forcetorque.analysis.runs.sensor_run import SensorRun
@@ -27,6 +27,8 @@ __all__ = ["SensorSphere", "SphereRow", "Spheres", "spheres", "spheres_of_sensor
 
 class Spheres(Result):
     """Apparent masses of the axes of sensors, with and without the model, and what they are worth."""
+
+    interval_uses = ()
 
     schema_name: Literal["forcetorque/sphere/1"] = Field(default="forcetorque/sphere/1", alias="schema")
     """Form of the result."""
@@ -68,7 +70,7 @@ class Spheres(Result):
             yield f"drawn to {self.figure}"
 
 
-@warns_of_additions
+@with_recording_notes
 def spheres(run: SensorRun, calibrations: Calibrations, intervals: Sequence[str] | None = None) -> Spheres:
     """Compare how the three axes of a sensor weigh the limb that is carried around.
 
@@ -105,7 +107,7 @@ def spheres(run: SensorRun, calibrations: Calibrations, intervals: Sequence[str]
     )
 
 
-@warns_of_additions
+@with_recording_notes
 def spheres_of_sensors(
     experiment: Experiment,
     sensors: Sequence[ExperimentSensor],

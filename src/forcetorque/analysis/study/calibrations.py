@@ -14,6 +14,7 @@ from forcetorque.analysis.study.data import StudyData
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration import Calibration, Selection, SessionOffset, calibrate
 from forcetorque.evaluation import Offset
+from forcetorque.recording.sample_quality import UnusableCounts
 from forcetorque.spatial import WRENCH_COMPONENTS
 from forcetorque.study import Candidate, GenerativeCandidate, Study, assembled
 
@@ -65,7 +66,11 @@ class CalibrationMaker:
         joined = joined_by_axis([best[index] for index in rows])
         fitted = {interval.label for interval in joined.provenance.intervals}
         parts = [interval.part for interval in self.data.calibration if interval.label in fitted]
-        counted = {"samples": sum(len(p.samples) for p in parts), "dropped": sum(p.samples.dropped for p in parts)}
+        counted = {
+            "samples": sum(len(p.samples) for p in parts),
+            "dropped": sum(p.samples.dropped for p in parts),
+            "unusable": UnusableCounts.total(p.samples.unusable for p in parts),
+        }
         return joined.model_copy(update={"provenance": joined.provenance.model_copy(update=counted)})
 
     def _of(self, candidate: Candidate | GenerativeCandidate, rule: str) -> Calibration:

@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from forcetorque.analysis.calibration.generative import generative_calibration
-from forcetorque.analysis.calibration.recording_moments import moments_of
+from forcetorque.analysis.calibration.recording_moments import agreeing_moments, moments_of
 from forcetorque.analysis.runs.campaign_interval import CampaignInterval
 from forcetorque.analysis.study.data import StudyData
 from forcetorque.arrays import FloatArray
@@ -45,16 +45,13 @@ def generative_fits(
         The fits. A combination without a load, with readings that do not follow it, or without a prior and with too few
         loads, is left out.
     """
-    kept = {
-        interval.label: IntervalMoments.of(interval.data_set, interval.fitted, dropped=interval.part.samples.dropped)
-        for interval in data.calibration
-    }
+    kept, doubts = _kept(data)
     calibrations: dict[str, Calibration] = {}
     candidates, left_out = [], []
     for name, labels in combinations.items():
-        intervals = [interval for interval in data.calibration if interval.label in labels]
+        intervals = [one for one in data.calibration if one.label in labels and one.label in kept]
         try:
-            recordings = _recordings(data, intervals, kept)
+            recordings = _recordings(data, intervals, kept, doubts)
             calibration = generative_calibration(recordings, code_version=code_version, created=created)
         except (FitError, ExperimentError) as error:
             left_out.append(f"{name} generative: {error}")
@@ -64,8 +61,23 @@ def generative_fits(
     return GenerativeFits(candidates=tuple(candidates), calibrations=calibrations, left_out=tuple(left_out))
 
 
+def _kept(data: StudyData) -> tuple[dict[str, IntervalMoments], dict[str, list[str]]]:
+    """Intervals by their labels, without samples that disagree; and what was left out, by recording."""
+    kept: dict[str, IntervalMoments] = {}
+    doubts: dict[str, list[str]] = {}
+    variables = [variable.linear for variable in data.sensor.variables]
+    for name in dict.fromkeys(interval.recording for interval in data.calibration):
+        own = [interval for interval in data.calibration if interval.recording == name]
+        moments, doubts[name] = agreeing_moments(data.recordings[name], own, variables=variables)
+        kept |= {one.interval.label: one for one in moments}
+    return kept, doubts
+
+
 def _recordings(
-    data: StudyData, intervals: Sequence[CampaignInterval], kept: Mapping[str, IntervalMoments]
+    data: StudyData,
+    intervals: Sequence[CampaignInterval],
+    kept: Mapping[str, IntervalMoments],
+    left_out: Mapping[str, Sequence[str]],
 ) -> list[RecordingMoments]:
     sensor = data.sensor
     doubts = gate.examine([interval.data_set for interval in intervals], sensor.prior, sensor.full_scale)
@@ -74,7 +86,7 @@ def _recordings(
             data.recordings[name],
             [kept[interval.label] for interval in intervals if interval.recording == name],
             variables=[variable.linear for variable in sensor.variables],
-            doubts=[doubt.message for doubt in doubts],
+            doubts=[*(doubt.message for doubt in doubts), *left_out[name]],
         )
         for name in dict.fromkeys(interval.recording for interval in intervals)
     ]

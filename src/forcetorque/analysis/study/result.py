@@ -125,6 +125,8 @@ class StudiedSensor(Row):
 class Studies(Result):
     """Studies of sensors over the same recordings."""
 
+    interval_uses = ()
+
     schema_name: Literal["forcetorque/study/2"] = Field(default="forcetorque/study/2", alias="schema")
     """Form of the result."""
     lambda_convention: str = f"{CONVENTION}; counts2"

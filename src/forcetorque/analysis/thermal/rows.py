@@ -10,7 +10,7 @@ from pydantic import Field
 
 from forcetorque.array_field import ArrayField
 from forcetorque.arrays import FloatArray
-from forcetorque.result import FloatOrNull, Row, Shown, Table, table_of
+from forcetorque.result import FloatOrNull, Row, Shown, Table, table_of, with_error
 
 
 class ThermalDriftRow(Row):
@@ -82,6 +82,10 @@ class SensorThermal(Row):
     """Drift of fx fy fz tx ty tz."""
     channels: tuple[ThermalDriftRow, ...]
     """Drift of every raw channel; none where wrenches were logged."""
+    thermometer_lag_s: float | None
+    """By how much the thermometer reads later than the gauges; null where heating and cooling are too even to tell."""
+    thermometer_lag_half_width_95_s: float | None
+    """Half-width of its interval."""
     corrected: bool
     """Whether the reading is already corrected for this temperature, and the drift what that leaves."""
     curve: ThermalCurve = Field(exclude=True, repr=False)
@@ -101,6 +105,9 @@ class SensorThermal(Row):
         if self.channels:
             yield table_of(self.channels, f"{self.sensor}, raw channels")
         yield "±: half a 95 % interval"
+        if self.thermometer_lag_s is not None and self.thermometer_lag_half_width_95_s is not None:
+            lag = with_error(self.thermometer_lag_s, self.thermometer_lag_half_width_95_s, digits=0)
+            yield f"the thermometer reads {lag} s later than the gauges, which the drift allows for"
         if (table := self.variable_table()) is not None:
             yield "for [[sensor.variable]] of an experiment to calibrate:"
             yield from table

@@ -10,17 +10,18 @@ from typing import Literal
 import numpy as np
 from pydantic import Field
 
-from forcetorque.analysis.runs.added import warns_of_additions
+from forcetorque.analysis.runs.added import with_recording_notes
 from forcetorque.analysis.runs.chosen_intervals import chosen_intervals
 from forcetorque.analysis.runs.reading import Correction, readings_at
 from forcetorque.analysis.runs.sensor_run import SensorRun
 from forcetorque.analysis.thermal.rows import SensorThermal, ThermalCurve, ThermalDriftRow
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration import Calibration
+from forcetorque.constants import NORMAL_95
 from forcetorque.errors import ExperimentError, known_names
 from forcetorque.estimation.picked import padded_samples
 from forcetorque.evaluation.thermal import Cycles, DriftFit, LoadStep, cycles_of, find_load_step, fit_drift
-from forcetorque.evaluation.thermal.drift import LEAST_RANGE_DEGC, MIXED_WITH_TIME
+from forcetorque.evaluation.thermal.drift import LAG_UNTOLD_S, LEAST_RANGE_DEGC, MIXED_WITH_TIME
 from forcetorque.experiment.content import SensorVariable
 from forcetorque.recording import Interval
 from forcetorque.recording.alignment import seconds_since
@@ -30,6 +31,8 @@ from forcetorque.spatial import WRENCH_COMPONENTS, WRENCH_UNITS
 
 class Thermal(Result):
     """What temperature does to sensors at constant load."""
+
+    interval_uses = ()
 
     schema_name: Literal["forcetorque/thermal/1"] = Field(default="forcetorque/thermal/1", alias="schema")
     """Form of the result."""
@@ -64,7 +67,7 @@ class Thermal(Result):
         ]
 
 
-@warns_of_additions
+@with_recording_notes
 def thermal(
     run: SensorRun,
     *,
@@ -113,6 +116,8 @@ def thermal(
         told_from_time=fit.told_from_time,
         components=tuple(rows[: len(names)]),
         channels=tuple(rows[len(names) :]),
+        thermometer_lag_s=fit.lag_s if fit.lag_error_s else None,
+        thermometer_lag_half_width_95_s=NORMAL_95 * fit.lag_error_s or None,
         corrected=temperature.linear.name in correction.variables,
         curve=ThermalCurve(
             signals=tuple(f"{signal}, {unit}" for signal, unit in names),
@@ -195,6 +200,11 @@ def _doubts(sensor: SensorThermal, cycles: Cycles, fit: DriftFit, step: LoadStep
         yield (
             f"{sensor.sensor}: heating against cooling is hardly told from a drift in time by what was recorded, which "
             "makes their intervals wide; record at least two cycles without switching off"
+        )
+    if fit.lag_error_s > LAG_UNTOLD_S:
+        yield (
+            f"{sensor.sensor}: heating and cooling slowed down alike, so that a late thermometer looks like another "
+            f"drift per degC, whose intervals allow for {NORMAL_95 * fit.lag_error_s:.0f} s; heat and cool it evenly"
         )
     if step is not None:
         signal = [*sensor.components, *sensor.channels][step.signal]

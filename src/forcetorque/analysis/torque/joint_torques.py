@@ -8,7 +8,7 @@ from typing import Annotated, Literal
 
 import numpy as np
 
-from forcetorque.analysis.runs.added import warns_of_additions
+from forcetorque.analysis.runs.added import with_recording_notes
 from forcetorque.analysis.runs.campaign import Campaign, Runs
 from forcetorque.analysis.runs.candidate import JudgedRow
 from forcetorque.analysis.runs.free_sub_model import SubModelChoice
@@ -79,7 +79,7 @@ class JointTorques(Result):
             yield "no joint torque is estimated from the sensor"
 
 
-@warns_of_additions
+@with_recording_notes
 def joint_torques(
     runs: Runs,
     calibrations: Mapping[str, Calibration],

@@ -189,17 +189,33 @@ class TorqueSources:
             )
             for sensor in experiment.sensors
         }
+        question = self._question(interval, (), ft=True)
         return wrench_source(
             "ft",
-            self._question(interval, (), ft=True),
+            question,
             motion.joints,
             motion.root,
             motion.stamp_ns,
             uncertainty=Uncertainty(measured=noise, lasting=lasting),
-            floor=self.table.model_deviation,
+            model_deviation=self._model_deviation(question),
             noise_time_s=self.table.noise_time_s,
             measured=Wrenches.of(measured),
         )
+
+    def _model_deviation(self, question: Question) -> FloatArray:
+        """Standard deviation of the error of the robot model in each torque; shape (j,); N m, N."""
+        stated = self.table.model_deviation
+        if isinstance(stated, float):
+            return np.full(len(question.torques), stated)
+        missing = [joint for joint in question.torques if joint not in stated]
+        unknown = [joint for joint in stated if joint not in self.experiment.model.joints]
+        if missing or unknown:
+            raise ExperimentError(
+                f"[fusion] model_deviation: expected one value in N m for each of the fused joints "
+                f"{', '.join(question.torques)}, got none for {', '.join(missing) or 'no joint'} and unknown joints "
+                f"{', '.join(unknown) or 'none'}; state one per joint, or one number for all"
+            )
+        return np.array([stated[joint] for joint in question.torques])
 
     def _skin(self, motion: IntervalMotion) -> TorqueSource:
         recording, known, noise, lasting = self.experiment.recording, {}, {}, {}
@@ -213,14 +229,15 @@ class TorqueSources:
             name = source.contact.name
             noise[name], lasting[name] = source.errors(SKIN_NOISE_SHARE)
             known[name] = source.wrench
+        question = self._question(motion.interval, motion.skin, ft=False)
         return wrench_source(
             "skin",
-            self._question(motion.interval, motion.skin, ft=False),
+            question,
             motion.joints,
             motion.root,
             motion.stamp_ns,
             uncertainty=Uncertainty(known=noise, lasting=lasting),
-            floor=self.table.model_deviation,
+            model_deviation=self._model_deviation(question),
             noise_time_s=self.table.noise_time_s,
             known=Wrenches.of(known) if known else None,
         )
@@ -250,6 +267,7 @@ class TorqueSources:
         torque = np.concatenate([source.torque for source in trusted])
         noise = np.concatenate([np.einsum("njj->nj", source.noise) for source in trusted])
         lasting = np.concatenate([source.lasting for source in trusted])
+        shared = np.concatenate([source.shared for source in trusted])
         period_s = float(np.median(np.diff(motions[0].stamp_ns))) * 1e-9
         with stated_in(f"experiment {self.experiment.name!r}, calibration intervals"):
             return tuple(
@@ -263,6 +281,7 @@ class TorqueSources:
                     standstill=motor.standstill,
                     trusted_variance=noise[:, k],
                     trusted_lasting=lasting[:, k],
+                    trusted_shared=shared[:, k],
                 )
                 for k, motor in enumerate(self.experiment.motors)
             )

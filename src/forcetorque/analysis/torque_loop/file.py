@@ -57,9 +57,9 @@ class ControllerTable(Table):
 class EstimatorTable(Table):
     """How torques come to the controllers, which run at 1 kHz."""
 
-    rate_hz: Annotated[float, Field(gt=0.0, le=1000.0)] = 1000.0
+    rate_hz: Annotated[float, Field(ge=1.0, le=1000.0)] = 1000.0
     """Rate of estimates; a whole number of milliseconds apart; Hz."""
-    delay_s: NotNegative = 0.001
+    delay_s: Annotated[float, Field(ge=0.0, le=1.0, strict=True)] = 0.001
     """How late an estimate is, beside the step in which it is computed; 0 switches it off; s."""
 
 

@@ -165,12 +165,19 @@ class UseJudge:
                 after_at_least=after.at_least,
                 after_at_most=after.at_most,
                 allowed=None if np.isinf(allowed) else allowed,
+                measured=self._measured_size(quantity),
                 axes=tuple(after.axes.tolist()),
                 from_matrix=after.sources.matrix,
                 from_offset=after.sources.offset,
                 from_variables=after.sources.variables,
                 from_noise=after.sources.noise,
             )
+
+    def _measured_size(self, quantity: str) -> float | None:
+        if self.measured is None:
+            return None
+        error: MeasuredError = getattr(self.measured, quantity)
+        return error.rest if self.case.offset is UseOffset.TARED else float(np.hypot(error.constant, error.rest))
 
     def _measured(self) -> Iterator[Reason]:
         if self.measured is None:

@@ -48,6 +48,9 @@ class UseError(Row):
     """Upper end; those of force and moment are both held with 95 %."""
     allowed: Annotated[float | None, Shown("allowed", digits=3)]
     """What the use allows; None where this quantity is not judged."""
+    measured: Annotated[float | None, Shown("measured", digits=3)] = None
+    """Root mean square on data that were not fitted, at their loads; without its constant part where the use is tared.
+    None without such data."""
     axes: tuple[float, float, float]
     """Expected with the calibration along x, y and z."""
     from_matrix: Annotated[float, Shown("matrix", digits=3)]

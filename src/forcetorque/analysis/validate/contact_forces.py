@@ -8,7 +8,7 @@ from typing import Annotated
 
 import numpy as np
 
-from forcetorque.analysis.runs.added import warns_of_additions
+from forcetorque.analysis.runs.added import with_recording_notes
 from forcetorque.analysis.runs.campaign import Campaign, Runs
 from forcetorque.analysis.runs.free_sub_model import SubModelChoice
 from forcetorque.analysis.use.judged_excitation import JudgedExcitation, fewest_independent
@@ -100,7 +100,7 @@ class RecordingContactForces(ContactForceErrors):
     """Name of the recording, unique in the campaign: that of the experiment, with the file where several have it."""
 
 
-@warns_of_additions
+@with_recording_notes
 def contact_forces(
     runs: Runs,
     calibrations: Mapping[str, Calibration],

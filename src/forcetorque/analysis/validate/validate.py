@@ -9,7 +9,7 @@ from typing import ClassVar, Literal
 from pydantic import Field
 
 from forcetorque.analysis.evaluate.tables import smoothing_words
-from forcetorque.analysis.runs.added import warns_of_additions
+from forcetorque.analysis.runs.added import with_recording_notes
 from forcetorque.analysis.runs.campaign import Campaign, Runs
 from forcetorque.analysis.runs.free_sub_model import FreeSubModel, SubModelChoice
 from forcetorque.analysis.runs.named import Calibrations, named
@@ -43,6 +43,8 @@ class Validation(Result):
     """Contact forces and joint torques of sensors, by their calibrations and the priors that those came from."""
 
     of_several: ClassVar[tuple[str, ...]] = ("recordings", "recording_torques")
+
+    interval_uses = ()
 
     schema_name: Literal["forcetorque/validate/1"] = Field(default="forcetorque/validate/1", alias="schema")
     """Form of the result."""
@@ -109,7 +111,7 @@ class Validation(Result):
                 yield f"{sensor}, {row.candidate}, offset {row.offset}: read by {row.offset_source}"
 
 
-@warns_of_additions
+@with_recording_notes
 def validate(
     runs: Runs,
     calibrations: Calibrations,

@@ -11,7 +11,7 @@ import numpy as np
 from forcetorque.analysis.workbench.bench_recording import BenchRecording
 from forcetorque.analysis.workbench.rows import BenchSensorRow, SeriesRow
 from forcetorque.arrays import FloatArray
-from forcetorque.calibration import Moments, excitation_of
+from forcetorque.calibration import DataSet, Moments, excitation_of, gate
 from forcetorque.calibration.generative import unmoved_directions
 from forcetorque.errors import ExperimentError, FitError
 from forcetorque.exsitu import Bench, BenchFit, fit_bench, in_folds, one_by_one, rms, whole_series
@@ -19,6 +19,8 @@ from forcetorque.spatial import FORCE_AND_MOMENT, WRENCH_COMPONENTS
 
 _SWAPPED = 0.5
 """Error with forces and moments exchanged, over that as stated, below which they were exchanged."""
+_SAMPLES = 10
+"""Samples that a position counts for where neighbours are compared."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -35,6 +37,8 @@ class FittedBench:
     """The fit; None where the loads do not tell a matrix."""
     series: tuple[SeriesRow, ...]
     """Series left out as a whole."""
+    doubts: tuple[str, ...] = ()
+    """What makes its data doubtful."""
 
     @property
     def matrix(self) -> FloatArray | None:
@@ -60,14 +64,16 @@ def fit_recording(recording: BenchRecording, rng: np.random.Generator, *, with_s
         raise ExperimentError(f"{recording.file}: expected readings at positions, there is none yet")
     bench = recording.bench.usable()
     _require_halves(bench, recording.file)
+    unmoved = unmoved_directions(bench.loads.wrench, [len(bench)])
     fitted, reason = None, ""
+    doubts: tuple[str, ...] = ()
     try:
+        doubts = _implausible(bench) if len(unmoved) < len(WRENCH_COMPONENTS) else ()
         fitted = fit_bench(bench)
     except FitError as error:
         reason = str(error)
     held_out = None if fitted is None else one_by_one(fitted)
     folds = None if fitted is None else in_folds(fitted, rng)
-    unmoved = unmoved_directions(bench.loads.wrench, [len(bench)])
     excitation = excitation_of(Moments.of(bench.raw, bench.loads.wrench))
     channels = tuple(f"ch{k}" for k in range(bench.raw.shape[1]))
     row = BenchSensorRow(
@@ -91,7 +97,7 @@ def fit_recording(recording: BenchRecording, rng: np.random.Generator, *, with_s
     series: tuple[SeriesRow, ...] = ()
     if with_series and fitted is not None and held_out is not None:
         series = _series_rows(fitted, held_out)
-    return FittedBench(recording=recording, row=row, bench=bench, fitted=fitted, series=series)
+    return FittedBench(recording=recording, row=row, bench=bench, fitted=fitted, series=series, doubts=doubts)
 
 
 def _not_known(bench: Bench) -> Iterator[str]:
@@ -117,6 +123,16 @@ def _series_rows(fitted: BenchFit, held_out: FloatArray) -> tuple[SeriesRow, ...
         )
         for name, outcome in rows
     )
+
+
+def _implausible(bench: Bench) -> tuple[str, ...]:
+    """What makes it doubtful that the readings are those of a sensor under the known loads, each position a block."""
+    blocks = DataSet(
+        label=bench.serial,
+        raw=np.repeat(bench.raw, _SAMPLES, axis=0),
+        reference=np.repeat(bench.loads.wrench, _SAMPLES, axis=0),
+    )
+    return tuple(doubt.message for doubt in gate.examine([blocks], bench.prior, setup=gate.WORKBENCH))
 
 
 def _require_halves(bench: Bench, file: str) -> None:

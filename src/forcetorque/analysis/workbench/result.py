@@ -22,7 +22,7 @@ from forcetorque.analysis.workbench.rows import (
     SphereRow,
     UnusualRow,
 )
-from forcetorque.calibration import Calibration, write_calibration
+from forcetorque.calibration import Calibration
 from forcetorque.errors import ExperimentError, FitError
 from forcetorque.result import COMPONENTS, Result, Table, number, table_of
 
@@ -94,22 +94,24 @@ class Workbench(Result):
         if self.figure is not None:
             yield f"drawn to {self.figure}"
 
-    def save(self, path: Path | str) -> None:
+    def save(self, path: Path | str, *, force: bool = False) -> None:
         """Write the calibration of the one sensor.
 
         Args:
             path: File to write or to replace, in an existing folder.
+            force: Whether a file that is neither a result nor a figure may be replaced; an input never is.
 
         Raises:
             FitError: If there is no matrix.
             ExperimentError: If there are several sensors.
+            OutputError: As of `Calibration.save`.
         """
         if len(self.sensors) > 1:
             raise ExperimentError(f"{path}: expected one sensor, got {len(self.sensors)}; write each by itself")
         if not self.calibrations:
             reason = self.sensors[0].reason if self.sensors else "nothing was read yet"
             raise FitError(f"{path}: expected a matrix to write, there is none: {reason}")
-        write_calibration(path, self.calibrations[0])
+        self.calibrations[0].save(path, force=force)
 
 
 def _error_table(sensor: BenchSensorRow, series: Sequence[SeriesRow]) -> Table:

@@ -75,7 +75,11 @@ def workbench(
             fit.fitted,
             code_version=code_version,
             created=created,
-            doubts=(*_unsound(blocks, fit.row.serial), *(r.sentence for r in faults if r.serial == fit.row.serial)),
+            doubts=(
+                *_unsound(blocks, fit.row.serial),
+                *(row.sentence for row in faults if row.serial == fit.row.serial),
+                *fit.doubts,
+            ),
         )
         for fit in with_matrix
         if fit.fitted is not None
@@ -113,11 +117,13 @@ def _require_apart(recordings: Sequence[BenchRecording]) -> None:
 
 def _require_full(fits: Sequence[FittedBench]) -> None:
     for fit in fits:
-        if fit.row.unmoved or not fit.row.fitted:
+        if fit.row.unmoved:
             raise FitError(
                 f"{fit.row.file}: expected loads that move all six directions, got {fit.row.rank}, not "
-                f"{'; '.join(fit.row.unmoved) or fit.row.reason}; hang a load there"
+                f"{'; '.join(fit.row.unmoved)}; hang a load there"
             )
+        if not fit.row.fitted:
+            raise FitError(f"{fit.row.file}: {fit.row.reason}")
 
 
 def _criteria(
@@ -163,8 +169,9 @@ def _warnings(fits: Sequence[FittedBench], examined: Sequence[Examined]) -> Iter
             yield f"{row.serial}: the loads move {row.rank} of 6 directions, not {'; '.join(row.unmoved)}: {kept} there"
         if row.unseen:
             yield f"{row.serial}: raw directions that no load moves: {row.unseen}"
-        if not row.fitted and not row.unmoved:
+        if not row.fitted and (fit.bench.prior is not None or not row.unmoved):
             yield f"{row.serial}: {row.reason}"
+        yield from (f"{row.serial}: {doubt}" for doubt in fit.doubts)
         for series in fit.series:
             if series.reason or series.ratio > _FORETOLD:
                 why = series.reason or (

@@ -3,5 +3,6 @@
 
 from forcetorque.calibration.gate.doubt import Doubt, DoubtKind
 from forcetorque.calibration.gate.examine import examine
+from forcetorque.calibration.gate.setup import ROBOT, WORKBENCH, Setup
 
-__all__ = ["Doubt", "DoubtKind", "examine"]
+__all__ = ["ROBOT", "WORKBENCH", "Doubt", "DoubtKind", "Setup", "examine"]

@@ -17,6 +17,7 @@ from forcetorque.calibration.gate.moment_unit import require_moment_unit
 from forcetorque.calibration.gate.movement import Movement
 from forcetorque.calibration.gate.reference_motion import require_moving_load
 from forcetorque.calibration.gate.scale import scale_doubts
+from forcetorque.calibration.gate.setup import ROBOT, Setup
 from forcetorque.calibration.gate.sign import require_same_sign
 from forcetorque.calibration.gate.span import span_doubts
 from forcetorque.calibration.moments import Moments, pooled
@@ -28,7 +29,11 @@ _FEWEST = 20
 
 
 def examine(
-    data_sets: Sequence[DataSet], prior: FloatArray | None, full_scale: FloatArray | None = None
+    data_sets: Sequence[DataSet],
+    prior: FloatArray | None,
+    full_scale: FloatArray | None = None,
+    *,
+    setup: Setup = ROBOT,
 ) -> tuple[Doubt, ...]:
     """Judge whether readings can be those of a sensor under the modelled load, before anything is fitted to them.
 
@@ -38,6 +43,7 @@ def examine(
         data_sets: Stretches of calibration data of one sensor.
         prior: Matrix that the sensor is read by so far; shape (6, c); without it sign and scale cannot be judged.
         full_scale: Largest wrench that the sensor reads; shape (6,); N, N m; None if it is not known.
+        setup: Where the data come from, which decides on what is common there and where to look for causes.
 
     Returns:
         What is doubtful; nothing where all is well. Of few samples it is only asked whether their load moves, which
@@ -56,21 +62,21 @@ def examine(
         return ()  # the fit itself says what is missing
     usable = [data for data in filled if len(data.raw) > 1]  # one sample has no neighbour
     if sum(len(data.raw) for data in usable) < _FEWEST:
-        require_moving_load(_pooled(filled))
+        require_moving_load(_pooled(filled), setup)
         return (_too_few(sum(len(data.raw) for data in filled)),)
     moments = _pooled(usable)
-    require_moving_load(moments)
+    require_moving_load(moments, setup)
     require_gauges(usable, moments)
     if full_scale is not None:
         require_within_full_scale(usable, read_only(full_scale, name="full_scale", shape=(6,)))
     if prior is not None:
         prior = read_only(prior, name="prior", shape=(6, moments.channels))
     movement = Movement.of(usable, prior)
-    doubts = [*span_doubts(movement, has_prior=prior is not None)]
+    doubts = [*span_doubts(movement, setup, has_prior=prior is not None)]
     if prior is not None:
-        require_same_sign(movement, prior)
-        require_moment_unit(movement)
-        doubts += scale_doubts(movement, prior)
+        require_same_sign(movement, prior, setup)
+        require_moment_unit(movement, setup)
+        doubts += scale_doubts(movement, prior, setup)
     return (*doubts, *delay_doubts(usable, prior))
 
 

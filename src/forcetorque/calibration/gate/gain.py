@@ -76,7 +76,8 @@ def gains_of(movement: Movement, prior: FloatArray) -> Gains:
     lasting = movement.left(movement.lasting)
     white = np.maximum(movement.left(movement.second) - lasting, 0.0)
     noise = np.sqrt(lasting / _INDEPENDENT + white / movement.count)
-    noise = np.maximum(noise, np.maximum(_ROUNDING * movement.size, np.finfo(float).tiny))
+    size = np.where(movement.size > 0.0, movement.size, movement.size.max())  # a component may never be loaded
+    noise = np.maximum(noise, np.maximum(_ROUNDING * size, np.finfo(float).tiny))
     scale = _SPREAD * np.sqrt((prior**2).mean(axis=1))
     fits = [_gain(reading[:, i], reference[:, i], scale[i] * counts, noise[i]) for i in range(6)]
     return Gains(components=np.array([gain for gain, _ in fits]), deviations=np.array([spread for _, spread in fits]))

@@ -6,6 +6,7 @@ from __future__ import annotations
 import numpy as np
 
 from forcetorque.calibration.gate.movement import Movement
+from forcetorque.calibration.gate.setup import ROBOT, Setup
 from forcetorque.errors import FitError
 
 _LEAST = 0.2
@@ -22,11 +23,12 @@ _LEVER_M = 1e-3
 """Lever below which the reference hardly moves a moment, and says nothing about it; m."""
 
 
-def require_moment_unit(movement: Movement) -> None:
+def require_moment_unit(movement: Movement, setup: Setup = ROBOT) -> None:
     """Refuse a prior's reading whose force follows the reference while its moment is far too small.
 
     Args:
         movement: How the prior's reading and the reference move.
+        setup: Where the data come from.
 
     Raises:
         FitError: If it is so; the message names the unit of the stream.
@@ -40,7 +42,6 @@ def require_moment_unit(movement: Movement) -> None:
     if follows and moment < _LEAST * reference_moment:
         raise FitError(
             f"the moment of the prior's reading moves by {moment:.3g} N m, {moment / reference_moment:.2g} times as "
-            f"much as that of the reference, while its force moves {force / reference_force:.2g} times as much; are "
-            "moments logged in N m and stated in another unit? check units of [[recording.stream]], and prior of "
-            "[[sensor]]"
+            f"much as that of the reference, while its force moves {force / reference_force:.2g} times as much; "
+            f"{setup.check_moment}"
         )

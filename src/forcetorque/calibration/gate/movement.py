@@ -13,6 +13,13 @@ from forcetorque.arrays import FloatArray, read_only
 from forcetorque.calibration.data_set import DataSet
 from forcetorque.calibration.moments import Moments, symmetric_pseudo_inverse
 
+_SHARED = 0.5
+"""Share of the movement of the reference that neighbouring samples have in common, below which white noise cannot be
+told from the rest.
+
+Of a motion that is sampled as a sensor is they share nearly all; of poses in any order, a row for each, nothing.
+"""
+
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class Movement:
@@ -26,7 +33,10 @@ class Movement:
     second: FloatArray
     """Mean products of reading and reference; shape (k + 6, k + 6)."""
     lasting: FloatArray
-    """The same of what neighbouring samples share: white noise is not in it; shape (k + 6, k + 6)."""
+    """The same of what neighbouring samples share: white noise is not in it; shape (k + 6, k + 6).
+
+    All of `second` where the reference itself differs from sample to sample, as in a table of poses.
+    """
     size: FloatArray
     """Root mean square of the reference, its mean included; shape (6,); N, N m."""
 
@@ -57,7 +67,9 @@ class Movement:
         # the mean of two neighbours holds half of the white noise, and all of what both share
         halved = turn @ np.tensordot(share, [_second(*map(_paired, _columns(data))) for data in data_sets], 1) @ turn.T
         square = np.tensordot(share, [(data.reference**2).mean(axis=0) for data in data_sets], 1)
-        return cls(count=int(counts.sum()), second=second, lasting=2.0 * halved - second, size=np.sqrt(square))
+        shared = 2.0 * halved - second
+        lasting = shared if _lasts(shared, second, square) else second
+        return cls(count=int(counts.sum()), second=second, lasting=lasting, size=np.sqrt(square))
 
     @property
     def columns(self) -> int:
@@ -82,6 +94,12 @@ class Movement:
         rest = np.hstack([np.eye(self.columns), -self.follows])
         square: FloatArray = np.maximum(np.einsum("ij,jk,ik->i", rest, second, rest), 0.0)
         return square
+
+
+def _lasts(shared: FloatArray, second: FloatArray, square: FloatArray) -> bool:
+    """Whether neighbouring samples have the same load: components of the reference count by how much they move."""
+    worth = np.divide(1.0, square, out=np.zeros(6), where=square > 0.0)
+    return bool(worth @ np.diag(shared)[-6:] >= _SHARED * (worth @ np.diag(second)[-6:]))
 
 
 def _columns(data: DataSet) -> tuple[FloatArray, FloatArray, FloatArray]:

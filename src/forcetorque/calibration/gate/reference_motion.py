@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from forcetorque.calibration.gate.setup import ROBOT, Setup
 from forcetorque.calibration.moments import Moments
 from forcetorque.errors import FitError
 from forcetorque.spatial import FORCE_AND_MOMENT
@@ -27,11 +28,12 @@ _LEVER_M = 0.01
 """Least lever by which the size of the moment is judged: where the load hangs below the sensor it has none."""
 
 
-def require_moving_load(moments: Moments) -> None:
+def require_moving_load(moments: Moments, setup: Setup = ROBOT) -> None:
     """Refuse a reference without load, or one that does not change.
 
     Args:
         moments: Moments of the fitted samples.
+        setup: Where they come from.
 
     Raises:
         FitError: If it is so; the message names the likely cause and what to change in the experiment file.
@@ -41,14 +43,10 @@ def require_moving_load(moments: Moments) -> None:
     force_change, moment_change = (float(np.sqrt(change[part].sum())) for part in FORCE_AND_MOMENT)
     force, moment = (float(np.sqrt(size[part].sum())) for part in FORCE_AND_MOMENT)
     if force < NO_LOAD_N:
-        raise FitError(
-            f"the reference is {force:.2g} N and {moment:.2g} N m, so the model has no mass beyond the sensor; "
-            "give the links of the tool their mass in the file that urdf of [robot] names, or mass_kg of [load]"
-        )
+        raise FitError(f"the reference is {force:.2g} N and {moment:.2g} N m, {setup.give_mass}")
     if force_change <= STILL * force and moment_change <= STILL * max(moment, _LEVER_M * force):
         raise FitError(
             f"the reference stays within {force_change:.2g} N of {force:.3g} N and {moment_change:.2g} N m of "
-            f"{moment:.3g} N m over all fitted samples, as of a limb that stands still; in the experiment file set "
-            'start_s and end_s of every [[interval]] with use = "calibration" to where the limb moves, among arrays '
-            "calibrate"
+            f"{moment:.3g} N m over all fitted samples, "
+            f"{setup.move_load}"
         )

@@ -8,6 +8,7 @@ import numpy as np
 from forcetorque.arrays import FloatArray
 from forcetorque.calibration.gate.gain import gains_of
 from forcetorque.calibration.gate.movement import Movement
+from forcetorque.calibration.gate.setup import ROBOT, Setup
 from forcetorque.errors import FitError
 
 _SURE = 3.0
@@ -17,12 +18,13 @@ _EXCITED = 0.1
 """Part of the change of the whole force from which on an axis is judged by itself."""
 
 
-def require_same_sign(movement: Movement, prior: FloatArray) -> None:
+def require_same_sign(movement: Movement, prior: FloatArray, setup: Setup = ROBOT) -> None:
     """Refuse a prior's reading whose force, or one axis of it, runs against the reference.
 
     Args:
         movement: How they move.
         prior: The prior; shape (6, c); N/count, N m/count.
+        setup: Where the data come from.
 
     Raises:
         FitError: If it is so; the message names the keys that turn a sign.
@@ -30,9 +32,7 @@ def require_same_sign(movement: Movement, prior: FloatArray) -> None:
     gains = gains_of(movement, prior)
     if gains.overall + _SURE * gains.deviation < 0.0:
         raise FitError(
-            f"the prior's reading runs against the reference, by {gains.overall:.2f} times of it; is gravity_direction "
-            "of [[support]] the direction in which things fall, and measure_direction of [[sensor]], [load] or the "
-            "URDF's sensor tag the right way round?"
+            f"the prior's reading runs against the reference, by {gains.overall:.2f} times of it; {setup.check_sign}"
         )
     # taking out what variables explain may leave less than nothing of an axis that does not move
     change = np.sqrt(np.maximum(np.diag(movement.second)[6:9], 0.0))
@@ -43,7 +43,6 @@ def require_same_sign(movement: Movement, prior: FloatArray) -> None:
     ]
     if against:
         raise FitError(
-            f"{', '.join(against)} of the prior's reading run(s) against the reference, other forces do not; is "
-            "gravity_direction of [[support]] given in the axes of its frame, the sensor's frame in the URDF turned as "
-            "the sensor is, and prior of [[sensor]] its own?"
+            f"{', '.join(against)} of the prior's reading run(s) against the reference, other forces do not; "
+            f"{setup.check_axes}"
         )

@@ -9,8 +9,8 @@ import numpy as np
 
 from forcetorque.calibration.gate.doubt import Doubt
 from forcetorque.calibration.gate.movement import Movement
+from forcetorque.calibration.gate.setup import ROBOT, Setup
 from forcetorque.errors import FitError
-from forcetorque.estimation.joint_unit import CHECK_JOINT_UNIT
 
 _FOLLOWS = 0.5
 """Explained share of what lasts in the reading below which it does not follow the reference.
@@ -25,18 +25,13 @@ vibration beside a load that hardly moves stay below."""
 _FASTER = 3.0
 """Change of the reference, relative to that of the reading, which no reading hides under its noise."""
 
-_CHECK = (
-    f"{CHECK_JOINT_UNIT}, "
-    "frame and gravity_direction of [[support]], and whether stream of [[sensor]] is its own; a load that "
-    "is lighter than the sensor's drift needs a heavier one beside it"
-)
 
-
-def span_doubts(movement: Movement, *, has_prior: bool) -> Iterator[Doubt]:
+def span_doubts(movement: Movement, setup: Setup = ROBOT, *, has_prior: bool) -> Iterator[Doubt]:
     """Compare what moves in the reading with what the reference explains of it.
 
     Args:
         movement: How reading and reference move.
+        setup: Where the data come from.
         has_prior: Whether the reading is a wrench; else it is raw counts, whose size says nothing.
 
     Yields:
@@ -54,9 +49,10 @@ def span_doubts(movement: Movement, *, has_prior: bool) -> Iterator[Doubt]:
     # of a load that carries everything the differences may be rounded below zero
     rest, unit = np.sqrt(max(left, 0.0)), "N" if has_prior else "counts"
     change = float(np.sqrt(max(np.diag(movement.second)[k : k + 3].sum(), 0.0)))
+    explained = max(1.0 - left / moved, 0.0) if moved > 0.0 else 0.0  # white noise alone lasts by chance, or not at all
     message = (
         f"the reading moves by {np.sqrt(moved):.3g} {unit}, of which the reference, which moves by {change:.3g} N, "
-        f"explains {max(1.0 - left / moved, 0.0):.0%}; {_CHECK}"
+        f"explains {explained:.0%}; {setup.check_span}"
     )
     size = float(np.linalg.norm(movement.size[:3]))
     if has_prior and (rest > _LARGE * size or change > _FASTER * np.sqrt(moved)):

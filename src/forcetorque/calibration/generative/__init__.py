@@ -7,14 +7,17 @@ from forcetorque.calibration.generative.determined import unmoved_directions
 from forcetorque.calibration.generative.fit import GenerativeFit, fit_generative
 from forcetorque.calibration.generative.means import WindowMeans
 from forcetorque.calibration.generative.nonlinear import corrected_fit, try_correction
+from forcetorque.calibration.generative.untouched import Disagreeing, agreeing_samples
 
 __all__ = [
     "ACCURACY_SHARE",
     "REPEATABILITY",
     "Assumptions",
+    "Disagreeing",
     "Disagreement",
     "GenerativeFit",
     "WindowMeans",
+    "agreeing_samples",
     "corrected_fit",
     "disagreements",
     "fit_generative",

@@ -115,6 +115,11 @@ class Assumptions:
         """
         return cls(full_scale=np.full(channels, limit_counts), accuracy=accuracy, repeatability=repeatability)
 
+    @property
+    def states_accuracy(self) -> bool:
+        """Whether an accuracy of the reference is given, other than 0."""
+        return self.accuracy is not None and bool(self.accuracy.any())
+
     def reference_accuracy(self, matrix: FloatArray) -> FloatArray:
         """Give the accuracy of the reference.
 

@@ -4,6 +4,10 @@
 Deviations come in kinds, such as those of the sensor and those of the frame, each with one size per group of rows. A
 size is the root mean square of what the data tell of its kind, with the expected size counting as a few coefficients
 (expectation maximisation). The shape of the slow noise of each row has the highest restricted evidence.
+
+The evidence may have two maxima: small deviations under large noise, and large deviations under small noise. The
+iteration stays at the one that it starts beside, so it starts at both and keeps the higher: from all of the response as
+noise, and, where the loads have rank 6, from the residual of least squares.
 """
 
 from __future__ import annotations
@@ -16,6 +20,7 @@ import numpy as np
 from forcetorque.arrays import BoolArray, FloatArray, IntArray
 from forcetorque.calibration.generative.assumptions import Scale
 from forcetorque.calibration.generative.design import Whitened
+from forcetorque.calibration.generative.rows import LOADS
 
 _SWEEPS = 20
 _CHOICES = (0, 4, 10)
@@ -23,6 +28,10 @@ _CHOICES = (0, 4, 10)
 _LEAST_TIME_S = 15.0
 """An error of the reference that no averaging removes lasts at least this long; s."""
 _LEAST, _LARGEST = 1e-5, 1e4
+_RANK = 1e-6
+"""Share of the largest change of load below which a direction does not move."""
+_HIGHER = 1.0
+"""Deviance, that is twice the logarithm of the evidence, by which the second start must be better to be taken."""
 _TINY = 1e-18
 _ROUNDING = 1e-13
 """Share of the whole response below which nothing that is left of it is told from rounding: where there are fewer means
@@ -61,6 +70,19 @@ class _Row:
             self.least = np.maximum(self.least, of_reference)
         self.allowed: BoolArray = lasting & (ratio > 0.0) if accuracy > 0.0 else np.ones(len(data), dtype=bool)
         self.variance = np.maximum(self.response, _TINY)
+
+    def take_all_as_noise(self, freedom: int) -> None:
+        """Start with the whole response as noise."""
+        self.variance = np.maximum(self.response / max(freedom, 1), self.least)
+
+    def take_least_squares(self, freedom: int, used: IntArray) -> FloatArray:
+        """Start with the residual of least squares on some unknowns as noise, and give these by the first shape."""
+        columns, shared = self.columns[:, used[:, None], used], self.shared[:, used]
+        solution = np.einsum("kij,kj->ki", np.linalg.pinv(columns, hermitian=True), shared)
+        left = self.response - np.einsum("ki,ki->k", shared, solution)
+        self.variance = np.maximum(left / (freedom - len(used)), self.least)
+        first: FloatArray = solution[np.argmax(self.allowed)]
+        return first
 
     def spectra(self, deviations: FloatArray, picked: IntArray) -> tuple[FloatArray, FloatArray, FloatArray]:
         """Eigenvalues and vectors of the scaled data, and the response along them."""
@@ -116,51 +138,122 @@ def infer(
         The unknowns of every row.
     """
     rows = [_Row(data, basis, k, float(accuracy[k])) for k, basis in enumerate(bases)]
+    model = _Sizes(
+        kinds=kinds,
+        group=group,
+        expected=np.array([scale.expected for scale in scales]),
+        weight=np.array([scale.weight for scale in scales]),
+    )
     for row in rows:
-        row.variance = np.maximum(row.response / max(freedom, 1), row.least)
-    expected, weight = np.array([s.expected for s in scales]), np.array([s.weight for s in scales])
-    sizes = np.tile(expected, (int(group.max()) + 1, 1))
+        row.take_all_as_noise(freedom)
+    first = _ascend(rows, data, model, model.before_data(), freedom)
+    if freedom <= LOADS or not _have_rank(data[0].columns[:LOADS, :LOADS]):
+        return first.unknowns
+    sensor = np.flatnonzero(kinds == 0)
+    solutions = np.array([row.take_least_squares(freedom, sensor) for row in rows])
+    second = _ascend(rows, data, model, model.estimated(solutions**2, np.ones_like(solutions), sensor), freedom)
+    return (second if second.deviance < first.deviance - _HIGHER else first).unknowns
+
+
+def _have_rank(products: FloatArray) -> bool:
+    """Whether loads with these products move all six directions."""
+    size = np.sqrt(np.diag(products))
+    return bool(size.all()) and bool(np.linalg.eigvalsh(products / np.outer(size, size))[0] > _RANK**2)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class _Sizes:
+    """Sizes of the deviations, by group and kind, and what is expected of them."""
+
+    kinds: IntArray
+    """Kind of every unknown; shape (q,)."""
+    group: IntArray
+    """Group of every row; shape (rows,)."""
+    expected: FloatArray
+    """Expected size of every kind; shape (kinds,)."""
+    weight: FloatArray
+    """Pseudo coefficients of every kind, infinite where its size is fixed; shape (kinds,)."""
+
+    def before_data(self) -> FloatArray:
+        """Give the expected sizes; shape (groups, kinds)."""
+        return np.tile(self.expected, (int(self.group.max()) + 1, 1))
+
+    def estimated(self, squares: FloatArray, determined: FloatArray, unknowns: IntArray) -> FloatArray:
+        """Estimate the sizes from squares of unknowns of all rows, each with the share that the data determine of it.
+
+        Args:
+            squares: Squares; shape (rows, u).
+            determined: Shares; shape (rows, u).
+            unknowns: Which unknowns these are; shape (u,).
+
+        Returns:
+            Sizes; shape (groups, kinds).
+        """
+        fixed = np.isinf(self.weight)
+        finite = np.where(fixed, 1.0, self.weight)
+        total, count = np.zeros((2, int(self.group.max()) + 1, len(self.expected)))
+        for number, square, share in zip(self.group, squares, determined, strict=True):
+            np.add.at(total[number], self.kinds[unknowns], square)
+            np.add.at(count[number], self.kinds[unknowns], share)
+        estimate = np.sqrt((total + finite * self.expected**2) / (count + finite))
+        sizes: FloatArray = np.where(fixed, self.expected, np.clip(estimate, _LEAST, _LARGEST))
+        return sizes
+
+    def deviance(self, sizes: FloatArray) -> float:
+        """Give the deviance of sizes without data, which `estimated` minimises together with that of the data."""
+        free = np.isfinite(self.weight)
+        square = (sizes[:, free] / self.expected[free]) ** 2
+        return float((self.weight[free] * (np.log(square) + 1.0 / square)).sum())
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class _Maximum:
+    """A maximum of the evidence."""
+
+    unknowns: list[Unknowns]
+    """The unknowns of every row."""
+    deviance: float
+    """Minus twice the logarithm of the evidence, less a constant."""
+
+
+def _ascend(rows: Sequence[_Row], data: Sequence[Whitened], model: _Sizes, sizes: FloatArray, freedom: int) -> _Maximum:
+    """Iterate sizes and noise from a start."""
     chosen = np.zeros(len(rows), dtype=np.int64)
-    result: list[Unknowns] = []
+    unknowns: list[Unknowns] = []
+    deviance = 0.0
     for sweep in range(_SWEEPS):
-        result = []
+        unknowns, deviance = [], model.deviance(sizes)
         for k, row in enumerate(rows):
-            deviations = sizes[group[k]][kinds]
+            deviations = sizes[model.group[k]][model.kinds]
             if sweep in _CHOICES:
                 candidates = np.flatnonzero(row.allowed)
                 values, _, along = row.spectra(deviations, candidates)
-                _, deviance = row.settle(values, along, candidates, freedom, 4)
-                chosen[k] = candidates[np.argmin(deviance)]
-            result.append(_given(row, deviations, chosen[k : k + 1], freedom, data))
-        sizes = _sizes(result, kinds, group, expected, weight)
-    return result
+                _, of_shapes = row.settle(values, along, candidates, freedom, 4)
+                chosen[k] = candidates[np.argmin(of_shapes)]
+            of_row, row_deviance = _given(row, deviations, chosen[k : k + 1], freedom, data)
+            unknowns.append(of_row)
+            deviance += row_deviance
+        sizes = model.estimated(
+            np.array([row.coefficients**2 for row in unknowns]),
+            np.array([1.0 - np.diag(row.covariance) / row.deviations**2 for row in unknowns]),
+            np.arange(len(model.kinds)),
+        )
+    return _Maximum(unknowns=unknowns, deviance=deviance)
 
 
-def _given(row: _Row, deviations: FloatArray, picked: IntArray, freedom: int, data: Sequence[Whitened]) -> Unknowns:
+def _given(
+    row: _Row, deviations: FloatArray, picked: IntArray, freedom: int, data: Sequence[Whitened]
+) -> tuple[Unknowns, float]:
+    """The unknowns of a row under sizes and a shape of the noise, and their deviance."""
     values, vectors, along = row.spectra(deviations, picked)
-    variance, _ = row.settle(values, along, picked, freedom, 2)
+    variance, deviance = row.settle(values, along, picked, freedom, 2)
     scaled = vectors[0] * deviations[:, None]
     weight = 1.0 / (values[0] + variance[0])
-    return Unknowns(
+    unknowns = Unknowns(
         coefficients=scaled @ (along[0] * weight),
         covariance=(scaled * (variance[0] * weight)) @ scaled.T,
         deviations=deviations,
         variance=float(variance[0]),
         data=data[picked[0]],
     )
-
-
-def _sizes(
-    rows: Sequence[Unknowns], kinds: IntArray, group: IntArray, expected: FloatArray, weight: FloatArray
-) -> FloatArray:
-    """Sizes of the deviations of every group and kind."""
-    determined = np.zeros((int(group.max()) + 1, len(expected)))
-    size = np.zeros_like(determined)
-    for number, row in zip(group, rows, strict=True):
-        np.add.at(size[number], kinds, row.coefficients**2)
-        np.add.at(determined[number], kinds, 1.0 - np.diag(row.covariance) / row.deviations**2)
-    fixed = np.isinf(weight)
-    finite = np.where(fixed, 1.0, weight)
-    squares = (size + finite * expected**2) / (determined + finite)
-    sizes: FloatArray = np.where(fixed, expected, np.clip(np.sqrt(squares), _LEAST, _LARGEST))
-    return sizes
+    return unknowns, float(deviance[0])

@@ -95,7 +95,7 @@ def fit_generative(
     if prior is None:
         require_rank(wrench, [len(stretch) for stretch in ordered])
     matrix = _rough(raw, wrench) if prior is None else read_only(prior, name="prior", shape=(6, raw.shape[1]))
-    rows = rows_of(matrix, assumptions, with_prior=prior is not None)
+    rows = rows_of(matrix, assumptions, in_wrench=prior is not None or assumptions.states_accuracy)
     centre = np.array(
         [values[0, k] if v.reference_value is None else v.reference_value for k, v in enumerate(variables)]
     )

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from forcetorque.arrays import FloatArray, read_only
+from forcetorque.arrays import BoolArray, FloatArray, read_only
 from forcetorque.calibration.data_set import DataSet
 from forcetorque.errors import FitError, ShapeError
 from forcetorque.noise import means_over
@@ -57,6 +57,18 @@ class WindowMeans:
             The means with another reference.
         """
         return replace(self, reference=self.reference + share * self.flattening)
+
+    def kept(self, marks: BoolArray) -> WindowMeans:
+        """Keep some of the windows.
+
+        Args:
+            marks: Which; shape (n,).
+
+        Returns:
+            The others left out.
+        """
+        names = ("time_s", "count", "raw", "reference", "flattening", "variables")
+        return replace(self, **{name: getattr(self, name)[marks] for name in names})
 
     @classmethod
     def of(cls, data: DataSet) -> WindowMeans:

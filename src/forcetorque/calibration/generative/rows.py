@@ -2,7 +2,9 @@
 """What is regressed on the load, row by row, and how far each row may deviate before any data.
 
 With a prior matrix of six channels the rows are the components of the wrench that it reads (wrench space), which is
-the safer choice where one posture moves only some loads; else they are the channels.
+the safer choice where one posture moves only some loads. They are also where an accuracy of the reference is given, in
+N and N m: an error of a moment moves all channels together, and as an error of each by itself it would be one of force.
+Else they are the channels.
 """
 
 from __future__ import annotations
@@ -43,13 +45,13 @@ class Rows:
     """Standard deviation of the slow error of the reference, in these units; shape (rows,)."""
 
 
-def rows_of(matrix: FloatArray, assumptions: Assumptions, *, with_prior: bool) -> Rows:
+def rows_of(matrix: FloatArray, assumptions: Assumptions, *, in_wrench: bool) -> Rows:
     """Choose the rows.
 
     Args:
         matrix: Prior matrix; without a prior one that reads the data roughly, for the sizes; shape (6, c).
         assumptions: What is known beside it.
-        with_prior: Whether it is a prior.
+        in_wrench: Whether the rows of six channels are components of the wrench.
 
     Returns:
         The rows.
@@ -60,7 +62,7 @@ def rows_of(matrix: FloatArray, assumptions: Assumptions, *, with_prior: bool) -
     size = np.sqrt((scaled**2).mean(axis=1))
     accuracy = assumptions.reference_accuracy(matrix)
     spread = _root(response.T @ response)
-    if channels == LOADS and with_prior:
+    if channels == LOADS and in_wrench:
         return Rows(
             space="wrench",
             unit=size,

@@ -66,7 +66,8 @@ class SolvedRows:
         covariance += self._repeatability(matrix)
         prior = self._before(unit) if self.with_prior else None
         if not self.with_prior:
-            require_response(mean[:, :LOADS], learnt, wrench)
+            response = mean[:, :LOADS] if rows.space == "channel" else np.eye(LOADS) + mean[:, :LOADS]
+            require_response(response / unit[:, None], learnt / unit[:, None, None] ** 2, wrench)
         posterior = Posterior(
             space=rows.space,
             variables=tuple(variable.name for variable in variables),
@@ -154,6 +155,6 @@ class SolvedRows:
         jacobian = np.zeros((used + free, LOADS))
         jacobian[:LOADS] = np.eye(LOADS)
         jacobian[used : used + sessions] = -design.column_means[:, :LOADS]
-        roots = rows_of(matrix, self.assumptions, with_prior=rows.space == "wrench").sensor_root
+        roots = rows_of(matrix, self.assumptions, in_wrench=rows.space == "wrench").sensor_root
         spread = self.assumptions.repeatability * jacobian @ (roots * rows.unit[:, None, None])
         return spread @ spread.transpose(0, 2, 1)

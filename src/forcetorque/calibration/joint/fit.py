@@ -5,12 +5,16 @@ The unknowns, changes of all matrices, offsets and errors of the model, are norm
 changes follows from the data (evidence), tolerances of the model are stated. The noise of every row of every part is
 what is left over, found by iteration. Noise of the readings stands in the coefficients too: its expected part of the
 normal equations is taken off, no more of it than what is left over can hold (errors in variables).
+
+Evidence may lower the size of changes, but not raise it above the expected one: on a real robot the misfit of its model
+passes for changes of the matrices, and larger sizes would open directions that the motion does not determine. Predicted
+errors are those that the estimate makes if changes are as large as evidence says.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -22,7 +26,7 @@ from forcetorque.calibration.joint.windows import UNITS
 from forcetorque.errors import FitError
 
 _SMALLEST, _LARGEST = 0.1, 5.0
-"""How far the size of changes may be from the expected one."""
+"""How far the size of changes by evidence may be from the expected one."""
 _OFFSET_DEVIATION = 1e3
 """Standard deviation of an offset before any data, in `UNITS`: hardly anything is known of it.
 
@@ -46,9 +50,9 @@ class JointFit:
     mean: FloatArray
     """Most probable values; shape (p,)."""
     covariance: FloatArray
-    """Their covariance; shape (p, p)."""
+    """Covariance of their errors if changes are as large as evidence says; shape (p, p)."""
     prior_root: FloatArray
-    """R, with R R^T their covariance before any data; shape (p, p)."""
+    """R, with R R^T the covariance of the unknowns before any data, by evidence; shape (p, p)."""
     residual: tuple[tuple[str, str, FloatArray], ...]
     """Part, recording and root mean square of what is left of its equation, shape (6,); N, N m."""
 
@@ -166,28 +170,77 @@ def fit_jointly(
     one = np.zeros(len(places))
     for sensor in places.sensors:
         one[places.changes(sensor)] = np.eye(6).ravel()
+    own_spreads = [EVEN if spreads is None else spreads.get(sensor, EVEN) for sensor in places.sensors]
     expected = np.array([kind.expected for kind in KINDS])
     size = np.tile(expected, (len(places.sensors), 1))
     variance = [np.maximum(0.01 * part.square / part.count, _LEAST_VARIANCE) for part in sums]
-    mean = np.zeros(len(places))
-    own_spreads = [EVEN if spreads is None else spreads.get(sensor, EVEN) for sensor in places.sensors]
+    solution = _Solution(mean=np.zeros(len(places)), variance=variance)
     for sweep in range(_ROUNDS):
-        root = _prior_root(places, own_spreads, size)
-        products, shared = np.zeros((len(places), len(places))), np.zeros(len(places))
-        for part, own, spread in zip(sums, columns, variance, strict=True):
-            _add(products, shared, part, own, spread, one[own], mean)
-        values, vectors = np.linalg.eigh(root.T @ products @ root)
-        # where noise explains everything the prior stays
-        scaled = root @ vectors
-        covariance = (scaled / (np.maximum(values, 0.0) + 1.0)) @ scaled.T
-        mean = covariance @ shared
-        variance = [np.maximum(part.rest(mean[own]), _LEAST_VARIANCE) for part, own in zip(sums, columns, strict=True)]
+        solution = _solved(_prior_root(places, own_spreads, size), sums, columns, one, solution)
         if 1 < sweep < _ROUNDS - 1:
-            size = _sizes(places, own_spreads, mean, covariance, size)
+            size = _sizes(places, own_spreads, solution.mean, solution.covariance, size)
+    by_evidence = _prior_root(places, own_spreads, size)
+    covariance, held = solution.covariance, np.minimum(size, expected)
+    if (held < size).any():
+        root = _prior_root(places, own_spreads, held)
+        for _ in range(_ROUNDS):
+            solution = _solved(root, sums, columns, one, solution)
+        covariance = solution.error_covariance(by_evidence)
     residual = tuple(
-        (part.part, part.recording, np.sqrt(spread) * UNITS) for part, spread in zip(sums, variance, strict=True)
+        (part.part, part.recording, np.sqrt(spread) * UNITS)
+        for part, spread in zip(sums, solution.variance, strict=True)
     )
-    return JointFit(places=places, mean=mean, covariance=covariance, prior_root=root, residual=residual)
+    return JointFit(places=places, mean=solution.mean, covariance=covariance, prior_root=by_evidence, residual=residual)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False)
+class _Solution:
+    """Unknowns for one prior and one noise of the parts, and the noise that they leave."""
+
+    mean: FloatArray
+    """Most probable values; shape (p,)."""
+    variance: Sequence[FloatArray]
+    """Mean square of what they leave of every part; shape (6,) each."""
+    root: FloatArray = field(default_factory=lambda: np.empty((0, 0)))
+    """R of the prior; shape (p, p)."""
+    directions: FloatArray = field(default_factory=lambda: np.empty((0, 0)))
+    """Directions in which data and prior are independent, in units of R, as columns; shape (p, p)."""
+    told: FloatArray = field(default_factory=lambda: np.empty(0))
+    """Information of the data along them, that of the prior being 1; shape (p,)."""
+
+    @property
+    def covariance(self) -> FloatArray:
+        """Covariance of the unknowns, if they scatter as the prior says; shape (p, p)."""
+        return self.error_covariance(self.root)
+
+    def error_covariance(self, root: FloatArray) -> FloatArray:
+        """Give the covariance of the errors of the mean if the unknowns scatter otherwise than the prior says.
+
+        Args:
+            root: R', with R' R'^T the covariance of the unknowns; shape (p, p).
+
+        Returns:
+            Covariance of what the prior pulls them by and of what the noise adds; shape (p, p).
+        """
+        scaled = self.root @ self.directions / (self.told + 1.0)
+        pulled = scaled @ (self.directions.T @ np.linalg.solve(self.root, root))
+        covariance: FloatArray = pulled @ pulled.T + (scaled * self.told) @ scaled.T
+        return covariance
+
+
+def _solved(
+    root: FloatArray, sums: Sequence[PartSums], columns: Sequence[IntArray], one: FloatArray, last: _Solution
+) -> _Solution:
+    """Solve the equations for a prior, with the noise that the last solution left."""
+    products, shared = np.zeros_like(root), np.zeros(len(root))
+    for part, own, spread in zip(sums, columns, last.variance, strict=True):
+        _add(products, shared, part, own, spread, one[own], last.mean)
+    values, directions = np.linalg.eigh(root.T @ products @ root)
+    # where noise explains everything the prior stays
+    told = np.maximum(values, 0.0)
+    mean = root @ (directions @ ((directions.T @ (root.T @ shared)) / (told + 1.0)))
+    variance = [np.maximum(part.rest(mean[own]), _LEAST_VARIANCE) for part, own in zip(sums, columns, strict=True)]
+    return _Solution(mean=mean, variance=variance, root=root, directions=directions, told=told)
 
 
 def _add(

@@ -15,6 +15,7 @@ from forcetorque.atomic import write_bytes_atomically
 from forcetorque.calibration.artefact import JOINT_SCHEMA
 from forcetorque.calibration.joint.fit import JointFit
 from forcetorque.calibration.joint.windows import LENGTH_M
+from forcetorque.output_file import refuse_output
 from forcetorque.part import Part, read_part
 
 
@@ -91,12 +92,17 @@ class JointPosterior(Part):
             covariance=fit.covariance,
         )
 
-    def save(self, path: Path | str) -> None:
+    def save(self, path: Path | str, *, force: bool = False) -> None:
         """Write it as JSON; on any error the file keeps what it held before.
 
         Args:
             path: File to write or to replace, in an existing folder.
+            force: Whether a file that is neither a result nor a figure may be replaced; an input never is.
+
+        Raises:
+            OutputError: If the file is an input of it, or a file that `force` is needed for.
         """
+        refuse_output(path, force=force)
         content: dict[str, Any] = self.model_dump(mode="json", by_alias=True)
         write_bytes_atomically(Path(path), (json.dumps(content, allow_nan=False) + "\n").encode())
 

@@ -5,22 +5,17 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Final
 
 import numpy as np
 
 from forcetorque.arrays import BoolArray, FloatArray
+from forcetorque.calibration.disagreement import FEWEST, disagreeing, minority, with_neighbours
 from forcetorque.calibration.generative.rows import LOADS
 from forcetorque.calibration.joint.fit import JointFit
 from forcetorque.calibration.joint.windows import UNITS, WINDOW_S, PartWindows
-from forcetorque.constants import MAD_TO_DEVIATION
 
-FAR: Final = 4.0
-"""Robust standard deviations of the residual from which a window disagrees."""
 _NEIGHBOURS = 2
 """Windows to either side that leave with it: a touch begins and ends gently."""
-_FEWEST = 20
-"""Windows below which nobody can tell which disagree."""
 _LEAST = 1e-3
 """Smallest scale of a residual, in `UNITS`: below that it is rounding."""
 
@@ -89,16 +84,10 @@ def untouched(windows: PartWindows, fit: JointFit | None) -> BoolArray:
     Returns:
         Marks; shape (w,).
     """
-    if len(windows) < _FEWEST:
+    if len(windows) < FEWEST:
         return np.ones(len(windows), dtype=bool)
-    left = residuals(windows, fit)[:, windows.rows > 0.0]
-    left = left - np.median(left, axis=0)
-    scale = np.maximum(MAD_TO_DEVIATION * np.median(np.abs(left), axis=0), _LEAST)
-    far = np.sqrt(((left / scale) ** 2).mean(axis=1)) > FAR
-    spread = np.convolve(far, np.ones(2 * _NEIGHBOURS + 1), mode="full")[_NEIGHBOURS : _NEIGHBOURS + len(far)]
-    agree = np.asarray(spread < 0.5)
-    # where most disagree nobody knows which are right
-    return agree if 2 * np.count_nonzero(agree) >= len(agree) else np.ones(len(windows), dtype=bool)
+    far = disagreeing(residuals(windows, fit)[:, windows.rows > 0.0], _LEAST)
+    return ~minority(with_neighbours(far, _NEIGHBOURS))
 
 
 def touches_of(windows: PartWindows, kept: BoolArray) -> list[Touch]:

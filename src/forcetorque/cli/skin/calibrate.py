@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from forcetorque.cli.options import FormatOption
+from forcetorque.cli.options import ForceOption, FormatOption
 from forcetorque.cli.output import (
     Format,
     refuse_standard_output,
@@ -56,6 +56,7 @@ def calibrate(
     figure: Annotated[
         Path | None, typer.Option("--figure", help="PNG of pressure and counts over time, and of curves of taxels.")
     ] = None,
+    force: ForceOption = False,
     output_format: FormatOption = Format.TABLE,
 ) -> None:
     """Fit the pressure curve of every taxel of a patch of skin.
@@ -65,20 +66,16 @@ def calibrate(
     from importlib.metadata import version
 
     from forcetorque import analysis
-    from forcetorque.atomic import refuse_unwritable
     from forcetorque.cli.figure_file import refuse_figure
-    from forcetorque.cli.reading import refuse_inputs
     from forcetorque.created import created_now
     from forcetorque.exchange.skin.pressure_table import write_pressure_table
+    from forcetorque.output_file import declare_outputs
 
     log = start_logging()
     refuse_two_on_standard_output(output, output_format)
     refuse_standard_output("--table", table)
-    refuse_figure(figure)
-    written = [path for path in (output, table) if path is not None]
-    refuse_inputs(written, [*experiments, *([] if warm_up is None else [warm_up])])
-    for path in written:
-        refuse_unwritable(path)
+    refuse_figure(figure, force=force)
+    declare_outputs(output, table, force=force)
     contents = analysis.read_patches(experiments)
     for content in contents:
         for finding in content.recording.findings:

@@ -29,21 +29,40 @@ def precisions(values: FloatArray, covariance: FloatArray) -> FloatArray:
     return weights
 
 
-def combined(values: Sequence[FloatArray], covariances: Sequence[FloatArray]) -> tuple[FloatArray, FloatArray]:
-    """Find the vectors that several measurements fit best: minimum of the summed `d.T inverse(covariance) d`.
+def combined(
+    values: Sequence[FloatArray], covariances: Sequence[FloatArray], shared: Sequence[FloatArray]
+) -> tuple[FloatArray, FloatArray]:
+    """Find the vectors that several measurements fit best, with `values = vector + shared @ w + e`.
+
+    w has unit variance and is the same for all measurements of a vector, e is independent between them. Measurements
+    with the same `shared` keep that error: their number does not reduce it.
 
     Args:
         values: Measurements, NaN where a component is not known; shape (n, j) each.
-        covariances: Their covariances, independent of each other; shape (n, j, j) each.
+        covariances: Covariances of their e; shape (n, j, j) each.
+        shared: What one standard deviation of each common error adds; shape (n, j, s) each, with one s.
 
     Returns:
         The vectors, NaN where nobody knows a component, shape (n, j); and their covariance, shape (n, j, j).
     """
-    weights = [precisions(*pair) for pair in zip(values, covariances, strict=True)]
-    weighted = [np.einsum("nij,nj->ni", w, np.nan_to_num(v)) for w, v in zip(weights, values, strict=True)]
-    unknown = np.all([np.isnan(v) for v in values], axis=0)
-    covariance = inverse_of_known(np.sum(weights, axis=0), unknown)
-    vectors = np.einsum("nij,nj->ni", covariance, np.sum(weighted, axis=0))
+    n, _, s = shared[0].shape
+    information, cross, own = np.zeros_like(covariances[0]), np.zeros_like(shared[0]), np.tile(np.eye(s), (n, 1, 1))
+    right, right_shared = np.zeros_like(values[0]), np.zeros((n, s))
+    for value, covariance, columns in zip(values, covariances, shared, strict=True):
+        weights, columns_known = precisions(value, covariance), np.nan_to_num(columns)
+        weighted = np.einsum("nij,nj->ni", weights, np.nan_to_num(value))
+        information += weights
+        cross += weights @ columns_known
+        own += columns_known.transpose(0, 2, 1) @ weights @ columns_known
+        right += weighted
+        right_shared += np.einsum("njs,nj->ns", columns_known, weighted)
+    # the common errors are eliminated: what is left is the information on the vectors alone
+    eliminated = np.linalg.solve(own, np.concatenate([cross.transpose(0, 2, 1), right_shared[:, :, None]], axis=2))
+    information -= cross @ eliminated[:, :, :-1]
+    right -= np.einsum("njs,ns->nj", cross, eliminated[:, :, -1])
+    unknown = np.all([np.isnan(value) for value in values], axis=0)
+    covariance = inverse_of_known(0.5 * (information + information.transpose(0, 2, 1)), unknown)
+    vectors = np.einsum("nij,nj->ni", covariance, right)
     vectors[unknown] = np.nan
     covariance[unknown[:, :, None] | unknown[:, None, :]] = np.nan
     return vectors, covariance

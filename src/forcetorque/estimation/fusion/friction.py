@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -43,10 +43,13 @@ class Friction:
     """Time over which that repeats itself; s."""
     standstill: float
     """Speed below which nothing is said; rad/s, m/s."""
+    shared: FloatArray = field(default_factory=lambda: np.zeros((4, 0)))
+    """By how much one standard deviation of each of s errors that the trusted source shares with others moves the
+    coefficients; part of their covariance; shape (4, s)."""
 
     def __post_init__(self) -> None:
-        for field, shape in (("coefficients", (4,)), ("covariance", (4, 4))):
-            object.__setattr__(self, field, read_only(getattr(self, field), name=field, shape=shape))
+        for key, shape in (("coefficients", (4,)), ("covariance", (4, 4)), ("shared", (4, None))):
+            object.__setattr__(self, key, read_only(getattr(self, key), name=key, shape=shape))
 
     def moves(self, velocity: FloatArray) -> BoolArray:
         """Tell where the joint moves fast enough.
@@ -98,6 +101,7 @@ def fit_friction(
     standstill: float,
     trusted_variance: FloatArray | None = None,
     trusted_lasting: FloatArray | None = None,
+    trusted_shared: FloatArray | None = None,
 ) -> Friction:
     """Fit friction where another source of the joint's torque is trusted.
 
@@ -114,6 +118,7 @@ def fit_friction(
         standstill: Speed below which samples are left out; rad/s, m/s.
         trusted_variance: Variance of the noise of the trusted torque; shape (n,); (N m)^2; none if None.
         trusted_lasting: What its lasting errors add per standard deviation; shape (n, p); N m; nothing if None.
+        trusted_shared: What the errors add that it shares with other sources; shape (n, s); N m; nothing if None.
 
     Returns:
         The friction.
@@ -135,7 +140,10 @@ def fit_friction(
         )
     inverse = np.linalg.pinv(terms)
     coefficients = inverse @ left[used]
-    lasting = np.zeros((len(terms), 0)) if trusted_lasting is None else trusted_lasting[used]
+    own, shared = (
+        np.zeros((len(terms), 0)) if columns is None else columns[used] for columns in (trusted_lasting, trusted_shared)
+    )
+    lasting = np.hstack([own, shared])
     moved = inverse @ lasting
     scatter = _Scatter.of(
         used, left[used] - terms @ coefficients, lasting - terms @ moved, length=max(1, round(_BLOCK_S / period_s))
@@ -148,6 +156,8 @@ def fit_friction(
         variance=max(scatter.variance - trusted, _LEAST_SHARE * scatter.variance),
         noise_time_s=0.5 * (scatter.repeated - 1.0) * period_s,
         standstill=standstill,
+        # the coefficients take up what the trusted torque lacks
+        shared=-moved[:, own.shape[1] :],
     )
 
 

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -53,8 +53,10 @@ class Fusion:
 def fuse(sources: Sequence[TorqueSource], *, false_alarm: float = FALSE_ALARM, window_s: float = WINDOW_S) -> Fusion:
     """Combine sources of joint torques by least squares weighted by their covariances.
 
-    Errors of different sources are taken to be independent. A source that alone contradicts the others over the
-    interval is left out of all of it.
+    Errors of different sources are independent except for those that they share, such as those of the robot model:
+    these stay whole, whatever the number of sources. How far two sources share them in truth depends on the links that
+    each uses. Intervals take them as common to all, and the search for conflicts takes them as independent: each of the
+    two is on the safe side. A source that alone contradicts the others over the interval is left out of all of it.
 
     Args:
         sources: Sources with the same joints and instants, at least one.
@@ -68,14 +70,20 @@ def fuse(sources: Sequence[TorqueSource], *, false_alarm: float = FALSE_ALARM, w
         EstimationError: If names are not unique, joints or instants differ, or rate and window are none.
     """
     _require_comparable(sources)
+    sources = _with_all_shared(sources)
     if not (0.0 < false_alarm < 1.0 and 0.0 < window_s < np.inf):
         raise EstimationError(
             f"fuse: expected 0 < false_alarm < 1 and a positive window_s, got {false_alarm} and {window_s} s"
         )
-    means = dict(zip((source.name for source in sources), means_in_windows(sources, window_s), strict=True))
+    compared = means_in_windows([source.independent for source in sources], window_s)
+    means = dict(zip((source.name for source in sources), compared, strict=True))
     conflict = conflict_between(means, false_alarm)
     used = [source for source in sources if source.name != conflict.source]
-    torque, covariance = combined([source.torque for source in used], [source.covariance for source in used])
+    torque, covariance = combined(
+        [source.torque for source in used],
+        [source.own_covariance for source in used],
+        [source.shared for source in used],
+    )
     if conflict.is_there and conflict.source is None:
         covariance = covariance * max(1.0, conflict.everyone.total.ratio)
     first = sources[0]
@@ -91,6 +99,17 @@ def fuse(sources: Sequence[TorqueSource], *, false_alarm: float = FALSE_ALARM, w
             for k in range(len(means[first.name].torque))
         ),
     )
+
+
+def _with_all_shared(sources: Sequence[TorqueSource]) -> list[TorqueSource]:
+    """Give every source a column for each shared error, zero where it has none of them."""
+    counts = {source.shared.shape[2] for source in sources} - {0}
+    if len(counts) > 1:
+        raise EstimationError(
+            f"fuse: shared: expected the same errors in all sources that have any, got {sorted(counts)} of them"
+        )
+    shape = (*sources[0].torque.shape, max(counts, default=0))
+    return [source if source.shared.shape == shape else replace(source, shared=np.zeros(shape)) for source in sources]
 
 
 def _require_comparable(sources: Sequence[TorqueSource]) -> None:

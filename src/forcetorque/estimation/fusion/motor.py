@@ -58,8 +58,9 @@ def motor_source(
 ) -> TorqueSource:
     """Make a source of motors: what they give less what their drives take.
 
-    Coefficients of friction last, and what friction leaves unexplained is noise. A joint that stands says nothing: its
-    friction is anything up to Coulomb's.
+    Coefficients of friction last, and what friction leaves unexplained is noise. Errors that the source shares to which
+    friction was fitted come back through the coefficients. A joint that stands says nothing: its friction is anything
+    up to Coulomb's.
 
     Args:
         name: Name of the source, such as `current`.
@@ -74,12 +75,15 @@ def motor_source(
     """
     n, j = drive_torque.shape
     torque, lasting = np.full((n, j), np.nan), np.zeros((n, j, j * 4))
+    shared = np.zeros((n, j, frictions[0].shared.shape[1] if frictions else 0))
     for k, friction in enumerate(frictions):
         moving = friction.moves(velocity[:, k])
         lost = friction.torque(velocity[:, k], acceleration[:, k])
         torque[moving, k] = (drive_torque[:, k] - lost)[moving]
         terms = friction_terms(velocity[:, k], acceleration[:, k])
-        lasting[:, k, 4 * k : 4 * k + 4] = terms @ square_root(friction.covariance)
+        own = friction.covariance - friction.shared @ friction.shared.T
+        lasting[:, k, 4 * k : 4 * k + 4] = terms @ square_root(own)
+        shared[:, k] = -terms @ friction.shared
     noise = np.diag([friction.variance for friction in frictions])
     return TorqueSource(
         name=name,
@@ -89,4 +93,5 @@ def motor_source(
         noise=np.broadcast_to(noise, (n, j, j)),
         lasting=np.where(np.isfinite(lasting), lasting, 0.0),
         noise_time_s=max(friction.noise_time_s for friction in frictions),
+        shared=np.where(np.isfinite(shared), shared, 0.0),
     )

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from typing import Self
 
 import numpy as np
@@ -16,10 +16,12 @@ from forcetorque.estimation.uncertain import square_root
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class TorqueSource:
-    """Torques of one source over one interval: `torque = truth + lasting @ z + noise`, with z normal of variance 1.
+    """Torques of one source over one interval: `torque = truth + lasting @ z + shared @ w + noise`.
 
-    Noise averages out, what lasts does not: an offset, a motor constant, a friction that was fitted. A source that
-    lumps both together makes conflicts look surer, or less sure, than they are.
+    z and w are normal with variance 1. Noise averages out, what lasts does not: an offset, a motor constant, a friction
+    that was fitted. A source that lumps both together makes conflicts look surer, or less sure, than they are. The
+    errors w are those of the robot model. They enter all sources that use the model with one sign, so that no number of
+    such sources averages them out.
     """
 
     name: str
@@ -36,6 +38,9 @@ class TorqueSource:
     """What one standard deviation of each of p independent errors that last the interval adds; shape (n, j, p); N m."""
     noise_time_s: float = 0.0
     """Time over which the noise repeats itself, the integral of its autocorrelation for times above 0; s."""
+    shared: FloatArray = field(default_factory=lambda: np.zeros((0, 0, 0)))
+    """What one standard deviation of each of s errors adds that last and that sources have in common; shape (n, j, s),
+    with the same s errors in all sources that have any; none if left out; N m."""
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "joints", tuple(self.joints))
@@ -45,8 +50,10 @@ class TorqueSource:
         object.__setattr__(self, "torque", torque)
         stamps = read_only_integers(self.stamp_ns, name=f"{self.name}: stamp_ns", shape=(n,))
         object.__setattr__(self, "stamp_ns", stamps)
-        for field, shape in (("noise", (n, j, j)), ("lasting", (n, j, None))):
-            object.__setattr__(self, field, read_only(getattr(self, field), name=f"{self.name}: {field}", shape=shape))
+        if not np.size(self.shared):
+            object.__setattr__(self, "shared", np.zeros((n, j, 0)))
+        for key, shape in (("noise", (n, j, j)), ("lasting", (n, j, None)), ("shared", (n, j, None))):
+            object.__setattr__(self, key, read_only(getattr(self, key), name=f"{self.name}: {key}", shape=shape))
         if not n or (np.diff(stamps) <= 0).any():
             raise EstimationError(f"source {self.name!r}: expected instants that increase, got {n} that do not")
         if not 0.0 <= self.noise_time_s < np.inf:
@@ -65,7 +72,8 @@ class TorqueSource:
         scale = np.abs(np.einsum("njj->nj", noise)).max(axis=1)
         odd = ~np.isfinite(noise).all(axis=(1, 2))
         odd |= np.abs(noise - noise.transpose(0, 2, 1)).max(axis=(1, 2)) > _ROUNDING * scale
-        odd |= ~np.where(known[:, :, None], np.isfinite(self.lasting), True).all(axis=(1, 2))
+        for columns in (self.lasting, self.shared):
+            odd |= ~np.where(known[:, :, None], np.isfinite(columns), True).all(axis=(1, 2))
         smallest = np.full(len(noise), np.nan)
         smallest[~odd] = np.linalg.eigvalsh(noise[~odd])[:, 0]
         odd |= ~(smallest > 0.0)
@@ -114,9 +122,22 @@ class TorqueSource:
         return len(self.stamp_ns)
 
     @property
+    def independent(self) -> TorqueSource:
+        """The same source, with the errors that it shares counted as noise of its own."""
+        return replace(
+            self, noise=self.noise + self.shared @ self.shared.transpose(0, 2, 1), shared=np.zeros((0, 0, 0))
+        )
+
+    @property
+    def own_covariance(self) -> FloatArray:
+        """Covariance of one sample, without the errors shared with other sources; shape (n, j, j); (N m)^2."""
+        own: FloatArray = self.noise + self.lasting @ self.lasting.transpose(0, 2, 1)
+        return own
+
+    @property
     def covariance(self) -> FloatArray:
         """Covariance of one sample, of all that may be off together; shape (n, j, j); (N m)^2."""
-        total: FloatArray = self.noise + self.lasting @ self.lasting.transpose(0, 2, 1)
+        total: FloatArray = self.own_covariance + self.shared @ self.shared.transpose(0, 2, 1)
         return total
 
 

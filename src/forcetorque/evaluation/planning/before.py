@@ -43,7 +43,7 @@ def unfitted_posterior(
     Raises:
         FitError: If nothing tells what a variable may do.
     """
-    rows = rows_of(matrix, assumptions, with_prior=True)
+    rows = rows_of(matrix, assumptions, in_wrench=True)
     unit = rows.unit
     roots = np.concatenate(
         [expected.SENSOR.expected * rows.sensor_root, expected.FRAME.expected * rows.frame_root], axis=2

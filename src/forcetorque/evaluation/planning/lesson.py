@@ -63,12 +63,12 @@ class Nuisance:
         Args:
             matrix: Matrix of the sensor; shape (6, c).
             assumptions: What is known beside it.
-            with_prior: Whether the posterior is that of a sensor with a prior matrix.
+            with_prior: Whether the rows of the posterior are components of the wrench.
 
         Returns:
             The terms.
         """
-        rows = rows_of(matrix, assumptions, with_prior=with_prior)
+        rows = rows_of(matrix, assumptions, in_wrench=with_prior)
         return cls(load_to_full_scale=rows.load_to_full_scale, deviation=QUADRATIC.expected * rows.unit)
 
     def columns(self, wrench: FloatArray, centre: FloatArray) -> FloatArray:

@@ -11,7 +11,8 @@ from forcetorque.arrays import BoolArray, FloatArray
 
 TURN_SHARE = 0.1
 """Share of the range by which a temperature has to go back before it has turned: less is noise of a thermometer, or a
-fan that starts. So far from a turn the reading is taken to have changed its branch."""
+fan that starts. So far from a turn, and by this share of the time between turns, the reading is taken to have changed
+its branch: a thermometer that is late turns after it."""
 LEAST_OVERLAP = 0.5
 """Share of the range that heating and cooling must both have gone through to be compared."""
 
@@ -49,8 +50,10 @@ def find_branches(temperature_degC: FloatArray, threshold_degC: float) -> Branch
     for first, last in zip(edges[:-1], edges[1:], strict=True):
         branch = temperature_degC[first : last + 1]
         heating[first : last + 1] = 1.0 if branch[-1] >= branch[0] else -1.0
+        place = np.arange(first, last + 1)
         for turn in (k for k in (first, last) if k in turns):
             settled[first : last + 1] &= np.abs(branch - temperature_degC[turn]) > threshold_degC
+            settled[first : last + 1] &= np.abs(place - turn) > TURN_SHARE * (last - first)
     return Branches(heating=heating, settled=settled, turns=len(turns))
 
 

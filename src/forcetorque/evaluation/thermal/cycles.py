@@ -16,6 +16,8 @@ from forcetorque.noise import WINDOW_S, Timeline, means_over
 
 MEANS = 400.0
 """Means of a record: offsets that wander within half of it are then among the shapes of noise that are tried."""
+_END = 5
+"""Means at either end of a power-up that say how its temperature goes on."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -36,6 +38,8 @@ class Cycles:
     """Whether it is on one of the branches, not near a turn; shape (m,)."""
     cycles: float
     """Cycles of heating and cooling, of all power-ups together."""
+    recorded: tuple[tuple[FloatArray, FloatArray], ...]
+    """Instants, s, and temperatures, degC, of all means of every power-up, those near turns too."""
 
     def __post_init__(self) -> None:
         m = len(self.line)
@@ -64,6 +68,28 @@ class Cycles:
             heating=self.heating[kept],
             settled=kept[kept],
         )
+
+    def temperature_after(self, lag_s: float) -> FloatArray:
+        """Give the temperature that the thermometer reads later, continued evenly beyond the ends of a power-up.
+
+        Args:
+            lag_s: By how much later; s.
+
+        Returns:
+            Shape (m,); degC.
+        """
+        later, time_s = np.empty(len(self.line)), self.time_s + lag_s
+        for number, (instants, degrees) in enumerate(self.recorded):
+            mine = self.line.recording == number
+            end = min(_END, len(instants) - 1)
+            within = np.clip(time_s[mine], instants[0], instants[-1])
+            before, after = np.minimum(time_s[mine] - within, 0.0), np.maximum(time_s[mine] - within, 0.0)
+            later[mine] = np.interp(within, instants, degrees)
+            later[mine] += before * (degrees[end] - degrees[0]) / (instants[end] - instants[0]) if end else 0.0
+            later[mine] += (
+                after * (degrees[-1] - degrees[-1 - end]) / (instants[-1] - instants[-1 - end]) if end else 0.0
+            )
+        return later
 
     @property
     def range_degC(self) -> float:
@@ -96,6 +122,7 @@ def cycles_of(sessions: Sequence[tuple[Any, Any, Any]]) -> Cycles:
     threshold = TURN_SHARE * float(np.ptp(means[:, 0]))
     branches = [find_branches(part[1][:, 0], threshold) for part in parts]
     return Cycles(
+        recorded=tuple((part[0], part[1][:, 0]) for part in parts),
         line=Timeline.of(
             np.concatenate([part[0] for part in parts]) / window, number, share=counts / np.median(counts)
         ),

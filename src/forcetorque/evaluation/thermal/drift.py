@@ -3,8 +3,11 @@
 
     reading = offset_p + drift_p (t - t_p) + coefficient (T - T0) + hysteresis / 2 (1 heating, -1 cooling) + noise
 
-in power-up p, under noise that is white and slow (`forcetorque.noise`). Hysteresis is the mean difference between
-heating and cooling at the same temperature. A delay between thermometer and gauges shows as hysteresis too.
+in power-up p, under noise that is white and slow (`forcetorque.noise`). T is what the thermometer reads a lag later, or
+would read if it did not follow by a first-order lag: half of either. The lag is one for all signals, and is told as far
+as heating or cooling becomes slower or faster.
+Hysteresis is the mean difference between heating and cooling at the same reading of the thermometer: what its lag makes
+of even heating and cooling is part of it, so the mean speed of each is taken off T.
 """
 
 from __future__ import annotations
@@ -14,10 +17,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from forcetorque.arrays import FloatArray, read_only
+from forcetorque.constants import MAD_TO_DEVIATION
 from forcetorque.errors import FitError
 from forcetorque.evaluation.thermal.branches import LEAST_OVERLAP, compared_share
 from forcetorque.evaluation.thermal.cycles import Cycles
-from forcetorque.noise import regress
+from forcetorque.noise import half_width, regress
 
 SAME_AS_TIME = 0.98
 """Share of the variance of a temperature that offset and time explain, from which on the two are one."""
@@ -27,7 +31,21 @@ apart: 0.75 for one even cycle, 0.19 for two."""
 LEAST_RANGE_DEGC = 5.0
 """Range of temperatures below which little is told of what a day, or a motor that warms up, does; degC."""
 
+USUAL_LAG_S = 120.0
+"""How late a thermometer is, or how early, as a standard deviation before the record is seen; s."""
+
+LAG_UNTOLD_S = 0.5 * USUAL_LAG_S
+"""Standard error of a lag from which on a record tells it hardly; s."""
+
 _HOUR_S = 3600.0
+_LAG_STEPS = 4
+"""Steps in which a lag settles: readings are nearly linear in it."""
+_SPEED_SHARE = 0.5
+"""Share of the noise of a thermometer in what the other columns leave of its speed, from which on it tells no lag."""
+_SPEED_MEANS = 3
+"""Means to either side over which the speed of a temperature is taken."""
+_NODES, _WEIGHTS = np.array([-1.0, 0.0, 1.0]) * np.sqrt(3.0), np.array([1.0, 4.0, 1.0]) / 6.0
+"""Lags about the best one in standard errors, and what each counts (Gauss-Hermite)."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -52,6 +70,11 @@ class DriftFit:
     """Of the largest half-width of a power-up; shape (k,)."""
     time_share: float
     """Share of the variance of the temperature that offset and time explain."""
+    lag_s: float
+    """By how much the thermometer is later than the gauges, as told by all signals and by what is usual; s."""
+    lag_error_s: float
+    """Its standard error; s: of the signal that tells it best, because noise of signals may go together; 0 where
+    heating and cooling are so even that a lag is hysteresis, and changes nothing else."""
     hysteresis_share: float
     """Share of heating against cooling that offset, time and temperature explain."""
     residual: FloatArray
@@ -101,29 +124,97 @@ def fit_drift(cycles: Cycles) -> DriftFit:
     warmth = (temperature - reference)[:, None]
     time_share = _explained(warmth, np.hstack([offsets, times]))
     apart = time_share < SAME_AS_TIME
-    columns = [warmth, *([branch] if both else []), *([times] if apart else []), offsets]
-    design = np.hstack(columns)
+    others = [*([branch] if both else []), *([times] if apart else []), offsets]
+    design = np.hstack([warmth, *others])
     if len(design) <= 2 * design.shape[1]:
         raise FitError(f"expected more than {2 * design.shape[1]} means of {cycles.window_s:.3g} s, got {len(design)}")
-    fit = regress(cycles.line, design, cycles.signals)
-    values, half = fit.coefficients, fit.half_width
+    lag, error = _lag(cycles, np.hstack(others)) if apart else (0.0, 0.0)
+    fits, weights = [], []
+    for node, weight in zip(_NODES, _WEIGHTS, strict=True):
+        for late in _corrected(cycles, lag + error * node):
+            fits.append(regress(cycles.line, np.hstack([late - reference, *others]), cycles.signals))
+            weights.append(0.5 * weight)
+    values = np.einsum("l,lkp->kp", weights, [one.coefficients for one in fits])
+    spread = [one.standard_error**2 + (one.coefficients - values) ** 2 for one in fits]
+    variance = np.einsum("l,lkp->kp", weights, spread)
+    central = fits[2]  # without a delay of the best lag
+    half = half_width(np.sqrt(variance), central.degrees_of_freedom)
+    residual = cycles.signals - np.hstack([_corrected(cycles, lag)[0] - reference, *others]) @ central.coefficients.T
     first = 2 if both else 1
     slopes = slice(first, first + sessions)
     rest = np.hstack([times, offsets]) if apart else offsets
     return DriftFit(
         reference_degC=reference,
         coefficient=values[:, 0],
-        coefficient_error=fit.standard_error[:, 0] if apart else np.full(len(values), np.inf),
+        coefficient_error=np.sqrt(variance[:, 0]) if apart else np.full(len(values), np.inf),
         coefficient_half_width=half[:, 0] if apart else np.full(len(values), np.inf),
         hysteresis=values[:, 1] if both else None,
         hysteresis_half_width=half[:, 1] if both else None,
         drift_per_hour=values[:, slopes].mean(axis=1) if apart else None,
         drift_half_width=half[:, slopes].max(axis=1) if apart else None,
         time_share=time_share,
+        lag_s=lag,
+        lag_error_s=error,
         hysteresis_share=_explained(branch, np.hstack([offsets, times, warmth])) if both else 1.0,
-        residual=cycles.signals - design @ values.T,
+        residual=residual,
         at_temperature=cycles.signals - rest @ values[:, first:].T,
     )
+
+
+def _corrected(cycles: Cycles, lag_s: float) -> tuple[FloatArray, FloatArray]:
+    """Temperature without a delay, and without a first-order lag, less what the mean speeds make; shapes (m, 1)."""
+    speed = _speed(cycles, 0.0)
+    taken = lag_s * _mean_speed(cycles, speed)
+    first_order = cycles.temperature_degC + lag_s * speed
+    return (cycles.temperature_after(lag_s) - taken)[:, None], (first_order - taken)[:, None]
+
+
+def _speed(cycles: Cycles, lag_s: float) -> FloatArray:
+    """How fast the temperature changes after a lag; shape (m,); degC/s."""
+    beside = _SPEED_MEANS * cycles.window_s
+    ahead, behind = (cycles.temperature_after(lag_s + side * beside) for side in (1.0, -1.0))
+    speed: FloatArray = (ahead - behind) / (2.0 * beside)
+    return speed
+
+
+def _speed_noise(cycles: Cycles) -> float:
+    """Standard deviation of the noise of a speed, by how temperatures jump about their neighbours; degC/s."""
+    bent = np.concatenate([np.diff(degrees, n=2) for _, degrees in cycles.recorded])
+    noise = MAD_TO_DEVIATION * float(np.median(np.abs(bent))) / np.sqrt(6.0) if len(bent) else np.inf
+    return float(noise / (np.sqrt(2.0) * _SPEED_MEANS * cycles.window_s))
+
+
+def _mean_speed(cycles: Cycles, speed: FloatArray) -> FloatArray:
+    """Mean of a speed over heating, or over cooling; shape (m,)."""
+    mean = np.zeros(len(speed))
+    for sign in (-1.0, 1.0):
+        mine = cycles.heating == sign
+        mean[mine] = speed[mine].mean() if mine.any() else 0.0
+    return mean
+
+
+def _lag(cycles: Cycles, others: FloatArray) -> tuple[float, float]:
+    """Lag of the thermometer and its standard error; s."""
+    lag, usual = 0.0, USUAL_LAG_S**-2
+    for _ in range(_LAG_STEPS):
+        speed = _speed(cycles, lag) - _mean_speed(cycles, _speed(cycles, 0.0))
+        warmth = _corrected(cycles, lag)[0]
+        design = np.hstack([warmth - warmth.mean(), speed[:, None], others])
+        rest = np.delete(design, 1, axis=1)
+        left = speed - rest @ np.linalg.lstsq(rest, speed, rcond=None)[0]
+        noise = _speed_noise(cycles) ** 2
+        if noise > _SPEED_SHARE * float((speed**2).mean()):
+            return 0.0, 0.0  # heated and cooled evenly: a lag is hysteresis, and changes nothing else
+        if noise > _SPEED_SHARE * float((left**2).mean()):
+            return 0.0, USUAL_LAG_S
+        fit = regress(cycles.line, design, cycles.signals)
+        slope, change = fit.coefficients[:, 0], fit.coefficients[:, 1]
+        variance = fit.covariance[:, 1, 1]
+        known = np.isfinite(variance) & (variance > 0.0)
+        precision = slope[known] ** 2 / variance[known]
+        sides = (slope[known] * change[known] / variance[known]).sum() - usual * lag
+        lag += float(sides / (precision.sum() + usual))
+    return lag, float((precision.max(initial=0.0) + usual) ** -0.5)
 
 
 def _power_ups(cycles: Cycles) -> tuple[FloatArray, FloatArray]:

@@ -8,7 +8,15 @@ from pathlib import Path
 from typing import Any
 
 from forcetorque.arrays import FloatArray
-from forcetorque.exchange.hdf5_file import dataset_numbers, datasets, is_numeric, opened_hdf5
+from forcetorque.exchange.array_file.contents import ArrayContents
+from forcetorque.exchange.hdf5_file import (
+    dataset_numbers,
+    datasets,
+    is_numeric,
+    members,
+    opened_hdf5,
+    require_readable,
+)
 from forcetorque.exchange.robometry.channel import log_group
 
 MAGIC_73 = b"MATLAB 7.3 MAT-file"
@@ -41,20 +49,27 @@ def labels_itself(path: Path) -> bool:
         return log_group(file) is not None
 
 
-def hdf5_shapes(path: Path, *, matlab: bool) -> dict[str, tuple[int, int]]:
-    """Tell the shapes of all arrays of a file, without reading them.
+def hdf5_contents(path: Path, *, matlab: bool) -> ArrayContents:
+    """Tell what a file holds, without reading its numbers.
 
     Args:
         path: The file.
         matlab: Whether names and shapes are those of MATLAB.
 
     Returns:
-        Rows and columns by name.
+        Arrays of real numbers, and what else there is.
     """
+    shapes: dict[str, tuple[int, int]] = {}
+    skipped: dict[str, str] = {}
     with opened_hdf5(path) as file:
-        arrays = [entry for entry in datasets(file) if _is_array(entry, matlab=matlab)]
-        shapes = {_name(entry, matlab=matlab): entry.shape for entry in arrays}
-    return {name: _rows_and_columns(shape, matlab=matlab) for name, shape in sorted(shapes.items())}
+        for entry in members(file):
+            name = _name(entry.path, matlab=matlab)
+            reason = entry.elsewhere or _not_read(entry.dataset, matlab=matlab)
+            if reason is None:
+                shapes[name] = _rows_and_columns(entry.dataset.shape, matlab=matlab)
+            else:
+                skipped[name] = reason
+    return ArrayContents(shapes=dict(sorted(shapes.items())), skipped=dict(sorted(skipped.items())))
 
 
 def read_hdf5(path: Path, names: Collection[str], *, matlab: bool) -> dict[str, FloatArray]:
@@ -68,25 +83,34 @@ def read_hdf5(path: Path, names: Collection[str], *, matlab: bool) -> dict[str, 
     Returns:
         Arrays by name; shape (rows, columns).
     """
-    arrays = {}
     with opened_hdf5(path) as file:
-        for entry in datasets(file):
-            name = _name(entry, matlab=matlab)
-            if name in names and _is_array(entry, matlab=matlab):
-                values = dataset_numbers(entry)
-                arrays[name] = values.T if matlab else values.reshape(len(values), -1)
-    return arrays
+        wanted = {
+            name: entry
+            for entry in datasets(file)
+            if (name := _name(entry.name, matlab=matlab)) in names and _not_read(entry, matlab=matlab) is None
+        }
+        require_readable(wanted.values())
+        arrays = {name: dataset_numbers(entry) for name, entry in wanted.items()}
+    return {name: values.T if matlab else values.reshape(len(values), -1) for name, values in arrays.items()}
 
 
-def _name(entry: Any, *, matlab: bool) -> str:
-    name = str(entry.name).strip("/")
+def _name(path: str, *, matlab: bool) -> str:
+    name = path.strip("/")
     return name.replace("/", ".") if matlab else name
 
 
-def _is_array(entry: Any, *, matlab: bool) -> bool:
+def _not_read(dataset: Any, *, matlab: bool) -> str | None:
+    """What a dataset is that is no array of real numbers; None where it is one."""
+    size = " x ".join(map(str, (dataset.shape or ())[:: -1 if matlab else 1]))
     # what MATLAB calls empty is stored as its shape
-    dimensions = (2,) if matlab else range(1, 5)
-    return is_numeric(entry) and len(entry.shape) in dimensions and entry.size > 0 and "MATLAB_empty" not in entry.attrs
+    if dataset.shape is None or not dataset.size or "MATLAB_empty" in dataset.attrs:
+        return "empty"
+    if not is_numeric(dataset):
+        kind = {"O": "cell or struct array", "u": "text or truth values"}.get(dataset.dtype.kind) if matlab else None
+        return f"{size} {kind or f'values of {dataset.dtype}'}".strip()
+    if len(dataset.shape) not in ((2,) if matlab else range(1, 5)):
+        return f"{size} numbers" if dataset.shape else "single value"
+    return None
 
 
 def _rows_and_columns(shape: tuple[int, ...], *, matlab: bool) -> tuple[int, int]:

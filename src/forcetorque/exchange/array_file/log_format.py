@@ -12,14 +12,16 @@ import numpy as np
 
 from forcetorque.arrays import FloatArray
 from forcetorque.errors import FormatError, MissingExtraError, known_names
-from forcetorque.exchange.array_file.hdf5 import MAGIC_73, hdf5_shapes, is_matlab_73, labels_itself, read_hdf5
-from forcetorque.exchange.array_file.matlab import MAGIC, is_matlab_file, read_variables
-from forcetorque.exchange.array_file.npz import is_npz_file, npz_shapes, read_npz
+from forcetorque.exchange.array_file.contents import ArrayContents
+from forcetorque.exchange.array_file.hdf5 import MAGIC_73, hdf5_contents, is_matlab_73, labels_itself, read_hdf5
+from forcetorque.exchange.array_file.matlab import MAGIC, is_matlab_file, matlab_contents, read_matlab
+from forcetorque.exchange.array_file.npz import is_npz_file, npz_contents, read_npz
 from forcetorque.exchange.array_file.statement import ArrayLog, Hdf5Log, MatlabLog, NpzLog
 from forcetorque.exchange.array_file.streams import array_stream, wanted_arrays
 from forcetorque.exchange.hdf5_file import is_hdf5_file
 from forcetorque.exchange.log_format import LogContext, LogDescription, LogReading
-from forcetorque.exchange.log_sketch import LogSketch, SketchedColumns, median_step
+from forcetorque.exchange.log_sketch import LogSketch, SketchedColumns, median_step, skipped_words
+from forcetorque.input_file import require_unpacked
 from forcetorque.recording import Finding, Stream
 
 
@@ -33,8 +35,8 @@ class _ArrayFormat(ABC):
         """Look at the first bytes."""
 
     @abstractmethod
-    def _shapes(self, path: Path) -> Mapping[str, tuple[int, int]]:
-        """Rows and columns of all arrays."""
+    def _contents(self, path: Path) -> ArrayContents:
+        """What the file holds, of which no numbers are read."""
 
     @abstractmethod
     def _arrays(self, path: Path, names: Collection[str]) -> Mapping[str, FloatArray]:
@@ -42,20 +44,26 @@ class _ArrayFormat(ABC):
 
     def sketch(self, path: Path) -> LogSketch:
         """Look at names and shapes of all arrays, and at the numbers of those that may be times."""
-        shapes = self._shapes(path)
-        single = self._arrays(path, [name for name, (rows, columns) in shapes.items() if columns == 1 < rows])
+        contents = self._contents(path)
+        if not contents.shapes:
+            raise FormatError(
+                f"{path}: expected arrays of real numbers, got {skipped_words(contents.skipped) or 'none'}; save each "
+                "as an array of rows and columns"
+            )
+        single = [name for name, (rows, columns) in contents.shapes.items() if columns == 1 < rows]
+        values = self._read(path, contents, single)
         return LogSketch(
             path=path,
             is_table=False,
             columns=tuple(
-                _sketched(name, rows, columns, single.get(name) if columns == 1 else None)
-                for name, (rows, columns) in shapes.items()
+                _sketched(name, rows, columns, values.get(name)) for name, (rows, columns) in contents.shapes.items()
             ),
+            skipped_arrays=contents.skipped,
         )
 
     def describe(self, path: Path) -> LogDescription:
         """Refuse: nothing is guessed from names or numbers; say which there are."""
-        names = [f"{name} ({rows} x {columns})" for name, (rows, columns) in self._shapes(path).items()]
+        names = [f"{name} ({rows} x {columns})" for name, (rows, columns) in self._contents(path).shapes.items()]
         raise FormatError(
             f"{path}: expected a log that says what it holds, got the variables {', '.join(names) or 'none'}; state "
             "their columns and units in an experiment file; `forcetorque init` begins one"
@@ -64,19 +72,30 @@ class _ArrayFormat(ABC):
     def read(self, stated: ArrayLog, context: LogContext) -> LogReading:
         """Read every array that is stated."""
         path = context.file(stated.path)
-        wanted = wanted_arrays(stated.stream)
-        arrays = self._arrays(path, wanted)
+        contents = self._contents(path)
+        arrays = self._read(path, contents, wanted_arrays(stated.stream))
         streams: dict[str, Stream] = {}
         findings: list[Finding] = []
         for k, entry in enumerate(stated.stream):
             with context.stated_in(f"stream[{k}]"):
                 for name in wanted_arrays((entry,)):
+                    if name in contents.skipped:
+                        raise FormatError(
+                            f"{path}: {name}: expected rows of real numbers, got {contents.skipped[name]}"
+                        )
                     if name not in arrays:
-                        raise FormatError(f"{path}: no variable {name!r}; {known_names(name, self._shapes(path))}")
+                        raise FormatError(f"{path}: no variable {name!r}; {known_names(name, contents.shapes)}")
                 stream, doubts = array_stream(path, entry, arrays, streams)
             streams[entry.name] = stream
             findings += doubts
         return LogReading(streams=tuple(streams.values()), findings=tuple(findings))
+
+    def _read(self, path: Path, contents: ArrayContents, names: Collection[str]) -> Mapping[str, FloatArray]:
+        """Arrays with these names, unless they are more than the file may unpack to."""
+        shapes = {name: contents.shapes[name] for name in names if name in contents.shapes}
+        size = sum(rows * columns for rows, columns in shapes.values()) * np.dtype(np.float64).itemsize
+        require_unpacked(path, size, where=", ".join(shapes)[:100])
+        return self._arrays(path, list(shapes))
 
 
 class MatlabFormat(_ArrayFormat):
@@ -89,13 +108,11 @@ class MatlabFormat(_ArrayFormat):
         """Look at the first bytes; logs of robometry, which are such files too, label themselves."""
         return is_matlab_file(path) or (is_hdf5_file(path) and is_matlab_73(path) and not _labels_itself(path))
 
-    def _shapes(self, path: Path) -> Mapping[str, tuple[int, int]]:
-        if is_hdf5_file(path):
-            return hdf5_shapes(path, matlab=True)
-        return {name: (len(values), values.shape[1]) for name, values in read_variables(path).items()}
+    def _contents(self, path: Path) -> ArrayContents:
+        return hdf5_contents(path, matlab=True) if is_hdf5_file(path) else matlab_contents(path)
 
     def _arrays(self, path: Path, names: Collection[str]) -> Mapping[str, FloatArray]:
-        return read_hdf5(path, names, matlab=True) if path.is_file() and is_hdf5_file(path) else read_variables(path)
+        return read_hdf5(path, names, matlab=True) if is_hdf5_file(path) else read_matlab(path, names)
 
 
 class Hdf5Format(_ArrayFormat):
@@ -108,8 +125,8 @@ class Hdf5Format(_ArrayFormat):
         """Look for the signature."""
         return is_hdf5_file(path) and not is_matlab_73(path) and not _labels_itself(path)
 
-    def _shapes(self, path: Path) -> Mapping[str, tuple[int, int]]:
-        return hdf5_shapes(path, matlab=False)
+    def _contents(self, path: Path) -> ArrayContents:
+        return hdf5_contents(path, matlab=False)
 
     def _arrays(self, path: Path, names: Collection[str]) -> Mapping[str, FloatArray]:
         return read_hdf5(path, names, matlab=False)
@@ -125,8 +142,8 @@ class NpzFormat(_ArrayFormat):
         """Look at the table of contents."""
         return is_npz_file(path)
 
-    def _shapes(self, path: Path) -> Mapping[str, tuple[int, int]]:
-        return npz_shapes(path)
+    def _contents(self, path: Path) -> ArrayContents:
+        return npz_contents(path)
 
     def _arrays(self, path: Path, names: Collection[str]) -> Mapping[str, FloatArray]:
         return read_npz(path, names)

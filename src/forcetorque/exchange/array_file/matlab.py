@@ -3,16 +3,14 @@
 
 from __future__ import annotations
 
-import struct
-import zlib
-from collections.abc import Iterator
+from collections.abc import Collection
 from pathlib import Path
-from typing import Any
-
-import numpy as np
 
 from forcetorque.arrays import FloatArray
-from forcetorque.errors import FormatError, MissingFileError
+from forcetorque.errors import FormatError
+from forcetorque.exchange.array_file.contents import ArrayContents
+from forcetorque.exchange.array_file.matlab_elements import read_matrices
+from forcetorque.input_file import require_file
 
 MAGIC = b"MATLAB 5.0 MAT-file"
 """What files of version 5 to 7 begin with."""
@@ -33,45 +31,55 @@ def is_matlab_file(path: Path) -> bool:
         return stream.read(len(MAGIC)) == MAGIC
 
 
-def read_variables(path: Path) -> dict[str, FloatArray]:
-    """Read the matrices of real numbers of a MATLAB file.
+def matlab_contents(path: Path) -> ArrayContents:
+    """Tell what a file holds.
 
     Args:
         path: File of version 5 to 7.
 
     Returns:
-        Matrices by name; shape (rows, columns). Texts, cells, objects and lists of structs are left out.
+        Matrices of real numbers, and what else there is.
 
     Raises:
         MissingFileError: If there is no such file.
         FormatError: If it is another file, or damaged.
     """
-    from scipy.io import loadmat
-    from scipy.io.matlab import MatReadError
+    _require_matlab(path)
+    shapes: dict[str, tuple[int, int]] = {}
+    skipped: dict[str, str] = {}
+    for matrix in read_matrices(path):
+        if matrix.content is None:
+            shapes[matrix.name] = (matrix.shape[0], matrix.shape[1])
+        else:
+            skipped[matrix.name] = matrix.content
+    return ArrayContents(shapes=shapes, skipped=skipped)
 
-    if not path.is_file():
-        raise MissingFileError(f"{path}: expected a MATLAB file, there is none")
+
+def read_matlab(path: Path, names: Collection[str]) -> dict[str, FloatArray]:
+    """Read matrices of real numbers.
+
+    Args:
+        path: File of version 5 to 7.
+        names: Those that are wanted; names that are not there are left out.
+
+    Returns:
+        Matrices by name; shape (rows, columns).
+
+    Raises:
+        MissingFileError: If there is no such file.
+        FormatError: If it is another file, or damaged.
+    """
+    _require_matlab(path)
+    return {
+        matrix.name: matrix.values()
+        for matrix in read_matrices(path)
+        if matrix.content is None and matrix.name in names
+    }
+
+
+def _require_matlab(path: Path) -> None:
+    require_file(path, "a MATLAB file")
     if not is_matlab_file(path):
         raise FormatError(
             f"{path}: expected a MATLAB file of version 5 to 7, got another file; name the file of the log"
         )
-    # what the reader of SciPy raises on damaged files is whatever it stumbles over
-    stumbles = (ArithmeticError, AttributeError, LookupError, NameError, RuntimeError, TypeError, ValueError)
-    try:
-        content = loadmat(path)
-    except (*stumbles, EOFError, MemoryError, OSError, MatReadError, zlib.error, struct.error) as error:
-        raise FormatError(
-            f"{path}: expected a whole MATLAB file, got one that cannot be read: {str(error)[:200]}"
-        ) from error
-    return dict(_matrices({name: value for name, value in content.items() if not name.startswith("__")}))
-
-
-def _matrices(values: dict[str, Any], before: str = "") -> Iterator[tuple[str, FloatArray]]:
-    for name, value in values.items():
-        if not isinstance(value, np.ndarray):
-            continue
-        if value.dtype.names is not None and value.size == 1:
-            fields = {field: value[field].flat[0] for field in value.dtype.names}
-            yield from _matrices(fields, f"{before}{name}.")
-        elif value.dtype.kind in "biuf" and value.ndim == 2:
-            yield before + name, np.asarray(value, dtype=np.float64)

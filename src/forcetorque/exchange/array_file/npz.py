@@ -3,29 +3,36 @@
 
 from __future__ import annotations
 
+import io
 import math
+import tokenize
 import zipfile
 import zlib
 from collections.abc import Collection, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import IO, Any
+from typing import Any
 
 import numpy as np
 from numpy.lib import format as npy
 
 from forcetorque.arrays import FloatArray
-from forcetorque.errors import ForceTorqueError, FormatError, MissingFileError
+from forcetorque.errors import ForceTorqueError, FormatError
+from forcetorque.exchange.array_file.contents import ArrayContents
+from forcetorque.input_file import require_file
 
-LARGEST_ARRAY = 1 << 28
-"""Numbers of one array, 2 GiB of float64."""
 MOST_ARRAYS = 10_000
 """Arrays of a file."""
 
 _SUFFIX = ".npy"
 _ZIP = b"PK\x03\x04"
 _HEADERS = {(1, 0): npy.read_array_header_1_0, (2, 0): npy.read_array_header_2_0}
-_STUMBLES = (ArithmeticError, AttributeError, LookupError, NotImplementedError, RuntimeError, TypeError, ValueError)
+_LONGEST_HEADER = 1 << 14
+"""Bytes in front of the numbers of an array; NumPy takes no more than 10000 characters."""
+_STUMBLES = (
+    *(ArithmeticError, AttributeError, LookupError, NotImplementedError, RuntimeError, TypeError, ValueError),
+    *(EOFError, MemoryError, OSError, SyntaxError, tokenize.TokenError, zipfile.BadZipFile, zlib.error),
+)
 
 
 def is_npz_file(path: Path) -> bool:
@@ -49,24 +56,30 @@ def is_npz_file(path: Path) -> bool:
         return path.suffix == ".npz"
 
 
-def npz_shapes(path: Path) -> dict[str, tuple[int, int]]:
-    """Tell the shapes of all arrays of real numbers, without reading them.
+def npz_contents(path: Path) -> ArrayContents:
+    """Tell what a file holds, without reading its numbers.
 
     Args:
         path: The file.
 
     Returns:
-        Rows and columns by name.
+        Arrays of real numbers, and what else there is.
     """
-    shapes = {}
+    shapes: dict[str, tuple[int, int]] = {}
+    skipped: dict[str, str] = {}
     with _opened(path) as archive:
         for entry in _entries(path, archive):
-            with archive.open(entry) as member:
-                shape, _, dtype = _header(path, entry, member)
-            columns = int(np.prod(shape[1:], dtype=np.float64))
-            if dtype.kind in "biuf" and shape and shape[0] * columns:
-                shapes[entry.filename.removesuffix(_SUFFIX)] = (shape[0], columns)
-    return shapes
+            name = entry.filename.removesuffix(_SUFFIX)
+            shape, _, dtype, _ = _header(path, entry, archive)
+            if dtype.hasobject:
+                skipped[name] = "objects of Python: reading these would run code that the file brings"
+            elif not shape or not math.prod(shape):
+                skipped[name] = "empty" if shape else "single value"
+            elif dtype.kind in "biuf":
+                shapes[name] = (shape[0], math.prod(shape[1:]))
+            else:
+                skipped[name] = f"{' x '.join(map(str, shape))} values of {dtype}"
+    return ArrayContents(shapes=shapes, skipped=skipped)
 
 
 def read_npz(path: Path, names: Collection[str]) -> dict[str, FloatArray]:
@@ -89,14 +102,13 @@ def read_npz(path: Path, names: Collection[str]) -> dict[str, FloatArray]:
 
 @contextmanager
 def _opened(path: Path) -> Iterator[zipfile.ZipFile]:
-    if not path.is_file():
-        raise MissingFileError(f"{path}: expected a file of NumPy, there is none")
+    require_file(path, "a file of NumPy")
     try:
         with zipfile.ZipFile(path) as archive:
             yield archive
     except ForceTorqueError:
         raise
-    except (*_STUMBLES, EOFError, MemoryError, OSError, zipfile.BadZipFile, zlib.error, SyntaxError) as error:
+    except _STUMBLES as error:
         reason = " ".join(str(error).split())[:200]
         raise FormatError(f"{path}: expected a whole .npz file, got one that cannot be read: {reason}") from error
 
@@ -108,36 +120,44 @@ def _entries(path: Path, archive: zipfile.ZipFile) -> list[zipfile.ZipInfo]:
     return entries
 
 
-def _header(path: Path, entry: zipfile.ZipInfo, member: IO[bytes]) -> tuple[tuple[int, ...], bool, np.dtype[Any]]:
+def _header(
+    path: Path, entry: zipfile.ZipInfo, archive: zipfile.ZipFile
+) -> tuple[tuple[int, ...], bool, np.dtype[Any], int]:
+    """Shape of an array, whether it is stored column by column, type, and bytes in front of the numbers."""
+    with archive.open(entry) as file:
+        member = io.BytesIO(file.read(_LONGEST_HEADER))
     version = npy.read_magic(member)
     if version not in _HEADERS:
         raise FormatError(f"{path}: {entry.filename}: expected version 1 or 2 of .npy, got {version}; save it again")
-    shape, columns_first, dtype = _HEADERS[version](member)
-    if dtype.hasobject:
+    try:
+        shape, columns_first, dtype = _HEADERS[version](member)
+    except _STUMBLES as error:
+        reason = " ".join(str(error).split())[:200]
         raise FormatError(
-            f"{path}: {entry.filename}: expected numbers, got objects of Python: reading these would run code that "
-            "the file brings; save arrays of numbers"
-        )
+            f"{path}: {entry.filename}: expected a header of .npy, got one that cannot be read: {reason}; copy the "
+            "file again"
+        ) from error
     if any(length < 0 for length in shape):
         raise FormatError(f"{path}: {entry.filename}: expected a shape, got {shape}")
-    return shape, columns_first, dtype
+    size = math.prod(shape) * dtype.itemsize
+    if size > entry.file_size and not dtype.hasobject:
+        raise FormatError(
+            f"{path}: {entry.filename}: expected {size} bytes by its shape, got {entry.file_size} in the file; copy it "
+            "again"
+        )
+    return shape, columns_first, dtype, member.tell()
 
 
 def _array(path: Path, entry: zipfile.ZipInfo, archive: zipfile.ZipFile) -> FloatArray:
+    shape, columns_first, dtype, begin = _header(path, entry, archive)
+    place = f"{path}: {entry.filename}"
+    if dtype.kind not in "biuf" or not shape or not math.prod(shape):
+        raise FormatError(f"{place}: expected rows of real numbers, got {dtype} of shape {shape}")
+    size = math.prod(shape) * dtype.itemsize
     with archive.open(entry) as member:
-        shape, columns_first, dtype = _header(path, entry, member)
-        place = f"{path}: {entry.filename}"
-        if dtype.kind not in "biuf" or not shape or not math.prod(shape):
-            raise FormatError(f"{place}: expected rows of real numbers, got {dtype} of shape {shape}")
-        count = math.prod(shape)
-        size = count * dtype.itemsize
-        if count > LARGEST_ARRAY or size > entry.file_size:
-            raise FormatError(
-                f"{place}: expected at most {LARGEST_ARRAY} numbers, all of them in the file, got {size} bytes by its "
-                f"shape and {entry.file_size} in the file; split it, or copy it again"
-            )
+        member.read(begin)
         data = member.read(size)
-        if len(data) != size:
-            raise FormatError(f"{place}: expected {size} bytes, got {len(data)}; copy the file again")
+    if len(data) != size:
+        raise FormatError(f"{place}: expected {size} bytes, got {len(data)}; copy the file again")
     values = np.frombuffer(data, dtype=dtype).reshape(shape, order="F" if columns_first else "C")
     return np.asarray(values, dtype=np.float64).reshape(shape[0], -1)

@@ -15,11 +15,17 @@ from forcetorque.recording import Finding, Signal, Stream
 
 
 def rows_of_another(
-    name: str, signals: Mapping[str, Signal], other: Stream, *, shift_rows: int | Literal["estimated"] | None
+    place: str,
+    name: str,
+    signals: Mapping[str, Signal],
+    other: Stream,
+    *,
+    shift_rows: int | Literal["estimated"] | None,
 ) -> tuple[Stream, tuple[Finding, ...]]:
     """Give samples without times those of another stream's rows.
 
     Args:
+        place: File and array, for messages.
         name: Name of the stream.
         signals: Its samples.
         other: Stream with times.
@@ -27,6 +33,9 @@ def rows_of_another(
 
     Returns:
         The stream, without samples before the first and after the last time, and what was found.
+
+    Raises:
+        FormatError: If no sample lies between the two.
     """
     rows = len(next(iter(signals.values())).values)
     findings: list[Finding] = []
@@ -38,6 +47,11 @@ def rows_of_another(
         places = np.arange(rows) + (shift_rows or 0)
         kept = (places >= 0) & (places < len(other))
         stamps = other.stamp_ns[np.clip(places, 0, len(other) - 1)]
+    if not kept.any():
+        raise FormatError(
+            f"{place}: expected rows beside some of the {len(other)} of {other.name!r}, got none of {rows} with "
+            f"shift_rows = {shift_rows}; correct the shift"
+        )
     if not kept.all():
         left = int(np.count_nonzero(~kept))
         text = f"{left} of {rows} rows lie before or after {other.name!r}, and are left out"

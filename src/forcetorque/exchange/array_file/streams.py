@@ -72,7 +72,7 @@ def array_stream(
     other = earlier.get(entry.rows_of or "")
     if other is None:
         raise FormatError(f"{place}: rows_of: no earlier stream {entry.rows_of!r}; {known_names('', earlier)}")
-    stream, cropped = rows_of_another(entry.name, signals, other, shift_rows=entry.shift_rows)
+    stream, cropped = rows_of_another(place, entry.name, signals, other, shift_rows=entry.shift_rows)
     return stream, (*doubts, *cropped)
 
 

@@ -15,6 +15,7 @@ import numpy as np
 from forcetorque.arrays import FloatArray, IntArray, require_shape
 from forcetorque.atomic import write_bytes_atomically
 from forcetorque.errors import FormatError, MissingFileError, ShapeError, quoted
+from forcetorque.run_files import declare_input
 
 Q15_ONE = 1 << 15
 """Code that would mean 1 in Q1.15; codes run from -Q15_ONE to Q15_ONE - 1."""
@@ -129,6 +130,7 @@ def read_matrix_file(path: Path | str) -> MatrixFile:
     path = Path(path)
     if not path.is_file():
         raise MissingFileError(f"{path}: expected a calibration matrix file, got no file; check the path")
+    declare_input(path)
     return _parsed(path.read_bytes(), where=str(path))
 
 

@@ -16,6 +16,8 @@ from forcetorque.exchange.load.robot_load import RobotLoad
 from forcetorque.exchange.load.ros2 import broadcaster_text, gravity_filter_text
 from forcetorque.exchange.load_format import LoadFormat
 
+_WITHOUT_COMMENTS = (LoadFormat.MC_RTC, LoadFormat.HRPSYS)
+
 
 def write_load_file(
     path: Path | str,
@@ -42,4 +44,5 @@ def write_load_file(
         LoadFormat.MC_RTC: lambda: mc_rtc_text(load, body_H_sensor=body_H_sensor),
         LoadFormat.HRPSYS: lambda: hrpsys_text(load),
     }
-    write_bytes_atomically(Path(path), texts[form]().encode())
+    mark = "" if form in _WITHOUT_COMMENTS else f"# forcetorque {form}\n"
+    write_bytes_atomically(Path(path), (mark + texts[form]()).encode())

@@ -13,6 +13,7 @@ from forcetorque.exchange.prior.icub_matrix import IcubMatrix
 from forcetorque.exchange.prior.plain_table import ExportedTable, PlainTable
 from forcetorque.exchange.prior.polynomial_model import PolynomialModelFile
 from forcetorque.exchange.prior.prior_file import PriorFile, PriorFormat, StatedUnits
+from forcetorque.run_files import declare_input
 
 LARGEST_FILE = 1 << 20
 """Bytes of a file with a matrix; what is larger is something else."""
@@ -71,6 +72,7 @@ def read_prior_file(path: Path | str, units: StatedUnits | None = None) -> Prior
     file = Path(path)
     if not file.is_file():
         raise MissingFileError(f"{file}: expected a calibration matrix file, there is none")
+    declare_input(file)
     text = _text(file)
     known = [] if text is None else [form for form in PRIOR_FORMATS if form.recognises(file, text)]
     if text is None or not known:

@@ -18,7 +18,8 @@ import numpy as np
 
 from forcetorque.arrays import FloatArray, IntArray
 from forcetorque.errors import FormatError
-from forcetorque.exchange.hdf5_file import MOST_OBJECTS, dataset_numbers, datasets, require_size
+from forcetorque.exchange.hdf5_file import MOST_OBJECTS, dataset_numbers, datasets, is_member, member, require_readable
+from forcetorque.exchange.hdf5_layout import elsewhere
 
 DESCRIPTION = "description_list"
 """Names of the joints; the group that holds it is that of the log."""
@@ -55,8 +56,8 @@ def log_group(file: Any) -> Any | None:
     """
     import h5py
 
-    groups = [file, *(file[name] for name in file if isinstance(file.get(name, getlink=True), h5py.HardLink))]
-    return next((group for group in groups if isinstance(group, h5py.Group) and DESCRIPTION in group), None)
+    groups = [file, *(member(file, name) for name in file if is_member(file, name) and elsewhere(file, name) is None)]
+    return next((group for group in groups if isinstance(group, h5py.Group) and is_member(group, DESCRIPTION)), None)
 
 
 def channel_paths(group: Any) -> Iterator[str]:
@@ -70,7 +71,7 @@ def channel_paths(group: Any) -> Iterator[str]:
     """
     for dataset in datasets(group):
         parent = dataset.parent
-        if dataset.name.rpartition("/")[2] == "data" and "timestamps" in parent:
+        if dataset.name.rpartition("/")[2] == "data" and is_member(parent, "timestamps"):
             yield parent.name.removeprefix(group.name).strip("/")
 
 
@@ -87,9 +88,9 @@ def read_channel(group: Any, path: str) -> Channel:
     Raises:
         FormatError: If its samples are no vectors, or there are not as many times as samples.
     """
-    leaf = group[path]
+    leaf = member(group, path)
     place = f"{group.file.filename}: {path}"
-    data, seconds = dataset_numbers(leaf["data"]), dataset_numbers(leaf["timestamps"]).ravel()
+    data, seconds = dataset_numbers(member(leaf, "data")), dataset_numbers(member(leaf, "timestamps")).ravel()
     samples = len(data) if data.ndim else 0
     if data.ndim not in (2, 3) or data.shape[1] != 1 or samples != len(seconds) or not data.size:
         raise FormatError(
@@ -103,8 +104,8 @@ def read_channel(group: Any, path: str) -> Channel:
         path=path,
         values=data.reshape(samples, -1),
         stamp_ns=np.rint(seconds * 1e9).astype(np.int64),
-        elements=texts(leaf["elements_names"]) if "elements_names" in leaf else (),
-        labels=texts(leaf["units_of_measure"]) if "units_of_measure" in leaf else (),
+        elements=texts(member(leaf, "elements_names")) if is_member(leaf, "elements_names") else (),
+        labels=texts(member(leaf, "units_of_measure")) if is_member(leaf, "units_of_measure") else (),
     )
 
 
@@ -122,12 +123,13 @@ def texts(dataset: Any) -> tuple[str, ...]:
     """
     import h5py
 
-    require_size(dataset)
+    require_readable([dataset])
     if dataset.dtype.kind in "ui":
         return (_text(dataset),)
     if h5py.check_ref_dtype(dataset.dtype) is not h5py.Reference or dataset.size > MOST_OBJECTS:
         raise FormatError(f"{dataset.file.filename}: {dataset.name}: expected names, got {dataset.dtype}")
-    return tuple(_text(dataset.file[reference]) for reference in dataset[()].ravel())
+    names = (h5py.h5r.get_name(reference, dataset.file.id) for reference in dataset[()].ravel())
+    return tuple(_text(member(dataset.file, (name or b"").decode().strip("/"))) for name in names)
 
 
 def _text(dataset: Any) -> str:
@@ -149,7 +151,8 @@ def dataset_codes(dataset: Any) -> Any:
     Raises:
         FormatError: If it is no text, or longer than names are.
     """
-    if getattr(dataset, "dtype", np.dtype(object)).kind not in "ui" or not dataset.size or dataset.size > _LONGEST_NAME:
+    require_readable([dataset])
+    if dataset.dtype.kind not in "ui" or not dataset.size or dataset.size > _LONGEST_NAME:
         raise FormatError(
             f"{dataset.file.filename}: {dataset.name}: expected a text of at most {_LONGEST_NAME} characters"
         )

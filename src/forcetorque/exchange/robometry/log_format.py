@@ -8,7 +8,16 @@ from pathlib import Path
 from typing import Any
 
 from forcetorque.errors import ForceTorqueError, FormatError, MissingExtraError, known_names
-from forcetorque.exchange.hdf5_file import is_hdf5_file, opened_hdf5
+from forcetorque.exchange.hdf5_file import (
+    Member,
+    datasets,
+    is_hdf5_file,
+    is_member,
+    member,
+    members,
+    opened_hdf5,
+    require_readable,
+)
 from forcetorque.exchange.log_format import LogContext, LogDescription, LogReading
 from forcetorque.exchange.robometry.channel import DESCRIPTION, channel_paths, log_group, read_channel, texts
 from forcetorque.exchange.robometry.log_table import RobometryLog, RobometryStream
@@ -46,10 +55,11 @@ class RobometryFormat:
         """Read all that is labelled; other channels are findings."""
         with opened_hdf5(path) as file:
             group = _group(file)
+            require_readable(datasets(group))
             paths = tuple(channel_paths(group))
             channels = sorted(set(map(_channel_of, paths)))
             readings: dict[str, _Reading] = {}
-            unread: list[Finding] = []
+            unread = [_elsewhere(group, entry) for entry in members(group) if entry.elsewhere is not None]
             for channel in channels:
                 try:
                     readings[channel] = _read(
@@ -79,6 +89,7 @@ class RobometryFormat:
         readings = []
         with opened_hdf5(path) as file:
             group = _group(file)
+            require_readable(datasets(group))
             paths = tuple(channel_paths(group))
             _require_known(path, "units", units, paths)
             for k, entry in enumerate(stated.stream):
@@ -91,6 +102,12 @@ class RobometryFormat:
             streams=tuple(stream for stream, _ in readings),
             findings=tuple(finding for _, findings in readings for finding in findings),
         )
+
+
+def _elsewhere(group: Any, entry: Member) -> Finding:
+    text = f"expected numbers in the file itself, got a {entry.elsewhere}, which is not followed"
+    path = entry.path.removeprefix(group.name).strip("/")
+    return Finding(stream=path, kind="not_read", message=text, count=0)
 
 
 def _group(file: Any) -> Any:
@@ -118,7 +135,7 @@ def _read(group: Any, paths: Sequence[str], entry: RobometryStream, *, units: Ma
         joints = [f"{JOINTS}/{leaf}" for leaf in JOINT_QUANTITIES if f"{JOINTS}/{leaf}" in paths]
         _require_known(file, "channel", joints[:1] or [JOINTS], paths)
         channels = [read_channel(group, joint) for joint in joints]
-        return joint_stream(channels, name=entry.name, joints=texts(group[DESCRIPTION]), units=units)
+        return joint_stream(channels, name=entry.name, joints=texts(member(group, DESCRIPTION)), units=units)
     _require_known(file, "channel", [entry.channel], paths)
     if quantity is None:
         raise FormatError(f"{file}: {entry.channel}: expected a channel of a sensor or {JOINTS}; this is neither")
@@ -160,4 +177,4 @@ def _stated(channel: str) -> RobometryStream:
 
 
 def _robot_name(group: Any) -> dict[str, str]:
-    return {"robot": texts(group["yarp_robot_name"])[0]} if "yarp_robot_name" in group else {}
+    return {"robot": texts(member(group, "yarp_robot_name"))[0]} if is_member(group, "yarp_robot_name") else {}

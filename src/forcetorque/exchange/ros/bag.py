@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -13,13 +13,13 @@ import numpy as np
 
 from forcetorque.arrays import IntArray
 from forcetorque.errors import ForceTorqueError, FormatError, MissingExtraError, MissingFileError
+from forcetorque.exchange.ros.unpacking import bound_mcap, bound_reader, require_small_files
+from forcetorque.input_file import accept_input
 
 BATCH_MESSAGES = 1 << 14
 """Messages that are held as bytes at a time."""
 LARGEST_MESSAGE = 1 << 20
 """Bytes of a message of those that are read."""
-LARGEST_CHUNK = 1 << 28
-"""Bytes that a compressed part of a bag may say to unpack to."""
 
 _INDEX, _INDEX_KEY, _INDEX_SIZE = "metadata.yaml", b"rosbag2_bagfile_information", 1 << 20
 _SIGNS = {".bag": b"#ROSBAG V2.0\n", ".mcap": b"\x89MCAP0\r\n", ".db3": b"SQLite format 3\0"}
@@ -35,6 +35,8 @@ class Bag:
     """The reader of rosbags."""
     cdr: bool
     """Whether it is one of ROS 2."""
+    unpack: Callable[[bytes], bytes]
+    """What each of its messages is unpacked by."""
 
     @property
     def types(self) -> dict[str, str]:
@@ -65,10 +67,11 @@ class Bag:
         stamps: list[int] = []
         data: list[bytes] = []
         for _, stamp, message in self.reader.messages(connections=connections):
-            if len(message) > LARGEST_MESSAGE:
+            content = self.unpack(message)
+            if len(content) > LARGEST_MESSAGE:
                 raise FormatError(f"{self.path}: {topic}: expected messages of at most {LARGEST_MESSAGE} bytes")
             stamps.append(stamp)
-            data.append(bytes(message))
+            data.append(content)
             if len(data) == BATCH_MESSAGES:
                 yield np.array(stamps, dtype=np.int64), data
                 stamps, data = [], []
@@ -112,11 +115,12 @@ def opened_bag(path: Path) -> Iterator[Bag]:
     except ImportError as error:
         raise MissingExtraError(f"{path}: bags are read by rosbags: pip install forcetorque[ros]") from error
     _require_bag(path)
+    bound_mcap()
     cdr = path.suffix != ".bag" or path.is_dir()
     try:
+        require_small_files(path)
         with Reader2(path) if cdr else Reader1(path) as reader:
-            _require_small_chunks(path, reader)
-            yield Bag(path=path, reader=reader, cdr=cdr)
+            yield Bag(path=path, reader=reader, cdr=cdr, unpack=bound_reader(path, reader))
     except ForceTorqueError:
         raise
     # rosbags hands on what YAML, SQLite, zstd and lz4 raise, and none of these names its errors as its own
@@ -131,6 +135,8 @@ def opened_bag(path: Path) -> Iterator[Bag]:
 def _require_bag(path: Path) -> None:
     if not path.exists():
         raise MissingFileError(f"{path}: expected a bag, there is none")
+    for file in path.iterdir() if path.is_dir() else (path,):
+        accept_input(file)
     if not is_bag(path):
         raise FormatError(f"{path}: expected a bag of ROS, got something else; name its file or folder")
     if path.is_dir():
@@ -140,18 +146,9 @@ def _require_bag(path: Path) -> None:
         raise FormatError(f"{path}: expected a name that ends in {_kind(path)}, as its content says; rename it")
 
 
-def _require_small_chunks(path: Path, reader: Any) -> None:
-    storage = getattr(reader, "storage", None)
-    for file in (storage, *getattr(storage, "storages", ())):
-        for chunk in getattr(file, "chunks", ()):
-            if chunk.uncompressed_size > LARGEST_CHUNK:
-                raise FormatError(
-                    f"{path}: expected chunks of at most {LARGEST_CHUNK} bytes, got one of {chunk.uncompressed_size}; "
-                    "write the bag with smaller ones"
-                )
-
-
 def _kind(path: Path) -> str | None:
+    if not path.is_file():
+        return None
     start = _first_bytes(path, 16)
     return next((suffix for suffix, sign in _SIGNS.items() if start.startswith(sign)), None)
 

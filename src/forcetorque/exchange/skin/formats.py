@@ -6,14 +6,20 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Protocol
 
+import numpy as np
+
 from forcetorque.arrays import FloatArray
-from forcetorque.errors import FormatError, MissingFileError, SkinError
+from forcetorque.errors import FormatError, SkinError
 from forcetorque.exchange.skin.icub_positions import IcubPositions
 from forcetorque.exchange.skin.layout_table import LayoutTable
 from forcetorque.exchange.skin.skin_gui import SkinGuiPlan
 from forcetorque.exchange.skin.taxel_array import TaxelArrayMessage
 from forcetorque.exchange.skin.urdf_frames import UrdfFrames
+from forcetorque.input_file import read_text
 from forcetorque.skin import PatchDescription, SkinLayout, patch_normals
+
+FARTHEST = 1e4
+"""Largest coordinate of a taxel, m, and component of a normal; what is off by a unit is still smaller."""
 
 
 class LayoutFormat(Protocol):
@@ -69,17 +75,28 @@ def describe_patch(path: Path | str) -> PatchDescription:
         FormatError: If it is of no known form, or of several, or not what its form has.
     """
     file = Path(path)
-    if not file.is_file():
-        raise MissingFileError(f"{file}: expected a file with a layout of skin, there is none")
-    try:
-        text = file.read_text(encoding="utf-8")
-    except UnicodeDecodeError as error:
-        raise FormatError(f"{file}: expected a text, got bytes that are none ({error})") from error
+    text = read_text(file, "a file with a layout of skin")
     known = [form for form in LAYOUT_FORMATS if form.recognises(text)]
     if len(known) != 1:
         signs = "; or ".join(form.sign for form in (known or LAYOUT_FORMATS))
         raise FormatError(f"{file}: expected {signs}; got {'several' if known else 'none of them'}")
-    return known[0].read(file, text)
+    patch = known[0].read(file, text)
+    _require_near(patch)
+    return patch
+
+
+def _require_near(patch: PatchDescription) -> None:
+    """Refuse taxels farther off than any unit explains, and such normals: their distances would overflow."""
+    for name, vectors in (("position, m,", patch.positions), ("normal", patch.normals)):
+        if vectors is None:
+            continue
+        for taxel in np.flatnonzero((np.abs(vectors) > FARTHEST).any(axis=1))[:1]:
+            column = patch.taxels[taxel]
+            line = f":{patch.lines[column]}" if patch.lines[column] else ""
+            raise FormatError(
+                f"{patch.source}{line}: {name} of taxel {column}: expected numbers up to {FARTHEST:g}, got "
+                f"{' '.join(f'{value:g}' for value in vectors[taxel])}; correct the file"
+            )
 
 
 def read_layout(path: Path | str, *, rebuild_normals: bool = False, outward: FloatArray | None = None) -> SkinLayout:

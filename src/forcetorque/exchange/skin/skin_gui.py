@@ -9,7 +9,8 @@ from pathlib import Path
 
 import numpy as np
 
-from forcetorque.errors import FormatError, MissingFileError
+from forcetorque.errors import FormatError
+from forcetorque.input_file import read_text
 from forcetorque.skin import (
     LARGEST_MESSAGE,
     MODULE_COLUMNS,
@@ -71,11 +72,10 @@ def read_plan(path: Path | str) -> tuple[PlannedModule, ...]:
 
     Raises:
         MissingFileError: If there is none.
+        FormatError: If it is no text, or no such plan.
     """
     file = Path(path)
-    if not file.is_file():
-        raise MissingFileError(f"{file}: expected a plan of a patch, there is none")
-    return planned_modules(file, file.read_text(encoding="utf-8"))
+    return planned_modules(file, read_text(file, "a plan of a patch"))
 
 
 def planned_modules(path: Path, text: str) -> tuple[PlannedModule, ...]:

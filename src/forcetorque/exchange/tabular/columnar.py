@@ -3,15 +3,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
 import pyarrow as pa
 
+from forcetorque.arrow_numbers import require_small_parquet
 from forcetorque.errors import FormatError, known_names
 from forcetorque.exchange.tabular.layout import TableLayout
-from forcetorque.exchange.tabular.rows import LARGEST_TABLE, Rows, wanted_columns
+from forcetorque.exchange.tabular.rows import Rows, wanted_columns
 
 MAGIC = b"PAR1"
 """What a Parquet file begins with."""
@@ -52,12 +53,29 @@ def parquet_rows(file: Path, layout: TableLayout) -> Rows:
         raise FormatError(f"{file}: expected no {key}: a Parquet file has its own columns and no lines; delete the key")
     table = _opened(file)
     columns = _require_columns(str(file), layout, list(table.schema_arrow.names))
+    require_small_parquet(file, table.metadata, columns)
     return Rows(
         name=str(file),
         count=table.metadata.num_rows,
-        batches=_parquet_batches(file, table, columns),
+        batches=_batches(file, table, columns),
         place=lambda row: _row(file, row),
     )
+
+
+def parquet_batches(file: Path, columns: Sequence[str]) -> Iterator[Any]:
+    """Give some columns of a Parquet file, some rows at a time.
+
+    Args:
+        file: The file.
+        columns: Their names.
+
+    Returns:
+        Batches of Arrow.
+
+    Raises:
+        FormatError: If it is damaged.
+    """
+    return _batches(file, _opened(file), columns)
 
 
 def parquet_columns(file: Path) -> list[str]:
@@ -146,15 +164,10 @@ def _require_columns(name: str, layout: TableLayout, names: list[str]) -> list[s
     return columns
 
 
-def _parquet_batches(file: Path, table: Any, columns: list[str]) -> Iterator[Any]:
-    unpacked = sum(table.metadata.row_group(k).total_byte_size for k in range(table.metadata.num_row_groups))
-    if unpacked > 2 * LARGEST_TABLE:
-        raise FormatError(
-            f"{file}: expected at most {2 * LARGEST_TABLE} unpacked bytes, got {unpacked}; split the file"
-        )
+def _batches(file: Path, table: Any, columns: Sequence[str]) -> Iterator[Any]:
     try:
         for group in range(table.metadata.num_row_groups):  # one at a time: asked for all, Arrow holds them all
-            yield from table.iter_batches(batch_size=BATCH_ROWS, row_groups=[group], columns=columns)
+            yield from table.iter_batches(batch_size=BATCH_ROWS, row_groups=[group], columns=list(columns))
     except _STUMBLES as error:
         raise FormatError(_damaged(file, error)) from error
 

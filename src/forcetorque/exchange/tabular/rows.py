@@ -9,9 +9,6 @@ from typing import Any
 
 from forcetorque.exchange.tabular.layout import StampColumn, TableLayout
 
-LARGEST_TABLE = 4 << 30
-"""Bytes of numbers that are read of one table; 8 for each, and what stands in memory besides does not grow with it."""
-
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Rows:

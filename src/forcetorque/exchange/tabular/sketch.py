@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -18,6 +19,7 @@ from forcetorque.exchange.tabular.cells import quote_of
 from forcetorque.exchange.tabular.columnar import first_batch, is_parquet_file, parquet_size
 from forcetorque.exchange.tabular.dates import ISO8601, column_of_dates
 from forcetorque.exchange.tabular.encoding import open_text
+from forcetorque.exchange.tabular.extents import Extents, parquet_extents, text_extents
 from forcetorque.exchange.tabular.form import LOOKED_AT, MOST_COLUMNS, beginning, form_of
 from forcetorque.exchange.tabular.hindrance import hindrance
 
@@ -61,11 +63,14 @@ def sketch_table(path: Path) -> LogSketch:
 def _sketch_parquet(path: Path) -> LogSketch:
     names, rows = parquet_size(path)
     batch = first_batch(path)
-    looked_at = 0 if batch is None else len(batch)
     columns = tuple(
         _sketched(name, rows, None if batch is None else batch.column(k)) for k, name in enumerate(names[:MOST_COLUMNS])
     )
-    return LogSketch(path=path, columns=columns, rows_looked_at=looked_at)
+    # two columns may have one name
+    numeric = [column.name for column in columns if column.smallest is not None and names.count(column.name) == 1]
+    return _with_extents(
+        LogSketch(path=path, columns=columns), parquet_extents(path, numeric), 0 if batch is None else len(batch)
+    )
 
 
 def _sketch_text(path: Path) -> LogSketch:
@@ -91,7 +96,7 @@ def _sketch_text(path: Path) -> LogSketch:
         ) from error
     rows = _count_lines(path) - form.lines_above
     columns = (_sketched(name, rows, table.column(k)) for k, name in enumerate(form.names))
-    return LogSketch(
+    sketch = LogSketch(
         path=path,
         columns=tuple(column for k, column in enumerate(columns) if not form.is_bare(k) or column.smallest is not None),
         delimiter=form.delimiter,
@@ -100,7 +105,26 @@ def _sketch_text(path: Path) -> LogSketch:
         names_apart=form.names_apart,
         has_headings=form.has_headings,
         quaternion=_unit_fours(table),
-        rows_looked_at=len(table),
+    )
+    numeric = [column.name for column in sketch.columns if column.smallest is not None]
+    return _with_extents(sketch, text_extents(path, form, numeric), len(table))
+
+
+def _with_extents(sketch: LogSketch, extents: Extents, sketch_rows: int) -> LogSketch:
+    """The same with the extents of more rows than were looked at; of those where a block has no other."""
+    if not extents.rows and extents.stopped is not None:
+        return replace(sketch, ranged_rows=sketch_rows, stopped=extents.stopped)
+    columns = (
+        column
+        if (extent := extents.columns.get(column.name)) is None or not extent.count
+        else replace(column, smallest=extent.smallest, largest=extent.largest, mean=extent.total / extent.count)
+        for column in sketch.columns
+    )
+    return replace(
+        sketch,
+        columns=tuple(columns),
+        ranged_rows=None if extents.stopped is None else extents.rows,
+        stopped=extents.stopped,
     )
 
 

@@ -52,6 +52,23 @@ def text_rows(file: Path, layout: TableLayout) -> Rows:
     )
 
 
+def text_batches(file: Path, layout: TableLayout) -> Iterator[Any]:
+    """Give the columns that a layout reads, some rows at a time.
+
+    Args:
+        file: The file; it exists.
+        layout: What its columns mean.
+
+    Yields:
+        Tables of Arrow.
+
+    Raises:
+        FormatError: If a row has another number of columns, or a field is no number.
+    """
+    names, first_line = _headings(file, layout)
+    yield from _batches(file, layout, names, first_line)
+
+
 def text_columns(file: Path, delimiter: str = ",", *, skip_rows: int = 0) -> list[str]:
     """Name the columns of a text file by its line of headings.
 

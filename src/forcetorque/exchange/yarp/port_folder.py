@@ -21,6 +21,7 @@ from pathlib import Path
 from forcetorque.errors import FormatError, MissingFileError
 from forcetorque.exchange.yarp.bottle import Bottle, quote
 from forcetorque.exchange.yarp.message_line import is_number
+from forcetorque.input_file import require_unpacked
 
 LOG_NAMES = ("data.log", "data.log.gz")
 """Names that the file of messages may have."""
@@ -30,9 +31,6 @@ BLOCK_SIZE = 1 << 21
 
 LINE_LIMIT = 1 << 16
 """Bytes of a line: ten times those of a board with fifty joints; it stops files that are not logs."""
-
-UNPACKED_LIMIT = 2 << 30
-"""Bytes that a `.gz` may unpack to: 10 h of a 100 Hz joint log; it stops files made to fill the memory."""
 
 _UNKNOWN = ("unknown",)
 _INFO_SIZE = 4096
@@ -118,8 +116,8 @@ def read_blocks(path: Path) -> Iterator[bytes]:
     with _opened(path) as file:
         while chunk := file.read(BLOCK_SIZE):
             size += len(chunk)
-            if path.suffix == ".gz" and size > UNPACKED_LIMIT:
-                raise FormatError(f"{path}: expected at most {UNPACKED_LIMIT} unpacked bytes; unpack and split it")
+            if path.suffix == ".gz":
+                require_unpacked(path, size)
             end = chunk.rfind(b"\n") + 1
             if end:
                 yield _unix_lines(b"".join((rest, memoryview(chunk)[:end])))

@@ -11,7 +11,6 @@ from __future__ import annotations
 import shutil
 from collections.abc import Sequence
 from pathlib import Path, PurePosixPath
-from uuid import uuid4
 
 import numpy as np
 
@@ -20,6 +19,7 @@ from forcetorque.exchange.yarp.message_text import device_messages, stamp_text, 
 from forcetorque.exchange.yarp.written_port import DevicePort, WrittenPort
 from forcetorque.paths import real_path
 from forcetorque.recording import Recording, Stream
+from forcetorque.temporary import temporary_beside
 
 
 def write_ports(folder: Path | str, recording: Recording, ports: Sequence[WrittenPort]) -> None:
@@ -43,14 +43,10 @@ def write_ports(folder: Path | str, recording: Recording, ports: Sequence[Writte
     if not target.parent.is_dir():
         raise MissingFileError(f"{folder}: expected an existing folder to write to, got none; create {target.parent}")
     _check_places(target, ports)
-    fresh = target.with_name(f".{uuid4().hex}.tmp")
-    fresh.mkdir()
-    try:
+    with temporary_beside(target, folder=True) as fresh:
         for port in ports:
             _write_port(fresh / port.path, recording, port)
         _move(fresh, target, ports)
-    finally:
-        shutil.rmtree(fresh, ignore_errors=True)
 
 
 def _check_places(target: Path, ports: Sequence[WrittenPort]) -> None:

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -22,6 +22,10 @@ from forcetorque.robot import JointMotion
 if TYPE_CHECKING:
     from forcetorque.experiment.loads.wrist_load import WristLoads
 
+_ENDS = np.cumsum([6, 3, 3, 9, 9])
+"""Last columns of wrench, proper acceleration, angular acceleration, products of the angular velocity, orientation."""
+_MOTION_END = int(_ENDS[3])
+
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
 class _Span:
@@ -29,7 +33,7 @@ class _Span:
 
     interval: Interval
     time_s: FloatArray
-    means: FloatArray  # wrench, acceleration, angular velocity and acceleration, orientation, variables
+    means: FloatArray  # columns that end at `_ENDS`, then variables
     counts: IntArray
     names: tuple[str, ...]
 
@@ -59,20 +63,21 @@ def load_problem(experiment: Experiment, wrist: WristLoads, *, use: Use = Use.CA
     sessions = tuple(dict.fromkeys(names))
     lengths = [len(span.time_s) for span in spans]
     means = np.concatenate([span.means for span in spans])
+    wrench, acceleration, turning, products, turned, values = np.split(means, _ENDS, axis=1)
     variables = tuple(f"{one.linear.name} ({one.linear.unit})" for one in wrist.sensor.variables)
-    turning, turned = means[:, 9:15], means[:, 15:24]
+    turns = bool(turning.any() or products.any())
     usual = np.median(np.concatenate([span.counts for span in spans]))
     rows = LoadRows(
-        wrench=means[:, :6],
-        proper_acceleration=means[:, 6:9],
-        angular_velocity=turning[:, :3] if turning.any() else None,
-        angular_acceleration=turning[:, 3:] if turning.any() else None,
+        wrench=wrench,
+        proper_acceleration=acceleration,
+        angular_velocity_products=products.reshape(-1, 3, 3) if turns else None,
+        angular_acceleration=turning if turns else None,
         time_s=np.concatenate([span.time_s for span in spans]),
         session=np.repeat([sessions.index(name) for name in names], lengths),
         block=np.repeat(np.arange(len(spans)), lengths),
         load=np.repeat([wrist.number_of(interval.support) for interval in intervals], lengths),
         share=np.concatenate([span.counts for span in spans]) / usual,
-        variables=means[:, 24:] if variables else None,
+        variables=values if variables else None,
         orientation=turned.reshape(-1, 3, 3) if np.isfinite(turned).all() else None,
         names=tuple(name for span in spans for name in span.names),
     )
@@ -100,7 +105,7 @@ def samples_left_out(experiment: Experiment, wrist: WristLoads) -> int:
         Their number.
     """
     return sum(
-        int((~np.isfinite(_columns(experiment, wrist.sensor, interval)[1][:, :15]).all(axis=1)).sum())
+        int((~np.isfinite(_columns(experiment, wrist.sensor, interval)[1][:, :_MOTION_END]).all(axis=1)).sum())
         for interval in experiment.intervals(Use.CALIBRATION)
     )
 
@@ -108,12 +113,12 @@ def samples_left_out(experiment: Experiment, wrist: WristLoads) -> int:
 def _span(experiment: Experiment, sensor: ExperimentSensor, interval: Interval) -> _Span:
     stamps, columns = _columns(experiment, sensor, interval)
     numbers = np.searchsorted(experiment.recording.stream(sensor.stream).stamp_ns, stamps)
-    needed = np.r_[0:15, 24 : columns.shape[1]]
+    needed = np.r_[0:_MOTION_END, _ENDS[-1] : columns.shape[1]]
     complete = np.isfinite(columns[:, needed]).all(axis=1)
     time = seconds_since(stamps[complete], experiment.recording.start_ns)
     middle, means, counts = weighing_means(time, np.nan_to_num(columns[complete]))
     if not np.isfinite(columns[complete]).all():
-        means[:, 15:24] = np.nan
+        means[:, _MOTION_END : _ENDS[-1]] = np.nan
     single = counts.max(initial=1) == 1
     names = (
         tuple(f"{sensor.stream} {number + 1}" for number in numbers[complete])
@@ -124,24 +129,33 @@ def _span(experiment: Experiment, sensor: ExperimentSensor, interval: Interval) 
 
 
 def _columns(experiment: Experiment, sensor: ExperimentSensor, interval: Interval) -> tuple[IntArray, FloatArray]:
-    """Instants of the samples of an interval, and all that is needed at them; shape (n,), (n, 24 + variables)."""
+    """Instants of the samples of an interval, and all that is needed at them; shape (n,), (n, 30 + variables)."""
     recording = experiment.recording
     at_ns, reading = weighing_readings(experiment, sensor, interval)
     if interval.support is None:
         raise ExperimentError(f"interval {interval.label!r}: expected a load")
-    motion = support_motion_at(
-        experiment.model,
-        recording,
-        interval.support,
-        JointMotion.at_rest((), np.empty((len(at_ns), 0))),
-        at_ns,
-        window=experiment.processing.derivative_window,
-        gravity=0.0,
+    window = experiment.processing.derivative_window
+    motion, longer = (
+        support_motion_at(
+            experiment.model,
+            recording,
+            interval.support,
+            JointMotion.at_rest((), np.empty((len(at_ns), 0))),
+            at_ns,
+            window=replace(window, window_s=length),
+            gravity=0.0,
+        )
+        for length in (window.window_s, 2.0 * window.window_s)
     )
-    rates = [np.broadcast_to(one, (len(at_ns), 3)) for one in (motion.angular_velocity, motion.angular_acceleration)]
+    velocity = np.broadcast_to(motion.angular_velocity, (len(at_ns), 3))
+    turning = np.broadcast_to(motion.angular_acceleration, (len(at_ns), 3))
+    # a window flattens a first derivative by this power of its length; near the ends of a log the longer has no room
+    power = 2 * ((window.order + 1) // 2)
+    turning = turning + np.nan_to_num(turning - longer.angular_acceleration) / (2.0**power - 1.0)
+    products = (velocity[:, :, None] * velocity[:, None, :]).reshape(-1, 9)
     variables = [one.source.at(recording, at_ns)[:, None] for one in sensor.variables]
     orientation = _orientation(recording, interval, at_ns)
-    return at_ns, np.hstack([reading, motion.proper_acceleration, *rates, orientation, *variables])
+    return at_ns, np.hstack([reading, motion.proper_acceleration, turning, products, orientation, *variables])
 
 
 def _orientation(recording: Recording, interval: Interval, at_ns: IntArray) -> FloatArray:

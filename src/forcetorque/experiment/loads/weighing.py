@@ -6,6 +6,7 @@ from __future__ import annotations
 from forcetorque.arrays import FloatArray, IntArray
 from forcetorque.errors import ExperimentError
 from forcetorque.experiment.content import Experiment, ExperimentSensor
+from forcetorque.experiment.sample_quality import sample_quality
 from forcetorque.noise import means_over, window_for
 from forcetorque.recording import Interval, Use
 
@@ -16,7 +17,7 @@ MOST_ROWS = 3600
 def weighing_readings(
     experiment: Experiment, sensor: ExperimentSensor, interval: Interval
 ) -> tuple[IntArray, FloatArray]:
-    """Read a sensor in an interval, without samples that were held or lie in an ignored interval.
+    """Read a sensor in an interval, without samples that say nothing of its load or lie in an ignored interval.
 
     Args:
         experiment: The experiment, of which the recording is used.
@@ -30,7 +31,7 @@ def weighing_readings(
         ExperimentError: If there are raw counts and no prior.
     """
     stream = experiment.recording.stream(sensor.stream)
-    inside = interval.holds(stream.stamp_ns) & ~stream.held
+    inside = interval.holds(stream.stamp_ns) & ~sample_quality(experiment, sensor).unusable
     for other in experiment.recording.intervals:
         if other.use is Use.IGNORE:
             inside &= ~other.holds(stream.stamp_ns)

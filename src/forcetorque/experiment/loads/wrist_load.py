@@ -27,6 +27,7 @@ if TYPE_CHECKING:
 LOAD_LINK = "load"
 """Link of what hangs on the sensor."""
 _JOINT = "mount"
+_ANY_LOAD = Inertia.about_centre_of_mass(mass=1.0, centre_of_mass=(0.05, 0.05, 0.05), second_moment=np.zeros((3, 3)))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -73,6 +74,20 @@ class WristLoads:
         """
         (load, *others) = self.loads
         return Inertia.zero() if others or not load.is_known else inertia_of_stated(load)
+
+    def nominal_model(self, stated: RobotModel) -> RobotModel:
+        """Give the robot with a load that moves the reading as the stated one does, or as any load would.
+
+        Args:
+            stated: The robot with what the file says of the load.
+
+        Returns:
+            The same; with 1 kg beside all axes of the sensor where something of the load is to be estimated, or there
+            are several.
+        """
+        if self.are_stated and len(self.loads) == 1:
+            return stated
+        return load_model(self.table, self.sensor.name, _ANY_LOAD)
 
     def problem(self, experiment: Experiment, *, use: Use = Use.CALIBRATION) -> LoadProblem:
         """Ask what intervals tell of the loads.

@@ -12,6 +12,7 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 from forcetorque.array_field import ArrayField
 from forcetorque.arrays import FloatArray
 from forcetorque.errors import FormatError, ShapeError
+from forcetorque.run_files import declare_input
 
 TRUTH_FILE: Final = "truth.json"
 """Name of the file."""
@@ -48,6 +49,7 @@ def true_matrix(experiment: Path, *, sensor: str, serial: str) -> FloatArray | N
     file = experiment.parent / TRUTH_FILE
     if not file.is_file():
         return None
+    declare_input(file)
     try:
         truth = _Truth.model_validate(json.loads(file.read_text(encoding="utf-8")))
     except (json.JSONDecodeError, UnicodeDecodeError, RecursionError, ShapeError) as error:

@@ -50,9 +50,9 @@ class MotorTable(Table):
 class FusionTable(Table):
     """How joint torques of several sources are made one."""
 
-    model_deviation: Positive
-    """Standard deviation of what masses and motion leave open in a torque that is told from wrenches, sample by sample;
-    N m, N where prismatic."""
+    model_deviation: Positive | Annotated[dict[Text, Positive], Field(min_length=1)]
+    """Standard deviation of what masses and motion leave open in a torque that is computed from wrenches: one for all
+    joints, or a table of one per joint; N m, N where prismatic. All sources that use wrenches share this error."""
     noise_time_s: NotNegative = 1.0
     """Time over which errors of wrenches and model repeat themselves, as those of a matrix do that change with the
     load; 0 where they are white noise; s."""

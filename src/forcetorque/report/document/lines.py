@@ -7,12 +7,14 @@ import re
 from bisect import bisect_right
 from collections.abc import Callable
 
+from forcetorque.result import NO_BREAK, with_joined_units
+
 _LONG_WORD = 20
 """Letters of the longest word that is not a path or an address, and is broken only where no line could hold it."""
 _SIGNS = re.compile(r"(?<=[/\\_.,;:=&?+-])(?=[^/\\_.,;:=&?+ -])")
 
-_WORDS = re.compile(r"(?:\bN m\b|[^ \n])+[ \n]*|[ \n]+")
-"""Words with the spaces behind them; the unit of moments is one word."""
+_WORDS = re.compile(r"[^ \n]+[ \n]*|[ \n]+")
+"""Words with the spaces behind them; a number with its unit is one word."""
 
 Measure = Callable[[str], float]
 """Width of a text in one line."""
@@ -30,7 +32,9 @@ def lines_of(text: str, width: float, measure: Measure) -> list[str]:
         At least one line; none is wider, unless one letter alone is. Without spaces they hold every letter of the
         text, in its order.
     """
-    return [line for paragraph in text.split("\n") for line in _paragraph(paragraph, width, measure)]
+    joined = with_joined_units(text)
+    lines = (line for paragraph in joined.split("\n") for line in _paragraph(paragraph, width, measure))
+    return [line.replace(NO_BREAK, " ") for line in lines]
 
 
 def pieces_of(text: str) -> list[str]:
@@ -42,8 +46,10 @@ def pieces_of(text: str) -> list[str]:
     Returns:
         Words, and parts of long words, each with the spaces behind it.
     """
-    words: list[str] = _WORDS.findall(text)
-    return [piece for word in words for piece in (_SIGNS.split(word) if len(word) > _LONG_WORD else [word])]
+    words: list[str] = _WORDS.findall(with_joined_units(text))
+    # a number is not broken at its point, however long it is with its error and its unit
+    long = [len(word) > _LONG_WORD and NO_BREAK not in word for word in words]
+    return [piece for word, cut in zip(words, long, strict=True) for piece in (_SIGNS.split(word) if cut else [word])]
 
 
 def _paragraph(text: str, width: float, measure: Measure) -> list[str]:

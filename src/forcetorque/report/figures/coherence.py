@@ -72,11 +72,11 @@ def _draw(panel: Axes, rows: Sequence[PhaseForce], looks: dict[str, Look], axis:
     shift = dict(zip(looks, _SPREAD * (np.linspace(0.0, 1.0, len(looks) + 2)[1:-1] - 0.5), strict=True))
     for row in rows:
         one, x = looks[row.candidate], phases.index(row.phase) + shift[row.candidate]
-        half = row.force_half_width_95_N
+        half = row.force_half_width_95_N[axis]
         panel.errorbar(
             [x],
             [row.force_error_N[axis]],
-            yerr=None if half is None else [half[axis]],
+            yerr=None if half is None else [half],
             color=one.colour,
             marker=one.marker,
             markersize=5.0,

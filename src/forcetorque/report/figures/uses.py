@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Figure of a decision: predicted errors at the loads of use, before and after, against what is allowed."""
+"""Figure of a decision: predicted errors at the loads of use, against what is allowed and measured."""
 
 from __future__ import annotations
 
@@ -29,8 +29,8 @@ _POINTS = 13.0
 """Size of the letters: the figure is read on paper, at half its width."""
 _ROW_INCHES, _FRAME_INCHES = 1.75, 1.1
 """Height of a row with its two intervals and their words, and of the titles and the axis; inch."""
-_BEFORE_AT, _AFTER_AT, _WORDS_AT, _LIMIT_AT = -0.16, 0.2, 0.08, 0.46
-"""Heights within a row: of the two intervals, of words above each, and of those about the limit."""
+_BEFORE_AT, _AFTER_AT, _MEASURED_AT, _WORDS_AT, _LIMIT_AT = -0.16, 0.2, 0.3, 0.08, 0.46
+"""Heights within a row: of the two intervals, of what was measured, of words above them, and of those at the limit."""
 _MARGIN, _WORDS, _LIMIT_WORDS = 0.04, 0.33, 0.4
 """Parts of the width of a panel: beside what is drawn, half of the words above an interval, and those at a limit."""
 _LEAST_DECADES = 0.9
@@ -38,10 +38,13 @@ _LEAST_DECADES = 0.9
 _BEFORE: dict[str, Any] = {"color": REFERENCE_COLOUR, "marker": "s", "markerfacecolor": "white", "linestyle": "-"}
 _AFTER: dict[str, Any] = {"color": look(0).colour, "marker": look(0).marker, "linestyle": "-"}
 _AFTER_BEYOND: dict[str, Any] = {"color": look(1).colour, "marker": "X", "linestyle": (0, (2, 1))}
+_MEASURED: dict[str, Any] = {"color": look(2).colour, "marker": "D", "linestyle": "none"}
 
 
 def use_figure(verdicts: Sequence[UseVerdict], names: Mapping[str, str]) -> Figure:
-    """Draw how large the errors at the loads of use will be: with the prior matrix, and with the calibration.
+    """Draw how large the errors at the loads of use will be, with the prior matrix and with the calibration.
+
+    Beside them stands what the calibration errs by on data that were not fitted.
 
     Args:
         verdicts: Verdicts on a sensor, those with predicted errors.
@@ -83,6 +86,7 @@ def _keys(rows: Sequence[UseError]) -> list[tuple[str, Mapping[str, Any]]]:
         *([("before: prior matrix", _BEFORE)] if any(row.before is not None for row in rows) else []),
         *([("after: calibration", _AFTER)] if _AFTER in styles else []),
         *([("after, perhaps too much", _AFTER_BEYOND)] if _AFTER_BEYOND in styles else []),
+        *([("measured on other data", _MEASURED)] if any(row.measured is not None for row in rows) else []),
         *([("allowed; grey: too much", REFERENCE_LINE)] if any(row.allowed is not None for row in rows) else []),
     ]
 
@@ -97,6 +101,9 @@ def _draw_row(panel: Axes, place: int, row: UseError) -> None:
         _draw_interval(panel, place + _BEFORE_AT, quantiles, f"before {_words(quantiles, row.unit)}", _BEFORE)
     quantiles = row.after_at_least, row.after, row.after_at_most
     _draw_interval(panel, place + _AFTER_AT, quantiles, f"after {_words(quantiles, row.unit)}", _style(row))
+    if row.measured is not None:
+        size = max(row.measured, panel.get_xlim()[0])
+        panel.plot(size, place + _MEASURED_AT, markersize=9.0, zorder=3, **_MEASURED)
     if row.allowed is None:
         return
     top, bottom = place - 0.47, place + 0.47
@@ -153,6 +160,7 @@ def _set_axis(panel: Axes, rows: Sequence[UseError]) -> None:
     centres = ends.mean(axis=1)
     # what stands at a place of the axis, and the part of the panel that it takes to either side
     places = [(ends.min(), _MARGIN), (ends.max(), _MARGIN), (centres.min(), _WORDS), (centres.max(), _WORDS)]
+    places += [(np.log10(row.measured), _MARGIN) for row in rows if row.measured]
     left = [*places, *((limit, _LIMIT_WORDS) for limit in limits)]
     right = [*places, *((limit, _MARGIN) for limit in limits)]
     width = max(

@@ -17,7 +17,7 @@ from forcetorque.skin.taxels import Ailment
 RATE_HZ = 50.0
 """Messages per second, as an insole sends them; Hz."""
 REST_S = 5.0
-"""Time without pressure at either end; s."""
+"""Time without pressure at either end, by default; s."""
 
 _GAUGE_PA = 20.0
 """Standard deviation of the gauge; Pa."""
@@ -37,6 +37,7 @@ def chamber_recording(
     highest_pa: float,
     ramp_s: float,
     rng: np.random.Generator,
+    rest_s: float = REST_S,
     broken: Mapping[int, Ailment] | None = None,
 ) -> Recording:
     """Record a patch while the pressure rises evenly to a peak and falls again.
@@ -46,6 +47,7 @@ def chamber_recording(
         highest_pa: Peak of the pressure; Pa.
         ramp_s: Time up to it, and down again; s.
         rng: Source of noise.
+        rest_s: Time without pressure at either end; s.
         broken: What is wrong with which taxel; nothing if None.
 
     Returns:
@@ -55,8 +57,8 @@ def chamber_recording(
         SkinError: If an ailment is of a taxel that there is not.
     """
     taxels = len(responses.rest)
-    seconds = np.arange(round((2.0 * (REST_S + ramp_s)) * RATE_HZ)) / RATE_HZ
-    peak_s = REST_S + ramp_s
+    seconds = np.arange(round((2.0 * (rest_s + ramp_s)) * RATE_HZ)) / RATE_HZ
+    peak_s = rest_s + ramp_s
     pressure = highest_pa * np.clip(1.0 - np.abs(seconds - peak_s) / ramp_s, 0.0, 1.0)
     peak = np.where(seconds > peak_s, highest_pa, pressure)
     fall = responses.fall(pressure[:, None], np.broadcast_to(peak[:, None], (len(seconds), taxels)))

@@ -32,7 +32,7 @@ class PatchReader:
     rest: FloatArray
     """Counts of a message at rest; shape (columns,)."""
     noise: FloatArray
-    """Standard deviation of one message from the next at rest; shape (n,); counts."""
+    """Standard deviation of one message from the next at rest, of each column; shape (columns,); counts."""
     rest_messages: int
     """Messages that `rest` is the mean of."""
     live: BoolArray
@@ -44,7 +44,7 @@ class PatchReader:
         live.setflags(write=False)
         object.__setattr__(self, "live", live)
         object.__setattr__(self, "rest", read_only(self.rest, name="rest", shape=(self.table.columns,)))
-        object.__setattr__(self, "noise", read_only(self.noise, name="noise", shape=(len(self.table),)))
+        object.__setattr__(self, "noise", read_only(self.noise, name="noise", shape=(self.table.columns,)))
 
     @classmethod
     def at_rest(cls, table: PressureTable, counts: FloatArray, *, live: BoolArray | None = None) -> Self:
@@ -67,7 +67,7 @@ class PatchReader:
                 f"patch {table.patch!r}: counts at rest: expected at least {_FEWEST_AT_REST} messages, got "
                 f"{len(np.atleast_2d(counts))}; take a longer time in which nothing touches the patch"
             )
-        spread = counts[:, table.taxels].std(axis=0, ddof=1)
+        spread = counts.std(axis=0, ddof=1)
         return cls(
             table=table,
             rest=counts.mean(axis=0),
@@ -105,7 +105,7 @@ class PatchReader:
         number = len(counts) if counts.ndim == 2 else 1
         table = self.table
         fall = table.fall(counts if counts.ndim == 1 else counts.mean(axis=0), self.rest)
-        noise = self.noise * np.sqrt(1.0 / number + 1.0 / self.rest_messages)
+        noise = self.noise[table.taxels] * np.sqrt(1.0 / number + 1.0 / self.rest_messages)
         if drift is not None:
             fall, noise = fall - drift.fall, np.hypot(noise, drift.sd)
         active = (fall > WAKING * noise) & self.live

@@ -20,10 +20,21 @@ TOP_SHARE = 0.9
 LEAST_RISE_PA = 1e3
 """A pressure that changes by less does not rise: one count of a taxel is about 8 kPa; Pa."""
 
+ONSET_SHARE = 0.001
+"""Share of the highest pressure above its rest from which on the pressure has begun to rise, where noise allows it."""
+ONSET_SD = 5.0
+"""The same over the standard deviation of the smoothed pressure at rest, where noise is larger."""
+
 _REST_ROWS = 20
-"""Messages at rest that a rest level needs: their mean then is good to a tenth of a count."""
+"""Messages at rest that a rest level needs: their mean then is good to 0.15 counts."""
 _SMOOTH_ROWS = 25
 """Rows of a median that takes single wrong readings of the pressure away."""
+_REST_QUANTILE = 0.1
+"""Share of the messages before the rise that must be at rest: a first step of pressure may last longer than rest."""
+_MEDIAN_OF_NORMAL = 0.6745
+"""Median of the size of a normal deviate of standard deviation 1."""
+_SD_OF_MEDIAN = 1.2533
+"""Standard deviation of a median of many normal deviates, over that of their mean."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, eq=False)
@@ -65,6 +76,7 @@ def pressure_cycle(counts: FloatArray, pressure: FloatArray) -> PressureCycle:
 
     The rest level is that of this recording, before the pressure first rises: it moves from one to the next with
     temperature and creep. The pressure counts from its own rest too, for gauges read some hundredths of a bar there.
+    The rise begins where the pressure leaves the noise of its rest, so that no sample of it is taken for rest.
 
     Args:
         counts: Counts, a row per message; shape (n, c).
@@ -86,14 +98,14 @@ def pressure_cycle(counts: FloatArray, pressure: FloatArray) -> PressureCycle:
             f"expected a pressure that rises by at least {LEAST_RISE_PA:g} Pa, got {lowest:.0f} to {highest:.0f} Pa: "
             "it never rises; is the unit right?"
         )
-    risen = smooth > lowest + REST_SHARE * (highest - lowest)
-    start = int(np.argmax(risen))
+    swing = highest - lowest
+    start = _onset(pressure, smooth, swing, int(np.argmax(smooth > lowest + REST_SHARE * swing)))
     if start < _REST_ROWS:
         raise SkinError(
             f"expected at least {_REST_ROWS} messages at rest before the pressure rises, got {start}: the rest level "
-            "is taken anew in each recording; begin the interval earlier"
+            "is taken anew in each recording; begin the interval earlier, or record a longer rest"
         )
-    unloading = _unloading(smooth, TURN_SHARE * (highest - lowest))
+    unloading = _unloading(smooth, TURN_SHARE * swing)
     if not unloading.any():
         raise SkinError(
             f"expected a pressure that rises and falls, got one that only rises, to {highest:.0f} Pa: without "
@@ -108,6 +120,22 @@ def pressure_cycle(counts: FloatArray, pressure: FloatArray) -> PressureCycle:
         rest=rest,
         rest_pressure=rest_pressure,
     )
+
+
+def _onset(pressure: FloatArray, smooth: FloatArray, swing: float, risen: int) -> int:
+    """First row of the rise, given one that is well within it; all rows before it rest."""
+    step = np.diff(pressure[:risen])
+    noise = float(np.median(np.abs(step - np.median(step)))) / (_MEDIAN_OF_NORMAL * np.sqrt(2.0)) if len(step) else 0.0
+    tolerance = max(ONSET_SHARE * swing, ONSET_SD * noise * _SD_OF_MEDIAN / np.sqrt(_SMOOTH_ROWS))
+    # a low quantile of the rows before is the level of rest as soon as enough of them rest; rows above that by more
+    # than noise are no rest, and are left out until none is left over
+    while risen:
+        resting = smooth[:risen] <= np.quantile(smooth[:risen], _REST_QUANTILE) + tolerance
+        onset = int(np.flatnonzero(resting)[-1]) + 1
+        if onset == risen:
+            break
+        risen = onset
+    return risen
 
 
 def _median_filtered(values: FloatArray) -> FloatArray:

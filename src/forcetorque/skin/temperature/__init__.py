@@ -4,12 +4,14 @@
 from forcetorque.skin.temperature.drift import TaxelDrift
 from forcetorque.skin.temperature.gains import HeatGains, HeatRule, require_pads
 from forcetorque.skin.temperature.learned import TaxelHeat, ThermalGain, WarmUp
+from forcetorque.skin.temperature.pad_filter import PadFilter
 from forcetorque.skin.temperature.pads import followed_pads, stuck_pads
 from forcetorque.skin.temperature.warm_up import fit_warm_up
 
 __all__ = [
     "HeatGains",
     "HeatRule",
+    "PadFilter",
     "TaxelDrift",
     "TaxelHeat",
     "ThermalGain",

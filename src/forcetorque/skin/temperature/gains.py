@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 from typing import Self
 
@@ -42,6 +42,10 @@ class HeatGains:
     """Standard deviations of the gains; shape (n, t)."""
     rates: FloatArray
     """Steepest change by heat that was learned; NaN where none was; shape (n,); counts/s."""
+    lags: FloatArray
+    """Lag of each pad behind its taxels, negative where it leads; shape (t,); s."""
+    unexplained: FloatArray
+    """Most that pads, followed as they come, left of each taxel beyond noise; shape (n,); counts."""
 
     def __post_init__(self) -> None:
         follows = np.array(self.follows, dtype=np.bool_)
@@ -51,7 +55,9 @@ class HeatGains:
         object.__setattr__(self, "pads", read_only_integers(self.pads, name="pads", shape=(None,)))
         for name in ("gains", "sd"):
             object.__setattr__(self, name, read_only(getattr(self, name), name=name, shape=follows.shape))
-        object.__setattr__(self, "rates", read_only(self.rates, name="rates", shape=follows.shape[:1]))
+        for name in ("rates", "unexplained"):
+            object.__setattr__(self, name, read_only(getattr(self, name), name=name, shape=follows.shape[:1]))
+        object.__setattr__(self, "lags", read_only(self.lags, name="lags", shape=follows.shape[1:]))
 
     @classmethod
     def of_firmware(cls, layout: SkinLayout) -> Self:
@@ -74,6 +80,8 @@ class HeatGains:
             gains=follows.astype(np.float64),
             sd=np.zeros(follows.shape),
             rates=np.full(len(layout), np.nan),
+            lags=np.zeros(follows.shape[1]),
+            unexplained=np.zeros(len(layout)),
         )
 
     @classmethod
@@ -88,14 +96,24 @@ class HeatGains:
         """
         pads = np.unique(np.array([gain.pad for taxel in taxels for gain in taxel.gains], dtype=np.int64))
         gains, sd = np.zeros((2, len(taxels), len(pads)))
+        lags = np.zeros(len(pads))
         follows = np.zeros(gains.shape, dtype=np.bool_)
         for k, taxel in enumerate(taxels):
             columns = np.searchsorted(pads, [gain.pad for gain in taxel.gains])
             follows[k, columns] = True
             gains[k, columns] = [gain.gain for gain in taxel.gains]
             sd[k, columns] = [gain.sd for gain in taxel.gains]
+            lags[columns] = [gain.lag_s for gain in taxel.gains]
         rates = [np.nan if taxel.rate_counts_per_s is None else taxel.rate_counts_per_s for taxel in taxels]
-        return cls(pads=pads, follows=follows, gains=gains, sd=sd, rates=np.array(rates))
+        return cls(
+            pads=pads,
+            follows=follows,
+            gains=gains,
+            sd=sd,
+            rates=np.array(rates),
+            lags=lags,
+            unexplained=np.array([taxel.unexplained_counts for taxel in taxels]),
+        )
 
     def without(self, dead: BoolArray) -> HeatGains:
         """Leave pads out that are dead in a recording.
@@ -106,7 +124,7 @@ class HeatGains:
         Returns:
             The gains of the others.
         """
-        return HeatGains(pads=self.pads, follows=self.follows & ~dead, gains=self.gains, sd=self.sd, rates=self.rates)
+        return replace(self, follows=self.follows & ~dead)
 
     @property
     def told(self) -> BoolArray:
@@ -128,6 +146,19 @@ class HeatGains:
         # where a taxel does not follow its pads, those of one module err together: their number lowers nothing
         sd: FloatArray = (self.sd * np.abs(change)).sum(axis=1) / number
         return fall, sd
+
+    def noise(self, pad_sd: FloatArray) -> FloatArray:
+        """Give what noise of the pads makes of what taxels are told.
+
+        Args:
+            pad_sd: Standard deviation of the fall of each pad, one independent of the other; shape (t,); counts.
+
+        Returns:
+            Standard deviation; shape (n,); counts.
+        """
+        number = np.maximum(self.follows.sum(axis=1), 1)
+        noise: FloatArray = np.sqrt(((self.gains * np.where(self.follows, pad_sd, 0.0)) ** 2).sum(axis=1)) / number
+        return noise
 
 
 def require_pads(layout: SkinLayout) -> None:

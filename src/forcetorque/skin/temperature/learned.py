@@ -17,6 +17,8 @@ class ThermalGain(Part):
     """Counts of the taxel by count of the pad."""
     sd: float = Field(ge=0.0)
     """Standard deviation of the gain."""
+    lag_s: float = 0.0
+    """By how much the pad follows heat later than its taxels; negative where it follows sooner."""
 
 
 class TaxelHeat(Part):
@@ -25,7 +27,9 @@ class TaxelHeat(Part):
     gains: tuple[ThermalGain, ...] = ()
     """One for each pad that it follows; what they tell is averaged."""
     misfit_counts: float | None = Field(default=None, ge=0.0)
-    """What the pads leave of its change, root mean square of means of ten seconds."""
+    """What the pads leave of its change, their lags allowed for, root mean square of means of ten seconds."""
+    unexplained_counts: float = Field(default=0.0, ge=0.0)
+    """Most that is left of it, beyond noise, where pads are followed as they come: a fall of less is no contact."""
     rate_counts_per_s: float | None = Field(default=None, ge=0.0)
     """Its steepest change over a minute."""
 

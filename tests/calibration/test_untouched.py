@@ -1,0 +1,177 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A contact that nobody stated leaves a single fit, and sound logs lose nothing by the rule that finds it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from forcetorque.arrays import FloatArray
+from forcetorque.calibration import DataSet
+from forcetorque.calibration.generative import Assumptions, Disagreeing, WindowMeans, agreeing_samples, fit_generative
+from forcetorque.evaluation import push_error
+from tests.calibration.push_error import LIMIT_COUNTS, TEMPERATURE, cases
+from tests.calibration.synthetic import GRAVITY, MOUNTED, OFFSET, PRIOR, assumptions
+
+RATE_HZ, DURATION_S, MASS_KG = 50.0, 60.0, 5.0
+RESPONSE = np.linalg.inv(MOUNTED)
+START_S, END_S = 20.4, 23.4
+CONTACT = np.array([6.0, -7.0, 4.0, 0.5, 0.3, -0.6])
+"""10 N at 0.1 m; N, N m."""
+
+
+def _time() -> FloatArray:
+    return np.arange(0.0, DURATION_S, 1.0 / RATE_HZ)
+
+
+def _limb(*, moving: tuple[float, float] = (0.0, DURATION_S)) -> FloatArray:
+    """Loads of a limb that swings about two axes and bends, in a span of time, and is at rest else; shape (n, 6)."""
+    time = np.clip(_time() - moving[0], 0.0, moving[1] - moving[0])
+    pitch, roll, bend = (np.sin(rate * time) for rate in (0.9, 0.57, 0.71))
+    down = np.stack([np.sin(1.2 * pitch), -np.cos(1.2 * pitch) * np.sin(roll), -np.cos(1.2 * pitch) * np.cos(roll)])
+    centre = np.stack([0.05 + 0.08 * bend, 0.02 + 0.03 * roll, -0.2 + 0.04 * bend], axis=1)
+    force = MASS_KG * GRAVITY * down.T
+    return np.hstack([force, np.cross(centre, force)])
+
+
+def _data(
+    loads: FloatArray, *, contact: FloatArray | None = None, counts: FloatArray | float = 0.0, seed: int = 1
+) -> DataSet:
+    """Readings of the mounted sensor, with noise of 4 counts and what else is added to them."""
+    time, rng = _time(), np.random.default_rng(seed)
+    profile = np.clip(np.minimum((time - START_S) / 0.3, (END_S - time) / 0.3), 0.0, 1.0)
+    wrench = loads - OFFSET + (0.0 if contact is None else np.outer(profile, contact))
+    noise = 4.0 * rng.standard_normal((len(time), 6))
+    return DataSet(
+        label="swing",
+        raw=np.rint(wrench @ RESPONSE.T + noise + counts),
+        reference=loads,
+        time_s=100.0 + time,
+        session="day",
+        recording="log",
+    )
+
+
+def _left_out(*data: DataSet) -> tuple[float, Sequence[Disagreeing]]:
+    """Seconds that leave, and their spans."""
+    agree, spans = agreeing_samples(data, PRIOR, assumptions(accuracy=None))
+    return sum(int(np.count_nonzero(~marks)) for marks in agree) / RATE_HZ, spans
+
+
+def _fitted(data: DataSet) -> FloatArray:
+    return fit_generative([WindowMeans.of(data)], PRIOR, assumptions(accuracy=None)).model.matrix
+
+
+def test_a_contact_of_three_seconds_leaves_with_its_neighbours() -> None:
+    """Where it was, how strong, and the fit is that of a log without it; it was half as much again worse with it."""
+    touched, clean = _data(_limb(), contact=CONTACT), _data(_limb())
+    (marks,), (span,) = agreeing_samples([touched], PRIOR, assumptions(accuracy=None))
+    assert span.label == "swing"
+    assert START_S - 2.0 <= span.start_s - 100.0 <= START_S
+    assert END_S <= span.end_s - 100.0 <= END_S + 2.0
+    assert span.force_N == pytest.approx(np.linalg.norm(CONTACT[:3]), rel=0.1)
+    assert span.moment_Nm == pytest.approx(np.linalg.norm(CONTACT[3:]), rel=0.1)
+    assert 4.0 <= np.count_nonzero(~marks) / RATE_HZ <= 6.0
+    before, after, best = (push_error(_fitted(data), MOUNTED).force_N for data in (touched, touched.kept(marks), clean))
+    assert after < 1.2 * best
+    assert before > 1.5 * best
+
+
+def _burst(counts: float) -> FloatArray:
+    """Noise of 0.1 s in the span of the contact; counts."""
+    time, rng = _time(), np.random.default_rng(8)
+    noise = rng.standard_normal((len(time), 6))
+    for k in range(1, len(noise)):
+        noise[k] = 0.8 * noise[k - 1] + 0.6 * noise[k]
+    return counts * noise * ((time > START_S) & (time < END_S))[:, None]
+
+
+SOUND = {
+    "a limb that moves": _data(_limb()),
+    "a burst of noise": _data(_limb(), counts=_burst(150.0)),
+    "one move in a log at rest": _data(_limb(moving=(25.0, 31.0))),
+    "a slow drift": _data(_limb(), counts=40.0 * np.exp(-_time() / 10.0)[:, None] * np.ones(6)),
+    "a log at rest": _data(_limb(moving=(0.0, 0.0))),
+    "no noise": replace(_data(_limb()), raw=(_limb() - OFFSET) @ RESPONSE.T),
+    "coarse counts": replace(_data(_limb()), raw=20.0 * np.rint(_data(_limb()).raw / 20.0)),
+}
+
+
+@pytest.mark.parametrize("name", SOUND)
+def test_sound_logs_lose_nothing(name: str) -> None:
+    """Control: no sample of any of these leaves."""
+    assert _left_out(SOUND[name]) == (0.0, ())
+
+
+def test_a_second_interval_tells_that_the_first_was_touched() -> None:
+    """Intervals of one recording are held against each other, and both count their own samples."""
+    data = _data(_limb(), contact=CONTACT)
+    first = data.time_s < 145.0
+    one, other = data.kept(first), replace(data.kept(~first), label="other")
+    seconds, (span,) = _left_out(one, other)
+    assert 4.0 <= seconds <= 6.0
+    assert span.label == "swing"
+
+
+def test_poses_and_short_logs_are_left_as_they_are() -> None:
+    """A table has one sample a second, whose neighbours are other poses; of 19 seconds nobody can tell."""
+    data = _data(_limb(), contact=CONTACT)
+    assert _left_out(data.kept(np.arange(len(data.raw)) % int(RATE_HZ) == 0)) == (0.0, ())
+    assert _left_out(data.kept(np.abs(data.time_s - 121.0) < 9.4)) == (0.0, ())
+
+
+def test_where_most_is_touched_nobody_knows_which_is_right() -> None:
+    """A contact of half of the log stays."""
+    data = _data(_limb())
+    touched = data.time_s > 129.0
+    assert _left_out(replace(data, raw=data.raw + np.outer(touched, RESPONSE @ CONTACT))) == (0.0, ())
+
+
+MOTIONS = {"grid": ["grid"], "bsl": ["bsl"], "bnsl": ["bnsl"], "tz": ["tz"]}
+MOVED = {
+    "l_leg_ft": ["grid", "tz", "bnsl"],
+    "r_leg_ft": ["bsl"],
+    "l_foot_ft": ["grid", "bnsl"],
+    "l_arm_ft": ["bsl"],
+    "r_foot_ft": ["bsl"],
+}
+
+
+@pytest.mark.long
+def test_limbs_that_were_touched_come_out_as_if_they_were_not() -> None:
+    """24 sensors, priors 2 % off, 5 to 20 N for 3 s: 15 became worse than their prior; sound logs lose nothing."""
+    worse, ratios = {"touched": 0, "left out": 0}, []
+    for number, case in enumerate(cases(MOTIONS, MOVED, range(700, 703))):
+        (data,) = case.data
+        rng = np.random.default_rng(900 + number)
+        spread = np.random.default_rng(case.seed).standard_normal(case.truth.shape)
+        prior = case.truth + 0.02 * spread * np.sqrt((case.truth**2).mean(axis=1, keepdims=True))
+        force = rng.standard_normal(3)
+        force *= rng.uniform(5.0, 20.0) / np.linalg.norm(force)
+        wrench = np.concatenate([force, np.cross(rng.uniform(-0.2, 0.2, 3), force)])
+        time = data.time_s - data.time_s[0]
+        start_s = rng.uniform(2.0, time[-1] - 6.0)
+        profile = np.clip(np.minimum((time - start_s) / 0.3, (start_s + 3.0 - time) / 0.3), 0.0, 1.0)
+        touched = replace(data, raw=data.raw + np.outer(profile, np.linalg.pinv(case.truth) @ wrench))
+        assumed = replace(assumptions(accuracy=None, repeatability=0.003), full_scale=np.full(6, LIMIT_COUNTS))
+
+        (clean,), none = agreeing_samples([data], prior, assumed, variables=[TEMPERATURE])
+        assert clean.all()
+        assert none == ()
+        (agree,), _ = agreeing_samples([touched], prior, assumed, variables=[TEMPERATURE])
+        worse["touched"] += _push_ratio(touched, prior, case.truth, assumed) > 1.05
+        ratios.append(_push_ratio(touched.kept(agree), prior, case.truth, assumed))
+        worse["left out"] += ratios[-1] > 1.05
+    assert len(ratios) == 24
+    assert worse["touched"] >= 10
+    assert worse["left out"] == 0
+
+
+def _push_ratio(data: DataSet, prior: FloatArray, truth: FloatArray, assumed: Assumptions) -> float:
+    """Error of pushes after a fit over that before, of force or moment, whichever is larger."""
+    fit = fit_generative([WindowMeans.of(data)], prior, assumed, variables=[TEMPERATURE])
+    after, before = push_error(fit.model.matrix, truth), push_error(prior, truth)
+    return max(after.force_N / before.force_N, after.moment_Nm / before.moment_Nm)

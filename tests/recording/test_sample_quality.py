@@ -1,0 +1,128 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Runs of equal readings: frozen where the log is noisy, a load at rest where its noise is below the resolution."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from forcetorque.arrays import FloatArray, IntArray
+from forcetorque.recording.sample_quality import (
+    SampleQuality,
+    UnusableCounts,
+    at_limit,
+    equal_runs,
+    noisy_runs,
+    repeated_samples,
+)
+
+COUNT, PERIOD_NS = 4000, 10_000_000
+STAMPS = np.arange(COUNT, dtype=np.int64) * PERIOD_NS
+SIZES = np.array([3000.0, 2000.0, 1500.0, 900.0, 700.0, 400.0])
+NOISES = (0.0, 1e-9, 0.1, 0.3, 0.5, 1.0, 3.0, 10.0)
+"""Standard deviations; counts."""
+STEPS = (0.0, 1.0, 10.0, 50.0)
+"""Resolutions; counts; 0 for what is not rounded."""
+
+
+def _motion(*, rests: bool) -> FloatArray:
+    """A load that swings, or swings and stands still for 5 s of every 10."""
+    time = np.arange(COUNT) * PERIOD_NS * 1e-9
+    if rests:
+        time = 10.0 * (time // 10.0) + 2.0 * np.minimum(time % 10.0, 5.0)
+    return np.stack([size * np.sin(0.7 * time * (1.0 + 0.1 * k)) for k, size in enumerate(SIZES)], axis=1)
+
+
+def _read(load: FloatArray, noise: float, step: float, seed: int = 1) -> FloatArray:
+    values = load + noise * np.random.default_rng(seed).normal(size=load.shape)
+    return np.round(values / step) * step if step else values
+
+
+def _frozen(values: FloatArray, stamps: IntArray = STAMPS) -> list[tuple[int, int]]:
+    return noisy_runs(stamps, values, equal_runs(stamps, values))
+
+
+@pytest.mark.parametrize("noise", NOISES)
+@pytest.mark.parametrize("step", STEPS)
+def test_a_load_at_rest_is_never_frozen(noise: float, step: float) -> None:
+    """Whatever the noise and the resolution; and where both leave equal readings there are runs to judge."""
+    for rests in (False, True):
+        assert _frozen(_read(_motion(rests=rests), noise, step)) == []
+    if noise <= 0.01 * step:
+        values = _read(_motion(rests=True), noise, step)
+        assert len(equal_runs(STAMPS, values)) >= 4
+
+
+@pytest.mark.parametrize(("noise", "step"), [(1.5, 0.0), (0.5, 1.0), (3.0, 1.0), (10.0, 10.0)])
+def test_a_frozen_reading_of_a_noisy_log_is_found(noise: float, step: float) -> None:
+    """Runs of 0.6 s and 5 s, moving or at rest; one of 0.4 s is none."""
+    for rests in (False, True):
+        values = _read(_motion(rests=rests), noise, step)
+        for first, last in ((100, 140), (1200, 1260), (3000, 3500)):
+            values[first : last + 1] = values[first]
+        assert _frozen(values) == [(1200, 1260), (3000, 3500)]
+
+
+def test_one_channel_at_rest_is_not_frozen() -> None:
+    """Five channels go on."""
+    values = _read(_motion(rests=False), 3.0, 1.0)
+    values[1000:2000, 2] = values[1000, 2]
+    assert equal_runs(STAMPS, values) == []
+
+
+def test_a_log_that_repeats_every_reading_is_not_frozen() -> None:
+    """A sensor of 10 Hz in a log of 100 Hz: ten equal rows are one reading, and a second of them is frozen."""
+    slow = _read(_motion(rests=False), 3.0, 1.0)[::10]
+    values = np.repeat(slow, 10, axis=0)
+    assert _frozen(values) == []
+    values[1000:1200] = values[1000]
+    assert _frozen(values) == [(1000, 1199)]
+
+
+@pytest.mark.parametrize("rows", [1, 3, 100])
+def test_tables_of_poses_are_not_frozen(rows: int) -> None:
+    """A pose a second, noise-free, as one row, three or a hundred; the same pose may come twice behind itself."""
+    poses = np.random.default_rng(2).normal(size=(60, 6)) * SIZES
+    poses[20] = poses[21] = poses[22]
+    values = np.repeat(poses, rows, axis=0)
+    stamps = np.arange(len(values), dtype=np.int64) * (10**9 // rows)
+    assert equal_runs(stamps, values) != []
+    assert _frozen(values, stamps) == []
+
+
+def test_written_digits_are_no_noise() -> None:
+    """A noise-free log of six digits, whose load rests for 5 s of every 10."""
+    load = 1e-2 * (_motion(rests=True) + SIZES)
+    values = np.array([[float(f"{value:.6g}") for value in row] for row in load])
+    assert len(equal_runs(STAMPS, values)) >= 4
+    assert _frozen(values) == []
+
+
+def test_old_stamps_neither_make_a_run_nor_end_one() -> None:
+    """Messages that come twice, in the middle of a frozen reading and beside it."""
+    values, stamps = _read(_motion(rests=False), 3.0, 1.0), STAMPS.copy()
+    values[1000:1101] = values[1000]
+    stamps[1050] = stamps[1049]
+    stamps[2000], values[2000] = stamps[1999], values[1999]
+    assert np.flatnonzero(repeated_samples(stamps)).tolist() == [1050, 2000]
+    assert _frozen(values, stamps) == [(1000, 1100)]
+
+
+def test_the_limit_is_found_in_either_sign_and_doubted_where_readings_go_beyond() -> None:
+    """A limit that raw readings exceed is not theirs; recovered ones may, by an offset of the electronics."""
+    counts = np.array([[100.0, -32767.0], [32610.0, 5.0], [np.nan, 0.0]])
+    assert at_limit(counts, 32767.0, recovered=False).tolist() == [[False, True], [True, False], [False, False]]
+    assert not at_limit(10.0 * counts, 32767.0, recovered=False).any()
+    assert at_limit(10.0 * counts, 32767.0, recovered=True)[1, 0]
+    assert at_limit(np.array([[-32768.0]]), 32767.0, recovered=False).all()  # two's complement
+
+
+def test_every_unusable_sample_is_counted_once() -> None:
+    """A message that comes twice is neither saturated nor frozen beside."""
+    flags = np.array([[1, 1, 1], [1, 1, 0], [1, 0, 0], [0, 0, 0], [1, 1, 1]], dtype=bool)
+    quality = SampleQuality(frozen=flags[:, 0], saturated=flags[:, 1], repeated=flags[:, 2])
+    counts = quality.counted(np.array([True, True, True, True, False]))
+    assert counts == UnusableCounts(frozen=1, saturated=1, repeated=1)
+    assert quality.unusable.tolist() == [True, True, True, False, True]
+    assert UnusableCounts.total([counts, counts]) == UnusableCounts(frozen=2, saturated=2, repeated=2)
+    assert (str(counts), bool(UnusableCounts())) == ("1 frozen, 1 saturated, 1 with a repeated stamp", False)

@@ -1,0 +1,53 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The first page: what speaks against the predicted error stands beside it."""
+
+from __future__ import annotations
+
+from forcetorque.analysis import VerdictLine
+from forcetorque.analysis.use.verdict import Reason
+from forcetorque.report.decision_page import decision_page
+from forcetorque.report.document import Block, List, Verdict
+from forcetorque.report.next_steps import NextSteps
+from tests.report.drawing import use_of
+from tests.scenes.calibrations import make_calibration
+
+STEPS = NextSteps(sensor="leg_ft", serial="SN1", steps=())
+OUTSIDE = VerdictLine(tone="caution", text="leg.json: 100 % of 7095 readings lie outside what was fitted")
+SATURATED = VerdictLine(tone="bad", text="saturated or held in 1 interval(s), most in 'day 2': 5.07% of it")
+BETTER = VerdictLine(tone="good", text="leg.json is accepted: all 3 criteria hold")
+
+
+def _words(blocks: tuple[Block, ...]) -> list[str]:
+    """Sentences and points, in their order."""
+    words: list[str] = []
+    for block in blocks:
+        words += [block.text] if isinstance(block, Verdict) else list(block.points) if isinstance(block, List) else []
+    return words
+
+
+def _page(*lines: VerdictLine, measured: float | None, reasons: tuple[Reason, ...] = ()) -> list[str]:
+    uses = [use_of("leg.json", force=2.0, measured=measured, reasons=reasons)]
+    page = decision_page(STEPS, uses, [], {"leg.json": make_calibration()}, lines, explained=False)
+    return _words(page.blocks)
+
+
+def test_all_that_speaks_against_the_number_is_on_the_page() -> None:
+    """A larger measured error, saturation, readings outside what was fitted, and other reasons, below the verdict."""
+    other = Reason(against="data", text="the load hardly moved", remedy="judge data that move")
+    first = Reason(against=None, text="it errs by some 2 N")
+    verdict, *against = _page(OUTSIDE, BETTER, SATURATED, measured=6.2, reasons=(first, other))
+    assert "it errs by some 2 N" in verdict
+    assert (
+        "errs by 6.2 N and 0.062 N m (RMS), more than is predicted at most for “push” (4.0 N, 0.040 N m)" in against[0]
+    )
+    assert against[1:] == [
+        f"{SATURATED.text}.",
+        "warning: the load hardly moved",
+        f"warning: {OUTSIDE.text}",
+    ]
+
+
+def test_nothing_is_said_against_a_number_that_nothing_contradicts() -> None:
+    """Negative control: a measured error within what is predicted, or none."""
+    for measured in (3.9, None):
+        assert len(_page(BETTER, measured=measured)) == 1
