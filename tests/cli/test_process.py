@@ -17,7 +17,8 @@ from forcetorque.result import Result
 from tests.cli.outcome import Outcome, Run
 from tests.scenes.experiments import PARQUET, YARP, edit, snapshot
 
-_PATHS = {name: os.environ[name] for name in ("PYTHONPATH", "HOME") if name in os.environ}
+_KEPT = ("PYTHONPATH", "HOME")
+_PATHS = {name: value for name, value in os.environ.items() if name in _KEPT or name.startswith("OPENBLAS_")}
 """Where an interpreter finds the library and its compiled code."""
 
 

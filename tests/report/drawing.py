@@ -560,6 +560,8 @@ def _thermal(rng: np.random.Generator) -> Figure:
         serial="FT1",
         reading="the logged wrench",
         variable="temperature",
+        thermometer_lag_s=None,
+        thermometer_lag_half_width_95_s=None,
         samples=120,
         sessions=1,
         lowest_degC=20.0,
