@@ -295,9 +295,9 @@ def test_advice_without_a_contact_says_so(arm: Path) -> None:
     """A limb in the air does not show what it bears in use; with a contact beyond the sensor the advice stands."""
     free = select_gains(_run(load_experiment(arm / PARQUET)))
     raised = [channel for channel in free.sensors[0].channels if channel.change is GainChange.RAISE]
-    assert (free.sensors[0].contact_recorded, bool(raised)) == (False, True)
-    assert "no contact was in the log: loads of use were not recorded" in " ".join(free.text().split())
+    assert (free.sensors[0].contact_stated, bool(raised)) == (False, True)
+    assert "no contact is stated beyond the sensor: whether loads of use were recorded" in " ".join(free.text().split())
     add(arm / PARQUET, '\n[[contact]]\nframe = "hand"\nintervals = ["fit"]\n')
     touched = select_gains(_run(load_experiment(arm / PARQUET)))
-    assert touched.sensors[0].contact_recorded
-    assert "no contact was in the log" not in " ".join(touched.text().split())
+    assert touched.sensors[0].contact_stated
+    assert "no contact is stated" not in " ".join(touched.text().split())

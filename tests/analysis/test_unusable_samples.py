@@ -95,7 +95,7 @@ def test_the_counts_are_in_table_json_and_files(arm: Path, tmp_path: Path) -> No
     for result in (evaluate(run, {"new": stored}), validate(run, {"new": stored})):
         judged = [row for row in result.unusable_samples if row.use == "validation"]
         assert [(row.interval, row.frozen, row.saturated, row.repeated) for row in judged] == [("judge", 50, 0, 0)]
-        assert "left out, as it says nothing of the load" in result.text()
+        assert "unusable samples, which are left out" in result.text()
         assert json.loads(result.json_text())["unusable_samples"][1]["frozen"] == 50
 
 

@@ -26,7 +26,7 @@ from forcetorque.atomic import STANDARD_OUTPUT, write_bytes_atomically
 from forcetorque.constants import STANDARD_GRAVITY
 from forcetorque.errors import ExperimentError, ForceTorqueError
 from forcetorque.exchange.formats import format_named
-from forcetorque.exchange.log_sketch import skipped_words
+from forcetorque.exchange.log_sketch import not_read_sentence
 from forcetorque.experiment.inputs import Inputs
 from forcetorque.experiment.log_context import ExperimentContext
 from forcetorque.output_file import refuse_output
@@ -247,7 +247,7 @@ def _notes(log: DraftedLog, sensors: Sequence[DraftedSensor], model: RobotModel 
     if not sensors:
         yield "no stream looks like the reading of a force-torque sensor; without one a log is inspected and viewed"
     if log.skipped_arrays:
-        yield f"cannot be read, for these are no arrays of real numbers: {skipped_words(log.skipped_arrays)}"
+        yield not_read_sentence(log.skipped_arrays)
     if log.description is not None:
         left_out = [one.stream for one in log.description.reading.findings if one.kind == "not_read"]
         if left_out:

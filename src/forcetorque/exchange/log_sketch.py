@@ -102,6 +102,18 @@ def skipped_words(skipped: Mapping[str, str]) -> str:
     return ", ".join(shown) + (f" and {len(skipped) - len(shown)} more" if len(skipped) > len(shown) else "")
 
 
+def not_read_sentence(skipped: Mapping[str, str]) -> str:
+    """Say what of a file of arrays is not read.
+
+    Args:
+        skipped: As of a sketch; at least one.
+
+    Returns:
+        The sentence that every command says of it.
+    """
+    return f"not read, for only arrays of real numbers within the file are: {skipped_words(skipped)}"
+
+
 @runtime_checkable
 class SketchingFormat(Protocol):
     """A format whose logs say nothing of units."""

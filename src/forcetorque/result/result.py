@@ -118,7 +118,7 @@ class Result(Row):
         """What people read, and what is left out."""
         yield from self.blocks()
         if self.unusable_samples:
-            yield table_of(self.unusable_samples, "left out, as it says nothing of the load: samples")
+            yield table_of(self.unusable_samples, "unusable samples, which are left out")
 
     @classmethod
     def described(cls) -> dict[str, Any]:

@@ -114,6 +114,47 @@ def test_parquet_with_any_type_of_stamp(tmp_path: Path, kind: str) -> None:
     assert np.isfinite(values).sum() == 6 * ROWS - 1
 
 
+def _replaced_in_footer(path: Path, old: bytes, new: bytes) -> None:
+    content = path.read_bytes()
+    footer = len(content) - 8 - int.from_bytes(content[-8:-4], "little")
+    assert old in content[footer:]
+    path.write_bytes(content[:footer] + content[footer:].replace(old, new, 1))
+
+
+def test_parquet_that_claims_less_than_no_rows_is_refused(tmp_path: Path) -> None:
+    """NumPy's refusal of a negative size was the error."""
+    path = tmp_path / "log.parquet"
+    pq.write_table(pa.table(_columns(ROWS)), path)
+    _replaced_in_footer(path, b"\x16\x90\x03", b"\x16\x91\x03")  # 200 and -201, as its footer writes them
+    assert pq.ParquetFile(path).metadata.num_rows == -201
+    with pytest.raises(FormatError, match=r"log\.parquet: expected rows, got none"):
+        _stream(path)
+
+
+READ_BY_ITSELF = """
+import sys
+from pathlib import Path
+from forcetorque.errors import FormatError
+from tests.exchange.tabular.test_large_and_columnar import _stream
+
+try:
+    _stream(Path(sys.argv[1]))
+except FormatError as error:
+    print(error)
+"""
+
+
+def test_parquet_with_a_column_that_is_no_column_is_refused(tmp_path: Path) -> None:
+    """Asked what such a column packs, Arrow ended the process; so it is read in another one."""
+    path = tmp_path / "log.parquet"
+    pq.write_table(pa.table(_columns(ROWS)), path)
+    # a column called t whose cells may be empty, and are neither that, nor required, nor repeated
+    _replaced_in_footer(path, b"\x25\x02\x18\x01t", b"\x25\x12\x18\x01t")
+    command = [sys.executable, "-c", READ_BY_ITSELF, path]
+    child = subprocess.run(command, capture_output=True, text=True, check=True, cwd=Path(__file__).parents[3])
+    assert child.stdout.startswith(f"{path}: expected ")
+
+
 def test_a_data_frame_of_pandas() -> None:
     """The map of a file serves a frame that is already there."""
     frame = pd.DataFrame(_columns(ROWS))

@@ -23,6 +23,7 @@ from forcetorque.report.document import (
     Document,
     Figure,
     List,
+    Page,
     Picture,
     Section,
     Table,
@@ -38,6 +39,7 @@ from forcetorque.report.document.lines import lines_of
 from forcetorque.report.document.pdf import MISSING_LETTERS
 from forcetorque.report.document.small_png import small_png
 from forcetorque.report.figures.canvas import DOTS_PER_INCH, new_figure, png_bytes
+from forcetorque.result import with_joined_units
 
 NASTY = '<script>alert("1")</script> & {{ 7 * 7 }} ±λ²'
 """Markup, a template and signs beyond Latin letters, as the name of a file may have."""
@@ -116,6 +118,29 @@ def test_both_forms_have_every_word_and_number() -> None:
     for shown in (html, pdf):
         places = [shown.find(words, 0) for words in wanted]
         assert -1 not in places, wanted[places.index(-1)]
+
+
+def test_no_line_of_the_page_ends_within_a_quantity() -> None:
+    """Wherever words are laid out by the browser; commands are copied, so they and pages inside keep plain spaces."""
+    plain = "0.124 N m"
+    words = Text(text=f"{plain} by `weigh --of {plain}`")
+    blocks = (
+        Verdict(tone=Tone.BAD, text=plain),
+        words,
+        List(points=(plain,)),
+        Table(caption=plain, headings=(plain,), rows=((plain,),)),
+        Figure(picture=Picture(_sine), caption=plain, description="d"),
+        Page(html=plain.encode(), title="t", instead=plain),
+    )
+    sections = (Section(title=plain, blocks=blocks), Section(title=plain), Section(title=plain, folded=True))
+    document = Document(title=plain, subtitle=plain, created="2020-01-01T00:00:00+00:00", sections=sections)
+    html = html_bytes(document).decode()
+    body = html[html.index("<body>") :]
+    # the command, what is read aloud in place of the table, and the page inside
+    assert re.findall(rf'([\w-]+)(?:="| ){plain}', body) == ["--of", "aria-label", "srcdoc"]
+    assert body.count(plain) == 3
+    # title and subtitle, two links, three headings, and each place of the blocks
+    assert body.count(with_joined_units(plain)) == 2 + 2 + 3 + 8
 
 
 def test_the_page_needs_nothing_else_and_can_be_read_aloud() -> None:

@@ -12,7 +12,7 @@ from forcetorque.analysis.draft.paths import relative
 from forcetorque.analysis.draft.streams import DraftedLog, DraftedStream
 from forcetorque.analysis.draft.text import line, listed, question, remark, toml_value
 from forcetorque.analysis.draft.units import RATE_LINES, USUAL_UNITS, axes_line, time_words
-from forcetorque.exchange.log_sketch import LogSketch, SketchedColumns, skipped_words
+from forcetorque.exchange.log_sketch import LogSketch, SketchedColumns, not_read_sentence
 from forcetorque.recording import QUANTITIES, Labels
 from forcetorque.robot import RobotModel
 from forcetorque.toml_table import OPEN
@@ -104,8 +104,7 @@ def array_lines(log: DraftedLog, folder: Path, model: RobotModel | None, frames:
         if rest:
             lines += ["", remark(f"not read: {listed(rest)}")]
     if log.skipped_arrays:
-        listing = skipped_words(log.skipped_arrays)
-        lines += ["", remark(f"cannot be read, for these are no arrays of real numbers: {listing}")]
+        lines += ["", remark(not_read_sentence(log.skipped_arrays))]
     if not log.streams:
         arrays = listed([f"{one.name} ({one.rows} x {one.columns})" for one in log.arrays])
         lines += ["", "[[recording.stream]]", line("name", "log")]

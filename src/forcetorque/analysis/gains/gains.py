@@ -132,7 +132,7 @@ def select_gains(
         frozen=counts.frozen,
         recovered=counts.recovered,
         limit_counts=run.sensor.limit_counts,
-        contact_recorded=has_contact(run),
+        contact_stated=has_contact(run),
         repeat=counts.frozen > 0 or any(channel.saturated_samples for channel in ranges),
         channels=tuple(_channel_row(channel, advised) for channel, advised in zip(ranges, advice, strict=True)),
         matrix=source,

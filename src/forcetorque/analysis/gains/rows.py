@@ -93,7 +93,7 @@ class SensorRow(Row):
     """Whether counts came through the inverse of the prior; an offset of the electronics is not in them."""
     limit_counts: float
     """Largest magnitude of a reading."""
-    contact_recorded: bool
+    contact_stated: bool
     """Whether the file says of any interval that something touches the robot beyond the sensor."""
     repeat: bool
     """Whether the motion is to be repeated because a channel saturated or the reading froze."""
@@ -113,11 +113,11 @@ class SensorRow(Row):
             Tables and sentences.
         """
         yield _channel_table(self)
-        if not self.contact_recorded and any(channel.change is GainChange.RAISE for channel in self.channels):
+        if not self.contact_stated and any(channel.change is GainChange.RAISE for channel in self.channels):
             yield (
-                "no contact was in the log: loads of use were not recorded, and head-room under contact is unknown; "
-                "raise a gain only if nothing will touch the limb, or record the contacts of use and state them as "
-                "[[contact]]"
+                "no contact is stated beyond the sensor: whether loads of use were recorded, and the head-room under "
+                "contact, is unknown; raise a gain only if nothing will touch the limb, or record the contacts of use "
+                "and state them as [[contact]]"
             )
         if self.resolution:
             yield _resolution_table(self.resolution)

@@ -26,7 +26,7 @@ from forcetorque.analysis.inspect.skin_findings import inspect_patches, taxel_fi
 from forcetorque.analysis.runs.added import with_recording_notes
 from forcetorque.errors import FormatError, MissingFileError, RecordingError
 from forcetorque.exchange.formats import format_named, not_recognised, recognised_format
-from forcetorque.exchange.log_sketch import SketchingFormat, skipped_words
+from forcetorque.exchange.log_sketch import SketchingFormat, not_read_sentence
 from forcetorque.exchange.prior import PriorFile, StatedUnits, holds_prior, read_prior_file
 from forcetorque.experiment import (
     Experiment,
@@ -114,7 +114,7 @@ class Inspection(Result):
             if self.ranges_of is not None:
                 yield f"smallest, largest and mean are {self.ranges_of}"
             if self.skipped_arrays:
-                yield f"cannot be read, for these are no arrays of real numbers: {skipped_words(self.skipped_arrays)}"
+                yield not_read_sentence(self.skipped_arrays)
             yield sketch_words(self.unread, self.source)
             return
         yield stream_table(self.streams, f"{self.source}: streams")

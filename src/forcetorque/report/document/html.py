@@ -18,7 +18,7 @@ from forcetorque.report.document.content import (
     Verdict,
 )
 from forcetorque.report.document.undrawn import without_undrawn
-from forcetorque.result import Table
+from forcetorque.result import Table, with_joined_units
 
 _KINDS = {Verdict: "verdict", Text: "text", List: "list", Table: "table", Figure: "figure", Page: "page"}
 
@@ -41,7 +41,7 @@ def html_bytes(document: Document) -> bytes:
         raise MissingExtraError("reports are written by jinja2: pip install forcetorque[report]") from error
     folder = resources.files("forcetorque.report.document")
     environment = Environment(autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True)
-    environment.filters |= {"kind": _kind, "data_url": _data_url, "pieces": _pieces}
+    environment.filters |= {"kind": _kind, "data_url": _data_url, "pieces": _pieces, "joined": with_joined_units}
     template = environment.from_string((folder / "document.html.j2").read_text(encoding="utf-8"))
     style = (folder / "document.css").read_text(encoding="utf-8")
     return template.render(document=without_undrawn(document), style=style, no_rows=NO_ROWS).encode(
