@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import os
+import struct
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -14,6 +15,7 @@ import pytest
 
 from forcetorque.errors import FormatError
 from forcetorque.exchange.formats import recognised_format
+from forcetorque.exchange.hdf5_file import dataset_numbers, opened_hdf5
 from forcetorque.exchange.hdf5_layout import elsewhere
 from forcetorque.exchange.log_sketch import SketchingFormat
 from forcetorque.exchange.robometry import RobometryFormat
@@ -116,6 +118,29 @@ def test_the_header_of_any_version_is_read(others: Path, version: str) -> None:
         expected = {"virtual": "virtual dataset", "external": "dataset in external storage"}
         file.flush()
         assert {name: elsewhere(file, name) for name in file} == dict.fromkeys(file, None) | expected
+
+
+@pytest.mark.parametrize("size", [0, 4])
+def test_chunks_without_room_for_their_checksum_are_refused(tmp_path: Path, size: int) -> None:
+    """HDF5 took the length of the checksum from that of the chunk, and ended the process; a sound one is read."""
+    path = tmp_path / "log.h5"
+    with h5py.File(path, "w") as file:
+        file.create_dataset(
+            "q", data=arrays.JOINTS, chunks=(len(arrays.JOINTS), 2), compression="gzip", fletcher32=True
+        )
+        stored = file["q"].id.get_chunk_info(0).size
+    with opened_hdf5(path) as file:
+        np.testing.assert_array_equal(dataset_numbers(file["q"]), arrays.JOINTS)
+    # length, filters that were left out, and place of the first chunk
+    key = struct.pack("<IIQ", stored, 0, 0)
+    content = path.read_bytes()
+    assert content.count(key) == 1
+    path.write_bytes(content.replace(key, struct.pack("<IIQ", size, 0, 0)))
+    with (
+        opened_hdf5(path) as file,
+        pytest.raises(FormatError, match=f"log.h5: /q: expected chunks .* got one of {size}"),
+    ):
+        dataset_numbers(file["q"])
 
 
 def test_a_dataset_of_the_file_is_read(others: Path) -> None:

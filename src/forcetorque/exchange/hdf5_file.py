@@ -33,6 +33,7 @@ DEEPEST = 32
 """Groups inside each other."""
 
 _LONGEST_HEADER = 1 << 16
+_CHECKSUM_SIZE = 4
 _STUMBLES = (ArithmeticError, AttributeError, LookupError, OSError, RuntimeError, TypeError, ValueError, MemoryError)
 
 
@@ -261,6 +262,29 @@ def require_readable(several: Iterable[Any]) -> None:
             )
         unpacked += size * max(dataset.dtype.itemsize, np.dtype(np.float64).itemsize)
         require_unpacked(path, unpacked, where=str(dataset.name)[:100])
+        _require_whole_chunks(dataset)
+
+
+def _require_whole_chunks(dataset: Any) -> None:
+    """Refuse chunks shorter than their checksum: the library subtracts its length and reads until the process ends."""
+    from h5py import h5z
+
+    creation = dataset.id.get_create_plist()
+    filters = [creation.get_filter(k)[0] for k in range(creation.get_nfilters())]
+    if h5z.FILTER_FLETCHER32 not in filters:
+        return
+    # what a filter behind the checksum unpacks to is not known
+    if filters.index(h5z.FILTER_FLETCHER32) != len(filters) - 1:
+        raise FormatError(
+            f"{_place(dataset)}: expected the checksum as the last filter, got another; copy the file again"
+        )
+    sizes: list[int] = []
+    dataset.id.chunk_iter(lambda chunk: sizes.append(chunk.size))
+    if sizes and min(sizes) <= _CHECKSUM_SIZE:
+        raise FormatError(
+            f"{_place(dataset)}: expected chunks of more than their checksum of {_CHECKSUM_SIZE} bytes, got one of "
+            f"{min(sizes)}; copy the file again"
+        )
 
 
 def _place(dataset: Any) -> str:
